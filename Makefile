@@ -1,0 +1,89 @@
+# Every target does all the set-up that it needs; a second call finds it done.
+#
+#   make verify                     the main job: one report, under a minute
+#   make test                       the whole suite and the branch coverage of the trusted rooms
+#   make lint types                 ruff; mypy and pyright, both strict
+#   make bench                      the speeds that the README quotes
+#
+#   make test PYTHON=python3.12     another Python (give it another VENV, too, to keep both)
+#   make test INSTALLER=uv          uv in the place of venv and pip
+
+PYTHON ?= python3
+VENV ?= .venv
+INSTALLER ?= pip
+
+BIN := $(VENV)/bin
+ROOMS := topo_verify/world/*,topo_verify/robot/*,topo_verify/checkers/*,topo_verify/algorithms/*
+
+# The build backend is looked up on PATH, hence the environment's own programs come first there.
+ifeq ($(INSTALLER),uv)
+CREATE := uv venv --quiet --allow-existing --python "$(PYTHON)" $(VENV)
+INSTALL := PATH="$(abspath $(BIN)):$$PATH" uv pip install --quiet --python $(BIN)/python
+else
+CREATE := "$(PYTHON)" -m venv $(VENV)
+INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
+endif
+
+.PHONY: help verify test lint types bench constraints oldest clean
+
+help:
+	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 9
+
+verify: $(VENV)/.core
+	$(BIN)/topo-verify verify
+
+test: $(VENV)/.dev
+	$(BIN)/coverage run -m pytest
+	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
+	$(BIN)/coverage report --include='$(ROOMS)' --fail-under=100
+
+lint: $(VENV)/.dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(VENV)/.dev
+	$(BIN)/mypy
+	$(BIN)/pyright --pythonpath $(BIN)/python
+
+bench: $(VENV)/.core
+	$(BIN)/python benchmarks/run.py
+
+# --- set-up: an environment, then what is pinned, then this tree in editable form --------------
+
+$(VENV)/.created:
+	@command -v "$(PYTHON)" >/dev/null || { echo "No $(PYTHON) here: name a Python 3.11 or later, as in make test PYTHON=python3.12"; exit 1; }
+	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "$(PYTHON) is older than Python 3.11: name a later one, as in make test PYTHON=python3.12"; exit 1; }
+	@test "$(INSTALLER)" = uv || "$(PYTHON)" -c 'import ensurepip, venv' 2>/dev/null || { echo "$(PYTHON) lacks venv or ensurepip: sudo apt install python3-venv (Debian, Ubuntu), or have uv and call make with INSTALLER=uv"; exit 1; }
+	$(CREATE)
+	@touch $@
+
+$(VENV)/.core: pyproject.toml constraints.txt $(VENV)/.created
+	$(INSTALL) -c constraints.txt uv_build
+	$(INSTALL) -c constraints.txt --no-build-isolation -e .
+	@touch $@
+
+$(VENV)/.dev: $(VENV)/.core
+	$(INSTALL) -c constraints.txt --no-build-isolation -e '.[dev]'
+	@touch $@
+
+# --- for maintainers ---------------------------------------------------------------------------
+
+# One resolution for all supported Pythons, markers included. No header and no index: the file
+# names neither the machine nor the registry that it was made with.
+constraints: $(VENV)/.created
+	$(INSTALL) uv
+	$(BIN)/uv pip compile --quiet --universal --upgrade --python-version 3.11 --extra dev \
+	    --no-header --no-annotate --no-emit-index-url --no-emit-find-links pyproject.toml -o constraints.new
+	{ echo "# The versions that the suite is run with, on every supported Python: make constraints"; cat constraints.new; } > constraints.txt
+	rm constraints.new
+
+# The lower bounds of pyproject.toml, tried out: the suite on the oldest direct dependencies.
+oldest: $(VENV)/.created
+	$(INSTALL) uv
+	$(BIN)/uv venv --quiet --allow-existing --python $(BIN)/python .venv-oldest
+	$(BIN)/uv pip install --quiet --python .venv-oldest/bin/python --resolution lowest-direct -e '.[dev]'
+	.venv-oldest/bin/python -m pytest -W default
+
+clean:
+	rm -rf $(VENV) .venv-oldest .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage build dist
+	find topo_verify tests benchmarks -name __pycache__ -prune -exec rm -rf {} +

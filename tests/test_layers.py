@@ -1,0 +1,289 @@
+"""The rooms of the house: who may import whom, what loads when, and how long a file may get.
+
+The table of floors is the design: a room imports rooms on lower floors and itself, nothing else,
+and the trusted core stays small enough to read. Imports are read from the source, so a late
+import inside a function counts like any other. What this does not show: names that travel at run
+time (an object handed over, an import by a computed name); where that would undo a promise, the
+means of doing it are forbidden below.
+"""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "topo_verify"
+
+FLOORS = {
+    "errors": -1,  # on floor 0 in the design; below `world`, which raises them
+    "world": 0,
+    "robot": 1,
+    "algorithms": 2,
+    "checkers": 2,
+    "strategies": 2,
+    "trial": 3,
+    "targets": 2.5,  # names mappers; below `trial`, which runs them
+    "oracle": 4,
+    "proofs": 4,
+    "faults": 4,
+    "player": 4,
+    "search": 5,
+    "report": 5,
+    "campaigns": 6,
+    "cli": 7,
+    "pytest_plugin": 7,
+    "": 8,  # topo_verify/__init__.py
+    "__main__": 8,
+}
+"""Each room's floor. The package's own name ("") stands above all: it shows everybody's things."""
+
+ONLY = {"algorithms": ("topo_verify.robot.percept", "topo_verify.robot.events")}
+"""Rooms that may see less than their floor would let them: an algorithm cannot peek."""
+
+NEVER = {
+    "algorithms": {"importlib", "inspect", "gc", "ctypes"},  # the ways around ONLY
+    "checkers": {"hypothesis", "z3"},
+}
+"""What a room may not import even late."""
+
+STANDARD_LIBRARY_ALONE = {"algorithms"}
+
+PEEPHOLES = {"__import__", "eval", "exec", "globals", "__globals__", "__closure__"}
+"""Names with which an algorithm could reach the world behind its robot, imports or not."""
+
+LATE = {
+    ("world", "World._repr_svg_"): "player",
+    ("trial", "Exploration._repr_html_"): "player",
+}
+"""The two exceptions: notebooks ask an object for its picture, and the player draws it."""
+
+MADE_OF = {
+    "strategies": {"hypothesis"},
+    "proofs": {"z3"},
+    "cli": {"click", "rich"},
+    "pytest_plugin": {"pytest"},
+}
+"""Other people's packages that a room may load when it is imported; msgspec may be anywhere."""
+
+HEAVY = ("z3", "networkx", "hypothesis", "numpy", "matplotlib", "numba", "click", "rich", "pytest")
+
+
+@dataclass(frozen=True)
+class Import:
+    """One imported name, where it stands and when it runs."""
+
+    target: str  # the full dotted name, e.g. topo_verify.robot.percept.Percept
+    line: int
+    scope: str  # the enclosing classes and functions, e.g. World._repr_svg_; "" at the top
+    at_load: bool  # runs as soon as the file is imported
+
+    @property
+    def room(self) -> str | None:
+        """The room of topo_verify that the name belongs to; None for anything else."""
+        return room_of(self.target) if self.top == "topo_verify" else None
+
+    @property
+    def top(self) -> str:
+        """The top-level package."""
+        return self.target.split(".")[0]
+
+
+def room_of(module: str) -> str:
+    """The room of a module or a name: what follows `topo_verify`; "" for the package itself."""
+    name = [*module.split("."), ""][1]
+    return name if name in FLOORS else ""
+
+
+def module_name(path: Path) -> str:
+    """The dotted name of a file of the package."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def imports(source: str, module: str) -> Iterator[Import]:
+    """Every import of a file, wherever it stands."""
+    todo: list[tuple[ast.AST, str, bool]] = [(ast.parse(source, module), "", True)]
+    while todo:
+        node, scope, at_load = todo.pop()
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield Import(alias.name, node.lineno, scope, at_load)
+        elif isinstance(node, ast.ImportFrom):
+            module = "." * node.level + (node.module or "")
+            for alias in node.names:
+                yield Import(f"{module}.{alias.name}", node.lineno, scope, at_load)
+        elif isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
+            todo += [(child, scope, False) for child in node.body]
+            todo += [(child, scope, at_load) for child in node.orelse]
+        else:
+            if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+                scope = f"{scope}.{node.name}".lstrip(".")
+                at_load = at_load and isinstance(node, ast.ClassDef)
+            todo += [(child, scope, at_load) for child in ast.iter_child_nodes(node)]
+
+
+def objections(module: str, source: str) -> Iterator[str]:
+    """What is wrong with the imports of one file, a sentence each."""
+    room = room_of(module)
+    for found in imports(source, module):
+        where = f"{module}:{found.line} imports {found.target}"
+        if found.target.startswith("."):
+            yield f"{where}: write the full name"
+        elif found.room is not None:
+            if LATE.get((room, found.scope)) != found.room:
+                yield from objections_inside(room, found, where)
+        elif found.top in NEVER.get(room, ()):
+            yield f"{where}: never in {room}/"
+        elif found.top not in sys.stdlib_module_names:
+            if room in STANDARD_LIBRARY_ALONE:
+                yield f"{where}: {room}/ is made with the standard library alone"
+            elif found.at_load and found.top not in {"msgspec", *MADE_OF.get(room, ())}:
+                yield f"{where} when it is loaded: import it where it is used"
+
+
+def objections_inside(room: str, found: Import, where: str) -> Iterator[str]:
+    """What is wrong with an import of one room of topo_verify by another (or by itself)."""
+    other = found.room
+    assert other is not None
+    if other == room:
+        return
+    if room in ONLY and not f"{found.target}.".startswith(tuple(f"{n}." for n in ONLY[room])):
+        yield f"{where}: {room}/ may see only {' and '.join(ONLY[room])}"
+    elif FLOORS[other] >= FLOORS[room]:
+        yield f"{where}: floor {FLOORS[room]} knows only lower floors, not floor {FLOORS[other]}"
+
+
+def peepholes(source: str) -> set[str]:
+    """Which ways to peek a file uses."""
+    nodes = list(ast.walk(ast.parse(source)))
+    names = {node.id for node in nodes if isinstance(node, ast.Name)}
+    return PEEPHOLES & (names | {node.attr for node in nodes if isinstance(node, ast.Attribute)})
+
+
+def sources() -> dict[str, str]:
+    """The text of every module of the package, by its dotted name."""
+    return {module_name(path): path.read_text() for path in sorted(PACKAGE.rglob("*.py"))}
+
+
+def long_functions(source: str, limit: int) -> list[str]:
+    """The functions of a file that have more than `limit` lines."""
+    functions = [
+        node
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+    ]
+    return [f.name for f in functions if (f.end_lineno or f.lineno) - f.lineno + 1 > limit]
+
+
+def test_every_module_has_a_room_in_the_table() -> None:
+    rooms = {[*name.split("."), ""][1] for name in sources()}
+    assert rooms <= FLOORS.keys(), "a new room needs a floor in this test's table"
+
+
+def test_every_room_imports_only_what_it_may() -> None:
+    found = [line for module, text in sources().items() for line in objections(module, text)]
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize(
+    ("module", "source", "objection"),
+    [
+        ("topo_verify.world.families", "from topo_verify.robot import percept", "lower floors"),
+        ("topo_verify.world.families", "import topo_verify", "lower floors"),
+        ("topo_verify.world.families", "from topo_verify import explore", "lower floors"),
+        ("topo_verify.world.families", "from .formats import load", "full name"),
+        ("topo_verify.world.families", "import networkx as nx", "where it is used"),
+        ("topo_verify.world.families", "class A:\n    import numpy", "where it is used"),
+        ("topo_verify.trial", "try:\n    import z3\nexcept ImportError: ...", "where it is used"),
+        ("topo_verify.robot", "def f():\n    import topo_verify.player", "lower floors"),
+        ("topo_verify.errors", "from topo_verify.world import World", "lower floors"),
+        ("topo_verify.algorithms.basic", "from topo_verify.world import World", "may see only"),
+        ("topo_verify.algorithms.basic", "from topo_verify.robot import simulator", "see only"),
+        ("topo_verify.algorithms.basic", "import topo_verify.robot.events_log", "see only"),
+        ("topo_verify.algorithms.basic", "def f():\n    import msgspec", "standard library alone"),
+        ("topo_verify.algorithms.basic", "import gc", "never in algorithms"),
+        ("topo_verify.checkers.costs", "from topo_verify.algorithms import basic", "lower floors"),
+        ("topo_verify.checkers.costs", "def f():\n    from z3 import Int", "never in checkers"),
+        ("topo_verify.checkers.costs", "import hypothesis.strategies", "never in checkers"),
+        (
+            "topo_verify.world",
+            "class World:\n def _repr_png_(self):\n  import topo_verify.player",
+            "lower floors",
+        ),
+        (
+            "topo_verify.algorithms",
+            "if TYPE_CHECKING:\n    from topo_verify.robot.simulator import Simulator",
+            "may see only",
+        ),
+    ],
+)
+def test_the_layer_check_sees_a_planted_breach(module: str, source: str, objection: str) -> None:
+    (seen,) = objections(module, source)
+    assert objection in seen
+
+
+@pytest.mark.parametrize(
+    ("module", "source"),
+    [
+        ("topo_verify.world", "from topo_verify.errors import InputError"),
+        ("topo_verify.world", "def f():\n    import networkx"),
+        ("topo_verify.world", "if TYPE_CHECKING:\n    import numpy"),
+        (
+            "topo_verify.world",
+            "class World:\n def _repr_svg_(self):\n  from topo_verify.player import draw",
+        ),
+        ("topo_verify.algorithms.basic", "from topo_verify.robot.percept import Percept"),
+        ("topo_verify.algorithms.basic", "from topo_verify.robot import events"),
+        ("topo_verify.algorithms.basic", "from topo_verify.algorithms.chart import Chart"),
+        ("topo_verify.strategies.worlds", "from hypothesis import strategies"),
+        ("topo_verify.cli.verify", "import click\nfrom topo_verify.campaigns import verify"),
+        ("topo_verify.__main__", "from topo_verify.cli import main"),
+    ],
+)
+def test_the_layer_check_lets_pass_what_is_allowed(module: str, source: str) -> None:
+    assert not list(objections(module, source))
+
+
+def test_no_algorithm_reaches_for_the_world_behind_its_robot() -> None:
+    used = {name: peepholes(text) for name, text in sources().items()}
+    assert not [name for name, ways in used.items() if ways and room_of(name) == "algorithms"]
+
+
+def test_a_peeping_algorithm_is_seen() -> None:
+    assert peepholes("def explore(robot):\n    return robot.move.__globals__") == {"__globals__"}
+    assert peepholes("world = eval('robot')") == {"eval"}
+
+
+def test_importing_topo_verify_loads_nothing_heavy() -> None:
+    code = f"import sys, topo_verify; print([n for n in {HEAVY!r} if n in sys.modules])"
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=ROOT
+    )
+    assert done.stdout.strip() == "[]", done.stderr
+
+
+def test_no_file_is_too_long_to_read() -> None:
+    long = {name: n for name, text in sources().items() if (n := len(text.splitlines())) > 400}
+    assert not long, "over 400 lines: would two ideas part company?"
+
+
+def test_no_function_is_too_long_to_read() -> None:
+    long = {name: over for name, text in sources().items() if (over := long_functions(text, 60))}
+    assert not long, "over 60 lines: let a part of it have a name"
+
+
+def test_a_function_of_61_lines_is_seen_to_be_too_long() -> None:
+    assert long_functions("def f():\n" + "    x = 1\n" * 60, 60) == ["f"]
+    assert not long_functions("def f():\n" + "    x = 1\n" * 59, 60)
+
+
+def test_the_checkers_together_stay_small_enough_to_trust() -> None:
+    checkers = [text for name, text in sources().items() if room_of(name) == "checkers"]
+    assert sum(len(text.splitlines()) for text in checkers) < 700
