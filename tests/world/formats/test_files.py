@@ -1,0 +1,179 @@
+"""Files: read with a limit, written whole or not at all."""
+
+from __future__ import annotations
+
+import io
+import os
+import stat
+from pathlib import Path
+
+import pytest
+
+from topo_verify.errors import InputError
+from topo_verify.world.formats import files
+
+ROOT = hasattr(os, "geteuid") and os.geteuid() == 0
+
+
+# ---------------------------------------------------------------- reading
+
+
+def test_what_was_written_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "text"
+    files.write(file, "grün\n")
+    assert files.read(file) == "grün\n".encode()
+    assert files.read(str(file)) == "grün\n".encode()
+
+
+@pytest.mark.parametrize(
+    ("path", "reason"),
+    [
+        ("missing.json", "cannot read missing.json: No such file or directory; name a file"),
+        ("missing/world.json", "No such file or directory"),
+        (".", "Is a directory"),
+        ("a\0b", r"cannot read a\\x00b: embedded null"),
+        ("x" * 5000, "File name too long"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_with_the_systems_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str, reason: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match=reason) as refusal:
+        files.read(path)
+    assert str(refusal.value).isprintable()
+
+
+@pytest.mark.skipif(ROOT, reason="the superuser may read everything")
+def test_a_file_that_may_not_be_read_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "secret"
+    file.touch(mode=0)
+    with pytest.raises(InputError, match="Permission denied"):
+        files.read(file)
+
+
+def test_a_file_up_to_the_limit_is_read_and_a_larger_one_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(files, "LIMIT", 2**20)
+    file = tmp_path / "large"
+    file.write_bytes(bytes(2**20))
+    assert len(files.read(file)) == 2**20
+    file.write_bytes(bytes(2**20 + 1))
+    with pytest.raises(InputError, match="large is larger than 1 MiB, the most that is read"):
+        files.read(file)
+
+
+class Endless(io.BytesIO):
+    """A stream without an end, such as a device may be; it gives no more than it is asked for."""
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        assert size is not None
+        assert 0 <= size <= 2**20 + 1
+        return bytes(size)
+
+
+def test_a_stream_without_an_end_is_not_read_to_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "LIMIT", 2**20)
+    with pytest.raises(InputError, match="the pipe is larger than 1 MiB"):
+        files.read_stream(Endless(), name="the pipe")
+
+
+# ---------------------------------------------------------------- writing
+
+
+def test_a_file_is_replaced_and_nothing_else_is_left(tmp_path: Path) -> None:
+    file = tmp_path / "world.json"
+    for text in ("first", "second"):
+        files.write(file, text)
+        assert file.read_text() == text
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_new_file_has_the_permissions_that_any_new_file_has(tmp_path: Path) -> None:
+    files.write(tmp_path / "ours", "")
+    (tmp_path / "theirs").touch()
+    modes = {stat.S_IMODE((tmp_path / name).stat().st_mode) for name in ("ours", "theirs")}
+    assert len(modes) == 1
+
+
+def test_a_replaced_file_keeps_its_permissions(tmp_path: Path) -> None:
+    file = tmp_path / "private"
+    file.touch(mode=0o600)
+    files.write(file, "text")
+    assert stat.S_IMODE(file.stat().st_mode) == 0o600
+
+
+def test_a_link_is_followed_not_replaced(tmp_path: Path) -> None:
+    file, link = tmp_path / "file", tmp_path / "link"
+    file.write_text("old")
+    link.symlink_to(file)
+    files.write(link, "new")
+    assert link.is_symlink()
+    assert file.read_text() == "new"
+
+
+def test_a_pipe_is_written_to_not_replaced(tmp_path: Path) -> None:
+    """So is a terminal or the null device; a test on those would break the machine if it failed."""
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        files.write(pipe, "text")
+        assert os.read(reader, 99) == b"text"
+    finally:
+        os.close(reader)
+    assert pipe.is_fifo()
+
+
+def test_what_fails_leaves_the_old_file_and_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "world.json"
+    file.write_text("old")
+
+    def fail(_file: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", fail)
+    with pytest.raises(InputError, match=r"cannot write .*: No space left on device; name a file"):
+        files.write(file, "new")
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["old"]
+
+
+def test_an_interrupt_leaves_the_old_file_and_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "world.json"
+    file.write_text("old")
+
+    def interrupt(_file: int) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        files.write(file, "new")
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["old"]
+
+
+@pytest.mark.parametrize(
+    ("path", "reason"),
+    [(".", "Is a directory"), ("missing/world.json", "No such file"), ("a\0b", "embedded null")],
+)
+def test_what_cannot_be_written_is_refused_with_the_systems_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str, reason: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match=f"cannot write .*{reason}.*; name a file that can be"):
+        files.write(path, "text")
+    assert list(tmp_path.iterdir()) == []
+
+
+# ---------------------------------------------------------------- texts in messages
+
+
+def test_a_text_in_a_message_is_one_line_of_bounded_length() -> None:
+    assert files.shown("grün 空") == "grün 空"
+    assert files.shown("a\nb\0\x1b[31m\ud800") == r"a\nb\x00\x1b[31m\ud800"
+    assert files.shown("x" * 500) == "x" * 199 + "…"
+    assert files.shown(Path("a/b")) == "a/b"

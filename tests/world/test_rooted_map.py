@@ -1,0 +1,260 @@
+"""`World`: what it is made of, which world it is, and what it refuses to be."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from topo_verify.errors import InputError
+from topo_verify.world import World, counting, families
+
+EMPTY = World((), (), None)
+LOOP = World((1, 0), (1, 0), 0)
+PARALLEL = World.from_rotations([[0, 2, 4], [5, 3, 1]], [[0, 1], [2, 3], [4, 5]], 0)
+PATH = World.from_rotations([[0], [1, 2], [3]], [[0, 1], [2, 3]], 0)
+"""Three vertices in a row, the marker at an end."""
+
+ranks = st.integers(0, 12).flatmap(
+    lambda edges: st.tuples(st.just(edges), st.integers(0, counting.count(edges) - 1))
+)
+worlds = ranks.map(lambda pair: World.from_code(counting.unrank(*pair)))
+
+
+def all_worlds(most_edges: int) -> list[World]:
+    """Every world with at most this many edges."""
+    tables = (table for edges in range(most_edges + 1) for table in counting.tables(edges))
+    return [World.from_code(table) for table in tables]
+
+
+def shuffled(world: World, seed: int) -> World:
+    """The same world with its darts called otherwise."""
+    numbers = list(range(len(world.alpha)))
+    Random(seed).shuffle(numbers)
+    return world.renumbered(numbers)
+
+
+# ---------------------------------------------------------------- what it is made of
+
+
+def test_a_path_reads_as_it_was_written() -> None:
+    assert PATH.vertices == ((0,), (1, 2), (3,))
+    assert PATH.edges == ((0, 1), (2, 3))
+    assert PATH.marker == 0
+    assert PATH.marker_vertex == 0
+    assert PATH.degrees == (1, 2, 1)
+    assert PATH.vertex_of == (0, 1, 1, 2)
+    assert PATH.place_of == (0, 0, 1, 0)
+    assert PATH.faces == ((0, 2, 3, 1),)
+
+
+def test_the_world_without_a_dart_is_a_world() -> None:
+    assert EMPTY.vertices == ((),)
+    assert EMPTY.edges == ()
+    assert EMPTY.faces == ((),)
+    assert (EMPTY.root, EMPTY.marker_vertex, EMPTY.genus) == (None, 0, 0)
+    assert EMPTY.code == ((0,), ())
+    assert EMPTY.id == "m0/0"
+    assert EMPTY.is_simple
+    assert EMPTY.is_planar
+    assert EMPTY.mirror() == EMPTY == EMPTY.renumbered([]) == World.from_id("m0/0")
+    assert World.from_rotations([[]], [], None) == EMPTY
+    assert EMPTY.vertex_of == EMPTY.place_of == ()
+
+
+def test_loops_and_parallel_edges_are_allowed_and_seen() -> None:
+    assert not LOOP.is_loopless
+    assert not LOOP.is_simple
+    assert PARALLEL.is_loopless
+    assert not PARALLEL.is_simple
+    assert PATH.is_simple
+    assert LOOP.vertices == ((0, 1),)
+    assert len(LOOP.faces) == 2
+
+
+def test_vertices_keep_the_order_and_the_first_dart_that_they_were_given() -> None:
+    world = World.from_rotations([[3], [2, 1], [0]], [[0, 1], [2, 3]], 3)
+    assert world.vertices == ((3,), (2, 1), (0,))
+    assert world.mirror().vertices == ((3,), (2, 1), (0,))
+    assert world == PATH.with_marker(3)
+
+
+def test_darts_may_be_any_integers_and_are_numbered_in_ascending_order() -> None:
+    world = World.from_rotations([[70], [-5, 8], [9]], [[70, 8], [9, -5]], 70)
+    assert world.vertices == ((3,), (0, 1), (2,))
+    assert world.root == 3
+
+
+def test_a_square_seen_from_above_has_its_exits_clockwise() -> None:
+    """The convention itself: `lattice` numbers exits from the north, clockwise, y upwards."""
+    square = families.lattice(2, 2, marker=0)
+    assert square.positions == ((0.0, 1.0), (1.0, 1.0), (0.0, 0.0), (1.0, 0.0))
+    (east, south), (south_again, west) = square.vertices[0], square.vertices[1]
+    assert square.alpha[east] == west  # top left: first east, then, clockwise, south
+    assert square.vertex_of[square.alpha[south]] == 2
+    assert square.vertex_of[square.alpha[south_again]] == 3
+
+
+# ---------------------------------------------------------------- surfaces
+
+
+def test_eulers_formula_holds_in_every_world_up_to_four_edges() -> None:
+    for world in all_worlds(4):
+        characteristic = len(world.vertices) - len(world.edges) + len(world.faces)
+        assert characteristic == 2 - 2 * world.genus
+        assert world.genus >= 0
+        assert world.is_planar == (world.genus == 0)
+        assert sorted(dart for face in world.faces for dart in face) == list(
+            range(len(world.alpha))
+        )
+
+
+def test_the_smallest_nonplanar_world_is_two_loops_that_cross() -> None:
+    assert [world.id for world in all_worlds(2) if world.genus] == ["m2/8"]
+    assert World.from_id("m2/8").code == ((4,), (2, 3, 0, 1))
+
+
+# ---------------------------------------------------------------- which world it is
+
+
+@given(world=worlds, seed=st.integers(0, 999))
+def test_calling_the_darts_otherwise_changes_neither_code_nor_id(world: World, seed: int) -> None:
+    other = shuffled(world, seed)
+    assert other.code == world.code
+    assert other.is_isomorphic(world)
+    assert other.id == world.id
+    assert (other.genus, sorted(other.degrees)) == (world.genus, sorted(world.degrees))
+
+
+@given(world=worlds, seed=st.integers(0, 999))
+def test_renumbering_keeps_the_order_of_the_vertices(world: World, seed: int) -> None:
+    assert shuffled(world, seed).degrees == world.degrees
+
+
+@given(world=worlds)
+def test_the_mirror_image_of_the_mirror_image_is_the_world(world: World) -> None:
+    assert world.mirror().mirror() == world
+    assert world.mirror().genus == world.genus
+
+
+def test_a_mirror_image_may_be_another_world() -> None:
+    images = {world.id: world.mirror().id for world in all_worlds(2)}
+    others = {name: image for name, image in images.items() if name != image}
+    assert others == {"m2/4": "m2/5", "m2/5": "m2/4", "m2/7": "m2/9", "m2/9": "m2/7"}
+
+
+def test_a_mirror_image_is_drawn_as_in_a_mirror() -> None:
+    world = families.lattice(1, 2, marker=0)
+    assert world.mirror().positions == ((-0.0, 0.0), (-1.0, 0.0))
+    assert world.mirror().mirror().positions == world.positions
+
+
+def test_the_marker_makes_the_world() -> None:
+    assert [PATH.with_marker(dart).id for dart in range(4)] == ["m2/0", "m2/2", "m2/2", "m2/0"]
+    assert PATH.with_marker(0).is_isomorphic(PATH.with_marker(3))
+    assert not PATH.with_marker(0).is_isomorphic(PATH.with_marker(1))
+
+
+def test_worlds_are_equal_only_with_equal_darts_whatever_else_they_carry() -> None:
+    same = World(PATH.alpha, PATH.sigma, PATH.root, name="path", starts=(3, 1, 0))
+    assert same == PATH
+    assert hash(same) == hash(PATH)
+    assert {same, PATH} == {PATH}
+    turned = shuffled(PATH, 1)
+    assert turned != PATH
+    assert turned.is_isomorphic(PATH)
+    assert PATH != "m2/0"
+
+
+# ---------------------------------------------------------------- ids
+
+
+@given(pair=ranks)
+def test_an_id_and_its_world_name_each_other(pair: tuple[int, int]) -> None:
+    text = f"m{pair[0]}/{pair[1]}"
+    assert World.from_id(text).id == World.from_id(text).name == text
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "5/17", "m5", "m5/", "m/17", "m5/-1", "m-5/1", "m5/1.0", "m5/1/2", "m\u0665/1", "m 5/1"],
+)
+def test_what_is_no_id_is_refused_with_an_example(text: str) -> None:
+    with pytest.raises(InputError, match=r"no world id: an id is m<edges>/<rank>, as m5/17"):
+        World.from_id(text)
+
+
+@pytest.mark.parametrize("text", ["m5/" + "9" * 5000, "m" + "9" * 5000 + "/5"])
+def test_an_id_with_thousands_of_digits_is_no_id(text: str) -> None:
+    with pytest.raises(InputError, match="no world id") as refusal:
+        World.from_id(text)
+    assert len(str(refusal.value)) < 200
+
+
+def test_an_id_beyond_the_last_rank_is_refused() -> None:
+    with pytest.raises(InputError, match="ranks of worlds with 5 edges run from 0 to 8161"):
+        World.from_id("m5/8162")
+
+
+def test_ids_work_up_to_200_edges_and_are_refused_beyond() -> None:
+    last = counting.count(200) - 1
+    assert World.from_id(f"m200/{last}").id == f"m200/{last}"
+    with pytest.raises(InputError, match="201 edges has no id"):
+        World.from_id("m201/0")
+    with pytest.raises(InputError, match="save it as a file"):
+        _ = families.lattice(1, 202).id
+
+
+def test_a_world_shows_itself_as_what_makes_it_or_by_its_size() -> None:
+    assert repr(shuffled(PATH, 3)) == "World.from_id('m2/0')"
+    assert (
+        repr(families.torus(15, 15)) == "<World 'torus(15,15)': 225 vertices, 450 edges, genus 1>"
+    )
+
+
+# ---------------------------------------------------------------- what it refuses to be
+
+
+@pytest.mark.parametrize(
+    ("alpha", "sigma", "root", "sentence"),
+    [
+        ((1, 0), (0,), 0, "alpha has 2 entries and sigma 1"),
+        ((0,), (0,), 0, "alpha has 1 entries and sigma 1: both have one a dart, two darts an edge"),
+        ((1, 0), (0, 1), None, "marker None with 2 darts"),
+        ((), (), 0, "marker 0 with 0 darts"),
+        ((1, 0), (0, 1), 2, "the marker points at dart 2, which is out of range"),
+        ((1, 0), (0, 1), -1, "the marker points at dart -1"),
+        ((2, 0), (0, 1), 0, r"alpha\[0\] = 2 is out of range: the darts are 0 … 1"),
+        ((1, 0), (0, -1), 0, r"sigma\[1\] = -1 is out of range"),
+        ((1, 0, 2, 3), (1, 2, 3, 0), 0, "alpha has the fixed point 2"),
+        ((1, 2, 3, 0), (1, 2, 3, 0), 0, r"no involution|alpha\[0\] = 1, but alpha\[1\] = 2"),
+        ((1, 0, 3, 2), (1, 0, 3, 3), 0, "sigma is not a permutation: darts 2 and 3 both turn to"),
+        ((1, 0, 3, 2), (1, 0, 3, 2), 0, r"not connected: no way leads from the marker .* dart 2;"),
+        ((1, 0, 3, 2), (1, 0, 3, 2), 3, r"not connected: .*\(dart 3\) to dart 0"),
+    ],
+)
+def test_what_is_no_world_is_refused_and_the_dart_named(
+    alpha: tuple[int, ...], sigma: tuple[int, ...], root: int | None, sentence: str
+) -> None:
+    with pytest.raises(InputError, match=sentence):
+        World(alpha, sigma, root)
+
+
+def test_a_marker_can_only_be_moved_to_a_dart() -> None:
+    with pytest.raises(InputError, match="dart 4, which is out of range"):
+        PATH.with_marker(4)
+
+
+def test_what_is_carried_along_has_to_fit_the_vertices() -> None:
+    with pytest.raises(InputError, match="vertex_names has 2 entries for 3 vertices"):
+        World(PATH.alpha, PATH.sigma, 0, vertex_names=("a", "b"))
+    with pytest.raises(InputError, match="positions has 4 entries for 3 vertices"):
+        World(PATH.alpha, PATH.sigma, 0, positions=((0, 0), (1, 1), (2, 2), (3, 3)))
+
+
+@pytest.mark.parametrize("odd", [(0.0, float("nan")), (float("inf"), 0.0)])
+def test_a_position_is_finite(odd: tuple[float, float]) -> None:
+    with pytest.raises(InputError, match=r"positions\[1\] is .* two finite numbers"):
+        World(PATH.alpha, PATH.sigma, 0, positions=((0, 0), odd, (2, 2)))

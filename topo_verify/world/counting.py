@@ -1,0 +1,258 @@
+"""Rooted maps counted, numbered, listed and sampled, as bare tables.
+
+The letters: `m` edges; `u` open darts (known, their edge not yet); `r` darts still to create.
+
+A rooted map grows from its root vertex: take the smallest open dart; either join it with another
+open dart, or hang a new vertex of degree `d` on it, whose darts are numbered consecutively from
+the one that is hung. A step that leaves no open dart while darts remain is a dead end and is
+forbidden. What can still happen depends on `u` and `r` alone, so completions are counted by
+
+    F(u, r) = (u-1)·F(u-2, r) + Σ_{1<=d<=r} F(u+d-2, r-d),   F(0, 0) = 1,   F(0, r>0) = 0,
+
+and there are Σ_{1<=d<=2m} F(d, 2m-d) rooted maps with m edges. Each comes out exactly once, in its
+breadth-first numbering, so no hash table is needed; the counts turn a rank into a map and back.
+
+**Order** (a format promise, it numbers the worlds): root degree ascending; then at the smallest
+open dart, joins first by ascending partner, then new vertices by ascending degree.
+
+A **table** is `(degrees, alpha)`: vertex `i` owns the next `degrees[i]` darts, `alpha[d]` is the
+other dart of `d`'s edge, the root is dart 0. It is the canonical code of its world.
+
+Source: SPEC section 9. Planar: W. T. Tutte, "A census of planar maps", Canad. J. Math. 15 (1963).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from itertools import accumulate, islice
+from math import comb
+from operator import itemgetter
+from random import Random
+
+from topo_verify.errors import InputError
+
+Row = tuple[int, ...]
+Table = tuple[Row, Row]
+
+MAX_ID_EDGES = 200
+"""World ids are promised up to this many edges; the counts below work beyond, only slower."""
+
+
+def completions(open_darts: int, to_create: int) -> int:
+    """F(u, r): in how many ways a partial map with u open darts and r darts to come is completed.
+
+    Zero where u + r is odd (darts come in pairs). Complexity: the first call for a given u + r
+    fills a table of O((u + r)²) integers, every later one looks it up.
+    """
+    half, odd = divmod(open_darts + to_create, 2)
+    if odd or open_darts < 0 or to_create < 0:
+        return 0
+    while len(_rows) <= half:
+        _rows.append(_next_row(_rows[-1]))
+    return _rows[half][to_create]
+
+
+_rows: list[tuple[int, ...]] = [(1,)]
+"""Row t holds F(2t - r, r) for r = 0 … 2t; each row follows from the one before it."""
+
+
+def _next_row(before: tuple[int, ...]) -> tuple[int, ...]:
+    total = len(before) + 1
+    attached = [0, *accumulate(before)]  # Σ_d F(u+d-2, r-d) = before[0] + … + before[r-1]
+    joined = [(total - r - 1) * ways for r, ways in enumerate(before)]
+    return (*map(sum, zip(attached, joined, strict=False)), attached[total - 1], 0)
+
+
+def count(edges: int) -> int:
+    """The number of rooted maps of any genus with this many edges."""
+    _require_edges(edges)
+    if edges == 0:
+        return 1
+    return sum(completions(d, 2 * edges - d) for d in range(1, 2 * edges + 1))
+
+
+def count_by_recurrence(edges: int) -> int:
+    """The same number, from an independent recurrence in the edges alone.
+
+    M(z) = 1 + z·M(z)² + z·M(z) + 2z²·M'(z), read off coefficient by coefficient.
+    Source: D. Arquès and J.-F. Béraud, "Rooted maps on orientable surfaces, Riccati's equation and
+    continued fractions", Discrete Math. 215 (2000).
+    """
+    _require_edges(edges)
+    numbers: list[int] = [1]
+    for m in range(1, edges + 1):
+        squared = sum(numbers[i] * numbers[m - 1 - i] for i in range(m))
+        numbers.append(squared + (2 * m - 1) * numbers[m - 1])
+    return numbers[edges]
+
+
+def count_planar(edges: int) -> int:
+    """The number of planar rooted maps, 2·3^m·C(2m, m) / ((m+1)(m+2)) (Tutte)."""
+    _require_edges(edges)
+    powers: int = 2 * 3**edges
+    return powers * comb(2 * edges, edges) // ((edges + 1) * (edges + 2))
+
+
+def rank(table: Table) -> int:
+    """The number of the map in the enumeration, counted from 0: the inverse of `unrank`.
+
+    Args:
+        table: a canonical code (`World.code`); any other numbering gives a meaningless number.
+    Complexity: O(m²) steps on integers of O(m log m) bits.
+    """
+    degrees, alpha = table
+    if not alpha:
+        return 0
+    m2 = len(alpha)
+    before = sum(completions(d, m2 - d) for d in range(1, degrees[0]))
+    opened = list(range(degrees[0]))
+    created, vertices = degrees[0], 1
+    while opened:
+        u, r = len(opened), m2 - created
+        partner = alpha[opened.pop(0)]
+        if partner < created:
+            place = opened.index(partner)
+            before += place * completions(u - 2, r)
+            del opened[place]
+        else:
+            d = degrees[vertices]
+            before += (u - 1) * completions(u - 2, r)
+            before += sum(completions(u + x - 2, r - x) for x in range(1, d))
+            opened += range(created + 1, created + d)
+            created, vertices = created + d, vertices + 1
+    return before
+
+
+def unrank(edges: int, rank: int) -> Table:
+    """The map of this rank among those with this many edges: the inverse of `rank`.
+
+    Raises:
+        InputError: the rank is not one of 0 … count(edges) - 1.
+    """
+    total = count(edges)
+    if not 0 <= rank < total:
+        raise InputError(
+            f"there is no world m{edges}/{rank}: ranks of worlds with {edges} edges run"
+            f" from 0 to {total - 1}"
+        )
+    if edges == 0:
+        return (0,), ()
+    m2 = 2 * edges
+    d, rank = _choose(rank, (completions(d, m2 - d) for d in range(1, m2 + 1)))
+    degrees, opened, alpha = [d + 1], list(range(d + 1)), [0] * m2
+    created = d + 1
+    while opened:
+        u, r = len(opened), m2 - created
+        dart = opened.pop(0)
+        joins = (u - 1) * completions(u - 2, r)
+        if rank < joins:
+            place, rank = divmod(rank, completions(u - 2, r))
+            partner = opened.pop(place)
+        else:
+            ways = (completions(u + d - 2, r - d) for d in range(1, r + 1))
+            d, rank = _choose(rank - joins, ways)
+            partner = created
+            degrees.append(d + 1)
+            opened += range(created + 1, created + d + 1)
+            created += d + 1
+        alpha[dart], alpha[partner] = partner, dart
+    return tuple(degrees), tuple(alpha)
+
+
+def _choose(rank: int, ways: Iterator[int]) -> tuple[int, int]:
+    """The index of the block that the rank falls into, and the rank within that block."""
+    index, size = 0, next(ways)
+    while rank >= size:
+        index, rank, size = index + 1, rank - size, next(ways)
+    return index, rank
+
+
+def sample(edges: int, random: Random) -> Table:
+    """A rooted map with this many edges, exactly uniform over all of them."""
+    return unrank(edges, random.randrange(count(edges)))
+
+
+# ---------------------------------------------------------------- listing them all
+
+_TAIL = 8
+"""Partial maps with at most this many darts left have their completions tabulated once for all."""
+
+
+def tables(edges: int, start: int = 0, stop: int | None = None) -> Iterator[Table]:
+    """The rooted maps of ranks start … stop-1 (default: all of them), in the order of their ranks.
+
+    Guarantees each exactly once, with no hash table and nothing recursive. Parts of the tree that
+    lie before `start` are passed over whole, so a shard costs what it yields.
+    """
+    total = count(edges)
+    stop = total if stop is None else min(stop, total)
+    return islice(_tables_from(edges, start), max(0, stop - start))
+
+
+def _tables_from(edges: int, skip: int) -> Iterator[Table]:
+    if edges == 0:
+        yield from [((0,), ())][skip:]
+        return
+    m2 = 2 * edges
+    # One entry a partial map: degrees, open darts, darts joined so far and their partners, in step.
+    stack: list[tuple[Row, Row, Row, Row]]
+    stack = [((d,), tuple(range(d)), (), ()) for d in range(m2, 0, -1)]
+    while stack:
+        degrees, opened, joined, partners = stack.pop()
+        u, created = len(opened), len(opened) + len(joined)
+        r = m2 - created
+        if skip and completions(u, r) <= skip:
+            skip -= completions(u, r)
+        elif u + r <= _TAIL:
+            slots = (*opened, *range(created, m2))
+            place = _inverse(joined + slots)
+            for more, partner_slots in islice(_endings(u, r), skip, None):
+                yield degrees + more, place(partners + partner_slots(slots))
+            skip = 0
+        else:
+            for j, partner, more in reversed(list(_steps(opened, created, r))):
+                fresh = tuple(range(created + 1, created + sum(more)))
+                rest = opened[1:j] + opened[j + 1 :] + fresh
+                pair = (opened[0], partner)
+                stack.append((degrees + more, rest, joined + pair, partners + pair[::-1]))
+
+
+def _steps(opened: Row, created: int, r: int) -> Iterator[tuple[int, int, Row]]:
+    """What can become of the smallest open dart: its partner's place and number, new degrees."""
+    u = len(opened)
+    if u > 2 or r == 0:
+        for j in range(1, u):
+            yield j, opened[j], ()
+    for d in range(1, r + 1):
+        if u + d > 2 or r == d:
+            yield u, created, (d,)
+
+
+def _inverse(darts: Row) -> itemgetter[Row]:
+    """A getter that puts a row given in the order `darts` into the order of the darts."""
+    return itemgetter(*sorted(range(len(darts)), key=darts.__getitem__))
+
+
+@cache
+def _endings(u: int, r: int) -> tuple[tuple[Row, itemgetter[Row]], ...]:
+    """All completions over slots: 0 … u-1 are the open darts, u … u+r-1 the darts to come.
+
+    Each is (further degrees, getter of every slot's partner). At most 8 slots: recursion depth 4.
+    """
+    found: list[tuple[Row, itemgetter[Row]]] = []
+    slots = tuple(range(u + r))
+    for _, partner, more in _steps(slots[:u], u, r):
+        rest = tuple(s for s in slots if s not in (0, partner))
+        if not rest:
+            return ((more, itemgetter(1, 0)),)
+        place = _inverse((0, partner, *rest))
+        for further, partners in _endings(u - 2 + sum(more), r - sum(more)):
+            row = place((partner, 0, *partners(rest)))
+            found.append((more + further, itemgetter(*row)))
+    return tuple(found)
+
+
+def _require_edges(edges: int) -> None:
+    if edges < 0:
+        raise InputError(f"edges={edges}: the number of edges is 0 or more")

@@ -1,0 +1,37 @@
+"""Families of worlds: lattices and random graphs, named by their arguments.
+
+Every world is called as it was made, `lattice(10,10,holes=0.2,seed=7)`, defaults left out; behind
+`family:` that text makes the same world again. What is random comes from `random.Random(seed)`, so
+it is the same on every machine whose Python draws alike (all of 3.11 to 3.13 do).
+
+**Holes** are nodes taken out at random, `round(holes·nodes)` of them. Of what is left the largest
+component is kept (of equally large ones, that with the lowest node), here and in every family that
+can come out in parts.
+
+**The marker** is drawn from the same seed after everything else: a vertex, then one of its exits.
+So an average over seeds is one over starting places too, and a lattice does not always start in
+its corner. `marker=DART` puts it elsewhere and changes nothing else. `torus` has no seed: dart 0.
+
+**Rotations** follow the drawing where there is one (`lattice`, `king`: node 0 at the top left,
+exits clockwise from the north, positions with y upwards); in the other families they are drawn,
+each vertex's uniformly.
+"""
+
+from collections.abc import Callable, Mapping
+
+from topo_verify.world.families._arguments import MAX_DARTS
+from topo_verify.world.families.lattices import king, lattice, torus
+from topo_verify.world.families.random_graphs import complete, dense, regular
+from topo_verify.world.rooted_map import World
+
+# lattices.py       lattice, king, torus
+# random_graphs.py  regular, dense, complete
+# _building.py      from a graph with exits in clockwise order to its world
+# _arguments.py     checks, limits, names
+
+FAMILIES: Mapping[str, Callable[..., World]] = {
+    make.__name__: make for make in (lattice, king, torus, regular, dense, complete)
+}
+"""All families by name: what may follow `family:`."""
+
+__all__ = ["FAMILIES", "MAX_DARTS", "complete", "dense", "king", "lattice", "regular", "torus"]

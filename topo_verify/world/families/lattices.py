@@ -1,0 +1,93 @@
+"""Lattices: nodes on a grid, joined with their neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from random import Random
+
+from topo_verify.world.families import _arguments as arguments
+from topo_verify.world.families._building import End, Graph, as_world, with_holes
+from topo_verify.world.rooted_map import Dart, World
+
+_NORTH, _NORTH_EAST, _EAST, _SOUTH_EAST = (-1, 0), (-1, 1), (0, 1), (1, 1)
+"""Half of the eight directions as (rows down, columns right); the others are their opposites."""
+
+
+def lattice(
+    rows: int, columns: int, *, holes: float = 0.0, seed: int = 0, marker: Dart | None = None
+) -> World:
+    """A grid, each node joined with its four neighbours. Planar.
+
+    Args:
+        rows, columns: 1 or more; one row is a path.
+        holes: the share of the nodes that is taken out, 0 <= holes < 1.
+        seed: 0 or more.
+        marker: a dart; default: drawn.
+    Raises:
+        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
+    """
+    return _drawn("lattice", (_NORTH, _EAST), (rows, columns), holes, seed, marker)
+
+
+def king(
+    rows: int, columns: int, *, holes: float = 0.0, seed: int = 0, marker: Dart | None = None
+) -> World:
+    """A grid, each node joined with its eight neighbours, as a king moves in chess.
+
+    The diagonals cross in the drawing: by its angles it is a map of high genus. Arguments and
+    errors as for `lattice`.
+    """
+    steps = (_NORTH, _NORTH_EAST, _EAST, _SOUTH_EAST)
+    return _drawn("king", steps, (rows, columns), holes, seed, marker)
+
+
+def torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
+    """A grid whose borders are joined, top with bottom and left with right. Genus 1, degrees 4.
+
+    Args:
+        rows, columns: 1 or more; where one is 1 there are loops, where one is 2 parallel edges.
+        marker: a dart; default: 0 (all places of a torus look alike, but for the direction).
+    Raises:
+        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
+    """
+    rows, columns = arguments.size("torus", (rows, columns), darts_each=4)
+    marker = arguments.marker("torus", marker)
+    graph = _grid(rows, columns, (_NORTH, _EAST), wrapped=True)
+    name = arguments.name("torus", rows, columns, marker=marker)
+    return as_world(name, graph, 0 if marker is None else marker)
+
+
+def _drawn(
+    family: str,
+    steps: Sequence[tuple[int, int]],
+    size: tuple[int, int],
+    holes: float,
+    seed: int,
+    marker: Dart | None,
+) -> World:
+    rows, columns = arguments.size(family, size, darts_each=2 * len(steps))
+    holes, seed = (
+        arguments.share(family, "holes", holes, whole=False),
+        arguments.integer(family, "seed", seed, 0),
+    )
+    marker = arguments.marker(family, marker)
+    name = arguments.name(family, rows, columns, holes=holes, seed=seed, marker=marker)
+    random = Random(seed)
+    graph = with_holes(name, _grid(rows, columns, steps, wrapped=False), holes, random)
+    positions = tuple((float(node % columns), float(rows - 1 - node // columns)) for node in graph)
+    return as_world(name, graph, marker, random, positions)
+
+
+def _grid(rows: int, columns: int, steps: Sequence[tuple[int, int]], *, wrapped: bool) -> Graph:
+    """The steps are half of the directions, clockwise; an edge is called by its node and step."""
+    graph: Graph = {}
+    for node in range(rows * columns):
+        exits = graph[node] = []
+        for side in (0, 1):
+            for way, (down, right) in enumerate(steps):
+                row = node // columns + (down, -down)[side]
+                column = node % columns + (right, -right)[side]
+                if wrapped or (0 <= row < rows and 0 <= column < columns):
+                    to = row % rows * columns + column % columns
+                    exits.append(End(to, ((node, to)[side], way), side))
+    return graph

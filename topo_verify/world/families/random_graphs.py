@@ -1,0 +1,126 @@
+"""Random graphs with random rotations: no drawing goes with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import combinations
+from random import Random
+
+from topo_verify.errors import InputError
+from topo_verify.world.families import _arguments as arguments
+from topo_verify.world.families._building import End, Graph, as_world, largest_component, with_holes
+from topo_verify.world.rooted_map import Dart, World
+
+
+def regular(
+    nodes: int, degree: int, *, holes: float = 0.0, seed: int = 0, marker: Dart | None = None
+) -> World:
+    """A random simple graph in which every node has the same degree; then holes, then rotations.
+
+    Args:
+        nodes: more than degree; nodes·degree is even.
+        degree: 1 or more.
+        holes, seed, marker: as for `lattice`.
+    Raises:
+        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
+    Source: A. Steger and N. C. Wormald, "Generating random regular graphs quickly", Combin. Probab.
+        Comput. 8 (1999): pair free ends at random, keep the pairs that fit. Nearly uniform.
+    """
+    family = "regular"
+    degree = arguments.integer(family, "degree", degree, 1)
+    nodes = arguments.integer(family, "nodes", nodes, degree + 1)
+    holes, seed = (
+        arguments.share(family, "holes", holes, whole=False),
+        arguments.integer(family, "seed", seed, 0),
+    )
+    arguments.require_darts(family, nodes * degree)
+    if nodes * degree % 2:
+        raise InputError(
+            f"regular: {nodes} nodes of degree {degree} have an odd number of darts, and an edge is"
+            " two: make one of the two numbers even"
+        )
+    marker = arguments.marker(family, marker)
+    name = arguments.name(family, nodes, degree, holes=holes, seed=seed, marker=marker)
+    random = Random(seed)
+    graph = _graph(nodes, _regular_edges(nodes, degree, random))
+    return _rotated(name, with_holes(name, graph, holes, random), marker, random)
+
+
+def dense(nodes: int, probability: float, *, seed: int = 0, marker: Dart | None = None) -> World:
+    """A random graph, each pair of nodes joined with this probability; then rotations.
+
+    Args:
+        nodes: 1 or more.
+        probability: 0 to 1.
+        seed, marker: as for `lattice`.
+    Raises:
+        InputError: an argument is out of range, or more than `MAX_DARTS` darts were possible.
+    """
+    family = "dense"
+    nodes, seed = (
+        arguments.integer(family, "nodes", nodes, 1),
+        arguments.integer(family, "seed", seed, 0),
+    )
+    probability = arguments.share(family, "probability", probability, whole=True)
+    arguments.require_darts(family, nodes * (nodes - 1))
+    marker = arguments.marker(family, marker)
+    name = arguments.name(family, nodes, probability, seed=seed, marker=marker)
+    random = Random(seed)
+    edges = [pair for pair in combinations(range(nodes), 2) if random.random() < probability]
+    return _rotated(name, _graph(nodes, edges), marker, random)
+
+
+def complete(nodes: int, *, seed: int = 0, marker: Dart | None = None) -> World:
+    """Every two nodes joined; random rotations. Arguments and errors as for `dense`."""
+    family = "complete"
+    nodes, seed = (
+        arguments.integer(family, "nodes", nodes, 1),
+        arguments.integer(family, "seed", seed, 0),
+    )
+    arguments.require_darts(family, nodes * (nodes - 1))
+    marker = arguments.marker(family, marker)
+    name = arguments.name(family, nodes, seed=seed, marker=marker)
+    return _rotated(name, _graph(nodes, combinations(range(nodes), 2)), marker, Random(seed))
+
+
+def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[int, int]]:
+    """The edges of a random regular graph, in an order that depends on nothing but the draws."""
+    if 2 * degree >= nodes:  # pair what is not joined: in a nearly full graph hardly a pair fits
+        missing = set(_regular_edges(nodes, nodes - 1 - degree, random))
+        return [pair for pair in combinations(range(nodes), 2) if pair not in missing]
+    while True:
+        edges: dict[tuple[int, int], None] = {}  # a dict: a set has no order to rely on
+        ends = [node for node in range(nodes) for _ in range(degree)]
+        while ends:
+            random.shuffle(ends)
+            left: list[int] = []
+            for a, b in zip(ends[::2], ends[1::2], strict=True):
+                pair = (min(a, b), max(a, b))
+                if a == b or pair in edges:
+                    left += pair
+                else:
+                    edges[pair] = None
+            if len(left) == len(ends) and not _some_fit(left, edges):
+                break  # stuck: begin again, as the paper does
+            ends = left
+        if not ends:
+            return edges
+
+
+def _some_fit(ends: Sequence[int], edges: Mapping[tuple[int, int], None]) -> bool:
+    return any(pair not in edges for pair in combinations(sorted(set(ends)), 2))
+
+
+def _graph(nodes: int, edges: Iterable[tuple[int, int]]) -> Graph:
+    graph: Graph = {node: [] for node in range(nodes)}
+    for a, b in edges:
+        graph[a].append(End(b, (a, b), 0))
+        graph[b].append(End(a, (a, b), 1))
+    return graph
+
+
+def _rotated(name: str, graph: Graph, marker: Dart | None, random: Random) -> World:
+    graph = largest_component(graph)
+    for exits in graph.values():
+        random.shuffle(exits)
+    return as_world(name, graph, marker, random)

@@ -1,0 +1,99 @@
+"""Files in and out, for every format: limited when read, replaced whole when written.
+
+Every failure is an `InputError` of one sentence that names the file and what the system said.
+"""
+
+from __future__ import annotations
+
+import os
+from os import PathLike
+from pathlib import Path
+from secrets import token_hex
+from typing import IO
+
+from topo_verify.errors import InputError
+
+LIMIT = 64 * 2**20
+"""Bytes that a file may have: room for a world of a million darts with positions, twice."""
+
+
+def read(path: str | PathLike[str]) -> bytes:
+    """What is in the file.
+
+    Raises:
+        InputError: it cannot be read or holds more than `LIMIT` bytes.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            return read_stream(file, name=shown(path))
+    except (OSError, ValueError) as error:  # ValueError: a path with a null character
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"cannot read {shown(path)}: {_reason(error)}; name a file") from error
+
+
+def read_stream(stream: IO[bytes], *, name: str) -> bytes:
+    """What comes from the stream until it ends.
+
+    Raises:
+        InputError: more than `LIMIT` bytes come; not much more is read, so no stream is too long.
+    """
+    data = stream.read(LIMIT + 1)
+    if len(data) > LIMIT:
+        raise InputError(too_large(name))
+    return data
+
+
+def too_large(name: str) -> str:
+    """The sentence that refuses more than `LIMIT` bytes."""
+    return (
+        f"{name} is larger than {LIMIT // 2**20} MiB, the most that is read (a million darts take"
+        " less): give a smaller one"
+    )
+
+
+def write(path: str | PathLike[str], text: str) -> None:
+    """Write the text as UTF-8: whoever reads the file sees all that it held before or all of this.
+
+    The text goes to a temporary file in the same folder, which then takes the file's place. Links
+    are followed, permissions kept. What is no regular file (a pipe, a terminal, the null device) is
+    written to directly, never replaced.
+
+    Raises:
+        InputError: the system refuses, with its reason; no temporary file is left behind.
+    """
+    try:
+        target = Path(os.path.realpath(path))
+        if target.exists() and not target.is_file():
+            target.write_text(text, encoding="utf-8")
+        else:
+            _replace(target, text)
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"cannot write {shown(path)}: {_reason(error)}; name a file that can be written"
+        ) from error
+
+
+def _replace(target: Path, text: str) -> None:
+    temporary = target.parent / f".topo-verify-{token_hex(8)}"
+    try:
+        with temporary.open("x", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        if target.exists():
+            temporary.chmod(target.stat().st_mode & 0o777)
+        temporary.replace(target)
+    except BaseException:  # an interrupt, too, leaves nothing behind
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def shown(text: str | PathLike[str], *, limit: int = 200) -> str:
+    """The text fit for one line of a message: control characters escaped, cut where it is long."""
+    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in os.fspath(text))
+    return line if len(line) <= limit else line[: limit - 1] + "…"
+
+
+def _reason(error: OSError | ValueError) -> str:
+    return (isinstance(error, OSError) and error.strerror) or str(error)

@@ -1,0 +1,257 @@
+"""World JSON: one world in one JSON object.
+
+    {"format": "topo-verify/world", "version": 1, "name": "triangle",
+     "vertices": [[0, 5], [1, 2], [3, 4]], "edges": [[0, 1], [2, 3], [4, 5]], "marker": 0}
+
+`vertices` holds the darts of each vertex in clockwise order, `edges` two darts each, `marker` the
+dart that the marker points at (null only where there is no dart). Darts are any distinct integers
+and are numbered 0 … 2m-1 in ascending order when read. `WorldFile` says the rest; the JSON Schema
+beside this file (`world.schema.json`) is made from it, so neither can drift from the other.
+
+Reading is strict, because a file that is read differently from what its writer meant makes every
+result about it worthless: no field may be unknown or stand twice, no number be taken for another
+kind. Every refusal is one sentence that names the file, the place in it and what belongs there.
+
+What this does not show: that the world is the one that was meant. Rotations given anticlockwise are
+a valid file; they are the mirror image.
+
+Source: INTERFACE section 6 (docs/semantics.md).
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from os import PathLike
+from pathlib import Path
+from typing import Annotated, Any, Final, Literal, TypeVar
+
+import msgspec
+from msgspec import UNSET, Meta, UnsetType
+
+from topo_verify.errors import InputError
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import World
+
+W = TypeVar("W", bound=World)
+
+VERSION: Final = 1
+"""The newest version of the format that is read, and the one that is written."""
+
+_SAFE = 2**53
+"""Up to here every reader of JSON agrees on integers."""
+
+Dart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
+
+
+class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A world as it stands in a file; the descriptions end the sentences that refuse a field."""
+
+    format: Annotated[
+        Literal["topo-verify/world"], Meta(description="the name of this format, topo-verify/world")
+    ]
+    version: Annotated[Literal[1], Meta(description="the version of this format, 1")]
+    name: Annotated[str, Meta(description="a text, what the world is called")] | UnsetType = UNSET
+    vertices: Annotated[
+        tuple[tuple[Dart, ...], ...],
+        Meta(description="one list a vertex, its darts (integers) in clockwise order"),
+    ]
+    edges: Annotated[
+        tuple[tuple[Dart, Dart], ...],
+        Meta(description="one list an edge, its two darts (integers)"),
+    ]
+    marker: Annotated[
+        Dart | None,
+        Meta(description="the dart that the marker points at, null only where there is no dart"),
+    ]
+    vertex_names: (
+        Annotated[tuple[str, ...], Meta(min_length=1, description="one text a vertex")] | UnsetType
+    ) = UNSET
+    positions: (
+        Annotated[
+            tuple[tuple[float, float], ...],
+            Meta(min_length=1, description="one pair of numbers [x, y] a vertex, y upwards"),
+        ]
+        | UnsetType
+    ) = UNSET
+    source: Annotated[str, Meta(description="a text, where the world comes from")] | UnsetType = (
+        UNSET
+    )
+    licence: (
+        Annotated[str, Meta(description="a text, on what terms the world may be used")] | UnsetType
+    ) = UNSET
+
+
+class _Header(msgspec.Struct):
+    """What is read first, and alone: a newer version may have other fields."""
+
+    format: str
+    version: int
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of a world file; `world.schema.json` holds the same."""
+    made = msgspec.json.schema(WorldFile)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made}
+
+
+# ---------------------------------------------------------------- reading
+
+
+def load(cls: type[W], path: str | PathLike[str]) -> W:
+    """The world in the file, called after the file (its stem) if it has no name of its own.
+
+    Raises:
+        InputError: the file cannot be read, is larger than `files.LIMIT`, or holds no world.
+    """
+    name = files.shown(path)
+    data = _parse(files.read(path), name)
+    stem = os.fsencode(Path(path).stem).decode("utf-8", "replace")
+    return from_data(cls, data, name=name, stem=stem)
+
+
+def decode(cls: type[W], text: str | bytes, *, name: str = "world JSON") -> W:
+    """The world in the text (bytes are UTF-8; a byte order mark at the head is passed over).
+
+    Args:
+        name: what to call the input in messages.
+    Raises:
+        InputError: the text holds no world; one sentence says where and why.
+    """
+    return from_data(cls, _parse(text, name), name=name)
+
+
+def from_data(cls: type[W], data: WorldFile, *, name: str, stem: str = "") -> W:
+    """The world that a decoded file describes.
+
+    Args:
+        name: what to call the input in messages.
+        stem: what to call the world if the file has no name for it.
+    Raises:
+        InputError: rotations, edges and marker together are no world.
+    """
+    try:
+        return cls.from_rotations(
+            data.vertices,
+            data.edges,
+            data.marker,
+            name=data.name or stem,
+            vertex_names=data.vertex_names or (),
+            positions=data.positions or (),
+            source=data.source or "",
+            licence=data.licence or "",
+        )
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from error
+
+
+def _parse(text: str | bytes, name: str) -> WorldFile:
+    text = _text(text, name)
+    try:
+        _require_version(msgspec.json.decode(text, type=_Header), name)
+        data = msgspec.json.decode(text, type=WorldFile)
+    except msgspec.ValidationError as error:
+        raise InputError(_sentence(str(error), name)) from error
+    except msgspec.DecodeError as error:
+        why = _lower(str(error).removeprefix("JSON is malformed: "))
+        raise InputError(f"{name} is no valid JSON: {why}; a world is one JSON object") from error
+    except RecursionError as error:
+        raise InputError(f"{name} is no world: its lists are nested too deeply") from error
+    # msgspec keeps the last of two equal keys. This pass sees nothing but a valid world file, so
+    # there is one object, and neither its depth nor its numbers can be too large.
+    json.loads(text, object_pairs_hook=lambda pairs: _require_single(pairs, name))
+    return data
+
+
+def _text(text: str | bytes, name: str) -> str:
+    """The text, once it is sure that it is UTF-8, not empty and not too large."""
+    try:
+        data = text.encode() if isinstance(text, str) else text
+        text = data.decode()
+    except UnicodeError as error:
+        raise InputError(f"{name} is no UTF-8 text: {error}; save it as UTF-8") from error
+    if len(data) > files.LIMIT:
+        raise InputError(files.too_large(name))
+    text = text.removeprefix("\ufeff")
+    if not text.strip():
+        raise InputError(f"{name} is empty: a world is one JSON object")
+    return text
+
+
+def _require_version(header: _Header, name: str) -> None:
+    if header.format != "topo-verify/world":
+        raise InputError(
+            f"{name} is no world: its 'format' is '{files.shown(header.format)}',"
+            " that of a world is 'topo-verify/world'"
+        )
+    if header.version > VERSION:
+        raise InputError(
+            f"{name} has version {header.version} of the world format, and this topo-verify reads"
+            f" versions up to {VERSION}: update it"
+        )
+
+
+def _require_single(pairs: list[tuple[str, Any]], name: str) -> None:
+    seen: set[str] = set()
+    for key, _ in pairs:
+        if key in seen:
+            raise InputError(f"{name} has the field '{key}' twice: leave one of the two out")
+        seen.add(key)
+
+
+def _sentence(error: str, name: str) -> str:
+    """What msgspec objects to, and what belongs there instead."""
+    what, _, place = error.partition(" - at `$.")
+    fields = schema()["$defs"]["WorldFile"]["properties"]
+    named = re.match(r"\w+", place) or re.search(r"(?<=missing required field `)\w+", what)
+    if named and named[0] in fields:
+        mend = f"'{named[0]}' is {fields[named[0]]['description']}"
+    else:
+        mend = f"a world is one JSON object with no fields but {', '.join(fields)}"
+    where = f"{name}, {files.shown(place[:-1])}" if place else name
+    return f"{where}: {files.shown(_lower(what))}; {mend}"
+
+
+def _lower(sentence: str) -> str:
+    return sentence[:1].lower() + sentence[1:]
+
+
+# ---------------------------------------------------------------- writing
+
+
+def to_data(world: World) -> WorldFile:
+    """The world as a struct, to be written alone or inside another format."""
+    return WorldFile(
+        format="topo-verify/world",
+        version=VERSION,
+        name=world.name,
+        vertices=world.vertices,
+        edges=world.edges,
+        marker=world.root,
+        vertex_names=world.vertex_names or UNSET,
+        positions=world.positions or UNSET,
+        source=world.source or UNSET,
+        licence=world.licence or UNSET,
+    )
+
+
+def encode(world: World) -> str:
+    """World JSON on one line: the same world gives the same text.
+
+    Raises:
+        InputError: a name, the source or the licence holds half of a surrogate pair.
+    """
+    try:
+        return msgspec.json.encode(to_data(world)).decode()
+    except UnicodeEncodeError as error:
+        raise InputError(f"the world's texts are not all Unicode: {error}; mend them") from error
+
+
+def save(world: World, path: str | PathLike[str]) -> None:
+    """Write the world to the file: at once or, if anything fails, not at all.
+
+    Raises:
+        InputError: as `encode`, or the file cannot be written.
+    """
+    files.write(path, encode(world) + "\n")

@@ -1,0 +1,388 @@
+"""A world: a connected graph embedded in an orientable surface, with one directional marker.
+
+The embedding is a combinatorial map (rotation system). Every edge is two **darts**, one at each
+end; `alpha` exchanges the two darts of an edge, `sigma` turns a dart to the next exit of its
+vertex. The cycles of `sigma` are the vertices, those of `sigma∘alpha` (cross, then turn) the faces.
+The marker lies at a vertex and points at one of its darts, the `root`. A map with a root is a
+**rooted map**. It has no automorphism but the identity: that is why numbering its darts
+breadth-first from the root gives a canonical code, and why two worlds are isomorphic exactly if
+their codes are equal.
+
+Orientation, stated once and for all: `sigma(d)` is the next exit **clockwise** after `d`, seen from
+above: the order in which the robot enumerates exits. Mirror images are different worlds.
+
+Source: SPEC section 1 (docs/semantics.md). Rotation systems: S. K. Lando and A. K. Zvonkin, "Graphs
+on Surfaces and Their Applications" (2004), chapter 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Self
+
+from topo_verify.errors import InputError
+from topo_verify.world import counting, validation
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+Dart = int
+"""One of the numbers 0 … 2m-1; an edge is two of them."""
+
+Code = tuple[tuple[int, ...], tuple[Dart, ...]]
+"""Degrees and `alpha` in the breadth-first numbering from the root: equal iff isomorphic."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class World:
+    """An immutable, validated, hashable world. Two worlds are equal iff alpha, sigma, root are.
+
+    Args:
+        alpha: the other dart of each dart's edge; an involution without fixed point on 0 … 2m-1.
+        sigma: the next dart clockwise at the same vertex; a permutation.
+        root: the dart that the marker points at; None only where there is no dart (m = 0: one
+            vertex with nothing to point at).
+        starts: the first dart of each vertex, if their order matters (files keep it); default: the
+            least dart of each, ascending.
+        name, vertex_names, positions, source, licence: carried along, not compared. Positions are
+            (x, y) per vertex with y upwards.
+    Raises:
+        InputError: alpha is no involution or has a fixed point, sigma is no permutation, the map is
+            not connected, the marker is out of range …; the sentence names the dart.
+    Complexity: O(m).
+    """
+
+    alpha: tuple[Dart, ...]
+    sigma: tuple[Dart, ...]
+    root: Dart | None
+    starts: tuple[Dart, ...] = field(default=(), kw_only=True)
+    name: str = field(default="", kw_only=True)
+    vertex_names: tuple[str, ...] = field(default=(), kw_only=True)
+    positions: tuple[tuple[float, float], ...] = field(default=(), kw_only=True)
+    source: str = field(default="", kw_only=True)
+    licence: str = field(default="", kw_only=True)
+
+    def __post_init__(self) -> None:
+        validation.require_permutations(self.alpha, self.sigma, self.root)
+        if len(self._discovery[0]) != len(self.alpha):
+            lost = min(set(range(len(self.alpha))) - set(self._discovery[0]))
+            raise InputError(
+                f"the world is not connected: no way leads from the marker (dart {self.root}) to"
+                f" dart {lost}; give one world a file, or join the parts"
+            )
+        for row, what in ((self.vertex_names, "vertex_names"), (self.positions, "positions")):
+            if row and len(row) != len(self.vertices):
+                raise InputError(
+                    f"{what} has {len(row)} entries for {len(self.vertices)} vertices:"
+                    " give one a vertex, in the order of the vertices, or leave it out"
+                )
+        validation.require_finite(self.positions)
+
+    # ------------------------------------------------------------ other ways to make one
+
+    @classmethod
+    def from_rotations(
+        cls,
+        vertices: Iterable[Sequence[int]],
+        edges: Iterable[Sequence[int]],
+        marker: int | None,
+        **about: Any,
+    ) -> Self:
+        """The world in the words of the world file: rotations, pairs of darts, the marked dart.
+
+        Darts may be any distinct integers; they are renumbered 0 … 2m-1 in ascending order (so they
+        keep their numbers if they are 0 … 2m-1). The order of the vertices is kept.
+
+        Args:
+            vertices: the darts of each vertex in clockwise order.
+            edges: two darts each.
+            marker: a dart, or None where there is none.
+            about: name, vertex_names, positions, source, licence.
+        Raises:
+            InputError: naming the dart or vertex and what is wrong with it.
+        """
+        rotations = [tuple(rotation) for rotation in vertices]
+        pairs = [tuple(edge) for edge in edges]
+        number = validation.numbering(rotations, pairs)
+        if marker is not None and marker not in number:
+            raise InputError(f"the marker points at dart {marker}, which no vertex has")
+        alpha, sigma = [0] * len(number), [0] * len(number)
+        for pair in pairs:
+            alpha[number[pair[0]]], alpha[number[pair[1]]] = number[pair[1]], number[pair[0]]
+        for rotation in rotations:
+            for dart, after in zip(rotation, rotation[1:] + rotation[:1], strict=True):
+                sigma[number[dart]] = number[after]
+        return cls(
+            tuple(alpha),
+            tuple(sigma),
+            None if marker is None else number[marker],
+            starts=tuple(number[rotation[0]] for rotation in rotations if rotation),
+            **about,
+        )
+
+    @classmethod
+    def from_map(cls, map_like: object) -> Self:
+        """The world that a map describes: `vertices`, `edges`, `marker` as attributes or as keys.
+
+        Raises:
+            InputError: one of the three is missing or malformed, or together they are no world.
+        """
+        return cls.from_rotations(*validation.map_parts(map_like))
+
+    @classmethod
+    def from_code(cls, code: Code, *, name: str = "") -> Self:
+        """The world with this code, or any table whose vertices own consecutive darts."""
+        degrees, alpha = code
+        sigma: list[Dart] = []
+        for degree in degrees:
+            first = len(sigma)
+            sigma += range(first + 1, first + degree)
+            sigma += [first] * (degree > 0)
+        return cls(alpha, tuple(sigma), 0 if alpha else None, name=name)
+
+    @classmethod
+    def from_id(cls, text: str) -> Self:
+        """The world with this id, `m<edges>/<rank>`; the inverse of `id`.
+
+        Raises:
+            InputError: the text is no id, the rank is out of range, or more than 200 edges.
+        """
+        edges, slash, rank = text.removeprefix("m").partition("/")
+        if not (text.startswith("m") and slash and _is_number(edges) and _is_number(rank)):
+            raise InputError(f"{text[:60]!r} is no world id: an id is m<edges>/<rank>, as m5/17")
+        _require_id_edges(int(edges))
+        return cls.from_code(counting.unrank(int(edges), int(rank)), name=text)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Self:
+        """The world in a file (see `topo_verify.world.formats`).
+
+        Raises:
+            InputError: the file cannot be read, or is no world; one sentence says where and why.
+        """
+        from topo_verify.world.formats import world_json
+
+        return world_json.load(cls, path)
+
+    @classmethod
+    def from_json(cls, text: str | bytes) -> Self:
+        """The world in this world JSON; the inverse of `to_json`.
+
+        Raises:
+            InputError: as `load`.
+        """
+        from topo_verify.world.formats import world_json
+
+        return world_json.decode(cls, text)
+
+    def to_json(self) -> str:
+        """World JSON, one line, the same bytes for the same world."""
+        from topo_verify.world.formats import world_json
+
+        return world_json.encode(self)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write world JSON; what the file held before is replaced at once or not at all."""
+        from topo_verify.world.formats import world_json
+
+        world_json.save(self, path)
+
+    # ------------------------------------------------------------ what it is made of
+
+    @cached_property
+    def vertices(self) -> tuple[tuple[Dart, ...], ...]:
+        """The darts of each vertex in clockwise order. One empty vertex where there is no dart."""
+        if not self.alpha:
+            return ((),)
+        return _cycles(self.sigma, self.starts)
+
+    @cached_property
+    def edges(self) -> tuple[tuple[Dart, Dart], ...]:
+        """The two darts of each edge, lesser first, in ascending order."""
+        return tuple((dart, other) for dart, other in enumerate(self.alpha) if dart < other)
+
+    @property
+    def marker(self) -> Dart | None:
+        """The dart that the marker points at: `root` in the words of the world file."""
+        return self.root
+
+    @cached_property
+    def vertex_of(self) -> tuple[int, ...]:
+        """The vertex (index into `vertices`) of each dart."""
+        row = [0] * len(self.alpha)
+        for vertex, rotation in enumerate(self.vertices):
+            for dart in rotation:
+                row[dart] = vertex
+        return tuple(row)
+
+    @cached_property
+    def place_of(self) -> tuple[int, ...]:
+        """The place of each dart in the rotation of its vertex, from 0."""
+        row = [0] * len(self.alpha)
+        for rotation in self.vertices:
+            for place, dart in enumerate(rotation):
+                row[dart] = place
+        return tuple(row)
+
+    @property
+    def marker_vertex(self) -> int:
+        """v0, where the marker lies and the robot starts."""
+        return 0 if self.root is None else self.vertex_of[self.root]
+
+    @cached_property
+    def degrees(self) -> tuple[int, ...]:
+        """The degree of each vertex, in the order of `vertices`."""
+        return tuple(map(len, self.vertices))
+
+    @cached_property
+    def faces(self) -> tuple[tuple[Dart, ...], ...]:
+        """The cycles of sigma∘alpha. One empty face where there is no dart (the sphere)."""
+        if not self.alpha:
+            return ((),)
+        return _cycles(tuple(self.sigma[other] for other in self.alpha))
+
+    @property
+    def genus(self) -> int:
+        """g in V - E + F = 2 - 2g: the number of handles of the surface."""
+        return (2 - len(self.vertices) + len(self.edges) - len(self.faces)) // 2
+
+    @property
+    def is_planar(self) -> bool:
+        """Is this an embedding in the sphere? The graph may have other embeddings."""
+        return self.genus == 0
+
+    @cached_property
+    def is_loopless(self) -> bool:
+        """Has no edge both its darts at one vertex?"""
+        return all(self.vertex_of[a] != self.vertex_of[b] for a, b in self.edges)
+
+    @cached_property
+    def is_simple(self) -> bool:
+        """Neither loops nor parallel edges?"""
+        ends = {frozenset((self.vertex_of[a], self.vertex_of[b])) for a, b in self.edges}
+        return self.is_loopless and len(ends) == len(self.edges)
+
+    # ------------------------------------------------------------ which world it is
+
+    @cached_property
+    def _discovery(self) -> tuple[tuple[Dart, ...], tuple[int, ...]]:
+        """Darts in breadth-first order from the root, and the degrees of the vertices as met."""
+        if self.root is None:
+            return (), (0,)
+        order: list[Dart] = []
+        degrees: list[int] = []
+        known = [False] * len(self.alpha)
+        entries = [self.root]
+        for entry in entries:  # grows as it goes: a queue
+            if known[entry]:
+                continue
+            first, dart = len(order), entry
+            while not known[dart]:
+                known[dart] = True
+                order.append(dart)
+                dart = self.sigma[dart]
+            degrees.append(len(order) - first)
+            entries += [self.alpha[d] for d in order[first:]]
+        return tuple(order), tuple(degrees)
+
+    @cached_property
+    def code(self) -> Code:
+        """The canonical code: equal for two worlds iff they are isomorphic. O(m)."""
+        order, degrees = self._discovery
+        number = {dart: place for place, dart in enumerate(order)}
+        return degrees, tuple(number[self.alpha[dart]] for dart in order)
+
+    @cached_property
+    def id(self) -> str:
+        """`m<edges>/<rank>`: names the world up to isomorphism; `from_id` brings it back.
+
+        Raises:
+            InputError: more than 200 edges: too large for an id; save the world to a file.
+        """
+        _require_id_edges(len(self.edges))
+        return f"m{len(self.edges)}/{counting.rank(self.code)}"
+
+    def is_isomorphic(self, other: World) -> bool:
+        """Is there a bijection of darts that keeps alpha, sigma and the root?"""
+        return self.code == other.code
+
+    def mirror(self) -> Self:
+        """The same world seen from the other side: every rotation reversed. It has no name."""
+        back = [0] * len(self.sigma)
+        for dart, after in enumerate(self.sigma):
+            back[after] = dart
+        flipped = tuple((-x, y) for x, y in self.positions)
+        return replace(self, sigma=tuple(back), positions=flipped, name="")
+
+    def with_marker(self, root: Dart) -> Self:
+        """The same map with the marker at another dart. It has no name: it is another world.
+
+        Raises:
+            InputError: there is no such dart.
+        """
+        return replace(self, root=root, name="")
+
+    def renumbered(self, numbers: Sequence[Dart]) -> Self:
+        """The same world with dart d called numbers[d] (a permutation of 0 … 2m-1)."""
+        alpha, sigma = [0] * len(self.alpha), [0] * len(self.sigma)
+        for dart, number in enumerate(numbers):
+            alpha[number] = numbers[self.alpha[dart]]
+            sigma[number] = numbers[self.sigma[dart]]
+        return replace(
+            self,
+            alpha=tuple(alpha),
+            sigma=tuple(sigma),
+            root=None if self.root is None else numbers[self.root],
+            starts=tuple(numbers[rotation[0]] for rotation in self.vertices if rotation),
+        )
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, World):
+            return NotImplemented
+        return (self.alpha, self.sigma, self.root) == (other.alpha, other.sigma, other.root)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.alpha, self.sigma, self.root))
+
+    def __repr__(self) -> str:
+        if len(self.edges) <= counting.MAX_ID_EDGES:
+            return f"World.from_id({self.id!r})"
+        size = f"{len(self.vertices)} vertices, {len(self.edges)} edges, genus {self.genus}"
+        return f"<World {self.name!r}: {size}>"
+
+
+def _cycles(
+    permutation: Sequence[Dart], starts: Sequence[Dart] = ()
+) -> tuple[tuple[Dart, ...], ...]:
+    """The cycles, in the order of their starts; those without one by their least dart."""
+    seen = [False] * len(permutation)
+    cycles: list[tuple[Dart, ...]] = []
+    for start in (*starts, *range(len(permutation))):
+        cycle: list[Dart] = []
+        dart = start
+        while not seen[dart]:
+            seen[dart] = True
+            cycle.append(dart)
+            dart = permutation[dart]
+        if cycle:
+            cycles.append(tuple(cycle))
+    return tuple(cycles)
+
+
+def _is_number(text: str) -> bool:
+    """Digits, and not more than Python turns into an integer (the longest rank has 437)."""
+    return text.isascii() and text.isdigit() and len(text) < 1000
+
+
+def _require_id_edges(edges: int) -> None:
+    if edges > counting.MAX_ID_EDGES:
+        raise InputError(
+            f"a world with {edges} edges has no id (ids go up to {counting.MAX_ID_EDGES} edges):"
+            " save it as a file and name the file"
+        )
