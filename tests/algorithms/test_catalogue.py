@@ -1,0 +1,77 @@
+"""The catalogue: eight names, each a rule and a motion, and the door to the package."""
+
+from __future__ import annotations
+
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import topo_verify.algorithms
+from tests.helpers import trace_of
+from topo_verify import CATALOGUE
+from topo_verify.algorithms import REFERENCE, Policies, algorithm
+from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.motion import overlap, retrace
+from topo_verify.robot.percept import Percept
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_the_catalogue_lists_every_algorithm_of_the_paper_with_its_rule_and_motion() -> None:
+    assert [(a.name, a.rule().name, a.motion) for a in CATALOGUE.values()] == [
+        ("basic", "motion", retrace),
+        ("enhancement-i", "prefix", overlap),
+        ("enhancement-ii", "history", retrace),
+        ("enhancement-ii+i", "history", overlap),
+        ("enhancement-iii-one", "records", retrace),
+        ("enhancement-iii-one+i", "records", overlap),
+        ("enhancement-iii-all", "records", retrace),
+        ("enhancement-iii-all+i", "records", overlap),
+    ]
+    assert all(name == entry.name for name, entry in CATALOGUE.items())
+
+
+def test_an_algorithm_is_found_by_its_name() -> None:
+    assert algorithm("enhancement-ii") is CATALOGUE["enhancement-ii"]
+
+
+def test_an_unknown_name_is_refused_with_the_list_of_those_there_are() -> None:
+    with pytest.raises(ValueError, match=r"no algorithm 'enhancement-iv': there are basic, enh"):
+        algorithm("enhancement-iv")
+
+
+def test_the_reference_policies_are_nearest_and_shortest() -> None:
+    assert Policies("nearest", "shortest") == REFERENCE
+    assert all(entry.policies == REFERENCE for entry in CATALOGUE.values())
+
+
+def test_other_policies_leave_the_catalogue_as_it_is() -> None:
+    deep = CATALOGUE["basic"].with_policies(pick="last")
+    assert deep.policies == Policies("last", "shortest")
+    assert deep.with_policies(order="oldest").policies == Policies("last", "oldest")
+    assert CATALOGUE["basic"].policies == REFERENCE
+
+
+def test_the_same_world_gives_the_same_run() -> None:
+    assert trace_of("m7/20231", "basic") == trace_of("m7/20231", "basic")
+
+
+def test_the_package_refuses_to_be_imported_under_its_short_name() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", "import algorithms"],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert "ImportError: this package is topo_verify.algorithms" in done.stderr
+
+
+def test_the_package_refuses_to_run_as_a_script() -> None:
+    with pytest.raises(ImportError, match="its classes would exist twice"):
+        runpy.run_path(str(topo_verify.algorithms.__file__))
+
+
+def test_crossing_an_unexplored_dart_of_the_map_is_an_error_of_the_algorithm() -> None:
+    with pytest.raises(AssertionError, match="dart 1 is unexplored"):
+        Chart(Percept(2, 0)).across(1)

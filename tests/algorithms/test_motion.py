@@ -1,0 +1,132 @@
+"""Motion between hypotheses: retrace, and overlap with what was executed last."""
+
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.helpers import any_world, of_type, sketch, trace_of, variant, worlds
+from topo_verify import World, examine
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.motion import (
+    Executed,
+    Hypothesis,
+    Pilot,
+    common_prefix,
+    overlap,
+    retrace,
+)
+from topo_verify.robot.events import Confirm, Reject
+from topo_verify.robot.percept import Percept
+from topo_verify.robot.simulator import SimulatedRobot
+
+words = st.lists(st.integers(0, 15), min_size=1, max_size=6)
+
+
+def hypothesis_with(*doors: int) -> Hypothesis:
+    """A hypothesis of which only the way home matters."""
+    chart = Chart(Percept(1, 0))
+    hypothesis = Hypothesis(0, chart, chart.tree(0))
+    vars(hypothesis)["doors"] = doors
+    return hypothesis
+
+
+def executed(*doors: int) -> Executed:
+    """A sequence of which only the doors matter."""
+    return Executed(doors, (Percept(16, None),) * (len(doors) + 1))
+
+
+def test_retrace_takes_the_first_and_shares_nothing_even_where_all_was_executed() -> None:
+    row = [hypothesis_with(3, 1), hypothesis_with(2, 1, 3)]
+    assert retrace(row, executed(2, 1, 3)) == (row[0], 0)
+
+
+def test_overlap_takes_the_longest_common_prefix() -> None:
+    row = [hypothesis_with(2), hypothesis_with(2, 1, 4), hypothesis_with(1, 1, 3)]
+    assert overlap(row, executed(2, 1, 3)) == (row[1], 2)
+
+
+def test_overlap_breaks_ties_in_the_order_of_h() -> None:
+    row = [hypothesis_with(1), hypothesis_with(2, 4), hypothesis_with(2, 1)]
+    assert overlap(row, executed(2, 3)) == (row[1], 1)
+    # In m3/8, taking the last of equals instead would walk dart 5 before dart 4: 10 moves, not 8.
+    (reject,) = of_type(Reject, trace_of("m3/8", "enhancement-i"))
+    assert reject.hypothesis == 3
+    assert of_type(Confirm, trace_of("m3/8", "enhancement-i"))[0].hypothesis == 4
+
+
+def test_overlap_with_nothing_executed_takes_the_first() -> None:
+    row = [hypothesis_with(2), hypothesis_with(1, 2)]
+    assert overlap(row, None) == (row[0], 0)
+
+
+def test_a_common_prefix_ends_where_the_shorter_one_ends() -> None:
+    assert common_prefix((1, 2), (1, 2, 3)) == 2
+    assert common_prefix((), (1,)) == 0
+
+
+def test_overlap_stays_where_the_whole_executed_sequence_is_shared() -> None:
+    assert sketch(trace_of("m4/16", "enhancement-i")[11:16]) == [
+        "pose", "validate 1", "reject", "validate 2", "confirm",
+    ]  # fmt: skip
+
+
+def test_overlap_goes_back_only_to_the_end_of_the_common_prefix() -> None:
+    # Doors (1, 1) were executed, (1, 2, …) comes next: one move back, to the end of (1).
+    assert sketch(trace_of("m6/722", "enhancement-i")[20:28]) == [
+        "pose", "validate 1", "validate 1", "reject", "retrace 0", "validate 1", "validate 1",
+        "confirm",
+    ]  # fmt: skip
+
+
+def test_retrace_goes_back_to_vu_where_overlap_would_not() -> None:
+    assert sketch(trace_of("m6/722")[20:27]) == [
+        "pose", "validate 1", "validate 1", "reject", "retrace 0", "retrace 2", "validate 0",
+    ]  # fmt: skip
+
+
+def test_what_is_executed_already_is_confirmed_without_motion() -> None:
+    # Darts 5 and 9 have the same way home, and differ in where they make the marker point at the
+    # end. Walking it for dart 5 shows that it is dart 9; the robot stands at v0 and stays there.
+    trace = trace_of("m5/1008", "enhancement-i")
+    assert sketch(trace[16:22]) == [
+        "pose", "validate 1", "reject", "confirm", "augment", "walk 1",
+    ]  # fmt: skip
+    reject, confirm = trace[18:20]
+    assert isinstance(reject, Reject)
+    assert (reject.hypothesis, reject.evidence.expected.marker) == (5, 0)
+    assert isinstance(confirm, Confirm)
+    assert (confirm.hypothesis, reject.evidence.observed.marker) == (9, 1)
+
+
+def test_the_marker_direction_counts_where_the_whole_way_is_executed_already() -> None:
+    # Overlap with no rule in between: what the direction excludes is rejected when it is looked at.
+    for world in worlds(range(1, 5)):
+        report = examine(variant(NoRule, overlap), world)
+        assert report.ok, str(report)
+
+
+@given(world=any_world(), word=words, other=words, keep=st.integers(0, 6))
+def test_after_going_back_doors_mean_what_they_meant_before(
+    world: World, word: list[int], other: list[int], keep: int
+) -> None:
+    robot, fresh = SimulatedRobot(world, 100), SimulatedRobot(world, 100)
+    pilot = Pilot(robot)
+    for door in word:
+        pilot.forward(door % robot.percept.degree)
+    pilot.back(keep)
+    kept = tuple(pilot.doors)
+    assert kept == pilot.executed().doors == tuple(fresh_walk(fresh, word[:keep]))
+    for door in other:
+        assert pilot.forward(door % robot.percept.degree) == fresh.move(door % fresh.percept.degree)
+    assert pilot.cost == robot.cost
+
+
+def fresh_walk(robot: SimulatedRobot, word: list[int]) -> list[int]:
+    """Walk, and return the doors as they are taken."""
+    taken: list[int] = []
+    for door in word:
+        taken.append(door % robot.percept.degree)
+        robot.move(taken[-1])
+    return taken

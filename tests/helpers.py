@@ -1,0 +1,126 @@
+"""Machinery that the tests share: small worlds, what is in a trace, doctored traces."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cache
+from typing import Any, TypeVar
+
+import msgspec
+from hypothesis import strategies as st
+
+from topo_verify import World
+from topo_verify.algorithms import Algorithm
+from topo_verify.algorithms.exploration import Rule
+from topo_verify.algorithms.motion import Motion, retrace
+from topo_verify.checkers import Status, check
+from topo_verify.robot.events import Event, Move, Trace
+from topo_verify.trial import explore
+from topo_verify.world import counting
+
+E = TypeVar("E", bound=Event)
+
+EMPTY = World((), (), None)
+"""One vertex and nothing else: the legal world without a dart."""
+
+
+EIGHT = {
+    "percepts-true",
+    "true-hypothesis-posed",
+    "true-hypothesis-kept",
+    "no-false-confirm",
+    "map-isomorphic",
+    "cost-honest",
+    "cost-within-bound",
+    "rejection-justified",
+}
+"""The claims that ask whether the mapper was right in this world."""
+
+
+# ---------------------------------------------------------------- worlds
+
+
+def worlds(edges: Iterable[int]) -> Iterator[World]:
+    """Every world with these numbers of edges, in the order of their ids."""
+    for m in edges:
+        yield from _worlds(m)
+
+
+@cache
+def _worlds(edges: int) -> tuple[World, ...]:
+    return tuple(map(World.from_code, counting.tables(edges)))
+
+
+def any_world(*, max_edges: int = 8) -> st.SearchStrategy[World]:
+    """Any world with 1 … max_edges edges, each as likely as another of its size."""
+
+    def of_size(edges: int) -> st.SearchStrategy[World]:
+        ranks = st.integers(0, counting.count(edges) - 1)
+        return ranks.map(lambda rank: World.from_code(counting.unrank(edges, rank)))
+
+    return st.integers(1, max_edges).flatmap(of_size)
+
+
+def path(vertices: int, *, marker: int) -> World:
+    """A path with the marker at one of its vertices, pointing at the lesser dart there."""
+    darts = 2 * (vertices - 1)
+    inner = [(dart, dart + 1) for dart in range(1, darts - 1, 2)]
+    rotations = [(0,), *inner, (darts - 1,)]
+    edges = [(dart, dart + 1) for dart in range(0, darts, 2)]
+    return World.from_rotations(rotations, edges, rotations[marker][0])
+
+
+# ---------------------------------------------------------------- traces
+
+
+def trace_of(world: World | str, mapper: Algorithm | str = "basic") -> Trace:
+    """What happens when an algorithm maps a world (or the world of this id)."""
+    return explore(World.from_id(world) if isinstance(world, str) else world, mapper).trace
+
+
+def variant(rule: Callable[[], Rule], motion: Motion = retrace) -> Algorithm:
+    """An algorithm that is not in the catalogue."""
+    return Algorithm("variant", rule, motion)
+
+
+def of_type(kind: type[E], trace: Iterable[Event]) -> list[E]:
+    """The events of one type, in their order."""
+    return [event for event in trace if isinstance(event, kind)]
+
+
+def doors(trace: Iterable[Event], *purposes: str) -> list[int]:
+    """The doors of the moves for these purposes, or of all moves."""
+    moves = of_type(Move, trace)
+    return [move.door for move in moves if not purposes or move.purpose in purposes]
+
+
+def sketch(trace: Iterable[Event]) -> list[str]:
+    """What happens, a word an event: a move is its purpose and door, anything else its type."""
+    return [
+        f"{event.purpose} {event.door}" if isinstance(event, Move) else type(event).__name__.lower()
+        for event in trace
+    ]
+
+
+# ---------------------------------------------------------------- verdicts
+
+
+def statuses(world: World, trace: Sequence[Event]) -> dict[str, Status]:
+    """What becomes of each claim."""
+    return {judgement.claim: judgement.status for judgement in check(world, trace)}
+
+
+def failing(world: World, trace: Sequence[Event]) -> set[str]:
+    """The claims that fail."""
+    return {claim for claim, status in statuses(world, trace).items() if status == "failed"}
+
+
+def edited(trace: Trace, index: int, **changes: Any) -> Trace:
+    """The trace with other fields in one event."""
+    event = msgspec.structs.replace(trace[index], **changes)
+    return (*trace[:index], event, *trace[index + 1 :])
+
+
+def place(trace: Trace, kind: type[Event], nth: int = 0) -> int:
+    """Where the n-th event of a type stands (-1: the last)."""
+    return [index for index, event in enumerate(trace) if isinstance(event, kind)][nth]

@@ -1,0 +1,182 @@
+"""The trace as JSON Lines: a format that scripts rely on, field by field."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given
+
+from tests.helpers import any_world, trace_of
+from topo_verify import InputError, World
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Evidence,
+    Finish,
+    MapData,
+    Move,
+    Policies,
+    Pose,
+    Record,
+    Reject,
+    Start,
+    read_trace,
+    write_trace,
+)
+from topo_verify.robot.percept import Percept
+
+START = Start(algorithm="basic", policies=Policies(), world="m1/0", percept=Percept(1, 0))
+
+EVENTS: list[tuple[Event, dict[str, Any]]] = [
+    (
+        START,
+        {
+            "type": "start", "format": "topo-verify/trace", "version": 1, "algorithm": "basic",
+            "policies": {"pick": "nearest", "order": "shortest"}, "world": "m1/0",
+            "percept": {"degree": 1, "marker": 0},
+        },
+    ),
+    (
+        Start(percept=Percept(0, None)),
+        {
+            "type": "start", "format": "topo-verify/trace", "version": 1, "algorithm": None,
+            "policies": None, "world": None, "percept": {"degree": 0, "marker": None},
+        },
+    ),
+    (
+        Move(2, Percept(3, None), "cross"),
+        {
+            "type": "move", "door": 2, "percept": {"degree": 3, "marker": None},
+            "purpose": "cross",
+        },
+    ),
+    (
+        Move(0, Percept(3, 1)),
+        {"type": "move", "door": 0, "percept": {"degree": 3, "marker": 1}, "purpose": None},
+    ),
+    (Pose(4, (5, 6)), {"type": "pose", "edge": 4, "hypotheses": [5, 6]}),
+    (
+        Reject(4, 5, "motion", Evidence(0, Percept(3, 0), Percept(3, 1))),
+        {
+            "type": "reject", "edge": 4, "hypothesis": 5, "rule": "motion",
+            "evidence": {
+                "step": 0,
+                "expected": {"degree": 3, "marker": 0},
+                "observed": {"degree": 3, "marker": 1},
+            },
+        },
+    ),
+    (
+        Reject(
+            4, 5, "records",
+            Evidence(1, Percept(2, None), Percept(3, 1), sequence=0, at=7, record=Record(7, (1,))),
+        ),
+        {
+            "type": "reject", "edge": 4, "hypothesis": 5, "rule": "records",
+            "evidence": {
+                "step": 1,
+                "expected": {"degree": 2, "marker": None},
+                "observed": {"degree": 3, "marker": 1},
+                "sequence": 0, "at": 7, "record": {"dart": 7, "doors": [1]},
+            },
+        },
+    ),
+    (
+        Confirm(4, 6, "motion"),
+        {"type": "confirm", "edge": 4, "hypothesis": 6, "rule": "motion"},
+    ),
+    (
+        Augment(4, "loop", 6, 3),
+        {"type": "augment", "edge": 4, "kind": "loop", "dart": 6, "degree": 3},
+    ),
+    (
+        Finish(5, MapData(((0,), (1,)), ((0, 1),), 0)),
+        {
+            "type": "finish", "cost": 5,
+            "map": {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0},
+        },
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("event", "expected"), EVENTS)
+def test_an_event_is_written_with_exactly_these_fields(
+    event: Event, expected: dict[str, Any]
+) -> None:
+    written = json.loads(write_trace([event]))
+    assert written == expected
+    assert list(written) == list(expected)
+
+
+@pytest.mark.parametrize("rule", ["motion", "prefix", "history", "records", "folding", "planar"])
+def test_a_rule_has_one_of_the_names_of_the_interface(rule: str) -> None:
+    line = {"type": "confirm", "edge": 0, "hypothesis": 1, "rule": rule}
+    trace = read_trace(write_trace([START]) + json.dumps(line).encode())
+    assert isinstance(trace[1], Confirm)
+    assert trace[1].rule == rule
+
+
+def test_what_was_written_is_read_back_a_line_an_event() -> None:
+    trace = (START, *(event for event, _ in EVENTS[2:]))
+    text = write_trace(trace)
+    assert text.count(b"\n") == len(trace)
+    assert read_trace(text) == trace
+
+
+@given(world=any_world(max_edges=5))
+def test_real_traces_survive_the_round_trip(world: World) -> None:
+    trace = trace_of(world, "enhancement-iii-all+i")
+    assert read_trace(write_trace(trace)) == trace
+
+
+def test_a_trace_may_hold_only_start_and_moves_without_purposes_and_more_fields() -> None:
+    text = (
+        b'{"type":"start","format":"topo-verify/trace","version":1,'
+        b'"percept":{"degree":1,"marker":0},"made_by":"hand"}\n\n'
+        b'{"type":"move","door":0,"percept":{"degree":1,"marker":null}}\n'
+    )
+    assert read_trace(text) == (
+        Start(percept=Percept(1, 0)),
+        Move(0, Percept(1, None)),
+    )
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"{",
+        b"7",
+        b"[]",
+        b'"start"',
+        b"{}",
+        b'{"type":"jump"}',
+        b'{"type":"move"}',
+        b'{"type":"move","door":"0","percept":{"degree":1,"marker":0}}',
+        b'{"type":"move","door":0,"percept":{"degree":1}}',
+        b'{"type":"move","door":0,"percept":{"degree":1,"marker":0},"purpose":"fun"}',
+        b'{"type":"augment","edge":0,"kind":"half","dart":1,"degree":1}',
+        b'{"type":"confirm","edge":0,"hypothesis":1,"rule":"instinct"}',
+        b'{"type":"start","format":"other/trace","percept":{"degree":1,"marker":0}}',
+        b"\xff\xfe",
+        b"[" * 100_000,
+        b'{"type":"finish","cost":1e999,"map":null}',
+    ],
+)
+def test_a_line_that_is_no_event_is_refused_by_its_number(line: bytes) -> None:
+    with pytest.raises(InputError, match=r"^t\.jsonl, line 2: no event of a trace: "):
+        read_trace(write_trace([START]) + line, name="t.jsonl")
+
+
+@pytest.mark.parametrize("trace", [[], [Move(0, Percept(1, None))]])
+def test_a_trace_begins_with_start(trace: list[Event]) -> None:
+    with pytest.raises(InputError, match="begins with a line of type 'start'"):
+        read_trace(write_trace(trace))
+
+
+def test_a_newer_version_is_refused_with_what_to_do() -> None:
+    newer = write_trace([START]).replace(b'"version":1', b'"version":2')
+    with pytest.raises(InputError, match=r"version 2 is newer than 1, .* update it"):
+        read_trace(newer)

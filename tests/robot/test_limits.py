@@ -1,0 +1,236 @@
+"""Limits: what stops a mapper that moves too much, too slowly, or not at all."""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+from collections.abc import Callable, Generator
+from contextlib import contextmanager, suppress
+from itertools import count
+
+import pytest
+
+from topo_verify.robot import limits
+from topo_verify.robot.limits import (
+    BudgetExceeded,
+    Limits,
+    MapperStopped,
+    MoveTimeout,
+    TimeLimitExceeded,
+    WorldTimeout,
+    time_limits,
+)
+
+SHORT = Limits(move_timeout=0.15, world_timeout=600)
+
+
+def still() -> int:
+    """The cost of a mapper that does not move."""
+    return 0
+
+
+def loop() -> None:
+    """Compute for ever."""
+    while True:
+        pass
+
+
+def sleep() -> None:
+    """Sleep for longer than any limit here."""
+    time.sleep(30)
+
+
+@contextmanager
+def in_time(seconds: float = 25) -> Generator[None]:
+    """Not a hang: the block is over soon (allowing for a machine that is busy)."""
+    start = time.monotonic()
+    yield
+    assert time.monotonic() - start < seconds
+
+
+def here(work: Callable[[], None]) -> None:
+    """Do the work in the main thread."""
+    work()
+
+
+def elsewhere(work: Callable[[], None]) -> None:
+    """Do the work in another thread than the main one; what it raises is raised here."""
+    raised: list[BaseException] = []
+
+    def body() -> None:
+        try:
+            work()
+        except BaseException as error:  # noqa: BLE001  it is handed over
+            raised.append(error)
+
+    thread = threading.Thread(target=body)
+    thread.start()
+    thread.join()
+    if raised:
+        raise raised[0]
+
+
+def guarded(mapper: Callable[[], None], bounds: Limits = SHORT) -> None:
+    """Run a mapper that never moves under these limits."""
+    with time_limits(bounds, still):
+        mapper()
+
+
+@pytest.mark.parametrize("mapper", [loop, sleep])
+def test_a_mapper_that_does_not_move_is_stopped_in_the_main_thread(
+    mapper: Callable[[], None],
+) -> None:
+    with in_time(), pytest.raises(TimeLimitExceeded, match=r"did not move for 0\.15 s"):
+        guarded(mapper)
+
+
+def test_a_mapper_that_does_not_move_is_stopped_in_another_thread() -> None:
+    with in_time(), pytest.raises(TimeLimitExceeded, match=r"did not move for 0\.15 s"):
+        elsewhere(lambda: guarded(loop))
+
+
+@pytest.mark.parametrize("where", [here, elsewhere])
+def test_a_mapper_that_moves_all_the_time_is_stopped_by_the_other_limit(
+    where: Callable[[Callable[[], None]], None],
+) -> None:
+    moves = count()
+
+    def work() -> None:
+        with time_limits(Limits(move_timeout=600, world_timeout=0.2), lambda: next(moves)):
+            loop()
+
+    with in_time(), pytest.raises(WorldTimeout, match=r"after 0\.2 s in this world"):
+        where(work)
+
+
+@pytest.mark.parametrize("where", [here, elsewhere])
+def test_a_mapper_in_time_notices_nothing(where: Callable[[Callable[[], None]], None]) -> None:
+    done: list[bool] = []
+
+    def work() -> None:
+        with time_limits(Limits(move_timeout=1, world_timeout=2), still):
+            time.sleep(0.6)  # a tick or two pass
+            done.append(True)
+
+    where(work)
+    assert done == [True]
+
+
+@pytest.mark.parametrize("where", [here, elsewhere])
+def test_what_the_mapper_raises_passes_through(
+    where: Callable[[Callable[[], None]], None],
+) -> None:
+    def fail() -> None:
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        where(lambda: guarded(fail))
+
+
+def test_without_an_alarm_clock_the_main_thread_is_watched_by_another(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.delattr(signal, "setitimer")
+    with in_time(), pytest.raises(TimeLimitExceeded, match="did not move"):
+        guarded(loop)
+
+
+def test_no_watching_thread_is_left_behind() -> None:
+    before = threading.active_count()
+    elsewhere(lambda: guarded(lambda: None))
+    assert threading.active_count() == before
+
+
+def test_the_callers_own_alarm_and_handler_are_restored() -> None:
+    rung: list[int] = []
+
+    def mine(number: int, _frame: object) -> None:
+        rung.append(number)
+
+    before = signal.signal(signal.SIGALRM, mine)
+    signal.setitimer(signal.ITIMER_REAL, 0.5)
+    try:
+        with pytest.raises(TimeLimitExceeded):
+            guarded(loop)
+        assert signal.getsignal(signal.SIGALRM) is mine
+        assert 0 < signal.getitimer(signal.ITIMER_REAL)[0] <= 0.5
+        signal.pause()
+        assert rung == [signal.SIGALRM]
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def test_limits_within_limits_stop_the_inner_mapper_and_leave_the_outer_running() -> None:
+    with time_limits(Limits(move_timeout=600, world_timeout=600), still):
+        with pytest.raises(TimeLimitExceeded, match=r"0\.15 s"):
+            guarded(loop)
+        assert signal.getitimer(signal.ITIMER_REAL)[0] > 0
+
+
+def test_a_last_tick_while_the_limits_are_lifted_does_not_keep_the_handler(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    before = signal.getsignal(signal.SIGALRM)
+    real, calls = signal.setitimer, list[float]()
+
+    def late(which: int, seconds: float, interval: float = 0.0) -> tuple[float, float]:
+        calls.append(seconds)
+        if len(calls) == 2:  # the first call sets the clock, the second one stops it
+            time.sleep(0.1)
+            signal.raise_signal(signal.SIGALRM)
+        return real(which, seconds, interval)
+
+    monkeypatch.setattr(signal, "setitimer", late)
+    with pytest.raises(TimeLimitExceeded):
+        guarded(lambda: None, Limits(move_timeout=0.05, world_timeout=600))
+    assert signal.getsignal(signal.SIGALRM) == before
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("where", [here, elsewhere])
+def test_a_mapper_that_swallows_the_exception_and_returns_is_stopped_all_the_same(
+    where: Callable[[Callable[[], None]], None],
+) -> None:
+    def swallow() -> None:
+        with suppress(BaseException):
+            loop()
+
+    with in_time(), pytest.raises(MoveTimeout, match="did not move"):
+        where(lambda: guarded(swallow))
+
+
+@pytest.mark.parametrize(
+    ("stop", "limit"),
+    [
+        (MapperStopped, None),
+        (BudgetExceeded, "budget"),
+        (MoveTimeout, "move-timeout"),
+        (WorldTimeout, "world-timeout"),
+    ],
+)
+def test_an_exception_names_the_option_whose_limit_was_reached(
+    stop: type[MapperStopped], limit: str | None
+) -> None:
+    assert stop.limit == limit
+
+
+@pytest.mark.parametrize(
+    ("bounds", "words"),
+    [
+        (Limits(), ()),
+        (Limits(budget=0), ("--budget", "0")),
+        (Limits(move_timeout=0.5), ("--move-timeout", "0.5")),
+        (Limits(7, 1, 2), ("--budget", "7", "--move-timeout", "1", "--world-timeout", "2")),
+    ],
+)
+def test_limits_know_their_options_on_the_command_line(
+    bounds: Limits, words: tuple[str, ...]
+) -> None:
+    assert bounds.options == words
+
+
+def test_the_default_limits_are_those_of_the_command_line() -> None:
+    assert Limits() == Limits(budget=None, move_timeout=5.0, world_timeout=60.0)
+    assert limits.TICK < 0.1

@@ -1,0 +1,162 @@
+"""The simulated robot: what it meters, what it records, and what it refuses."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from topo_verify import World
+from topo_verify.robot.events import Augment, Confirm, Evidence, Finish, Move, Pose, Reject, Start
+from topo_verify.robot.limits import BudgetExceeded, MapperStopped
+from topo_verify.robot.percept import Percept
+from topo_verify.robot.simulator import Misuse, SimulatedRobot
+
+
+@pytest.fixture
+def robot() -> SimulatedRobot:
+    """At the marker of m2/5: three doors, the outer two of them the ends of a loop."""
+    return SimulatedRobot(World.from_id("m2/5"), 10)
+
+
+def test_every_move_costs_one_and_is_recorded_with_what_was_sensed(robot: SimulatedRobot) -> None:
+    seen = [robot.move(1, "cross"), robot.move(0)]
+    assert robot.cost == 2
+    assert robot.events == [Move(1, seen[0], "cross"), Move(0, seen[1])]
+    assert robot.percept == seen[1] == Percept(3, 2)
+
+
+def test_looking_and_declaring_cost_nothing(robot: SimulatedRobot) -> None:
+    robot.declare(Pose(0, (1, 2)))
+    assert (robot.cost, robot.percept, robot.stopped) == (0, Percept(3, 0), None)
+
+
+@pytest.mark.parametrize("door", [3, -1, 10**30, 1.0, "1", None, True, False, [], float("nan")])
+def test_a_door_that_is_not_there_stops_the_robot(robot: SimulatedRobot, door: Any) -> None:
+    with pytest.raises(Misuse, match=r"the mapper asked for door .* at a vertex with 3 doors"):
+        robot.move(door)
+    assert (robot.cost, robot.events) == (0, [])
+
+
+def test_a_world_without_a_dart_has_no_door_at_all() -> None:
+    with pytest.raises(Misuse, match="at a vertex with 0 doors"):
+        SimulatedRobot(World((), (), None), 10).move(0)
+
+
+def test_a_door_may_be_any_integer_type_and_is_recorded_as_an_integer() -> None:
+    # In eight bits the arithmetic of doors would run over: the vertex has 200 exits.
+    robot = SimulatedRobot(World.from_code(((200, *[1] * 200), star(200))), 4)
+    robot.move(np.int8(127))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    robot.move(np.int8(0))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    robot.move(np.int8(127))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    assert robot.move(0).marker == (200 - 127 - 127) % 200
+    assert all(type(event.door) is int for event in robot.events if isinstance(event, Move))
+
+
+def star(leaves: int) -> tuple[int, ...]:
+    """The other ends of the darts of a star: its centre's, then its leaves'."""
+    return (*range(leaves, 2 * leaves), *range(leaves))
+
+
+@pytest.mark.parametrize("purpose", ["fun", "", 1, object()])
+def test_a_move_is_for_one_of_the_known_purposes(robot: SimulatedRobot, purpose: Any) -> None:
+    with pytest.raises(Misuse, match="there are walk, cross, validate, retrace"):
+        robot.move(0, purpose)
+    assert robot.cost == 0
+
+
+@pytest.mark.parametrize("budget", [0, -1])
+def test_one_move_more_than_the_budget_stops_the_robot(budget: int) -> None:
+    with pytest.raises(BudgetExceeded, match=f"more than {budget} moves"):
+        SimulatedRobot(World.from_id("m1/0"), budget).move(0)
+
+
+def test_the_whole_budget_can_be_used() -> None:
+    robot = SimulatedRobot(World.from_id("m1/0"), 2)
+    robot.move(0)
+    robot.move(0)
+    with pytest.raises(BudgetExceeded):
+        robot.move(0)
+    assert robot.cost == 2
+
+
+def test_once_stopped_it_does_nothing_more_and_always_says_the_first_reason(
+    robot: SimulatedRobot,
+) -> None:
+    with pytest.raises(Misuse) as first:
+        robot.move(7)
+    for attempt in (
+        lambda: robot.move(0),
+        lambda: robot.declare(Pose(0, ())),
+        lambda: robot.move(9),
+    ):
+        with pytest.raises(Misuse) as again:
+            attempt()
+        assert again.value is first.value is robot.stopped
+    assert robot.events == []
+
+
+def test_what_stops_a_mapper_is_no_exception_that_it_would_catch_by_accident() -> None:
+    assert not issubclass(MapperStopped, Exception)
+
+
+@pytest.mark.parametrize(
+    ("told", "meant"),
+    [
+        ({"type": "pose", "edge": 0, "hypotheses": [1, 2]}, Pose(0, (1, 2))),
+        (
+            {"type": "confirm", "edge": 0, "hypothesis": 2, "rule": "motion"},
+            Confirm(0, 2, "motion"),
+        ),
+        (
+            {"type": "augment", "edge": 0, "kind": "loop", "dart": 2, "degree": 3},
+            Augment(0, "loop", 2, 3),
+        ),
+        (
+            {
+                "type": "reject", "edge": 0, "hypothesis": 1, "rule": "motion",
+                "evidence": {
+                    "step": 0,
+                    "expected": {"degree": 3, "marker": 2},
+                    "observed": {"degree": 3, "marker": 1},
+                },
+            },
+            Reject(0, 1, "motion", Evidence(0, Percept(3, 2), Percept(3, 1))),
+        ),
+    ],
+)  # fmt: skip
+def test_a_decision_may_be_declared_as_an_event_or_as_its_json(
+    robot: SimulatedRobot, told: dict[str, Any], meant: Pose
+) -> None:
+    robot.declare(told)
+    robot.declare(meant)
+    assert robot.events == [meant, meant]
+
+
+@pytest.mark.parametrize(
+    "nonsense",
+    [
+        None,
+        7,
+        "pose",
+        object(),
+        {},
+        {"type": "pose"},
+        {"type": "pose", "edge": "0", "hypotheses": []},
+        {"type": "pose", "edge": 0.5, "hypotheses": []},
+        {"type": "pose", "edge": True, "hypotheses": []},
+        {"type": "confirm", "edge": 0, "hypothesis": 1, "rule": "instinct"},
+        {"type": "move", "door": 0, "percept": {"degree": 3, "marker": 0}},
+        Move(0, Percept(3, 0)),
+        Start(percept=Percept(3, 0)),
+        Pose(0, None),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+        Pose("0", ()),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+        Finish,
+    ],
+)
+def test_what_is_no_decision_stops_the_robot(robot: SimulatedRobot, nonsense: Any) -> None:
+    with pytest.raises(Misuse, match="the mapper declared what is no decision: "):
+        robot.declare(nonsense)
+    assert robot.events == []
+    assert robot.stopped is not None

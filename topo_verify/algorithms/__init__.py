@@ -1,0 +1,106 @@
+"""The catalogue: an algorithm is a rule, a motion and two policies around one exploration loop.
+
+    chart.py            the map S                        exploration.py     the loop of listings 1-3
+    motion.py           excursions: retrace, overlap     policies.py        pick and order
+    basic.py            rule `none`                      enhancement_i.py   rule `prefix`
+    enhancement_ii.py   rule `history`                   enhancement_iii.py rule `records`
+
+Nothing here can see a world: these files import `robot.percept`, `robot.events` and the standard
+library, and a test holds them to it.
+
+Source: SPEC section 6.
+"""
+
+from __future__ import annotations
+
+if __name__ != "topo_verify.algorithms":
+    raise ImportError(
+        f"this package is topo_verify.algorithms; as {__name__!r} its classes would exist twice"
+    )
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from topo_verify.algorithms import policies as choices
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Survey
+from topo_verify.algorithms.enhancement_i import PrefixRule
+from topo_verify.algorithms.enhancement_ii import HistoryRule
+from topo_verify.algorithms.enhancement_iii import RecordsRule
+from topo_verify.algorithms.exploration import Rule, explore
+from topo_verify.algorithms.motion import Motion, overlap, retrace
+from topo_verify.robot.events import Policies
+from topo_verify.robot.percept import Robot
+
+__all__ = ["CATALOGUE", "REFERENCE", "Algorithm", "Policies", "Rule", "algorithm"]
+
+REFERENCE = Policies("nearest", "shortest")
+"""The policies that define the reference costs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Algorithm:
+    """A mapper of the catalogue: call it with a robot, it returns its map and its cost.
+
+    Attributes:
+        name: as in the catalogue.
+        rule: makes the rule for one run.
+        motion: `retrace` or `overlap`.
+        policies: which edge next, which hypothesis first.
+    """
+
+    name: str
+    rule: Callable[[], Rule]
+    motion: Motion
+    policies: Policies = REFERENCE
+
+    def __call__(self, robot: Robot) -> Survey:
+        """Explore the robot's world. Deterministic: the same world gives the same run."""
+        return explore(
+            robot,
+            rule=self.rule(),
+            motion=self.motion,
+            pick=choices.pick_policy(self.policies.pick),
+            order=choices.order_policy(self.policies.order),
+        )
+
+    def with_policies(self, *, pick: str | None = None, order: str | None = None) -> Algorithm:
+        """The same algorithm with other policies.
+
+        Raises:
+            ValueError: no such policy; the sentence lists them.
+        """
+        ours = self.policies
+        theirs = Policies(pick or ours.pick, order or ours.order)
+        return replace(self, policies=choices.check(theirs))
+
+
+def _one_level() -> Rule:
+    return RecordsRule(levels=1)
+
+
+CATALOGUE: dict[str, Algorithm] = {
+    algorithm.name: algorithm
+    for algorithm in (
+        Algorithm("basic", NoRule, retrace),
+        Algorithm("enhancement-i", PrefixRule, overlap),
+        Algorithm("enhancement-ii", HistoryRule, retrace),
+        Algorithm("enhancement-ii+i", HistoryRule, overlap),
+        Algorithm("enhancement-iii-one", _one_level, retrace),
+        Algorithm("enhancement-iii-one+i", _one_level, overlap),
+        Algorithm("enhancement-iii-all", RecordsRule, retrace),
+        Algorithm("enhancement-iii-all+i", RecordsRule, overlap),
+    )
+}
+"""Every algorithm under its name, from the weakest rule to the strongest."""
+
+
+def algorithm(name: str) -> Algorithm:
+    """The algorithm of this name.
+
+    Raises:
+        ValueError: no such algorithm; the sentence lists them.
+    """
+    if name not in CATALOGUE:
+        raise ValueError(f"no algorithm {name!r}: there are {', '.join(CATALOGUE)}")
+    return CATALOGUE[name]

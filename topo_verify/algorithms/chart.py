@@ -1,0 +1,133 @@
+"""The map S that a mapper draws while it explores.
+
+A new vertex's darts are numbered consecutively, clockwise from the dart by which it was entered
+(v0: from the dart that the marker points at, which so is dart 0). A vertex is therefore an interval
+of darts, and turning is addition modulo its degree:
+
+    letter   what it is                                              e.g.
+    e, h     darts of S: the edge being validated, a hypothesis       7
+    vk, vu   vertices: where e leaves, where it arrives (unknown)     2
+    U        the unexplored darts: their other end is not known yet   {3, 7, 8}
+
+`alpha` is known on explored darts only. What S says is true for ever: S only grows.
+
+Source: SPEC section 3; "S" and "U" of the paper's listings 1-3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from topo_verify.robot.percept import Door, Percept
+
+Dart = int
+Vertex = int
+
+
+class Survey(NamedTuple):
+    """What a mapper of the catalogue returns: its map, and what it cost in edge traversals."""
+
+    vertices: tuple[tuple[Dart, ...], ...]
+    edges: tuple[tuple[Dart, Dart], ...]
+    marker: Dart | None
+    cost: int
+
+
+class Tree(NamedTuple):
+    """Breadth-first search from a root: per vertex its distance and its dart towards the root.
+
+    A vertex that was not reached (the search may stop early) has distance -1.
+    """
+
+    depth: list[int]
+    parent: list[Dart | None]
+
+
+class Chart:
+    """S, from one vertex to the whole world. Grows by `add_vertex` and `join`, never shrinks.
+
+    Attributes, per dart: `vertex`, `alpha` (None: unexplored), `percepts` (what the robot senses
+    with that dart as its reference dart). Per vertex: `first` dart and `degree`. `unexplored` is U,
+    ascending.
+    """
+
+    def __init__(self, percept: Percept) -> None:
+        """S with v0 alone. The marked dart is dart 0, so the percept at the start has marker 0."""
+        self.first: list[Dart] = []
+        self.degree: list[int] = []
+        self.vertex: list[Vertex] = []
+        self.alpha: list[Dart | None] = []
+        self.percepts: list[Percept] = []
+        self.unexplored: dict[Dart, None] = {}  # a dict keeps ascending order, a set does not
+        self.add_vertex(percept)
+
+    def add_vertex(self, percept: Percept) -> Dart:
+        """A vertex, seen from its first dart. Returns that dart."""
+        first = len(self.alpha)
+        self.vertex += [len(self.first)] * percept.degree
+        self.first.append(first)
+        self.degree.append(percept.degree)
+        self.alpha += [None] * percept.degree
+        for door in range(percept.degree):
+            marker = None if percept.marker is None else (percept.marker - door) % percept.degree
+            self.percepts.append(Percept(percept.degree, marker))
+            self.unexplored[first + door] = None
+        return first
+
+    def join(self, e: Dart, other: Dart) -> None:
+        """The two darts are the two ends of one edge."""
+        self.alpha[e], self.alpha[other] = other, e
+        self.unexplored.pop(e, None)
+        self.unexplored.pop(other, None)
+
+    def turn(self, dart: Dart, door: Door) -> Dart:
+        """The dart that a door means to a robot with this reference dart: sigma^door(dart)."""
+        v = self.vertex[dart]
+        first = self.first[v]
+        return first + (dart - first + door) % self.degree[v]
+
+    def door(self, dart: Dart, exit_dart: Dart) -> Door:
+        """The door through which a robot with reference dart `dart` leaves by `exit_dart`."""
+        return (exit_dart - dart) % self.degree[self.vertex[dart]]
+
+    def across(self, dart: Dart) -> Dart:
+        """The other end of an explored dart."""
+        other = self.alpha[dart]
+        assert other is not None, f"dart {dart} is unexplored"
+        return other
+
+    def darts(self, v: Vertex) -> range:
+        """The darts of a vertex, clockwise from its first."""
+        return range(self.first[v], self.first[v] + self.degree[v])
+
+    def outward(self, root: Vertex) -> Iterator[tuple[Vertex, int, Dart | None]]:
+        """Breadth-first search on S: vertex, distance, dart towards the root; queue order.
+
+        Darts are scanned in ascending order. Lazy: costs what is taken from it.
+        """
+        seen = {root}
+        queue: list[tuple[Vertex, int, Dart | None]] = [(root, 0, None)]
+        for v, distance, back in queue:  # grows as it goes
+            yield v, distance, back
+            for dart in self.darts(v):
+                other = self.alpha[dart]
+                if other is not None and self.vertex[other] not in seen:
+                    seen.add(self.vertex[other])
+                    queue.append((self.vertex[other], distance + 1, other))
+
+    def tree(self, root: Vertex, *, until: Vertex | None = None) -> Tree:
+        """The breadth-first tree rooted at a vertex; complete, or until `until` is reached."""
+        depth = [-1] * len(self.first)
+        parent: list[Dart | None] = [None] * len(self.first)
+        for v, distance, back in self.outward(root):
+            depth[v], parent[v] = distance, back
+            if v == until:
+                break
+        return Tree(depth, parent)
+
+    def survey(self, cost: int) -> Survey:
+        """The map as it is delivered."""
+        rotations = tuple(tuple(self.darts(v)) for v in range(len(self.first)))
+        edges = tuple((d, o) for d, o in enumerate(self.alpha) if o is not None and d < o)
+        return Survey(rotations, edges, 0 if self.alpha else None, cost)

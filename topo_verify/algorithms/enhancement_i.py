@@ -1,0 +1,40 @@
+"""Enhancement I, stage 1: what was seen on the common prefix of doors (rule `prefix`).
+
+Two hypotheses whose ways home begin with the same doors lead from vu through the same places. What
+was seen there for one must be what the other expects there. (Stage 2, walking only what is not
+shared, is `motion.overlap`.)
+
+Source: section III-A of the paper; listing 2, lines 16-19.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
+from topo_verify.robot.events import Evidence, Rule
+
+
+class PrefixRule(NoRule):
+    """Compares the last sequence with the hypothesis' own way home; remembers nothing."""
+
+    name: Rule = "prefix"
+
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Evidence | None:
+        """The first percept on the common prefix that the hypothesis does not expect, if any."""
+        last = sequences[-1]
+        shared = common_prefix(hypothesis.doors, last.doors)  # A2.17
+        for step in range(1, shared + 1):
+            if last.percepts[step] != hypothesis.expected[step]:  # A2.18
+                return Evidence(
+                    step,
+                    hypothesis.expected[step],
+                    last.percepts[step],
+                    sequence=len(sequences) - 1,
+                    at=hypothesis.arrivals[step],
+                )
+        return None

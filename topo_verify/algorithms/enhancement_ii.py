@@ -1,0 +1,51 @@
+"""Enhancement II: every sequence executed for this edge, traced on S (rule `history`).
+
+Assume the hypothesis h. Then the robot entered vu by dart h of S, and each door of an executed
+sequence means a known exit, as long as tracing stays on explored edges; there what was seen must be
+what S shows. Crossing an unexplored dart ends the tracing, e and h themselves included: nothing is
+known of the place behind.
+
+Source: section III-B of the paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.robot.events import Evidence, Rule
+
+
+class HistoryRule(NoRule):
+    """Traces the last sequence from the hypothesis; remembers nothing beyond this edge."""
+
+    name: Rule = "history"
+
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Evidence | None:
+        """The first percept that S does not show where the sequence leads from dart h, if any.
+
+        Earlier sequences were traced when they were executed, and S has not changed since.
+        """
+        last, number = sequences[-1], len(sequences) - 1
+        at = hypothesis.dart  # A3.10
+        for step, door in enumerate(last.doors, 1):
+            exit_dart = chart.turn(at, door)
+            arrival = chart.alpha[exit_dart]
+            if arrival is None:
+                return self.beyond(exit_dart, last, step, number)  # A3.13
+            at = arrival  # A3.11
+            if chart.percepts[at] != last.percepts[step]:  # A3.12 A3.15
+                return Evidence(
+                    step, chart.percepts[at], last.percepts[step], sequence=number, at=at
+                )
+        return None
+
+    def beyond(
+        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+    ) -> Evidence | None:
+        """What contradicts step `step` of a sequence behind an unexplored dart. Here: nothing."""
+        return None

@@ -1,0 +1,92 @@
+"""Enhancement III: what was seen behind unexplored darts is kept for later (rule `records`).
+
+Once vu is known, the sequences executed for e lead on S from a known dart. Where one crosses an
+unexplored dart d, the percepts behind it are recorded in T[d]: the first only (one-level), or all
+of them in a trie by further relative doors (all-level). When a later hypothesis is traced across d,
+they are compared as S itself is. Records stay true for ever: they are relative to a known dart, and
+S only grows. T[d] is dropped when d is explored: from then on S knows better.
+
+While e is validated, e and h count as unexplored, so T[e] and T[h] are consulted where tracing
+crosses them, and nowhere else.
+
+Source: section III-C of the paper; listing 3, lines 3, 10-16, 29.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.enhancement_ii import HistoryRule
+from topo_verify.algorithms.motion import Executed
+from topo_verify.robot.events import Evidence, Record, Rule
+from topo_verify.robot.percept import Door, Percept
+
+
+class Seen:
+    """A place behind an unexplored dart: its percept, and by door the places seen behind it."""
+
+    __slots__ = ("behind", "percept")
+
+    def __init__(self, percept: Percept) -> None:
+        self.percept = percept
+        self.behind: dict[Door, Seen] = {}
+
+
+class RecordsRule(HistoryRule):
+    """`history`, and T beyond the explored edges. T lives as long as the exploration.
+
+    Args:
+        levels: how many places deep records go; None: as deep as was seen.
+    """
+
+    name: Rule = "records"
+
+    def __init__(self, levels: int | None = None) -> None:
+        self.levels = levels
+        self.records: dict[Dart, Seen] = {}  # T: A3.3
+
+    def beyond(
+        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+    ) -> Evidence | None:
+        """The first recorded percept behind the dart that the sequence contradicts, if any."""
+        place = self.records.get(exit_dart)  # A3.14
+        first = step
+        while place is not None:
+            if place.percept != sequence.percepts[step]:
+                record = Record(exit_dart, sequence.doors[first:step])
+                return Evidence(
+                    step,
+                    place.percept,
+                    sequence.percepts[step],
+                    sequence=number,
+                    at=exit_dart,
+                    record=record,
+                )
+            if step == len(sequence.doors):
+                break
+            place = place.behind.get(sequence.doors[step])
+            step += 1
+        return None
+
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        """Record what the sequences showed behind unexplored darts of the S that has just grown."""
+        self.records.pop(e, None)
+        self.records.pop(entry, None)
+        for sequence in sequences:  # A3.29
+            at = entry
+            for step, door in enumerate(sequence.doors, 1):
+                exit_dart = chart.turn(at, door)
+                arrival = chart.alpha[exit_dart]
+                if arrival is None:
+                    self._record(exit_dart, sequence, step)
+                    break
+                at = arrival
+
+    def _record(self, exit_dart: Dart, sequence: Executed, step: int) -> None:
+        place = self.records.setdefault(exit_dart, Seen(sequence.percepts[step]))
+        deepest = len(sequence.doors) if self.levels is None else step + self.levels - 1
+        for deeper in range(step + 1, min(deepest, len(sequence.doors)) + 1):
+            place = place.behind.setdefault(
+                sequence.doors[deeper - 1], Seen(sequence.percepts[deeper])
+            )

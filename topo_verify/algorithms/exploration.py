@@ -1,0 +1,150 @@
+"""The exploration loop that listings 1, 2 and 3 share.
+
+    the paper's name   here
+    S, U               chart, chart.unexplored
+    e = (vk, vu)       e: the dart that leaves vk
+    e', e''            h: a hypothesis, the dart by which vu would have been entered
+    H                  remaining, in the order of the order policy
+    PE, P              h.expected, pilot.percepts
+
+`# A2.7` marks line 7 of listing 2 (listing 1: the basic algorithm, 2: Enhancement I, 3: Enhancement
+III all-level). Two independent choices make an algorithm of this loop: the *rule*, which rejects
+hypotheses without motion, and the *motion* between hypotheses.
+
+Source: H. Wang, M. Jenkin, P. Dymond, on enhancing topological exploration with a single
+directional immovable marker, listings 1-3; after G. Dudek, M. Jenkin, E. Milios, D. Wilkes,
+"Robotic exploration as graph construction", IEEE Trans. Robotics and Automation 7(6), 1991.
+Differs: the paper says neither which e, nor which path, nor which order: SPEC sections 4-6 do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from topo_verify.algorithms.chart import Chart, Dart, Survey
+from topo_verify.algorithms.motion import Executed, Hypothesis, Motion, Pilot
+from topo_verify.algorithms.policies import Order, Pick
+from topo_verify.robot.events import Augment, Confirm, Evidence, Pose, Reject
+from topo_verify.robot.events import Rule as RuleName
+from topo_verify.robot.percept import Percept, Robot
+
+
+class Rule(Protocol):
+    """How hypotheses are rejected without motion. Made anew for each run, may remember."""
+
+    @property
+    def name(self) -> RuleName:
+        """What it is called in the trace."""
+        ...
+
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Evidence | None:
+        """Why the hypothesis is false, judged by the last sequence; None if it may be true.
+
+        Called after each mismatch, for each remaining hypothesis: the sequences before the last
+        one have been put to the same hypothesis already.
+        """
+        ...
+
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        """S has just grown: the robot had crossed e and come in by dart `entry`."""
+        ...
+
+
+def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Order) -> Survey:
+    """Map the robot's world; the map and its cost in edge traversals. At most O(m²n) of them."""
+    chart = Chart(robot.percept)  # A1.1 A1.2 A2.1 A2.2 A3.1 A3.2
+    pilot = Pilot(robot)
+    at: Dart = 0  # the robot's reference dart, on S
+    while chart.unexplored:  # A1.3 A2.3 A3.4
+        e = pick(chart, at)  # A1.4 A2.4 A3.5
+        del chart.unexplored[e]
+        at = pilot.walk(chart, at, chart.vertex[e])  # A1.5 A2.5 A3.6
+        percept = pilot.cross(chart, at, e)
+        remaining = hypotheses(chart, percept, order)  # A1.6 A2.6 A3.7
+        robot.declare(Pose(e, tuple(h.dart for h in remaining)))
+        sequences: list[Executed] = []
+        h = validate(pilot, chart, e, remaining, sequences, rule=rule, motion=motion)
+        if h is not None:  # A1.16 A2.24 A3.25
+            chart.join(e, h.dart)  # loop augmentation: A1.17 A2.25 A3.26
+            robot.declare(Augment(e, "loop", h.dart, percept.degree))
+            entry = h.dart
+        else:  # A1.18 A2.26 A3.27
+            pilot.back(0)  # the last hypothesis' way: A1.15 A3.24
+            entry = chart.add_vertex(percept)
+            chart.join(e, entry)  # non-loop augmentation: A1.19 A2.27 A3.28
+            robot.declare(Augment(e, "new", entry, percept.degree))
+        rule.learn(chart, e, entry, sequences)
+        at = where(pilot, chart, entry)
+    return chart.survey(pilot.cost)  # A1.20 A2.28 A3.30
+
+
+def hypotheses(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+    """H: the unexplored darts at vertices that look like vu, in the order in which to try them."""
+    alike = [h for h in chart.unexplored if chart.percepts[h].signature == percept.signature]
+    if not alike:
+        return []
+    tree = chart.tree(0)
+    return [Hypothesis(h, chart, tree) for h in order(alike, chart, tree)]
+
+
+def validate(
+    pilot: Pilot,
+    chart: Chart,
+    e: Dart,
+    remaining: list[Hypothesis],
+    sequences: list[Executed],
+    *,
+    rule: Rule,
+    motion: Motion,
+) -> Hypothesis | None:
+    """The hypothesis that is confirmed, or None if all are rejected. Appends what was executed."""
+    declare = pilot.robot.declare
+    while remaining:  # A1.7 A2.10 A2.20 A2.21 A3.8
+        h, shared = motion(remaining, sequences[-1] if sequences else None)
+        remaining.remove(h)  # A1.8 A2.7 A3.9
+        step = execute(pilot, h, shared)
+        if step is None:  # A1.12 A2.12 A3.21
+            declare(Confirm(e, h.dart, "motion"))  # A1.13 A2.13 A3.22
+            return h
+        # The percepts differ: A1.14 A2.14 A3.23. The robot stays: A2.15.
+        declare(Reject(e, h.dart, "motion", Evidence(step, h.expected[step], pilot.percepts[step])))
+        if not pilot.doors:  # vu shows the marker: nothing was executed that a rule could use
+            continue
+        sequences.append(pilot.executed())
+        kept: list[Hypothesis] = []
+        for other in remaining:  # A2.16
+            evidence = rule.refute(chart, other, sequences)
+            if evidence is None:
+                kept.append(other)  # A3.17
+            else:
+                declare(Reject(e, other.dart, rule.name, evidence))  # A2.19 A3.16
+        remaining = kept
+    return None
+
+
+def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
+    """Walk the hypothesis' way home; the step at which the percept differs, or None: it matches."""
+    if shared < len(h.doors):  # else its whole way is executed already: no motion
+        pilot.back(shared)  # A1.15 A2.23 A3.24
+    for step, expected in enumerate(h.expected):  # A1.9 A1.10 A2.8 A2.9 A3.18 A3.19
+        if step > len(pilot.doors):
+            pilot.forward(h.doors[step - 1])
+        if pilot.percepts[step] != expected:  # A1.11 A2.11 A3.20
+            return step
+    return None
+
+
+def where(pilot: Pilot, chart: Chart, entry: Dart) -> Dart:
+    """Where the robot goes on from: its reference dart on S once vu's entry dart is known.
+
+    After a confirmation it stays if it stands at v0, whose marker tells its reference dart;
+    otherwise it goes back to vu, where its reference dart is turned as the way back turned it.
+    """
+    marker = pilot.robot.percept.marker
+    if marker is not None:
+        return chart.turn(0, -marker)
+    pilot.back(0)
+    return chart.turn(entry, pilot.turned)

@@ -1,0 +1,147 @@
+"""Motion: excursions from vu, and which hypothesis is walked next from where the robot stands.
+
+A **sequence** is what was executed for the current edge: doors from vu, and the percept behind each
+(percept 0 is vu's own). The robot undoes doors k1 … kt by the moves 0, -kt, …, -k2 (modulo each
+degree); back where it began, its reference dart is turned by k1, so -k1 is added to its next door.
+Turning costs nothing.
+
+    motion    back to            next hypothesis
+    retrace   vu, every time     the first of H
+    overlap   the end of the     the one with the longest common prefix of doors with the last
+              common prefix      sequence; ties, and while nothing is executed: the first of H
+
+Source: SPEC sections 2, 5, 6; listing 1 lines 10-15, listing 2 lines 15-23.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
+
+from topo_verify.algorithms.chart import Chart, Dart, Tree
+from topo_verify.robot.percept import Door, Percept, Purpose, Robot
+
+
+@dataclass(frozen=True, slots=True)
+class Executed:
+    """A sequence: doors from vu, and len(doors) + 1 percepts, vu's own first."""
+
+    doors: tuple[Door, ...]
+    percepts: tuple[Percept, ...]
+
+
+class Hypothesis:
+    """That e ends in dart h, assumed: the way home from there, and what would be seen on it.
+
+    The way leads along the breadth-first tree rooted at v0 and is found when first asked for.
+    """
+
+    def __init__(self, dart: Dart, chart: Chart, tree: Tree) -> None:
+        self.dart, self._chart, self._tree = dart, chart, tree
+
+    @cached_property
+    def arrivals(self) -> tuple[Dart, ...]:
+        """The reference darts on the way: h itself, then the dart of arrival behind each door."""
+        chart, row = self._chart, [self.dart]
+        while (up := self._tree.parent[chart.vertex[row[-1]]]) is not None:
+            row.append(chart.across(up))
+        return tuple(row)
+
+    @cached_property
+    def doors(self) -> tuple[Door, ...]:
+        """The motion sequence to v0, relative to the entry dart h. Empty if h is v0's."""
+        chart, row = self._chart, self.arrivals
+        return tuple(chart.door(a, chart.across(b)) for a, b in pairwise(row))
+
+    @cached_property
+    def expected(self) -> tuple[Percept, ...]:
+        """What is sensed at each step if the hypothesis is true; step 0 is vu itself."""
+        return tuple(map(self._chart.percepts.__getitem__, self.arrivals))
+
+
+class Pilot:
+    """Drives the robot and counts what it costs. Lives as long as the exploration.
+
+    Knows by how much the robot's reference dart is turned away from the dart by which it entered
+    the place on its way out (`turned`), and which doors lead back to where `set_out` was called.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        self.cost = 0
+        self.turned: Door = 0
+        self.doors: list[Door] = []
+        self.percepts: list[Percept] = [robot.percept]
+
+    def walk(self, chart: Chart, at: Dart, v: int) -> Dart:
+        """Walk on S to a vertex along the tree rooted there; the reference dart at the end."""
+        towards = chart.tree(v, until=chart.vertex[at]).parent
+        while (exit_dart := towards[chart.vertex[at]]) is not None:
+            self._move(chart.door(at, exit_dart), "walk")
+            at = chart.across(exit_dart)
+        return at
+
+    def cross(self, chart: Chart, at: Dart, e: Dart) -> Percept:
+        """Leave the known world by e; the percept at vu, where the next excursion starts."""
+        percept = self._move(chart.door(at, e), "cross")
+        self.turned, self.doors, self.percepts = 0, [], [percept]
+        return percept
+
+    def forward(self, door: Door) -> Percept:
+        """One more door of a sequence, relative to the dart by which the place was entered."""
+        percept = self._move((door - self.turned) % self.robot.percept.degree, "validate")
+        self.turned = 0
+        self.doors.append(door)
+        self.percepts.append(percept)
+        return percept
+
+    def back(self, steps: int) -> None:
+        """Retrace until only this many doors of the excursion are left. 0: back at vu."""
+        while len(self.doors) > steps:
+            self._move(-self.turned % self.robot.percept.degree, "retrace")
+            self.turned = self.doors.pop()
+            self.percepts.pop()
+
+    def executed(self) -> Executed:
+        """The sequence that led from vu to where the robot stands."""
+        return Executed(tuple(self.doors), tuple(self.percepts))
+
+    def _move(self, door: Door, purpose: Purpose) -> Percept:
+        self.cost += 1
+        return self.robot.move(door, purpose)
+
+
+class Choice(NamedTuple):
+    """The hypothesis to walk next, and how many doors of the last sequence it shares."""
+
+    hypothesis: Hypothesis
+    shared: int
+
+
+Motion = Callable[[Sequence[Hypothesis], Executed | None], Choice]
+
+
+def retrace(hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
+    """Back to vu every time, even where the doors were executed before."""
+    return Choice(hypotheses[0], 0)  # A1.8 A1.15 A3.9 A3.24
+
+
+def overlap(hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
+    """Back only to the end of the longest common prefix with the last sequence."""
+    doors = () if last is None else last.doors
+    shared = [common_prefix(h.doors, doors) for h in hypotheses]
+    longest = max(shared)
+    return Choice(hypotheses[shared.index(longest)], longest)  # A2.7 A2.22
+
+
+def common_prefix(one: Sequence[Door], other: Sequence[Door]) -> int:
+    """How many doors two sequences share from vu on."""
+    length = 0
+    for a, b in zip(one, other, strict=False):
+        if a != b:
+            break
+        length += 1
+    return length

@@ -1,0 +1,113 @@
+"""The choices that the paper leaves open: which edge next, which hypothesis first.
+
+Every claim holds for every choice; costs do not. The reference costs are those of `nearest` and
+`shortest`. `random(seed)` draws from Python's `random.Random(seed)`: the same run on every machine
+here, not promised to implementations in other languages.
+
+Source: SPEC section 4.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from random import Random
+from typing import TYPE_CHECKING
+
+from topo_verify.algorithms.chart import Chart, Dart, Tree
+
+if TYPE_CHECKING:
+    from topo_verify.robot.events import Policies
+
+Pick = Callable[[Chart, Dart], Dart]
+"""(S, the robot's reference dart on S) -> the dart of U to explore next."""
+
+Order = Callable[[Iterable[Dart], Chart, Tree], list[Dart]]
+"""(H, S, the breadth-first tree rooted at v0) -> H in the order in which it is tried."""
+
+
+def nearest(chart: Chart, at: Dart) -> Dart:
+    """The dart of U whose vertex is nearest on S to the robot; ties: the lowest dart."""
+    best: Dart | None = None
+    reach = 0
+    for v, distance, _ in chart.outward(chart.vertex[at]):
+        if best is not None and distance > reach:
+            break
+        opened = next((d for d in chart.darts(v) if d in chart.unexplored), None)
+        if opened is not None and (best is None or opened < best):
+            best, reach = opened, distance
+    assert best is not None, "U is not empty and S is connected"
+    return best
+
+
+def last(chart: Chart, at: Dart) -> Dart:
+    """The highest dart of U: depth-first."""
+    return next(reversed(chart.unexplored))
+
+
+def first(chart: Chart, at: Dart) -> Dart:
+    """The lowest dart of U: breadth-first."""
+    return next(iter(chart.unexplored))
+
+
+def shortest(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
+    """By the length of the validation path, then by dart."""
+    return sorted(darts, key=lambda h: (tree.depth[chart.vertex[h]], h))
+
+
+def oldest(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
+    """By dart, ascending."""
+    return sorted(darts)
+
+
+def newest(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
+    """By dart, descending."""
+    return sorted(darts, reverse=True)
+
+
+PICKS = {"nearest": nearest, "last": last, "first": first}
+ORDERS = {"shortest": shortest, "oldest": oldest, "newest": newest}
+
+
+def pick_policy(text: str) -> Pick:
+    """The pick policy of this name, made anew for one run.
+
+    Raises:
+        ValueError: no such policy; the sentence lists them.
+    """
+    if (random := _random(text)) is not None:
+        return lambda chart, at: random.choice(list(chart.unexplored))
+    if text not in PICKS:
+        raise ValueError(f"no pick policy {text!r}: there are {', '.join(PICKS)}, random(SEED)")
+    return PICKS[text]
+
+
+def order_policy(text: str) -> Order:
+    """The order policy of this name, made anew for one run.
+
+    Raises:
+        ValueError: no such policy; the sentence lists them.
+    """
+    if (random := _random(text)) is not None:
+        return lambda darts, chart, tree: _shuffled(random, darts)
+    if text not in ORDERS:
+        raise ValueError(f"no order policy {text!r}: there are {', '.join(ORDERS)}, random(SEED)")
+    return ORDERS[text]
+
+
+def check(policies: Policies) -> Policies:
+    """The same policies, once it is sure that both exist (`ValueError` if not)."""
+    pick_policy(policies.pick)
+    order_policy(policies.order)
+    return policies
+
+
+def _random(text: str) -> Random | None:
+    match = re.fullmatch(r"random\((\d{1,18})\)", text, re.ASCII)
+    return Random(int(match[1])) if match else None
+
+
+def _shuffled(random: Random, darts: Iterable[Dart]) -> list[Dart]:
+    row = sorted(darts)
+    random.shuffle(row)
+    return row

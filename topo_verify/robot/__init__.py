@@ -1,0 +1,1 @@
+"""The robot: what it senses, what happens to it, and the simulator that plays it."""

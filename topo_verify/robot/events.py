@@ -1,0 +1,181 @@
+"""The trace: what happened, as one stream of events, and its file format.
+
+A closed union of frozen structs; on disk JSON Lines, each line an object with a `type`. Moves come
+from the robot and are what the world showed; `pose`, `reject`, `confirm` and `augment` are what a
+mapper declares. A trace with its world is a certificate: the checkers need nothing else.
+
+Darts are darts of S, the mapper's own map: v0's darts are 0 … degree-1 from the marked one on, and
+each new vertex takes the next numbers, clockwise from the dart by which it was entered.
+
+Source: SPEC sections 3, 10; INTERFACE section 4 (docs/semantics.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Annotated, Literal
+
+import msgspec
+
+from topo_verify.errors import InputError
+from topo_verify.robot.percept import Door, Percept, Purpose
+
+Number = Annotated[int, msgspec.Meta(ge=-(2**62), le=2**62)]
+"""Longer integers mean nothing here, and could not be shown in a message."""
+
+Dart = Number
+
+Rule = Literal["motion", "prefix", "history", "records", "folding", "planar"]
+
+TRACE_FORMAT: Literal["topo-verify/trace"] = "topo-verify/trace"
+TRACE_VERSION = 1
+
+
+class _Event(msgspec.Struct, frozen=True, tag_field="type", tag=str.lower):
+    """Base of all events: immutable, tagged with the class name in lower case."""
+
+
+class Record(msgspec.Struct, frozen=True):
+    """Where in the records an expectation came from: T[dart], then further relative doors."""
+
+    dart: Dart
+    doors: tuple[Door, ...]
+
+
+class Evidence(msgspec.Struct, frozen=True, omit_defaults=True):
+    """Why a hypothesis is rejected: at one place two percepts that would have to be equal are not.
+
+    Attributes:
+        step: how many doors behind the entered vertex (0: at that vertex itself).
+        expected: what would be sensed there if the hypothesis were true.
+        observed: what was sensed.
+        sequence: without motion: the number, from 0, of the sequence executed for this edge that
+            showed it. Sequences are numbered by the mismatches met in motion.
+        at: without motion: the dart of S where tracing stood. It is the dart of arrival, or,
+            where a record gave the expectation, the unexplored dart that was crossed.
+        record: the record that gave the expectation, if one did.
+    """
+
+    step: Number
+    expected: Percept
+    observed: Percept
+    sequence: Number | None = None
+    at: Dart | None = None
+    record: Record | None = None
+
+
+class MapData(msgspec.Struct, frozen=True):
+    """A map as a mapper delivers it: clockwise rotations, pairs of darts, the marked dart."""
+
+    vertices: tuple[tuple[Dart, ...], ...]
+    edges: tuple[tuple[Dart, ...], ...]
+    marker: Dart | None
+
+
+class Policies(msgspec.Struct, frozen=True):
+    """The choices that the paper leaves open, by name: which edge next, which hypothesis first."""
+
+    pick: str = "nearest"
+    order: str = "shortest"
+
+
+class Start(_Event, frozen=True, kw_only=True):
+    """The robot stands at the marker, its reference dart the marked one.
+
+    `world` is the world's id, where it is known and has one.
+    """
+
+    format: Literal["topo-verify/trace"] = TRACE_FORMAT
+    version: int = TRACE_VERSION
+    algorithm: str | None = None
+    policies: Policies | None = None
+    world: str | None = None
+    percept: Percept
+
+
+class Move(_Event, frozen=True, gc=False):
+    """The robot left by a door and senses a percept. Cost: one edge traversal."""
+
+    door: Door
+    percept: Percept
+    purpose: Purpose | None = None
+
+
+class Pose(_Event, frozen=True):
+    """The robot stands behind `edge`; these unexplored darts might be its other end."""
+
+    edge: Dart
+    hypotheses: tuple[Dart, ...]
+
+
+class Reject(_Event, frozen=True):
+    """The other end of `edge` is not `hypothesis`, because of the evidence."""
+
+    edge: Dart
+    hypothesis: Dart
+    rule: Rule
+    evidence: Evidence
+
+
+class Confirm(_Event, frozen=True):
+    """The other end of `edge` is `hypothesis`."""
+
+    edge: Dart
+    hypothesis: Dart
+    rule: Rule
+
+
+class Augment(_Event, frozen=True):
+    """The map grows: by a new vertex, `dart` its first dart; or by a loop, `dart` the other end."""
+
+    edge: Dart
+    kind: Literal["new", "loop"]
+    dart: Dart
+    degree: Number
+
+
+class Finish(_Event, frozen=True):
+    """The mapper is done and delivers its map and, if it likes, its own count of the cost."""
+
+    cost: Number | None
+    map: MapData
+
+
+Decision = Pose | Reject | Confirm | Augment
+Event = Start | Move | Pose | Reject | Confirm | Augment | Finish
+Trace = tuple[Event, ...]
+
+_encoder = msgspec.json.Encoder()
+_decoder: msgspec.json.Decoder[Event] = msgspec.json.Decoder(Event)
+
+
+def write_trace(trace: Iterable[Event]) -> bytes:
+    """The trace as JSON Lines, one event a line; the same bytes for the same trace."""
+    return _encoder.encode_lines(trace)
+
+
+def read_trace(text: bytes, *, name: str = "trace") -> Trace:
+    """The trace in these JSON Lines.
+
+    Args:
+        name: what to call the input in messages.
+    Raises:
+        InputError: the first line that is no event, or no `start` at the head, or a newer version.
+    """
+    events: list[Event] = []
+    for number, line in enumerate(text.splitlines(), 1):
+        if not line.strip():
+            continue
+        try:
+            events.append(_decoder.decode(line))
+        except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError) as error:
+            raise InputError(f"{name}, line {number}: no event of a trace: {error}") from error
+    head = events[0] if events else None
+    if not isinstance(head, Start):
+        raise InputError(f"{name}: a trace begins with a line of type 'start'")
+    if head.version > TRACE_VERSION:
+        raise InputError(
+            f"{name}: trace version {head.version} is newer than {TRACE_VERSION}, the newest that"
+            " this topo-verify reads: update it"
+        )
+    return tuple(events)

@@ -1,0 +1,174 @@
+"""Limits for untrusted mappers: moves, seconds between two moves, seconds in all.
+
+A mapper that exceeds one is stopped by an exception that derives from BaseException, so that an
+`except Exception` of its own does not swallow it.
+
+What this does not do: a mapper that catches BaseException in a loop, or that sits in C code which
+never returns, cannot be stopped from inside its own process.
+
+How: a clock ticks while the mapper runs and asks the robot for its cost. In the main thread the
+tick is SIGALRM, which also interrupts a sleep; in other threads (and on systems without SIGALRM) a
+second thread raises the exception asynchronously, which a pure Python loop notices at once.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import signal
+import threading
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from time import monotonic
+from types import FrameType
+from typing import Literal
+
+Limit = Literal["budget", "move-timeout", "world-timeout"]
+"""What may be used up: the names of the options of the command line."""
+
+
+class MapperStopped(BaseException):
+    """The robot does not go on, and the text says why: a limit is reached, or it was misused."""
+
+    limit: Limit | None = None
+
+
+class BudgetExceeded(MapperStopped):
+    """The mapper asked for more moves than its budget."""
+
+    limit = "budget"
+
+
+class TimeLimitExceeded(MapperStopped):
+    """The mapper took too long."""
+
+
+class MoveTimeout(TimeLimitExceeded):
+    """It took too long between two moves."""
+
+    limit = "move-timeout"
+
+
+class WorldTimeout(TimeLimitExceeded):
+    """It took too long in all, though it moved on: it may yet have been right."""
+
+    limit = "world-timeout"
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a mapper may use up in one world.
+
+    Attributes:
+        budget: moves (edge traversals); None: the bound of claim 7.
+        move_timeout: seconds between two moves.
+        world_timeout: seconds in all.
+    """
+
+    budget: int | None = None
+    move_timeout: float = 5.0
+    world_timeout: float = 60.0
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """The words of the command line that set these limits; none for those that are default."""
+        words: list[str] = []
+        usual = Limits()
+        if self.budget is not None:
+            words += ["--budget", str(self.budget)]
+        if self.move_timeout != usual.move_timeout:
+            words += ["--move-timeout", f"{self.move_timeout:g}"]
+        if self.world_timeout != usual.world_timeout:
+            words += ["--world-timeout", f"{self.world_timeout:g}"]
+        return tuple(words)
+
+
+TICK = 0.05
+"""Least seconds between two looks at the clock."""
+
+
+@contextmanager
+def time_limits(limits: Limits, cost: Callable[[], int]) -> Generator[None]:
+    """Raise TimeLimitExceeded inside the block once a time limit is passed.
+
+    Args:
+        cost: the number of moves so far; while it grows, the mapper counts as moving.
+    """
+    watch = _Watch(limits, cost)
+    tick = max(TICK, min(limits.move_timeout, limits.world_timeout) / 4)
+    if threading.current_thread() is threading.main_thread() and hasattr(signal, "setitimer"):
+        ticking = _alarm(watch, tick)
+    else:
+        ticking = _thread(watch, tick)
+    with ticking:
+        yield
+    if watch.struck is not None:  # the mapper swallowed the exception and went on
+        raise watch.struck
+
+
+class _Watch:
+    """Remembers when the mapper last moved, and if it was stopped. Lives as long as one run."""
+
+    def __init__(self, limits: Limits, cost: Callable[[], int]) -> None:
+        self.limits, self.cost = limits, cost
+        self.start = self.moved = monotonic()
+        self.seen = 0
+        self.struck: TimeLimitExceeded | None = None
+
+    def overdue(self) -> TimeLimitExceeded | None:
+        """Why the mapper must stop now, if it must."""
+        now, cost = monotonic(), self.cost()
+        if cost != self.seen:
+            self.seen, self.moved = cost, now
+        if now - self.start > self.limits.world_timeout:
+            seconds = self.limits.world_timeout
+            self.struck = WorldTimeout(f"the mapper was stopped after {seconds:g} s in this world")
+        elif now - self.moved > self.limits.move_timeout:
+            seconds = self.limits.move_timeout
+            self.struck = MoveTimeout(f"the mapper did not move for {seconds:g} s")
+        return self.struck
+
+
+@contextmanager
+def _alarm(watch: _Watch, tick: float) -> Generator[None]:
+    def look(_signal: int, _frame: FrameType | None) -> None:
+        if (why := watch.overdue()) is not None:
+            raise why
+
+    handler = signal.signal(signal.SIGALRM, look)
+    timer = signal.setitimer(signal.ITIMER_REAL, tick, tick)
+    try:
+        try:
+            yield
+        finally:  # a last tick may strike here, and what it raises must not skip what is below
+            signal.setitimer(signal.ITIMER_REAL, 0)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, handler or signal.SIG_DFL)
+        signal.setitimer(signal.ITIMER_REAL, *timer)  # a timer of the caller's runs on
+
+
+@contextmanager
+def _thread(watch: _Watch, tick: float) -> Generator[None]:
+    mapper = threading.get_ident()
+    done = threading.Event()
+
+    def look() -> None:
+        while not done.wait(tick):
+            if watch.overdue() is not None and not done.is_set():
+                _raise_in(mapper, TimeLimitExceeded)
+                return
+
+    watcher = threading.Thread(target=look, name="topo-verify time limit", daemon=True)
+    watcher.start()
+    try:
+        yield
+    except TimeLimitExceeded as bare:
+        raise watch.struck or bare from None
+    finally:
+        done.set()
+        watcher.join()
+
+
+def _raise_in(thread: int, exception: type[BaseException]) -> None:
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), ctypes.py_object(exception))

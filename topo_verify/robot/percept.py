@@ -1,0 +1,60 @@
+"""What a robot senses, and what a mapper may ask of a robot.
+
+The robot stands at a vertex with a **reference dart** `a`, the dart by which it came in (at the
+start: the dart that the marker points at). It senses the degree of the vertex and, where the
+marker lies, its direction. It leaves by a **door**: door k is the k-th exit clockwise after the
+reference dart, so door 0 goes back. Doors are relative; nothing else of the world is ever visible.
+
+Source: SPEC section 2 (docs/semantics.md).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, Protocol, get_args
+
+import msgspec
+
+if TYPE_CHECKING:
+    from topo_verify.robot.events import Decision
+
+Door = int
+"""0 … degree-1, counted clockwise from the reference dart."""
+
+Purpose = Literal["walk", "cross", "validate", "retrace"]
+"""What a mapper says a move is for; recorded, never needed."""
+
+PURPOSES: tuple[Purpose, ...] = get_args(Purpose)
+
+
+class Percept(msgspec.Struct, frozen=True, gc=False):
+    """What is sensed at a vertex, relative to the reference dart.
+
+    Attributes:
+        degree: the number of doors.
+        marker: the door that the marker points at, or None if the marker is not here.
+    """
+
+    degree: int
+    marker: Door | None
+
+    @property
+    def signature(self) -> tuple[int, bool]:
+        """What of it does not depend on the reference dart: degree, and is the marker here?"""
+        return self.degree, self.marker is not None
+
+
+class Robot(Protocol):
+    """What a mapper is given: it can look, move, and say what it concludes."""
+
+    @property
+    def percept(self) -> Percept:
+        """What is sensed where the robot stands now."""
+        ...
+
+    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
+        """Leave by this door (0 … degree-1; cost: one edge traversal); what is sensed behind it."""
+        ...
+
+    def declare(self, event: Decision) -> None:
+        """Put a decision on record, to have it checked. Costs nothing."""
+        ...
