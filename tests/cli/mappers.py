@@ -1,0 +1,110 @@
+"""Mappers of a user's: a right one, a silent one, slow ones, and one for each way to be wrong."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+from topo_verify import CATALOGUE, Percept, Robot
+from topo_verify.robot.events import Decision
+from topo_verify.robot.percept import Door, Purpose
+
+
+class Wrapped:
+    """A robot that passes everything on; what is wrong with a mapper is changed in one method."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+
+    @property
+    def percept(self) -> Percept:
+        return self.seen(self.robot.percept)
+
+    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
+        return self.seen(self.robot.move(door, purpose))
+
+    def declare(self, event: Decision) -> None:
+        self.robot.declare(event)
+
+    def seen(self, percept: Percept) -> Percept:
+        return percept
+
+
+class Mute(Wrapped):
+    def declare(self, event: Decision) -> None:
+        pass
+
+
+class Undirected(Wrapped):
+    def seen(self, percept: Percept) -> Percept:
+        return Percept(percept.degree, None if percept.marker is None else 0)
+
+
+def right(robot: Robot) -> object:
+    return CATALOGUE["enhancement-i"](robot)
+
+
+def silent(robot: Robot) -> object:
+    return CATALOGUE["enhancement-i"](Mute(robot))
+
+
+def ignores_direction(robot: Robot) -> object:
+    return CATALOGUE["basic"](Undirected(robot))
+
+
+def guesses(robot: Robot) -> dict[str, Any]:
+    """That every world is one edge, after one move."""
+    robot.move(0)
+    return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
+
+
+def nonsense(_robot: Robot) -> object:
+    print("this must not stand among the results")  # noqa: T201  that is what it is wrong about
+    return 42
+
+
+def raises(_robot: Robot) -> object:
+    raise ValueError("no\x1b[31m way\nat all")
+
+
+def loops(_robot: Robot) -> object:
+    while True:
+        pass
+
+
+def walks(robot: Robot) -> object:
+    while True:
+        robot.move(0)
+
+
+def strolls(robot: Robot) -> object:
+    """Right, but it takes its time between moves."""
+
+    class Slow(Wrapped):
+        def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
+            time.sleep(0.05)
+            return super().move(door, purpose)
+
+    return CATALOGUE["basic"](Slow(robot))
+
+
+def raises_or_strolls(robot: Robot) -> object:
+    return raises(robot) if robot.percept.degree == 1 else strolls(robot)
+
+
+def starts_and_sleeps(robot: Robot) -> object:
+    """Right in worlds of one edge; elsewhere it tells a test that it is at work, and sleeps."""
+    result = CATALOGUE["basic"](robot)
+    if len(result.edges) > 1:
+        Path("at-work").touch()
+        time.sleep(60)
+    return result
+
+
+def fails_and_sleeps(robot: Robot) -> object:
+    """Wrong, and then it sleeps."""
+    if robot.percept.degree > 1:
+        Path("at-work").touch()
+        time.sleep(60)
+    return None

@@ -1,0 +1,307 @@
+"""Exit codes, the envelope, and the sentences on stderr."""
+
+from __future__ import annotations
+
+import json
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from topo_verify.cli import main, runs
+
+Call = Callable[..., Any]
+COMMANDS = ("verify", "explore", "world", "replay")
+LEAVES = (
+    "verify",
+    "explore",
+    "replay",
+    *(f"world {w}" for w in ("show", "convert", "count", "sample")),
+)
+
+
+# ---------------------------------------------------------------- 0, 1, 2, 3, 70
+
+
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("explore m3/14", 0),
+        ("explore m3/14 --algorithm mappers.py:guesses", 1),
+        ("explore m3/9999", 2),
+        ("explore m3/14 --no-such-option", 2),
+        ("explore m3/14 --algorithm mappers.py:strolls --world-timeout 0.1", 3),
+        # 1 beats 3
+        ("explore m1/0 nyc --algorithm mappers.py:raises_or_strolls --world-timeout 0.1", 1),
+    ],
+)
+def test_each_exit_code_is_told_by_the_envelope_too(call: Call, line: str, code: int) -> None:
+    done = call(f"{line} --format json")
+    assert done.exit_code == code
+    if code == 2:
+        assert done.stdout == ""
+        assert done.stderr.startswith("topo-verify")
+        assert done.stderr.count("\n") == 1
+    else:
+        envelope = json.loads(done.stdout)
+        assert (envelope["exit"], envelope["ok"]) == (code, code == 0)
+
+
+def test_our_bug_exits_70_and_says_how_to_report_it(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(_text: str, *, stdin: object) -> object:
+        raise KeyError("planted", stdin)
+
+    monkeypatch.setattr(runs, "world_from", broken)
+    done = call("explore m3/14 --algorithm basic")
+    assert done.exit_code == 70
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1
+    for word in ("bug of topo-verify", "KeyError: ('planted'", "explore m3/14", "report"):
+        assert word in done.stderr
+    monkeypatch.setenv("TOPO_VERIFY_TRACEBACK", "1")
+    assert "Traceback (most recent call last)" in call("explore m3/14").stderr
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("", "name a command; topo-verify --help lists them"),
+        ("nothing", "no such command 'nothing'"),
+        ("explore", "missing argument 'WORLD...'"),
+        ("explore nowhere.json", "'nowhere.json' names no world"),
+        ("explore - -", "'-' is given twice"),
+        ("explore m3/14 --algorithm best", "no algorithm 'best'"),
+        ("explore m3/14 --algorithm mappers.py:nothing", "has no attribute 'nothing'"),
+        ("explore m3/14 --algorithm gone.py:f", "there is no file 'gone.py'"),
+        ("explore m3/14 --pick farthest", "no pick policy 'farthest'"),
+        ("explore m3/14 --algorithm mappers.py:right --pick last", "has no policies"),
+        ("explore m3/14 --marker 6", "--marker 6 in m3/14"),
+        ("explore m3/14 --trace t", "a trace is of one run, these are 8"),
+        ("explore m3/14 m3/15 --algorithm basic --trace t", "a trace is of one run, these are 2"),
+        ("explore m3/14 --algorithm basic --trace -", "name a file"),
+        ("explore m3/14 --algorithm basic --trace no/folder/t", "cannot write no/folder/t"),
+        ("explore m3/14 --budget -1", "invalid value for '--budget'"),
+        ("explore m3/14 --move-timeout 0", "'0' is no number of seconds"),
+        ("explore m3/14 --move-timeout nan", "'nan' is no number of seconds"),
+        ("explore m3/14 --world-timeout soon", "'soon' is no number of seconds"),
+        ("explore m3/14 --format xml", "invalid value for '--format'"),
+        ("verify all basic", "unexpected extra argument"),
+        ("verify --seed -1", "invalid value for '--seed'"),
+        ("world", "name a command; topo-verify world --help lists them"),
+        ("world convert m3/14 --to svg", "'svg' is not 'json'"),
+        ("world convert m3/14 -o no/folder/w.json", "cannot write no/folder/w.json"),
+        ("world count", "missing option '--edges'"),
+        ("world count --edges six", "'six' is no number of edges"),
+        ("world count --edges 3..1", "numbers of edges go up"),
+        ("world count --edges 3 --class tidy", "'tidy' is no class"),
+        ("world sample --edges 300", "say with -o"),
+        ("world sample --edges 5 -o mappers.py", "-o mappers.py: cannot make this folder"),
+        ("replay nothing.jsonl", "'nothing.jsonl' names no world"),
+        ("replay m3/14 --world m3/15", "m3/14 is no trace"),
+        ("replay m3/14 --target all", "names 8 mappers"),
+    ],
+)
+def test_bad_usage_and_bad_input_get_one_sentence(call: Call, line: str, words: str) -> None:
+    done = call(line)
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+# ---------------------------------------------------------------- help
+
+
+def test_help_lists_the_commands_in_order_with_a_line_each(call: Call) -> None:
+    done = call("--help")
+    lines = done.stdout.split("Commands:\n")[1].split("\n\n")[0].splitlines()
+    assert [line.split()[0] for line in lines] == list(COMMANDS) == list(main.commands)
+    assert not [line for line in lines if line.endswith("...")]
+
+
+@pytest.mark.parametrize("command", ["", *COMMANDS, *LEAVES[3:]])
+def test_every_help_ends_with_examples_and_exit_codes(call: Call, command: str) -> None:
+    done = call(f"{command} --help")
+    assert done.exit_code == 0
+    assert "Examples:\n    topo-verify " in done.stdout
+    assert "Exit codes: 0 nothing found; 1 " in done.stdout.split("Examples:")[1]
+
+
+@pytest.mark.parametrize("command", LEAVES)
+def test_every_command_takes_format_and_quiet(call: Call, command: str) -> None:
+    text = call(f"{command} --help").stdout
+    assert "--format [pretty|json|markdown]" in text
+    assert "--quiet" in text
+
+
+def test_version_names_the_program_and_its_version(call: Call) -> None:
+    import topo_verify
+
+    assert call("--version").stdout == f"topo-verify {topo_verify.__version__}\n"
+
+
+def test_shells_can_complete_commands(folder: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "topo_verify"],
+        env={
+            **os.environ,
+            "_TOPO_VERIFY_COMPLETE": "bash_complete",
+            "COMP_WORDS": "topo-verify ex",
+            "COMP_CWORD": "1",
+        },
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert "explore" in done.stdout
+
+
+# ---------------------------------------------------------------- streams
+
+
+def test_what_a_mapper_prints_goes_to_stderr(program: Call) -> None:
+    done = program("explore m3/14 --algorithm mappers.py:nonsense --format json")
+    json.loads(done.stdout)
+    assert "must not stand among the results" in done.stderr
+
+
+def test_quiet_keeps_remarks_off_stderr_but_no_errors(call: Call) -> None:
+    assert call("world sample --edges 5").stderr == "topo-verify: seed 0\n"
+    assert call("world sample --edges 5 --quiet").stderr == ""
+    assert call("explore nowhere.json --quiet").stderr != ""
+
+
+def test_a_terminal_without_our_letters_gets_others(program: Call) -> None:
+    done = program("verify basic,enhancement-i --quick", PYTHONIOENCODING="ascii")
+    assert done.returncode == 0, done.stderr
+    assert "\\xd7 2 mappers" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "line", ["verify --quick --format json", "explore nyc m4/99 --format json --pick random(7)"]
+)
+def test_two_runs_differ_in_timing_alone(program: Call, line: str) -> None:
+    one, two = (program(shlex.join(line.split()), PYTHONHASHSEED=seed).stdout for seed in "12")
+    assert one.split('"timing"')[0] == two.split('"timing"')[0]
+    assert '"timing"' in one
+
+
+@pytest.mark.parametrize("line", ["--help", "explore nyc", "world show nyc --format json"])
+def test_a_reader_who_leaves_is_no_error(folder: Path, line: str) -> None:
+    read, write = os.pipe()
+    os.close(read)
+    done = subprocess.run(
+        [sys.executable, "-m", "topo_verify", *line.split()],
+        cwd=folder,
+        stdout=write,
+        stderr=subprocess.PIPE,
+        check=False,
+    )
+    os.close(write)
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+def test_a_reader_who_leaves_early_ends_the_work(folder: Path) -> None:
+    read, write = os.pipe()
+    os.close(read)
+    done = subprocess.run(
+        [sys.executable, "-m", "topo_verify", "verify"],
+        cwd=folder,
+        stdout=write,
+        stderr=subprocess.PIPE,
+        check=False,
+    )
+    os.close(write)
+    assert (done.returncode, done.stderr) == (3, b"")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full here")
+def test_a_full_disk_is_told_as_such(folder: Path) -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "topo_verify", "explore", "nyc"],
+            cwd=folder,
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 2
+    assert "cannot write to standard output: No space left on device" in done.stderr
+
+
+def test_closed_streams_do_not_hurt(folder: Path) -> None:
+    line = f"{shlex.quote(sys.executable)} -m topo_verify explore nyc >&- 2>&-"
+    assert subprocess.run(["/bin/sh", "-c", line], cwd=folder, check=False).returncode == 0
+
+
+# ---------------------------------------------------------------- Ctrl-C
+
+
+def interrupted(folder: Path, *words: str) -> tuple[int, str, str]:
+    """What comes of a command that gets Ctrl-C as soon as its mapper says that it is at work."""
+    running = subprocess.Popen(
+        [sys.executable, "-m", "topo_verify", *words],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # Whoever started the tests may ignore Ctrl-C, and children inherit that.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509  no threads here
+    )
+    while not (folder / "at-work").exists():
+        assert running.poll() is None, running.communicate()
+        time.sleep(0.02)
+    running.send_signal(signal.SIGINT)
+    out, error = running.communicate(timeout=30)
+    return running.returncode, out, error
+
+
+def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path) -> None:
+    words = ("verify", "mappers.py:starts_and_sleeps", "--move-timeout", "60", "--format", "json")
+    code, out, error = interrupted(folder, *words)
+    parts = json.loads(out)["results"]
+    assert code == json.loads(out)["exit"] == 3
+    assert [(part["part"], part["verdict"]) for part in parts] == [
+        ("counts", "EXHAUSTED"),
+        ("small-worlds", "UNKNOWN"),
+    ]
+    assert parts[1]["checked"] == 2  # the worlds of one edge
+    assert error == "topo-verify: interrupted; 2 results came out before, the rest is not known\n"
+
+
+def test_ctrl_c_after_a_finding_exits_1(folder: Path) -> None:
+    words = ("verify", "mappers.py:fails_and_sleeps", "--move-timeout", "60", "--format", "json")
+    code, out, _ = interrupted(folder, *words)
+    assert code == 1
+    assert json.loads(out)["results"][-1]["verdict"] == "REFUTED"
+
+
+def test_ctrl_c_in_explore_keeps_the_runs_that_are_done(folder: Path) -> None:
+    words = ("explore", "m1/0", "m2/5", "--algorithm", "mappers.py:starts_and_sleeps")
+    code, out, error = interrupted(folder, *words, "--move-timeout", "60")
+    assert code == 3
+    assert "m1/0" in out
+    assert "m2/5" not in out
+    assert "interrupted; 1 result came out before" in error
+
+
+def test_ctrl_c_before_any_work_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+
+    def interrupt(_text: str) -> object:
+        raise KeyboardInterrupt
+
+    # By its name in full: in the package, `verify` is the command.
+    monkeypatch.setattr(sys.modules["topo_verify.cli.verify"], "targets", interrupt)
+    done = call("verify")
+    assert done.exit_code == 3
+    assert done.stderr == "topo-verify: interrupted; nothing came out before\n"

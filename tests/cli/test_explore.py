@@ -1,0 +1,221 @@
+"""`explore`: fields, tables, findings, and replay lines that show the same again."""
+
+from __future__ import annotations
+
+import json
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from topo_verify import CATALOGUE, World, families
+
+Call = Callable[..., Any]
+
+FIELDS = {
+    "world", "algorithm", "policies", "vertices", "edges", "genus", "cost", "least_cost",
+    "isomorphic", "entailed", "ok", "findings", "rejected_free", "rejected_moving", "confirmed",
+}  # fmt: skip
+FINDING = {"claim", "world", "event", "expected", "seen", "message", "replay"}
+
+
+def test_an_entry_has_the_promised_fields(results: Call) -> None:
+    envelope = results("explore m3/14 --algorithm basic")
+    assert {"format", "version", "tool", "ok", "exit", "results", "timing"} <= envelope.keys()
+    assert envelope["format"] == "topo-verify/explore"
+    (entry,) = envelope["results"]
+    assert entry.keys() >= FIELDS
+    assert (entry["world"], entry["vertices"], entry["edges"], entry["genus"]) == ("m3/14", 3, 3, 0)
+    assert (entry["cost"], entry["isomorphic"], entry["ok"]) == (4, True, True)
+    assert entry["policies"] == {"pick": "nearest", "order": "shortest"}
+    assert (entry["least_cost"], entry["entailed"], entry["stopped"]) == (None, None, None)
+
+
+def test_without_algorithm_the_whole_catalogue_is_run(results: Call) -> None:
+    entries = results("explore nyc")["results"]
+    assert [entry["algorithm"] for entry in entries] == list(CATALOGUE)
+    assert all(entry["ok"] for entry in entries)
+    assert {entry["world"] for entry in entries} == {"nyc_osmnx"}
+
+
+def test_policies_reach_the_algorithms(results: Call) -> None:
+    line = "explore m5/17 --algorithm basic --pick last --order 'random(3)'"
+    (entry,) = results(line)["results"]
+    assert entry["policies"] == {"pick": "last", "order": "random(3)"}
+
+
+def test_a_world_is_called_by_its_name_its_id_or_its_file(results: Call) -> None:
+    world = World.from_id("m3/14")
+    named = world.to_json()
+    bare = named.replace('"name":"m3/14",', "")
+    Path("bare.json").write_text(bare)
+    Path("named.json").write_text(named.replace("m3/14", "my town"))
+    line = "explore bare.json named.json - 'family:lattice(2,2)' --algorithm basic"
+    names = [entry["world"] for entry in results(line, bare)["results"]]
+    assert names == ["bare", "my town", "m3/14", "lattice(2,2)"]
+
+
+def test_a_marker_laid_elsewhere_makes_another_world(results: Call) -> None:
+    (entry,) = results("explore m3/14 --algorithm basic --marker 5")["results"]
+    assert entry["world"] == World.from_id("m3/14").with_marker(5).id != "m3/14"
+
+
+@pytest.mark.parametrize(
+    ("mapper", "options", "words"),
+    [
+        ("ignores_direction", "", "door"),
+        ("guesses", "", "not isomorphic"),
+        ("nonsense", "", "int is no map"),
+        ("raises", "", "ValueError: no"),
+        ("loops", "--move-timeout 0.2", "did not move for 0.2 s"),
+        ("walks", "", "more than"),
+        ("walks", "--budget 10", "more than 10 moves"),
+    ],
+)
+def test_a_faulty_mapper_is_found_and_its_line_shows_it_again(
+    results: Call, call: Call, mapper: str, options: str, words: str
+) -> None:
+    line = f"explore m2/3 --marker 2 --algorithm mappers.py:{mapper} {options}"
+    envelope = results(line, code=1)
+    (entry,) = envelope["results"]
+    assert not entry["ok"]
+    assert all(finding.keys() >= FINDING for finding in entry["findings"])
+    assert any(words in finding["message"] for finding in entry["findings"])
+    (again,) = {finding["replay"] for finding in entry["findings"]}
+    for word in ("--marker 2", options):
+        assert word in again
+    again = again.removeprefix("topo-verify ")
+    assert call(again).exit_code == 1
+    (repeated,) = results(again, code=1)["results"]
+    assert [f["message"] for f in repeated["findings"]] == [f["message"] for f in entry["findings"]]
+
+
+def test_a_mapper_that_moves_on_when_time_is_up_is_not_decided(results: Call, call: Call) -> None:
+    line = "explore nyc --algorithm mappers.py:strolls --world-timeout 0.2"
+    (entry,) = results(line, code=3)["results"]
+    assert (entry["ok"], entry["findings"], entry["isomorphic"]) == (False, [], False)
+    assert entry["stopped"] == "the mapper was stopped after 0.2 s in this world"
+    assert "out of time" in call(line).stdout
+
+
+def test_what_a_mapper_does_not_declare_is_not_called_ok(results: Call, call: Call) -> None:
+    line = "explore m3/14 --algorithm mappers.py:silent"
+    (entry,) = results(line)["results"]
+    assert sorted(entry["claims"].values()) == ["not-declared"] * 4 + ["ok"] * 4
+    assert entry["policies"] == {"pick": None, "order": None}
+    text = call(line).stdout
+    assert "4 hold" in text
+    assert "Not judged, for mappers.py:silent declares nothing on it: true-hypothesis-posed" in text
+
+
+# ---------------------------------------------------------------- worlds that are gone
+
+
+def test_a_small_world_from_stdin_is_found_again_by_its_id(results: Call) -> None:
+    world = World.from_id("m3/14").to_json()
+    line = "explore - --algorithm mappers.py:guesses --marker 5"
+    (entry,) = results(line, world, code=1)["results"]
+    moved = World.from_id("m3/14").with_marker(5)
+    again = entry["findings"][0]["replay"]
+    assert again == f"topo-verify replay {moved.id} --target mappers.py:guesses"
+
+
+def test_a_large_world_from_stdin_is_kept_in_a_file_for_the_line(
+    results: Call, call: Call, folder: Path
+) -> None:
+    world = families.lattice(12, 12)
+    line = "explore - --algorithm mappers.py:guesses"
+    before = set(folder.iterdir())
+    first, second = (results(line, world.to_json(), code=1)["results"][0] for _ in "12")
+    assert first == second  # and one file, for it is the same world
+    (kept,) = set(folder.iterdir()) - before
+    assert World.load(kept) == world
+    again = first["findings"][0]["replay"]
+    assert again == f"topo-verify replay {kept.name} --target mappers.py:guesses"
+    assert call(again.removeprefix("topo-verify ")).exit_code == 1
+
+
+def test_a_world_is_never_kept_over_another_file(results: Call, folder: Path) -> None:
+    line, text = "explore - --algorithm mappers.py:guesses", families.lattice(12, 12).to_json()
+    before = set(folder.iterdir())
+    results(line, text, code=1)
+    (kept,) = set(folder.iterdir()) - before
+    kept.write_text("something of the user's")
+    (entry,) = results(line, text, code=1)["results"]
+    assert f"{kept.stem}-2.json" in entry["findings"][0]["replay"]
+    assert kept.read_text() == "something of the user's"
+
+
+def test_where_nothing_can_be_kept_the_user_is_told(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> object:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "open", refuse)
+    done = call("explore - --algorithm mappers.py:guesses", families.lattice(12, 12).to_json())
+    assert done.exit_code == 2
+    assert "cannot be kept" in done.stderr
+
+
+def test_a_file_that_looks_like_an_option_gets_a_line_that_works(call: Call, folder: Path) -> None:
+    World.from_id("m3/14").save(folder / "-w.json")
+    text = call("explore --algorithm mappers.py:guesses -- -w.json").stdout
+    assert "again: topo-verify replay ./-w.json --target mappers.py:guesses\n" in text
+    assert call("replay ./-w.json --target mappers.py:guesses").exit_code == 1
+
+
+# ---------------------------------------------------------------- traces and tables
+
+
+def test_the_trace_of_a_run_is_written_and_judged_again(
+    call: Call, results: Call, folder: Path
+) -> None:
+    call("explore m5/17 --algorithm enhancement-ii --trace run.jsonl")
+    lines = [json.loads(line) for line in (folder / "run.jsonl").read_text().splitlines()]
+    assert (lines[0]["type"], lines[0]["world"], lines[-1]["type"]) == ("start", "m5/17", "finish")
+    (entry,) = results("replay run.jsonl")["results"]
+    assert (entry["target"], entry["world"], entry["ok"]) == ("enhancement-ii", "m5/17", True)
+
+
+def test_one_world_gets_a_table_of_algorithms(call: Call) -> None:
+    lines = call("explore nyc").stdout.splitlines()
+    assert lines[0] == "nyc_osmnx: 46 vertices, 73 edges, genus 0"
+    assert lines[1].split()[:3] == ["algorithm", "cost", "of"]
+    assert lines[2].split()[:3] == ["basic", "1468", "1.00"]
+    assert [line.split()[0] for line in lines[2:]] == list(CATALOGUE)
+
+
+def test_one_algorithm_gets_a_table_of_worlds(call: Call) -> None:
+    lines = call("explore nyc m3/14 m5/17 --algorithm basic").stdout.splitlines()
+    assert lines[0] == "basic"
+    assert [line.split()[0] for line in lines[1:]] == ["world", "nyc_osmnx", "m3/14", "m5/17"]
+
+
+def test_tables_fit_into_80_columns_without_colour(call: Call) -> None:
+    for line in (
+        "explore nyc m3/14",
+        "explore 'family:lattice(10,10,holes=0.2,seed=7)' m3/14 --algorithm enhancement-iii-all+i",
+        "explore m3/14 nyc --algorithm mappers.py:ignores_direction",
+    ):
+        text = call(line).stdout
+        assert "\x1b" not in text
+        long = [row for row in text.splitlines() if len(row) > 80]
+        assert not [row for row in long if "again: " not in row]
+
+
+def test_markdown_tables_have_as_many_cells_in_every_row(call: Call) -> None:
+    text = call("explore nyc m3/14 --algorithm basic,enhancement-i --format markdown").stdout
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert len(rows) == 2 * 4
+    assert len({row.count("|") for row in rows}) == 1
+
+
+def test_replay_lines_are_split_by_a_shell_as_they_were_meant(results: Call, folder: Path) -> None:
+    (folder / "my town's.json").write_text(World.from_id("m3/14").to_json())
+    line = """explore "my town's.json" --algorithm mappers.py:guesses"""
+    (entry,) = results(line, code=1)["results"]
+    words = shlex.split(entry["findings"][0]["replay"])
+    assert words == ["topo-verify", "replay", "my town's.json", "--target", "mappers.py:guesses"]

@@ -1,0 +1,134 @@
+"""`replay`: a counterexample's line, and traces judged again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from topo_verify import families
+
+Call = Callable[..., Any]
+
+
+@pytest.fixture
+def trace(call: Call, folder: Path) -> Path:
+    """The trace of `basic` in m5/17."""
+    call("explore m5/17 --algorithm basic --trace basic.jsonl")
+    return folder / "basic.jsonl"
+
+
+def test_a_world_is_explored_anew_by_default_with_basic(results: Call) -> None:
+    envelope = results("replay m5/17")
+    assert envelope["format"] == "topo-verify/replay"
+    (entry,) = envelope["results"]
+    assert entry.keys() >= {"world", "target", "ok", "cost", "findings"}
+    assert (entry["world"], entry["target"], entry["ok"], entry["trace"]) == (
+        "m5/17", "basic", True, None,
+    )  # fmt: skip
+
+
+def test_policies_and_marker_are_taken(results: Call) -> None:
+    line = "replay nyc --target basic --pick last --order newest --marker 3"
+    assert results(line)["results"][0]["cost"] != results("replay nyc")["results"][0]["cost"]
+
+
+def test_a_trace_is_judged_in_the_world_that_it_names(
+    results: Call, call: Call, trace: Path
+) -> None:
+    (entry,) = results("replay basic.jsonl")["results"]
+    assert (entry["world"], entry["target"], entry["cost"]) == ("m5/17", "basic", 13)
+    assert entry["trace"] == "basic.jsonl"
+    assert call("replay basic.jsonl").stdout == (
+        "basic in m5/17, 13 edge traversals: 8 of 8 claims hold\n"
+    )
+    (piped,) = results("replay -", trace.read_text())["results"]
+    assert piped["ok"]
+
+
+def test_a_trace_in_another_world_diverges_and_the_causes_are_named(
+    results: Call, call: Call, trace: Path
+) -> None:
+    line = f"replay {trace.name} --world m5/18"
+    (entry,) = results(line, code=1)["results"]
+    assert {finding["claim"] for finding in entry["findings"]} >= {"percepts-true"}
+    assert entry["findings"][0]["replay"] == f"topo-verify {line}"
+    error = call(line).stderr
+    for cause in ("another world", "another version", "edited"):
+        assert cause in error
+
+
+def test_an_edited_trace_is_refuted(call: Call, trace: Path) -> None:
+    trace.write_text(trace.read_text().replace('"cost":13', '"cost":12'))
+    done = call("replay basic.jsonl")
+    assert done.exit_code == 1
+    assert "cost-honest, event" in done.stdout
+
+
+def test_the_trace_of_a_large_world_needs_the_world(
+    call: Call, results: Call, folder: Path
+) -> None:
+    families.lattice(12, 12).save(folder / "large.json")
+    call("explore large.json --algorithm basic --trace large.jsonl --marker 9")
+    assert "name it with --world" in call("replay large.jsonl").stderr
+    assert results("replay large.jsonl --world large.json --marker 9")["results"][0]["ok"]
+    assert call("replay large.jsonl --world large.json --marker 10").exit_code == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("--target basic", "--target with the trace"),
+        ("--pick last", "--pick with the trace"),
+        ("--budget 5", "--budget with the trace"),
+    ],
+)
+def test_options_that_mean_nothing_for_a_trace_are_refused(
+    call: Call, trace: Path, options: str, words: str
+) -> None:
+    done = call(f"replay {trace.name} {options}")
+    assert (done.exit_code, words in done.stderr) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('{"type": "move", "door": 0, "percept": {"degree": 1, "marker": null}}', "begins with"),
+        ('{"type": "dance"}', "line 1"),
+        ('{"type": "start", "version": 2, "percept": {"degree": 1, "marker": 0}}', "newer"),
+        ('{"type": "start", "world": "nyc", "percept": {"degree": 1, "marker": 0}}', "no world id"),
+        ('{"type": "start", "world": "-", "percept": {"degree": 1, "marker": 0}}', "no world id"),
+        ("no JSON at all", "no valid JSON"),
+        ("", "is empty"),
+        ("[" * 100_000, "one JSON object"),
+    ],
+)
+def test_a_broken_trace_is_refused_with_its_place(
+    call: Call, folder: Path, text: str, words: str
+) -> None:
+    (folder / "broken.jsonl").write_text(text)
+    done = call("replay broken.jsonl")
+    assert done.exit_code == 2, done.output
+    assert "broken.jsonl" in done.stderr
+    assert words in done.stderr
+
+
+def test_a_name_that_no_file_can_have_is_no_bug(call: Call) -> None:
+    assert call(f"replay {'x' * 5000}").exit_code == 2
+
+
+def test_a_run_out_of_time_is_not_decided(call: Call) -> None:
+    done = call("replay nyc --target mappers.py:strolls --world-timeout 0.2")
+    assert done.exit_code == 3
+    assert "not decided, the mapper was stopped after 0.2 s" in " ".join(done.stdout.split())
+
+
+def test_a_trace_without_an_algorithm_has_an_unknown_target(results: Call, trace: Path) -> None:
+    start, *rest = trace.read_text().splitlines()
+    event = json.loads(start)
+    del event["algorithm"]
+    trace.write_text("\n".join([json.dumps(event), *rest]))
+    assert results("replay basic.jsonl")["results"][0]["target"] == "unknown"

@@ -1,0 +1,101 @@
+"""`verify` on the command line: what it prints, and with which exit code it ends."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from topo_verify import CATALOGUE
+
+Call = Callable[..., Any]
+PARTS = ["counts", "small-worlds", "sampled-worlds", "street-network"]
+
+
+def test_quick_checks_the_catalogue_in_four_parts(results: Call) -> None:
+    envelope = results("verify --quick")
+    assert (envelope["format"], envelope["seed"]) == ("topo-verify/verify", 0)
+    parts = envelope["results"]
+    assert [part["part"] for part in parts] == PARTS
+    for part in parts:
+        assert part.keys() >= {"part", "verdict", "ok", "checked", "total", "summary", "findings"}
+        assert part["ok"]
+        assert part["checked"] == part["total"]
+    assert [part["verdict"] for part in parts] == ["EXHAUSTED", "EXHAUSTED", "SAMPLED", "SAMPLED"]
+    assert [part["total"] for part in parts] == [8954, 86, 40, 1]
+    assert parts[1]["summary"] == "86 of 86 worlds of 1 to 3 edges × 8 mappers: 8 claims hold"
+    assert [cost["algorithm"] for cost in parts[3]["costs"]] == list(CATALOGUE)
+    assert parts[3]["costs"][0]["ratio"] == 1
+
+
+def test_each_part_has_its_own_line(call: Call) -> None:
+    lines = call("verify basic --quick --seed 3").stdout.splitlines()
+    assert lines[0].endswith("basic, 8 claims, seed 3")
+    starts = [line.split()[:2] for line in lines if line.split()[:1] and line.split()[0] in PARTS]
+    assert starts == [*map(list, zip(PARTS, ["EXHAUSTED"] * 2 + ["SAMPLED"] * 2, strict=True))]
+
+
+@pytest.mark.parametrize(
+    ("target", "style"),
+    [("basic", "pretty"), ("mappers.py:silent", "json"), ("mappers.py:guesses", "markdown")],
+)
+def test_the_word_verified_is_never_printed(call: Call, target: str, style: str) -> None:
+    done = call(f"verify {target} --quick --format {style}")
+    assert "verified" not in done.output.lower()
+
+
+def test_a_silent_mapper_passes_with_four_claims_not_declared(results: Call, call: Call) -> None:
+    parts = results("verify mappers.py:silent --quick")["results"]
+    assert parts[1]["summary"] == ("86 of 86 worlds of 1 to 3 edges: 4 claims hold, 4 not declared")
+    assert parts[1]["claims"]["no-false-confirm"] == {"ok": 0, "failed": 0, "not-declared": 86}
+    rows = parts[3]["costs"]
+    assert [row["reference"] for row in rows] == [False] + [True] * len(CATALOGUE)
+    text = " ".join(call("verify mappers.py:silent --quick").stdout.split())
+    assert "Not judged, for the mapper declares nothing on it: true-hypothesis-posed" in text
+
+
+@pytest.mark.parametrize(
+    ("mapper", "smallest"),
+    [
+        ("ignores_direction", "m1/1"),
+        ("guesses", "m1/1"),
+        ("nonsense", "m1/0"),
+        ("raises", "m1/0"),
+        ("loops --move-timeout 0.2", "m1/0"),
+        ("walks --budget 500", "m1/0"),
+    ],
+)
+def test_a_faulty_mapper_is_refuted_and_the_line_shows_it_again(
+    results: Call, call: Call, mapper: str, smallest: str
+) -> None:
+    part = results(f"verify mappers.py:{mapper} --quick", code=1)["results"][1]
+    assert (part["verdict"], part["ok"]) == ("REFUTED", False)
+    first = part["findings"][0]
+    assert first["world"] == smallest
+    assert call(first["replay"].removeprefix("topo-verify ")).exit_code == 1
+    assert len({finding["world"] for finding in part["findings"]}) <= 3
+
+
+def test_a_refuted_part_shows_its_smallest_counterexample(call: Call) -> None:
+    text = call("verify mappers.py:guesses --quick").stdout
+    assert "smallest counterexample: m1/1:" in text
+    assert "again: topo-verify replay m1/1 --target mappers.py:guesses\n" in text
+    assert "A claim fails" in text
+
+
+def test_markdown_is_a_report_with_valid_tables(call: Call) -> None:
+    text = call("verify mappers.py:guesses --quick --format markdown").stdout
+    for table in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
+        assert len({row.count("|") for row in table.splitlines()}) == 1
+    assert "`topo-verify replay m1/1 --target mappers.py:guesses`" in text
+
+
+def test_time_outs_leave_a_part_undecided(results: Call, call: Call) -> None:
+    line = "verify mappers.py:strolls --quick --world-timeout 0.02"
+    parts = results(line, code=3)["results"]
+    assert (parts[1]["verdict"], parts[1]["findings"]) == ("UNKNOWN", [])
+    assert parts[1]["checked"] < parts[1]["total"]
+    assert parts[1]["summary"].endswith("3 runs out of time; stopped after 3 time-outs")
+    assert "No claim failed, but not everything was checked." in call(line).stdout

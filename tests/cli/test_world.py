@@ -1,0 +1,94 @@
+"""`world show`, `convert`, `count` and `sample`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from topo_verify import World, families
+from topo_verify.world import counting
+
+Call = Callable[..., Any]
+
+
+def test_show_has_the_promised_fields(results: Call) -> None:
+    envelope = results("world show m3/14")
+    assert envelope["format"] == "topo-verify/world-show"
+    (entry,) = envelope["results"]
+    del entry["source"], entry["licence"]
+    assert entry == {
+        "name": "m3/14", "id": "m3/14", "vertices": 3, "edges": 3, "faces": 2, "genus": 0,
+        "degrees": [2, 3, 1], "simple": False, "loopless": True, "planar": True, "marker": 0,
+    }  # fmt: skip
+
+
+def test_a_world_too_large_for_an_id_has_none(results: Call) -> None:
+    (entry,) = results("world show 'family:lattice(12,12)'")["results"]
+    assert entry["id"] is None
+
+
+def test_show_for_people_tells_degrees_marker_and_licence(call: Call) -> None:
+    text = call("world show nyc m0/0").stdout
+    assert "2 of degree 1, 9 of degree 2, 14 of degree 3, 21 of degree 4" in text
+    assert "planar    yes" in text
+    assert "OpenStreetMap" in text
+    assert "marker    none" in text
+
+
+def test_convert_writes_what_can_be_read_again(call: Call, folder: Path) -> None:
+    world = families.lattice(3, 4, seed=2)
+    assert World.from_json(call("world convert 'family:lattice(3,4,seed=2)'").stdout) == world
+    done = call("world convert 'family:lattice(3,4,seed=2)' --to json -o w.json")
+    assert (done.exit_code, World.load(folder / "w.json")) == (0, world)
+    assert "w.json" in done.stdout
+    moved = call("world convert - --marker 3", world.to_json()).stdout
+    assert World.from_json(moved) == world.with_marker(3)
+
+
+def test_convert_in_json_is_an_envelope_all_the_same(results: Call) -> None:
+    (entry,) = results("world convert m3/14")["results"]
+    assert World.from_json(entry["text"]) == World.from_id("m3/14")
+    (entry,) = results("world convert m3/14 -o w.json")["results"]
+    assert (entry["file"], entry["text"]) == ("w.json", None)
+
+
+@pytest.mark.parametrize(
+    ("line", "totals"),
+    [
+        ("--edges 6", [(6, "any", 110410)]),
+        ("--edges 0..3", [(0, "any", 1), (1, "any", 2), (2, "any", 10), (3, "any", 74)]),
+        ("--edges 5 --class planar", [(5, "planar", 2916)]),
+        ("--edges 5 --class simple,planar", [(5, "planar,simple", 103)]),
+    ],
+)
+def test_count_gives_the_known_numbers(
+    results: Call, line: str, totals: list[tuple[int, str, int]]
+) -> None:
+    entries = results(f"world count {line}")["results"]
+    assert [(e["edges"], e["class"], e["total"]) for e in entries] == totals
+
+
+def test_count_is_exact_however_many_digits_it_takes(results: Call) -> None:
+    (entry,) = results("world count --edges 200")["results"]
+    assert entry["total"] == counting.count_by_recurrence(200) > 10**400
+
+
+def test_sample_prints_ids_that_other_commands_take(call: Call, results: Call) -> None:
+    done = call("world sample --edges 9 -n 4 --class planar --seed 5")
+    ids = done.stdout.split()
+    assert len(ids) == 4
+    assert done.stderr == "topo-verify: seed 5\n"
+    shown = results(f"world show {' '.join(ids)}")["results"]
+    assert all(entry["planar"] and entry["edges"] == 9 for entry in shown)
+    envelope = results("world sample --edges 9 -n 4 --class planar --seed 5")
+    assert envelope["seed"] == 5
+    assert [entry["id"] for entry in envelope["results"]] == ids
+
+
+def test_sample_writes_world_files(call: Call, folder: Path) -> None:
+    names = call("world sample --edges 220 -n 2 -o out/here").stdout.split()
+    assert names == ["out/here/m220-seed0-0.json", "out/here/m220-seed0-1.json"]
+    assert [len(World.load(folder / name).edges) for name in names] == [220, 220]

@@ -1,0 +1,86 @@
+"""The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
+
+verify.py, explore.py, world.py, replay.py   the commands
+runs.py       worlds as the user names them, findings as shown
+options.py    options that commands share
+output.py     from results to stdout: pretty, json, markdown
+layout.py     tables and paragraphs
+progress.py   the bar on stderr
+failures.py   exit codes, and the sentences that go with them
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from typing import Any, NoReturn
+
+import click
+from click.shell_completion import shell_complete
+
+from topo_verify.cli import options, output
+from topo_verify.cli.explore import explore
+from topo_verify.cli.failures import ExitCode, explain, say, version
+from topo_verify.cli.replay import replay
+from topo_verify.cli.verify import verify
+from topo_verify.cli.world import world
+
+__all__ = ["main"]
+
+_COMPLETE = "_TOPO_VERIFY_COMPLETE"
+"""A shell that completes a line sets this environment variable (see click's manual)."""
+
+
+class Program(click.Group):
+    """All commands, in the order of their importance; how one ends becomes the exit code.
+
+    Click's own `main` would exit 1 where nothing is wrong with a mapper (an interrupt, a closed
+    pipe), so it is replaced.
+    """
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002  click's signature
+        """The names of the commands as they were added."""
+        return list(self.commands)
+
+    def main(  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]  it always exits
+        self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any
+    ) -> NoReturn:
+        """Run the command line, by default the program's own, and exit."""
+        name = prog_name or "topo-verify"
+        if instruction := os.environ.get(_COMPLETE):
+            sys.exit(shell_complete(self, extra, name, _COMPLETE, instruction))
+        sys.exit(self._code(list(sys.argv[1:] if args is None else args), name, extra))
+
+    def _code(self, arguments: list[str], name: str, extra: dict[str, Any]) -> int:
+        try:
+            with self.make_context(name, arguments.copy(), **extra) as context:
+                code = self.invoke(context)
+        except click.exceptions.Exit as done:
+            code = done.exit_code
+        except (click.Abort, KeyboardInterrupt):
+            say("topo-verify: interrupted; nothing came out before")
+            code = ExitCode.INCOMPLETE
+        except BrokenPipeError:  # of --help; results look after themselves
+            output.silence(sys.stdout)
+            code = ExitCode.NOTHING_FOUND
+        except Exception as error:  # noqa: BLE001  whatever it is, the user is told
+            code = explain(error, arguments)
+        return int(code)
+
+
+@click.group(
+    "topo-verify",
+    cls=Program,
+    epilog=options.epilog("verify", "verify my_mapper.py:explore", "explore nyc"),
+)
+@click.version_option(version(), message="%(prog)s %(version)s")
+def main() -> None:
+    """Check algorithms with which one robot and one marker map an unknown graph.
+
+    The mapper is not trusted: it runs in a world, and every claim about it is judged on its trace.
+    """
+
+
+for command in (verify, explore, world, replay):
+    main.add_command(command)

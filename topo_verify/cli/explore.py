@@ -1,0 +1,234 @@
+"""`topo-verify explore`: run algorithms in given worlds; cost and verdict of each run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import click
+import msgspec
+
+from topo_verify import trial
+from topo_verify.campaigns.parts import plural
+from topo_verify.checkers import Finding, Status
+from topo_verify.cli import options
+from topo_verify.cli.layout import Block, Table, Text
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.runs import (
+    Place,
+    claims_cell,
+    finding_blocks,
+    judged,
+    places,
+    silent,
+    undeclared,
+)
+from topo_verify.errors import InputError
+from topo_verify.robot.events import write_trace
+from topo_verify.robot.limits import Limits
+from topo_verify.targets import Target, targets
+from topo_verify.world.formats import files
+
+
+class Chosen(msgspec.Struct, frozen=True):
+    """The policies of a run; None for a mapper that has none."""
+
+    pick: str | None
+    order: str | None
+
+
+class Explored(msgspec.Struct, frozen=True):
+    """One run: an entry of `results`; INTERFACE section 3.
+
+    Attributes:
+        least_cost: what every mapper has to pay that is right in all worlds; not computed yet.
+        isomorphic: the map is the world.
+        entailed: the history alone proves the map; not judged yet.
+        ok: no claim failed, and the run came to its end.
+        claims: the status of each claim.
+        stopped: why the mapper delivered no map, or None.
+    """
+
+    world: str
+    algorithm: str
+    policies: Chosen
+    vertices: int
+    edges: int
+    genus: int
+    cost: int
+    least_cost: int | None
+    isomorphic: bool
+    entailed: bool | None
+    ok: bool
+    findings: tuple[Finding, ...]
+    rejected_free: int
+    rejected_moving: int
+    confirmed: int
+    claims: dict[str, Status]
+    stopped: str | None
+
+
+@click.command(
+    short_help="Run algorithms in given worlds: costs and verdicts.",
+    epilog=options.epilog(
+        "explore nyc",
+        "explore m3/14 --algorithm basic,enhancement-ii --trace FILE",
+        "explore 'family:lattice(10,10,holes=0.2)' --algorithm my_mapper.py:explore",
+    ),
+)
+@click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
+@click.option(
+    "--algorithm",
+    default="all",
+    show_default=True,
+    metavar="TARGET",
+    help="Names of the catalogue with commas, or all; module:attribute or file.py:attribute.",
+)
+@options.policies
+@options.marker
+@click.option("--trace", metavar="FILE", help="Write the trace of the one run, JSON Lines.")
+@options.limits
+@output_options
+def explore(  # noqa: PLR0913  an argument an option
+    output: Output,
+    *,
+    worlds: tuple[str, ...],
+    algorithm: str,
+    pick: str | None,
+    order: str | None,
+    marker: int | None,
+    trace: str | None,
+    limits: Limits,
+) -> int:
+    """Run algorithms in given worlds: what they cost, and whether every claim holds.
+
+    WORLD is a file, a world id (m5/17), family:lattice(10,10,holes=0.2,seed=7), nyc (a real street
+    network) or - (world JSON on standard input).
+    """
+
+    def runs() -> Iterator[Result[Explored]]:
+        found = targets(algorithm, pick=pick, order=order)
+        where = places(worlds, marker)
+        if trace is not None:
+            _require_one_run(trace, found, where)
+        return _results(output, where, found, limits, trace)
+
+    return output.run("explore", runs, show)
+
+
+def _require_one_run(trace: str, found: Sequence[Target], where: Sequence[Place]) -> None:
+    if trace == "-":
+        raise InputError("--trace -: standard output is for the results; name a file")
+    if len(found) * len(where) != 1:
+        raise InputError(
+            f"--trace {trace}: a trace is of one run, these are {len(found) * len(where)}; name"
+            " one WORLD, and one algorithm with --algorithm"
+        )
+
+
+def _results(
+    output: Output,
+    where: Sequence[Place],
+    found: Sequence[Target],
+    limits: Limits,
+    trace: str | None,
+) -> Iterator[Result[Explored]]:
+    total = len(where) * len(found)
+    for number, (at, target) in enumerate((at, target) for at in where for target in found):
+        output.progress(f"{target.text} in {at.name}", number, total)
+        run = trial.explore(at.world, target, limits=limits)
+        if trace is not None:
+            files.write(trace, write_trace(run.trace).decode())
+        yield _result(run, at, limits)
+
+
+def _result(run: trial.Exploration, at: Place, limits: Limits) -> Result[Explored]:
+    report, incomplete = judged(run, at, limits)
+    policies = run.policies
+    entry = Explored(
+        world=at.name,
+        algorithm=run.algorithm,
+        policies=Chosen(policies.pick, policies.order) if policies else Chosen(None, None),
+        vertices=len(at.world.vertices),
+        edges=len(at.world.edges),
+        genus=at.world.genus,
+        cost=run.cost,
+        least_cost=None,
+        isomorphic=report.claims["map-isomorphic"] == "ok",
+        entailed=None,
+        ok=not report.findings and not incomplete,
+        findings=report.findings,
+        rejected_free=run.rejected_free,
+        rejected_moving=run.rejected_moving,
+        confirmed=run.confirmed,
+        claims=report.claims,
+        stopped=run.stopped,
+    )
+    return Result(entry, failed=bool(report.findings), incomplete=incomplete)
+
+
+# ---------------------------------------------------------------- for people
+
+
+def show(entries: Sequence[Explored]) -> Iterator[Block]:
+    """A table a world; of one algorithm in many worlds, one table."""
+    if len(entries) > 1 and len({entry.algorithm for entry in entries}) == 1:
+        rows = [(entry.world, str(entry.edges), *_row(entry)) for entry in entries]
+        yield Table(("world", ">edges", *_COLUMNS), rows, title=entries[0].algorithm)
+    else:
+        for number, group in enumerate(_by_world(entries)):
+            if number:
+                yield Text("")
+            yield _world_table(group)
+    for entry in entries:
+        where = f"{entry.algorithm} in {entry.world}"
+        if entry.findings:
+            yield Text("")
+        yield from finding_blocks(entry.findings, where)
+        if entry.stopped is not None and not entry.findings:
+            yield Text(f"{where} is not decided: {entry.stopped}")
+    quiet = {e.algorithm: silent(e.claims) for e in entries if e.ok and silent(e.claims)}
+    for algorithm, claims in quiet.items():
+        yield Text("")
+        yield Text(undeclared(algorithm, claims))
+
+
+_COLUMNS = (">cost", ">rejected free", ">moving", ">confirmed", "claims")
+
+
+def _row(entry: Explored) -> tuple[str, ...]:
+    return (
+        str(entry.cost),
+        str(entry.rejected_free),
+        str(entry.rejected_moving),
+        str(entry.confirmed),
+        claims_cell(entry.claims, incomplete=not entry.ok and not entry.findings),
+    )
+
+
+def _by_world(entries: Sequence[Explored]) -> Iterator[list[Explored]]:
+    """The runs in one world after the other: the algorithms come round in the same order."""
+    group: list[Explored] = []
+    for entry in entries:
+        if group and entry.algorithm == group[0].algorithm:
+            yield group
+            group = []
+        group.append(entry)
+    if group:
+        yield group
+
+
+def _world_table(group: Sequence[Explored]) -> Table:
+    """What each algorithm paid in one world, relative to `basic` if it is there."""
+    one = group[0]
+    size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
+    title = f"{one.world}: {size}, genus {one.genus}"
+    basic = next((e.cost for e in group if e.algorithm == "basic" and len(group) > 1), 0)
+    if not basic:
+        return Table(("algorithm", *_COLUMNS), [(e.algorithm, *_row(e)) for e in group], title)
+    rows: list[tuple[str, ...]] = []
+    for entry in group:
+        cost, *rest = _row(entry)
+        rows.append((entry.algorithm, cost, f"{entry.cost / basic:.2f}", *rest))
+    cost, *others = _COLUMNS
+    return Table(("algorithm", cost, ">of basic", *others), rows, title)

@@ -1,0 +1,101 @@
+"""What the exit code says, and the one sentence on stderr when a command cannot do its work.
+
+    0    nothing found
+    1    an unexpected counterexample, a claim that fails; nothing else ever exits 1
+    2    bad usage or bad input
+    3    incomplete: a time-out, an interruption
+    70   a bug of ours
+
+Source: INTERFACE section 1 (docs/semantics.md).
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import shlex
+import sys
+import traceback
+from collections.abc import Sequence
+from enum import IntEnum
+from importlib import metadata
+
+import click
+
+from topo_verify.errors import InputError
+from topo_verify.world.formats import files
+
+TRACEBACK = "TOPO_VERIFY_TRACEBACK"
+"""Set to 1, this environment variable asks for the whole traceback of a bug."""
+
+SUMMARY = """\b
+Exit codes: 0 nothing found; 1 a claim fails; 2 bad usage or input;
+  3 incomplete (time-out, Ctrl-C); 70 a bug of topo-verify."""
+"""What every --help ends with. (The mark at its head tells click to keep the lines.)"""
+
+
+class ExitCode(IntEnum):
+    """What the program exits with."""
+
+    NOTHING_FOUND = 0
+    CLAIM_FAILED = 1
+    BAD_INPUT = 2
+    INCOMPLETE = 3
+    OUR_BUG = 70
+
+
+def exit_code(*, failed: bool, incomplete: bool) -> ExitCode:
+    """The exit code of a command that did its work: 1 beats 3."""
+    if failed:
+        return ExitCode.CLAIM_FAILED
+    return ExitCode.INCOMPLETE if incomplete else ExitCode.NOTHING_FOUND
+
+
+def version() -> str:
+    """The version of the package."""
+    return metadata.version("topo-verify")
+
+
+def say(sentence: str) -> None:
+    """One line on stderr, whatever the sentence holds."""
+    line = files.shown(sentence, limit=4000)
+    click.echo(line.encode(errors="backslashreplace").decode(), err=True)
+
+
+def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
+    """Say on stderr what ended a command, and whose move it is."""
+    if isinstance(error, InputError):
+        say(f"topo-verify: {error}")
+        return ExitCode.BAD_INPUT
+    if isinstance(error, click.ClickException):
+        say(_usage(error))
+        return ExitCode.BAD_INPUT
+    return _our_bug(error, arguments)
+
+
+def _usage(error: click.ClickException) -> str:
+    """Click's objection as one sentence, with the help that mends it."""
+    context = error.ctx if isinstance(error, click.UsageError) else None
+    path = context.command_path if context else "topo-verify"
+    if isinstance(error, click.exceptions.NoArgsIsHelpError):
+        return f"{path}: name a command; {path} --help lists them"
+    objection = " ".join(error.format_message().split()).removesuffix(".")
+    objection = objection.replace("'. Did you", "', did you").removesuffix("?")
+    return f"{path}: {objection[:1].lower()}{objection[1:]}; {path} --help shows the usage"
+
+
+def _our_bug(error: Exception, arguments: Sequence[str]) -> ExitCode:
+    if os.environ.get(TRACEBACK) == "1":
+        click.echo("".join(traceback.format_exception(error)), err=True, nl=False)
+    last = traceback.extract_tb(error.__traceback__)[-1:]
+    file = "".join(frame.filename.replace(os.sep, "/") for frame in last)
+    ours = "topo_verify" + file.rpartition("topo_verify")[2]
+    place = "".join(f" ({ours if 'topo_verify' in file else file}:{f.lineno})" for f in last)
+    command = shlex.join(["topo-verify", *arguments])
+    say(
+        f"topo-verify: a bug of topo-verify, not of your input: {type(error).__name__}: {error}"
+        f"{place}; please report it with this line, the command line {command!r} and the versions"
+        f" topo-verify {version()}, Python {platform.python_version()}, {sys.platform}"
+        f" ({TRACEBACK}=1 adds the traceback)"
+    )
+    return ExitCode.OUR_BUG

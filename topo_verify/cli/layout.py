@@ -1,0 +1,172 @@
+"""What a person reads: a few kinds of blocks, printed on a terminal or written as Markdown.
+
+A command says what there is to see as a list of blocks and knows nothing of either form. Texts may
+come from anywhere (a world's name, a mapper's exception), so control characters are escaped here.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import IO, TYPE_CHECKING
+
+from topo_verify.world.formats import files
+
+if TYPE_CHECKING:
+    from rich.table import Table as Grid
+
+WIDTH = 80
+"""Columns where there is no terminal to ask."""
+
+STYLES = {
+    "PROVED": "bold green",
+    "EXHAUSTED": "bold green",
+    "SAMPLED": "bold cyan",
+    "UNKNOWN": "bold yellow",
+    "REFUTED": "bold red",
+    "ok": "green",
+    "failed": "bold red",
+    "incomplete": "bold yellow",
+}
+"""Words that a terminal shows in colour where they fill a cell."""
+
+
+@dataclass(frozen=True)
+class Text:
+    """A paragraph."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command line to be copied: never broken into lines."""
+
+    line: str
+    label: str = ""
+
+
+@dataclass(frozen=True)
+class Bullets:
+    """Short texts, one under the other."""
+
+    items: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of cells.
+
+    Attributes:
+        columns: the titles; one that begins with `>` stands over numbers, flush right.
+        rows: as many cells each as there are columns.
+        title: what the rows have in common.
+        widths: least widths, for tables that are printed a row at a time.
+        headed: print the titles? (Markdown always does.)
+    """
+
+    columns: tuple[str, ...]
+    rows: Sequence[tuple[str, ...]]
+    title: str = ""
+    widths: tuple[int, ...] = ()
+    headed: bool = True
+
+
+@dataclass(frozen=True)
+class Raw:
+    """Text for another program: printed as it is."""
+
+    text: str
+
+
+Block = Text | Command | Bullets | Table | Raw
+
+
+# ---------------------------------------------------------------- on a terminal
+
+
+def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
+    """Print the blocks; in colour if it is a terminal, 80 columns wide if it is none."""
+    from rich.console import Console
+    from rich.padding import Padding
+    from rich.text import Text as Line
+
+    wide = None if out.isatty() else WIDTH
+    console = Console(file=out, width=wide, highlight=False, markup=False, emoji=False)
+    for block in blocks:
+        with console.capture() as printed:
+            match block:
+                case Text(text):
+                    console.print(Line(_clean(text)))
+                case Command(line, label):
+                    console.print(Line(f"  {label}{_clean(line)}"), soft_wrap=True)
+                case Bullets(items):
+                    for item in items:
+                        console.print(Padding(Line(_clean(item)), (0, 0, 0, 2)))
+                case Raw(text):
+                    out.write(text + "\n")
+                case Table():
+                    if block.title:
+                        console.print(Line(_clean(block.title), style="bold"))
+                    console.print(_grid(block))
+        # Rich fills its lines with spaces.
+        out.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
+
+
+def _grid(block: Table) -> Grid:
+    from rich.table import Table as Grid
+    from rich.text import Text as Line
+
+    grid = Grid(box=None, show_header=block.headed, pad_edge=False, padding=(0, 2, 0, 0))
+    for place, title in enumerate(block.columns):
+        grid.add_column(
+            _clean(title.removeprefix(">")),
+            justify="right" if title.startswith(">") else "left",
+            overflow="fold",
+            min_width=block.widths[place] if block.widths else None,
+        )
+    for row in block.rows:
+        grid.add_row(*(Line(_clean(cell), style=STYLES.get(cell, "")) for cell in row))
+    return grid
+
+
+def _clean(text: str) -> str:
+    return files.shown(text, limit=4000)
+
+
+# ---------------------------------------------------------------- as Markdown
+
+
+def markdown(blocks: Iterable[Block]) -> str:
+    """The blocks as Markdown (with the tables of GitHub)."""
+    return "\n\n".join(filter(None, map(_markdown, blocks))) + "\n"
+
+
+def _markdown(block: Block) -> str:
+    match block:
+        case Text(text):
+            return _escaped(text)
+        case Command(line, label):
+            return _escaped(label) + _code(line)
+        case Bullets(items):
+            return "\n".join(f"- {_escaped(item)}" for item in items)
+        case Raw(text):
+            return f"```\n{text}\n```"
+        case Table(columns, rows, title):
+            head = f"**{_escaped(title)}**\n\n" if title else ""
+            titles = [column.removeprefix(">") for column in columns]
+            rule = ["---:" if column.startswith(">") else "---" for column in columns]
+            lines = [map(_escaped, titles), rule, *(map(_escaped, row) for row in rows)]
+            return head + "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def _escaped(text: str) -> str:
+    return re.sub(r"([\\`*|<\[\]])", r"\\\1", _clean(text))
+
+
+def _code(text: str) -> str:
+    text = _clean(text)
+    longest = max(map(len, re.findall("`+", text)), default=0)
+    fence = "`" * (longest + 1)
+    return f"{fence}{' ' if longest else ''}{text}{' ' if longest else ''}{fence}"

@@ -1,0 +1,236 @@
+"""From the entries that a command yields to what stands on stdout, and to the exit code.
+
+A command is a generator of `Result`s. `Output.run` drives it, keeps what it has yielded when Ctrl-C
+or a broken pipe ends it early, and prints one of three forms: `pretty` for people, `json` (one
+object, INTERFACE section 1) for scripts, `markdown` for reports.
+
+While the command works, stdout belongs to the results: what a mapper prints goes to stderr.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout, suppress
+from dataclasses import dataclass, field
+from functools import wraps
+from pathlib import Path
+from time import perf_counter
+from typing import IO, Any, Concatenate, Generic, ParamSpec, TypeVar
+
+import click
+import msgspec
+
+from topo_verify.campaigns.parts import plural
+from topo_verify.cli import layout
+from topo_verify.cli.failures import exit_code, say, version
+from topo_verify.cli.layout import Block
+from topo_verify.cli.progress import Progress
+from topo_verify.errors import InputError
+
+P = ParamSpec("P")
+E = TypeVar("E", bound=msgspec.Struct)
+
+VERSION = 1
+"""The version of the envelope."""
+
+
+@dataclass(frozen=True)
+class Result(Generic[E]):
+    """One entry of `results`, and what it means for the exit code.
+
+    Attributes:
+        entry: what is printed; its fields are promised in INTERFACE section 3.
+        failed: a claim fails in it.
+        incomplete: something that was asked for was not done.
+    """
+
+    entry: E
+    failed: bool = False
+    incomplete: bool = False
+
+
+@dataclass
+class _Done(Generic[E]):
+    """What a command has done so far; lives as long as its run."""
+
+    results: list[Result[E]] = field(default_factory=list[Result[E]])
+    seconds: list[float] = field(default_factory=list[float])
+    finished: bool = False
+
+    @property
+    def entries(self) -> list[E]:
+        return [result.entry for result in self.results]
+
+    @property
+    def code(self) -> int:
+        incomplete = not self.finished or any(result.incomplete for result in self.results)
+        return exit_code(failed=any(r.failed for r in self.results), incomplete=incomplete)
+
+
+@dataclass(frozen=True)
+class Live(Generic[E]):
+    """How entries are shown as they come: something first, each of them, something last."""
+
+    head: Iterable[Block]
+    each: Callable[[E], Iterable[Block]]
+    end: Callable[[Sequence[E]], Iterable[Block]]
+
+
+class _ReaderGone(Exception):
+    """Whoever read our stdout has closed it (`| head`): nothing is left to say."""
+
+
+class Output:
+    """How one command prints: its --format and --quiet."""
+
+    def __init__(self, style: str, *, quiet: bool) -> None:
+        self.style, self.quiet = style, quiet
+        self.stdout: IO[str] = sys.stdout or _nowhere()
+        self.progress = Progress(quiet=quiet)
+
+    def note(self, sentence: str) -> None:
+        """A warning or a remark on stderr, unless --quiet."""
+        if not self.quiet:
+            self.progress.clear()
+            say(f"topo-verify: {sentence}")
+
+    def run(
+        self,
+        command: str,
+        results: Callable[[], Iterator[Result[E]]],
+        show: Callable[[Sequence[E]], Iterable[Block]],
+        *,
+        live: Live[E] | None = None,
+        **more: Any,
+    ) -> int:
+        """Do the command's work and print its results; the exit code.
+
+        Args:
+            results: does the work, one entry after the other.
+            show: all entries as blocks, for people.
+            live: in `pretty` form, show the entries as they come, in place of `show`.
+            more: further fields of the JSON envelope.
+        """
+        done: _Done[E] = _Done()
+        live = live if self.style == "pretty" else None
+        begin = perf_counter()
+        try:
+            if live is not None:
+                self._pretty(live.head)
+            self._collect(done, results(), live)
+            self._print(command, done, live.end if live else show, perf_counter() - begin, more)
+        except _ReaderGone:
+            return done.code
+        if not done.finished:
+            many = plural(len(done.results), "result")
+            say(f"topo-verify: interrupted; {many} came out before, the rest is not known")
+        return done.code
+
+    def _collect(
+        self,
+        done: _Done[E],
+        results: Iterator[Result[E]],
+        live: Live[E] | None,
+    ) -> None:
+        """Take what the command yields until it ends, by itself or not."""
+        begin = perf_counter()
+        try:
+            for result in results:
+                done.results.append(result)
+                done.seconds.append(perf_counter() - begin)
+                if live is not None:
+                    self.progress.clear()
+                    self._pretty(live.each(result.entry))
+                begin = perf_counter()
+            done.finished = True
+        except KeyboardInterrupt:
+            pass  # what is done is printed
+        finally:
+            self.progress.clear()
+
+    def _print(
+        self,
+        command: str,
+        done: _Done[E],
+        show: Callable[[Sequence[E]], Iterable[Block]],
+        seconds: float,
+        more: dict[str, Any],
+    ) -> None:
+        if self.style == "pretty":
+            self._pretty(show(done.entries))
+            return
+        with _reader(self.stdout) as out:
+            if self.style == "json":
+                envelope = {
+                    "format": f"topo-verify/{command}",
+                    "version": VERSION,
+                    "tool": version(),
+                    "ok": done.code == 0,
+                    "exit": int(done.code),
+                    **more,
+                    "results": msgspec.to_builtins(done.entries),
+                    "timing": {"seconds": seconds, "results": done.seconds},
+                }
+                out.write(json.dumps(envelope) + "\n")
+            else:
+                out.write(layout.markdown(show(done.entries)))
+
+    def _pretty(self, blocks: Iterable[Block]) -> None:
+        with _reader(self.stdout) as out:
+            layout.pretty(blocks, out)
+
+
+@contextmanager
+def _reader(out: IO[str]) -> Generator[IO[str]]:
+    """Behind it, what was written has been read, or at least taken.
+
+    Raises:
+        _ReaderGone: nobody reads any more.
+        InputError: it cannot be written, as on a full disk.
+    """
+    if (reconfigure := getattr(out, "reconfigure", None)) is not None:
+        reconfigure(errors="backslashreplace")  # an encoding that lacks one of our letters
+    try:
+        yield out
+        out.flush()
+    except BrokenPipeError:
+        silence(out)
+        raise _ReaderGone from None
+    except OSError as error:
+        silence(out)
+        raise InputError(f"cannot write to standard output: {error.strerror}") from error
+
+
+def _nowhere() -> IO[str]:
+    """In place of a standard output that was closed before we were called."""
+    return Path(os.devnull).open("w", encoding="utf-8")
+
+
+def silence(out: IO[str]) -> None:
+    """Send what is still to be written nowhere, so that Python's exit does not complain."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), out.fileno())
+
+
+def options(command: Callable[Concatenate[Output, P], int]) -> Callable[..., int]:
+    """The options of every command, handed over as its first argument, an `Output`."""
+
+    @click.option(
+        "--format",
+        "style",
+        type=click.Choice(["pretty", "json", "markdown"]),
+        default="pretty",
+        show_default=True,
+        help="How results are printed.",
+    )
+    @click.option("--quiet", is_flag=True, help="No progress, no warnings.")
+    @wraps(command)
+    def wrapper(style: str, quiet: bool, *args: P.args, **kwargs: P.kwargs) -> int:  # noqa: FBT001  click passes them by name
+        output = Output(style, quiet=quiet)
+        with redirect_stdout(sys.stderr):  # what a mapper prints must not stand among the results
+            return command(output, *args, **kwargs)
+
+    return wrapper

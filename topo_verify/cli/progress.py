@@ -1,0 +1,84 @@
+"""Progress on stderr: only on a terminal, only without --quiet, only on work over a second."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from threading import Lock, Timer
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar
+
+Tell = Callable[[str, int, int], None]
+"""(what is being done, how much of it is done, how much there is)"""
+
+PATIENCE = 1.0
+"""Seconds of work that are not worth a bar."""
+
+
+class Progress:
+    """A bar that appears when work takes long and leaves nothing behind.
+
+    Life cycle: call it (it is a `Tell`) as work goes on; `clear` it before anything is printed, for
+    results share the terminal with it. The next call begins anew.
+    """
+
+    def __init__(self, *, quiet: bool) -> None:
+        self._wanted = not quiet and sys.stderr is not None and sys.stderr.isatty()
+        self._state = ("", 0, 0)
+        self._lock = Lock()
+        self._timer: Timer | None = None
+        self._bar: Bar | None = None
+
+    def __call__(self, what: str, done: int, total: int) -> None:
+        """Say how far the work is."""
+        if not self._wanted:
+            return
+        self._state = (what, done, total)
+        if self._timer is None:
+            # A clock of its own: one long run would not call again for a while.
+            self._timer = Timer(PATIENCE, self._appear)
+            self._timer.daemon = True
+            self._timer.start()
+        with self._lock:
+            self._show()
+
+    def clear(self) -> None:
+        """Take the bar off the terminal."""
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer.join()
+            self._timer = None
+        if self._bar is not None:
+            self._bar.stop()
+            self._bar = None
+
+    def _appear(self) -> None:
+        with self._lock:
+            self._bar = _bar()
+            self._bar.add_task("")
+            self._show()
+            self._bar.start()
+
+    def _show(self) -> None:
+        if self._bar is not None:
+            what, done, total = self._state
+            self._bar.update(self._bar.task_ids[0], description=what, completed=done, total=total)
+
+
+def _bar() -> Bar:
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    return Bar(
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        console=Console(stderr=True),
+        transient=True,
+        redirect_stdout=False,  # results are printed when the bar is off
+        redirect_stderr=False,
+    )

@@ -1,0 +1,190 @@
+"""`topo-verify replay`: a counterexample run again, or a trace judged again."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import cast
+
+import click
+import msgspec
+
+from topo_verify import trial
+from topo_verify.campaigns.parts import plural
+from topo_verify.checkers import Finding, Status
+from topo_verify.cli import options
+from topo_verify.cli.layout import Block, Bullets, Text
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.runs import Place, finding_line, held, judged, place, silent
+from topo_verify.errors import InputError
+from topo_verify.robot.events import Start, read_trace
+from topo_verify.robot.limits import Limits
+from topo_verify.targets import one_target
+from topo_verify.trial import Report
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import World
+
+
+class Replayed(msgspec.Struct, frozen=True):
+    """A run judged again: an entry of `results`; INTERFACE section 3.
+
+    Attributes:
+        trace: the file of the trace, or None where the target was run anew.
+        claims: the status of each claim.
+        stopped: why the mapper delivered no map, or None.
+    """
+
+    world: str
+    target: str
+    ok: bool
+    cost: int
+    findings: tuple[Finding, ...]
+    trace: str | None
+    claims: dict[str, Status]
+    stopped: str | None
+
+
+@click.command(
+    short_help="Show a counterexample again, or judge a trace again.",
+    epilog=options.epilog(
+        "replay m5/17 --target enhancement-ii",
+        "replay m2/9 --target my_mapper.py:explore",
+        "replay trace.jsonl",
+    ),
+)
+@click.argument("what", metavar="FILE|WORLD")
+@click.option("--target", metavar="TARGET", help="The mapper to run in WORLD.  [default: basic]")
+@options.policies
+@options.marker
+@click.option("--world", "where", metavar="WORLD", help="Where the trace in FILE was left.")
+@options.limits
+@output_options
+def replay(  # noqa: PLR0913  an argument an option
+    output: Output,
+    *,
+    what: str,
+    target: str | None,
+    pick: str | None,
+    order: str | None,
+    marker: int | None,
+    where: str | None,
+    limits: Limits,
+) -> int:
+    """Judge a trace again, or run a mapper again in a world: a counterexample's line.
+
+    FILE holds a trace, as explore --trace writes it. Its world is the one that it names, or that of
+    --world. A WORLD is explored anew by --target.
+    """
+
+    def replayed() -> Iterator[Result[Replayed]]:
+        data = _bytes(what)
+        if data is not None and _is_trace(data):
+            given = {"--target": target, "--pick": pick, "--order": order}
+            words = [name for name, value in given.items() if value is not None]
+            _require_none((*words, *limits.options), what)
+            yield _judged(output, what, data, where, marker)
+            return
+        if where is not None:
+            raise InputError(f"--world {where}: {what} is no trace, and --world is for a trace")
+        at = place(what, marker, data)
+        mapper = one_target("basic" if target is None else target, pick=pick, order=order)
+        output.progress(f"{mapper.text} in {at.name}", 0, 1)
+        run = trial.explore(at.world, mapper, limits=limits)
+        report, incomplete = judged(run, at, limits)
+        yield _result(report, at, None, run.stopped, incomplete=incomplete)
+
+    return output.run("replay", replayed, _show)
+
+
+def _require_none(given: Sequence[str], what: str) -> None:
+    if given:
+        raise InputError(
+            f"{given[0]} with the trace {what}: a trace is judged as it stands; leave the option"
+            " out, or name a WORLD to run a mapper in"
+        )
+
+
+def _bytes(what: str) -> bytes | None:
+    """What is in the file or on standard input; None if the argument is neither."""
+    if what == "-":
+        return files.read_stream(sys.stdin.buffer, name="standard input")
+    try:
+        there = Path(what).is_file()
+    except (OSError, ValueError):  # a name that no file can have
+        there = False
+    return files.read(what) if there else None
+
+
+def _is_trace(data: bytes) -> bool:
+    """Is the first line an event? That of a world is the whole world, or no JSON."""
+    head = data.lstrip().split(b"\n", 1)[0]
+    try:
+        first = msgspec.json.decode(head)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        return False
+    return isinstance(first, dict) and "type" in cast("dict[str, object]", first)
+
+
+def _judged(
+    output: Output, what: str, data: bytes, where: str | None, marker: int | None
+) -> Result[Replayed]:
+    """A trace in its world."""
+    name = "standard input" if what == "-" else what
+    trace = read_trace(data, name=name)
+    start = trace[0]
+    assert isinstance(start, Start), "read_trace has seen to it"
+    at = place(where, marker) if where is not None else _own_world(name, start, marker)
+    output.progress(f"judging {name}", 0, 1)
+    again = shlex.join(["topo-verify", "replay", what, "--world", at.again, *at.options])
+    target = start.algorithm or "unknown"
+    report = trial.judge_trace(at.world, trace, target=target, where=at.again, again=again)
+    if report.claims["percepts-true"] == "failed":
+        output.note(
+            f"{name} diverges from {at.again}: it was left in another world (--world names it), by"
+            " another version, or it was edited"
+        )
+    return _result(report, at, what, None)
+
+
+def _own_world(name: str, start: Start, marker: int | None) -> Place:
+    """The world that a trace names: by its id, for a trace may come from anywhere."""
+    if start.world is None:
+        raise InputError(f"{name} does not say in which world it was left: name it with --world")
+    try:
+        World.from_id(start.world)
+    except InputError as error:
+        raise InputError(f"{name}, line 1: {error}; name the world with --world") from error
+    return place(start.world, marker)
+
+
+def _result(
+    report: Report, at: Place, trace: str | None, stopped: str | None, *, incomplete: bool = False
+) -> Result[Replayed]:
+    entry = Replayed(
+        world=at.name,
+        target=report.target,
+        ok=not report.findings and not incomplete,
+        cost=report.cost,
+        findings=report.findings,
+        trace=trace,
+        claims=report.claims,
+        stopped=stopped,
+    )
+    return Result(entry, failed=bool(report.findings), incomplete=incomplete)
+
+
+def _show(entries: Sequence[Replayed]) -> Iterator[Block]:
+    for entry in entries:
+        failed = [claim for claim, status in entry.claims.items() if status == "failed"]
+        words = f"{entry.target} in {entry.world}, {plural(entry.cost, 'edge traversal')}: "
+        if not entry.ok and not entry.findings:
+            words += f"not decided, {entry.stopped}"
+        else:
+            words += f"{held(entry.claims)} of {plural(len(entry.claims), 'claim')} hold"
+            words += f", {len(failed)} fail" if failed else ""
+            words += f", {len(silent(entry.claims))} not declared" if silent(entry.claims) else ""
+        yield Text(words)
+        yield Bullets(tuple(map(finding_line, entry.findings)))

@@ -1,0 +1,142 @@
+"""`topo-verify verify`: the main job, one report in under a minute."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+import click
+
+from topo_verify.campaigns import verify as campaign
+from topo_verify.campaigns.parts import Part, plural
+from topo_verify.checkers import CLAIMS
+from topo_verify.cli import options
+from topo_verify.cli.failures import version
+from topo_verify.cli.layout import Block, Table, Text
+from topo_verify.cli.output import Live, Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.runs import finding_blocks, undeclared
+from topo_verify.robot.limits import Limits
+from topo_verify.targets import Target, targets
+
+
+@click.command(
+    short_help="Check the catalogue, or a mapper of your own: one report.",
+    epilog=options.epilog("verify", "verify my_mapper.py:explore", "verify --quick --format json"),
+)
+@click.argument("target", default="all", metavar="[TARGET]")
+@click.option("--quick", is_flag=True, help="Smaller sizes: a few seconds.")
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    default=campaign.SEED,
+    show_default=True,
+    metavar="N",
+    help="Draws the sampled worlds.",
+)
+@options.limits
+@output_options
+def verify(output: Output, *, target: str, quick: bool, seed: int, limits: Limits) -> int:
+    """Check the algorithms of the catalogue, or a mapper of your own, in four parts.
+
+    TARGET is `all` (the default), names of the catalogue with commas, package.module:attribute or
+    path/file.py:attribute. A mapper takes a robot and returns a map.
+    """
+    mappers = targets(target)
+
+    def parts() -> Iterator[Result[Part]]:
+        tell = output.progress
+        for part in campaign.verify(mappers, quick=quick, seed=seed, limits=limits, tell=tell):
+            incomplete = part.verdict == "UNKNOWN"
+            yield Result(part, failed=part.verdict == "REFUTED", incomplete=incomplete)
+
+    head = (Text(_head(mappers, seed)),)
+    return output.run(
+        "verify",
+        parts,
+        lambda entries: _show(head, entries),
+        live=Live(head, _live, _end),
+        target=target,
+        quick=quick,
+        seed=seed,
+    )
+
+
+# ---------------------------------------------------------------- for people
+
+
+def _head(mappers: Sequence[Target], seed: int) -> str:
+    who = mappers[0].text if len(mappers) == 1 else plural(len(mappers), "mapper")
+    return f"topo-verify {version()}: {who}, {len(CLAIMS)} claims, seed {seed}"
+
+
+def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
+    """Everything at once."""
+    yield from head
+    columns = ("part", "verdict", ">checked", ">total", "summary")
+    rows = [(e.part, e.verdict, str(e.checked), str(e.total), e.summary) for e in entries]
+    yield Table(columns, rows)
+    for entry in entries:
+        yield from _first(entry)
+    yield from _end(entries)
+
+
+def _live(entry: Part) -> Iterator[Block]:
+    """One part, as soon as it is done."""
+    row = (entry.part, entry.verdict, entry.summary)
+    yield Table(("part", "verdict", "summary"), [row], widths=(14, 9, 0), headed=False)
+    yield from _first(entry)
+
+
+def _first(entry: Part) -> Iterator[Block]:
+    """The smallest counterexample of a part; JSON has more."""
+    smallest = [f for f in entry.findings if f.replay == entry.findings[0].replay]
+    if smallest:
+        yield from finding_blocks(
+            smallest, f"smallest counterexample: {smallest[0].world}", shown=2
+        )
+
+
+def _end(entries: Sequence[Part]) -> Iterator[Block]:
+    """What is said when all is done: the costs, and the upshot."""
+    for entry in entries:
+        if entry.costs:
+            yield Text("")
+            yield _costs(entry)
+    yield Text("")
+    yield Text(_upshot(entries))
+
+
+def _upshot(entries: Sequence[Part]) -> str:
+    silent = {
+        claim
+        for entry in entries
+        for claim, seen in entry.claims.items()
+        if seen["not-declared"] and not seen["ok"] and not seen["failed"]
+    }
+    if any(entry.verdict == "REFUTED" for entry in entries):
+        return "A claim fails: the lines behind 'again' show where."
+    words = "No claim failed in what was checked, which is what stands above and no more."
+    if not all(entry.ok for entry in entries):
+        words = "No claim failed, but not everything was checked."
+    if silent:
+        words += " " + undeclared("the mapper", [claim for claim in CLAIMS if claim in silent])
+    return words
+
+
+def _costs(entry: Part) -> Table:
+    rows: list[tuple[str, ...]] = []
+    for one in entry.costs:
+        rejected = one.rejected_free + one.rejected_moving
+        rows.append(
+            (
+                f"({one.algorithm})" if one.reference else one.algorithm,
+                str(one.cost),
+                "fails" if one.ratio is None else f"{one.ratio:.2f}",
+                f"{100 * one.rejected_free / rejected:.0f} %" if rejected else "-",
+            )
+        )
+    columns = ("mapper", ">cost", ">of basic", ">rejected without motion")
+    title = f"{entry.part}: costs in edge traversals"
+    if any(one.reference for one in entry.costs):
+        title += ", (others) for comparison"
+    return Table(columns, rows, title=title)

@@ -1,0 +1,270 @@
+"""`topo-verify world`: show, convert, count and sample worlds."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import click
+import msgspec
+
+from topo_verify.cli import options
+from topo_verify.cli.layout import Block, Raw, Table
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.runs import Place, place, places
+from topo_verify.errors import InputError
+from topo_verify.world.classes import WorldClass
+from topo_verify.world.counting import MAX_ID_EDGES
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import World
+
+FORMATS: dict[str, Callable[[World], str]] = {"json": World.to_json}
+"""What `convert --to` knows: the text of a world in each format."""
+
+MAX_EDGES = 1000
+"""The most edges that worlds are counted and drawn with here: beyond, the numbers take minutes."""
+
+
+@click.group(epilog=options.epilog("world show nyc", "world count --edges 6 --class planar"))
+def world() -> None:
+    """Show, convert, count and sample worlds."""
+
+
+class_option = click.option(
+    "--class",
+    "kind",
+    default="any",
+    show_default=True,
+    metavar="CLASS",
+    help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; several with commas.",
+)
+
+
+# ---------------------------------------------------------------- show
+
+
+class Shown(msgspec.Struct, frozen=True):
+    """What a world is; INTERFACE section 3. `id` is None beyond 200 edges."""
+
+    name: str
+    id: str | None
+    vertices: int
+    edges: int
+    faces: int
+    genus: int
+    degrees: tuple[int, ...]
+    simple: bool
+    loopless: bool
+    planar: bool
+    marker: int | None
+    source: str
+    licence: str
+
+
+@world.command(epilog=options.epilog("world show nyc", "world show m5/17 --format json"))
+@click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
+@options.marker
+@output_options
+def show(output: Output, *, worlds: tuple[str, ...], marker: int | None) -> int:
+    """Show what a world is: its size, its genus, its degrees, its id."""
+
+    def shown() -> Iterator[Result[Shown]]:
+        for at in places(worlds, marker):
+            yield Result(_shown(at))
+
+    return output.run("world-show", shown, _show)
+
+
+def _shown(at: Place) -> Shown:
+    world = at.world
+    return Shown(
+        name=at.name,
+        id=_id(world),
+        vertices=len(world.vertices),
+        edges=len(world.edges),
+        faces=len(world.faces),
+        genus=world.genus,
+        degrees=world.degrees,
+        simple=world.is_simple,
+        loopless=world.is_loopless,
+        planar=world.is_planar,
+        marker=world.marker,
+        source=world.source,
+        licence=world.licence,
+    )
+
+
+def _id(world: World) -> str | None:
+    return world.id if len(world.edges) <= MAX_ID_EDGES else None
+
+
+def _show(entries: Sequence[Shown]) -> Iterator[Block]:
+    for entry in entries:
+        degrees = sorted(Counter(entry.degrees).items())
+        facts: dict[str, Any] = msgspec.structs.asdict(entry)
+        facts["degrees"] = ", ".join(f"{number} of degree {d}" for d, number in degrees)
+        facts["marker"] = "none" if entry.marker is None else f"at dart {entry.marker}"
+        rows = [(name, _word(fact)) for name, fact in facts.items() if fact not in ("", None)]
+        yield Table(("property", "value"), rows, headed=False)
+
+
+def _word(fact: object) -> str:
+    return {True: "yes", False: "no"}[fact] if isinstance(fact, bool) else str(fact)
+
+
+# ---------------------------------------------------------------- convert
+
+
+class Converted(msgspec.Struct, frozen=True):
+    """A world in another format: in a file, or here."""
+
+    world: str
+    to: str
+    file: str | None
+    text: str | None
+
+
+@world.command(epilog=options.epilog("world convert m5/17 --to json -o FILE"))
+@click.argument("world", metavar="WORLD")
+@click.option("--to", default="json", show_default=True, type=click.Choice([*FORMATS]))
+@click.option("-o", "file", default="-", metavar="FILE", help="Where to; default: standard output.")
+@options.marker
+@output_options
+def convert(output: Output, *, world: str, to: str, file: str, marker: int | None) -> int:
+    """Write a world in another format."""
+
+    def converted() -> Iterator[Result[Converted]]:
+        at = place(world, marker)
+        text = FORMATS[to](at.world)
+        if file == "-":
+            yield Result(Converted(at.name, to, None, text))
+        else:
+            files.write(file, text + "\n")
+            yield Result(Converted(at.name, to, file, None))
+
+    return output.run("world-convert", converted, _show_converted)
+
+
+def _show_converted(entries: Sequence[Converted]) -> Iterator[Block]:
+    for entry in entries:
+        if entry.text is not None:
+            yield Raw(entry.text)
+        else:
+            yield Table(("world", "to", "file"), [(entry.world, entry.to, str(entry.file))])
+
+
+# ---------------------------------------------------------------- count
+
+
+class Counted(msgspec.Struct, frozen=True):
+    """How many worlds there are; INTERFACE section 3."""
+
+    edges: int
+    # `class` cannot be a name in Python.
+    kind: str = msgspec.field(name="class")
+    total: int
+
+
+def _range(_context: click.Context, _option: click.Parameter, value: str) -> range:
+    """A number of edges, or a range of them, A..B."""
+    found = re.fullmatch(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}))?", value)
+    if not found:
+        raise click.BadParameter(f"{value!r} is no number of edges and no range as 1..6")
+    first, last = int(found[1]), int(found[2] or found[1])
+    if not first <= last <= MAX_EDGES:
+        raise click.BadParameter(f"{value!r}: numbers of edges go up, and up to {MAX_EDGES}")
+    return range(first, last + 1)
+
+
+@world.command(
+    epilog=options.epilog("world count --edges 6", "world count --edges 1..5 --class simple")
+)
+@click.option("--edges", callback=_range, required=True, metavar="N", help="How many, or A..B.")
+@class_option
+@output_options
+def count(output: Output, *, edges: range, kind: str) -> int:
+    """Count the worlds with so many edges, up to isomorphism (rooted maps)."""
+
+    def counted() -> Iterator[Result[Counted]]:
+        worlds = WorldClass.parse(kind)
+        for number, m in enumerate(edges):
+            output.progress(f"{m} edges, class {worlds}", number, len(edges))
+            yield Result(Counted(edges=m, kind=str(worlds), total=worlds.count(m)))
+
+    return output.run("world-count", counted, _show_counted)
+
+
+def _show_counted(entries: Sequence[Counted]) -> Iterator[Block]:
+    rows = [(str(e.edges), e.kind, str(e.total)) for e in entries]
+    yield Table((">edges", "class", ">worlds"), rows)
+
+
+# ---------------------------------------------------------------- sample
+
+
+class Sampled(msgspec.Struct, frozen=True):
+    """A world that was drawn; `id` is None beyond 200 edges, `file` where none was asked for."""
+
+    id: str | None
+    edges: int
+    kind: str = msgspec.field(name="class")
+    seed: int
+    file: str | None
+
+
+@world.command(
+    epilog=options.epilog("world sample --edges 20 -n 5", "world sample --edges 300 -o FOLDER")
+)
+@click.option(
+    "--edges", type=click.IntRange(0, MAX_EDGES), required=True, metavar="N", help="How many."
+)
+@class_option
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, metavar="N")
+@click.option(
+    "-n", "number", type=click.IntRange(min=1), default=1, show_default=True, help="Worlds."
+)
+@click.option("-o", "folder", metavar="FOLDER", help="Write world files there.")
+@output_options
+def sample(
+    output: Output, *, edges: int, kind: str, seed: int, number: int, folder: str | None
+) -> int:
+    """Draw worlds, each with the same probability among those of its class; prints their ids."""
+    if folder is None and edges > MAX_ID_EDGES:
+        raise InputError(
+            f"--edges {edges}: worlds with more than {MAX_ID_EDGES} edges have no id to print; say"
+            " with -o which folder to write them to"
+        )
+
+    def sampled() -> Iterator[Result[Sampled]]:
+        random, worlds, file = Random(seed), WorldClass.parse(kind), None
+        target = None if folder is None else _folder(folder)
+        output.note(f"seed {seed}")
+        for index in range(number):
+            output.progress("drawing worlds", index, number)
+            drawn = worlds.sample(edges, random)
+            if target is not None:
+                file = str(target / f"m{edges}-seed{seed}-{index}.json")
+                files.write(file, drawn.to_json() + "\n")
+            yield Result(
+                Sampled(id=_id(drawn), edges=edges, kind=str(worlds), seed=seed, file=file)
+            )
+
+    return output.run("world-sample", sampled, _show_sampled, seed=seed)
+
+
+def _folder(name: str) -> Path:
+    try:
+        Path(name).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"-o {name}: cannot make this folder: {error.strerror}") from error
+    return Path(name)
+
+
+def _show_sampled(entries: Sequence[Sampled]) -> Iterator[Block]:
+    for entry in entries:
+        yield Raw(entry.file or str(entry.id))
