@@ -117,6 +117,7 @@ def failing(world: World, trace: Sequence[Event]) -> set[str]:
 
 def edited(trace: Trace, index: int, **changes: Any) -> Trace:
     """The trace with other fields in one event."""
+    index %= len(trace)
     event = msgspec.structs.replace(trace[index], **changes)
     return (*trace[:index], event, *trace[index + 1 :])
 

@@ -121,8 +121,8 @@ def _load_file(path: Path, text: str) -> object:
         raise InputError(f"target {text!r}: there is no file {str(path)!r}")
     name = f"_topo_verify_target_{path.resolve().stem}"
     spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None:
-        raise InputError(f"target {text!r}: {str(path)!r} is no Python file")
+    assert spec is not None, "a name that ends in .py has a loader"
+    assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     folder = str(path.resolve().parent)
     if folder not in sys.path:

@@ -134,6 +134,14 @@ def test_a_decision_may_be_declared_as_an_event_or_as_its_json(
     assert robot.events == [meant, meant]
 
 
+def test_the_darts_of_a_decision_may_be_of_any_integer_type(robot: SimulatedRobot) -> None:
+    robot.declare({"type": "pose", "edge": np.int64(0), "hypotheses": (np.int8(1), 2)})
+    (pose,) = robot.events
+    assert pose == Pose(0, (1, 2))
+    assert isinstance(pose, Pose)
+    assert type(pose.edge) is int
+
+
 @pytest.mark.parametrize(
     "nonsense",
     [
@@ -146,6 +154,8 @@ def test_a_decision_may_be_declared_as_an_event_or_as_its_json(
         {"type": "pose", "edge": "0", "hypotheses": []},
         {"type": "pose", "edge": 0.5, "hypotheses": []},
         {"type": "pose", "edge": True, "hypotheses": []},
+        {"type": "pose", "edge": 10**30, "hypotheses": []},
+        {"type": "pose", "edge": 0, "hypotheses": [object()]},
         {"type": "confirm", "edge": 0, "hypothesis": 1, "rule": "instinct"},
         {"type": "move", "door": 0, "percept": {"degree": 3, "marker": 0}},
         Move(0, Percept(3, 0)),

@@ -137,8 +137,8 @@ def map_isomorphic(case: Case) -> Iterator[Wrong]:
         yield None, "a map", None, f"no map was delivered: {why}"
         return
     ours, last = case.world.code, len(case.trace) - 1
-    left = case.joined.count(None)
-    if case.spoiled is None and 0 < left < len(case.joined):
+    left = case.joined.count(None) if case.spoiled is case.illegal is None else 0
+    if 0 < left < len(case.joined):
         yield last, 0, left, f"the map is delivered while {left} darts of S are unexplored"
     try:
         theirs = World.from_map(finish.map).code

@@ -24,6 +24,10 @@ from topo_verify.world.rooted_map import Dart, World
 _PURPOSES = frozenset(get_args(Purpose))
 
 
+_plain = msgspec.msgpack.Encoder(enc_hook=index)
+_decision: msgspec.msgpack.Decoder[Decision] = msgspec.msgpack.Decoder(Decision)
+
+
 class Misuse(MapperStopped):
     """The mapper asked for something that no robot does: a door that is not there, nonsense."""
 
@@ -114,8 +118,8 @@ class SimulatedRobot:
             raise self._stopped
         try:
             # Through plain data and back: a struct may have been built with anything inside.
-            decided: Decision = msgspec.convert(msgspec.to_builtins(event), Decision)
-        except (msgspec.ValidationError, TypeError) as error:
+            decided = _decision.decode(_plain.encode(event))
+        except (msgspec.MsgspecError, TypeError, OverflowError) as error:
             self._stop(Misuse(f"the mapper declared what is no decision: {error}"))
         self.events.append(decided)
 

@@ -1,0 +1,38 @@
+"""One real trace, which the tests beside this file doctor."""
+
+from __future__ import annotations
+
+from tests.helpers import EIGHT, failing, place, trace_of
+from topo_verify import World
+from topo_verify.checkers import check
+from topo_verify.robot.events import Augment, Event, Finish, Trace
+
+WORLD = World.from_id("m5/434")
+"""v0 is a leaf; its neighbour v1 has degree 7, with two loops and two more leaves."""
+
+TRACE = trace_of(WORLD, "enhancement-iii-all")
+FINISH = len(TRACE) - 1
+MAP = TRACE[-1].map if isinstance(TRACE[-1], Finish) else None
+
+LOOP = place(TRACE, Augment, 1)
+"""Dart 2 is found to lead to dart 5; before it, 3 and 4 were rejected and 5 confirmed."""
+
+
+def wrong(trace: Trace, world: World = WORLD) -> set[str]:
+    """The claims 1-8 that fail."""
+    return failing(world, trace) & EIGHT
+
+
+def said(trace: Trace, claim: str, world: World = WORLD) -> list[str]:
+    """What is said against a claim."""
+    return [f.message for j in check(world, trace) if j.claim == claim for f in j.findings]
+
+
+def inserted(trace: Trace, index: int, *events: Event) -> Trace:
+    """The trace with more events before the one at this index."""
+    return (*trace[:index], *events, *trace[index:])
+
+
+def without(trace: Trace, index: int) -> Trace:
+    """The trace without one event."""
+    return (*trace[:index], *trace[index + 1 :])

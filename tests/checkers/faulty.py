@@ -1,0 +1,188 @@
+"""Mappers with one fault each, made of the pieces of the real ones.
+
+`Misled` stands between an algorithm and its robot and bends what passes; a rule, an order or a
+map with a fault in it goes through the same exploration loop as the real ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
+from topo_verify.algorithms import CATALOGUE
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Chart, Dart, Survey, Tree
+from topo_verify.algorithms.enhancement_ii import HistoryRule
+from topo_verify.algorithms.enhancement_iii import RecordsRule
+from topo_verify.algorithms.exploration import Rule, explore
+from topo_verify.algorithms.motion import (
+    Executed,
+    Hypothesis,
+    Motion,
+    common_prefix,
+    overlap,
+    retrace,
+)
+from topo_verify.algorithms.policies import Order, nearest, shortest
+from topo_verify.robot.events import Decision, Evidence
+from topo_verify.robot.events import Rule as RuleName
+from topo_verify.robot.percept import Door, Percept, Purpose, Robot
+from topo_verify.robot.simulator import SimulatedRobot
+
+basic = CATALOGUE["basic"]
+
+
+class Misled:
+    """A robot that passes everything on; what inherits from it bends one thing."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+
+    @property
+    def percept(self) -> Percept:
+        return self.seen(self.robot.percept)
+
+    def seen(self, percept: Percept) -> Percept:
+        return percept
+
+    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
+        return self.seen(self.robot.move(door, purpose))
+
+    def declare(self, event: Decision) -> None:
+        self.robot.declare(event)
+
+
+class Vague(Percept, frozen=True, gc=False):
+    """A percept whose marker points somewhere: any two directions are equal."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Percept) and self.signature == other.signature
+
+    def __ne__(self, other: object) -> bool:  # a Struct has one of its own
+        return not self == other
+
+    __hash__ = Percept.__hash__
+
+
+class Undirected(Misled):
+    """Sees the marker, does not compare where it points."""
+
+    def seen(self, percept: Percept) -> Percept:
+        return Vague(percept.degree, percept.marker)
+
+
+class Blind(Misled):
+    """Does not see the marker."""
+
+    def seen(self, percept: Percept) -> Percept:
+        return Percept(percept.degree, None)
+
+
+class Wandering(Misled):
+    """Walks every edge two hundred times more."""
+
+    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
+        percept = super().move(door, purpose)
+        for _ in range(200):
+            super().move(0)
+        return percept
+
+
+class Silent(Misled):
+    """Declares nothing."""
+
+    def declare(self, event: Decision) -> None:
+        pass
+
+
+def ignores_the_direction_of_the_marker(robot: SimulatedRobot) -> Survey:
+    return basic(Undirected(robot))
+
+
+def ignores_the_marker(robot: SimulatedRobot) -> Survey:
+    return basic(Blind(robot))
+
+
+def wanders(robot: SimulatedRobot) -> Survey:
+    return basic(Wandering(robot))._replace(cost=robot.cost)
+
+
+def declares_nothing(robot: SimulatedRobot) -> Survey:
+    return basic(Silent(robot))
+
+
+def does_not_count_its_first_move(robot: SimulatedRobot) -> Survey:
+    survey = basic(robot)
+    return survey._replace(cost=survey.cost - 1)
+
+
+def knows_it_beforehand(_robot: SimulatedRobot) -> Survey:
+    """A single edge, it says, whatever the world."""
+    return Survey(((0,), (1,)), ((0, 1),), 0, 0)
+
+
+def draws_its_map_anticlockwise(robot: SimulatedRobot) -> Survey:
+    survey = basic(robot)
+    return survey._replace(vertices=tuple(row[::-1] for row in survey.vertices))
+
+
+def with_rule(
+    rule: Callable[[], Rule], *, order: Order = shortest, motion: Motion = retrace
+) -> Callable[[SimulatedRobot], Survey]:
+    """A mapper with this rule, this order, this motion."""
+    return lambda robot: explore(robot, rule=rule(), motion=motion, pick=nearest, order=order)
+
+
+def all_but_the_last(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
+    """The order `shortest`, with the last hypothesis left out where there are two."""
+    row = shortest(darts, chart, tree)
+    return row[:-1] if len(row) > 1 else row
+
+
+class OffByOne(NoRule):
+    """Rule `prefix` with every percept taken for the one behind the next door."""
+
+    name: RuleName = "prefix"
+
+    def refute(
+        self,
+        chart: Chart,  # noqa: ARG002  all rules have one signature
+        hypothesis: Hypothesis,
+        sequences: Sequence[Executed],
+    ) -> Evidence | None:
+        last = sequences[-1]
+        for step in range(1, common_prefix(hypothesis.doors, last.doors) + 1):
+            expected, observed = hypothesis.expected[step], last.percepts[step - 1]
+            if expected != observed:
+                return Evidence(step, expected, observed, sequence=len(sequences) - 1)
+        return None
+
+
+class LoopsFromFirst(RecordsRule):
+    """Rule `records` that traces what led to a loop from the first dart of its vertex."""
+
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        super().learn(chart, e, entry, ())
+        super().learn(chart, e, chart.first[chart.vertex[entry]], sequences)
+
+
+class ThroughWalls(HistoryRule):
+    """Rule `history` that traces on where S ends, as if the edge led back to where it began."""
+
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Evidence | None:
+        last, at = sequences[-1], hypothesis.dart
+        for step, door in enumerate(last.doors, 1):
+            exit_dart = chart.turn(at, door)
+            arrival = chart.alpha[exit_dart]
+            at = exit_dart if arrival is None else arrival
+            if chart.percepts[at] != last.percepts[step]:
+                expected = chart.percepts[at]
+                return Evidence(step, expected, last.percepts[step], sequence=len(sequences) - 1)
+        return None
+
+
+traces_loops_from_the_first_dart = with_rule(LoopsFromFirst)
+forgets_a_hypothesis = with_rule(NoRule, order=all_but_the_last)
+compares_off_by_one = with_rule(OffByOne, motion=overlap)
+traces_through_unexplored_darts = with_rule(ThroughWalls)

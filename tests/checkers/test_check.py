@@ -1,0 +1,110 @@
+"""What the checkers judge, what they refuse, and that they let pass what is right."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.checkers.example import LOOP, TRACE, WORLD, inserted
+from tests.helpers import EIGHT, EMPTY, edited, failing, statuses, trace_of, worlds
+from topo_verify import CATALOGUE, InputError
+from topo_verify.checkers import CLAIMS, Case, Finding, check
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Evidence,
+    Finish,
+    Move,
+    Pose,
+    Reject,
+    Start,
+    Trace,
+)
+from topo_verify.robot.percept import Percept
+
+
+@pytest.mark.parametrize("edges", range(1, 5))
+def test_no_claim_fails_for_any_algorithm_on_any_world(edges: int) -> None:
+    for world in worlds([edges]):
+        for name in CATALOGUE:
+            verdict = statuses(world, trace_of(world, name))
+            assert set(verdict.values()) == {"ok"}, (world, name, verdict)
+
+
+def test_the_claims_are_those_of_the_semantics_in_their_order() -> None:
+    names = [
+        "percepts-true", "true-hypothesis-posed", "true-hypothesis-kept", "no-false-confirm",
+        "map-isomorphic", "cost-honest", "cost-within-bound", "rejection-justified",
+    ]  # fmt: skip
+    assert list(CLAIMS)[:8] == names
+    assert [judgement.claim for judgement in check(WORLD, TRACE)] == list(CLAIMS)
+    assert set(names) == EIGHT
+
+
+def test_a_finding_names_the_claim_the_event_and_what_should_be_there() -> None:
+    (finding,) = check(WORLD, edited(TRACE, 1, percept=Percept(6, None)))[0].findings
+    assert finding == Finding(
+        "percepts-true", 1, Percept(7, None), Percept(6, None),
+        "the trace says (degree 6, no marker) where the world shows (degree 7, no marker)",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "trace",
+    [
+        (),
+        TRACE[1:],
+        (*TRACE, TRACE[0]),
+        (TRACE[0], *TRACE),
+        (*TRACE, TRACE[-1]),
+        (TRACE[0], TRACE[-1], *TRACE[1:]),
+    ],
+)
+def test_events_in_no_such_order_are_refused(trace: Trace) -> None:
+    with pytest.raises(InputError, match="'start'"):
+        check(WORLD, trace)
+
+
+def test_decisions_that_were_not_declared_are_not_called_ok() -> None:
+    moves = tuple(e for e in TRACE if isinstance(e, Start | Move | Finish))
+    verdict = statuses(WORLD, moves)
+    assert verdict["percepts-true"] == verdict["map-isomorphic"] == verdict["cost-honest"] == "ok"
+    for claim, (_, speaks_of) in CLAIMS.items():
+        assert (verdict[claim] == "not-declared") == bool(speaks_of)
+
+
+def test_in_the_empty_world_there_is_nothing_to_declare_and_all_is_ok() -> None:
+    assert set(statuses(EMPTY, trace_of(EMPTY)).values()) == {"ok"}
+
+
+SEEN = Percept(0, None)
+"""What the empty world shows."""
+
+
+@pytest.mark.parametrize(
+    ("event", "claim"),
+    [
+        (Move(0, SEEN), "percepts-true"),
+        (Pose(0, ()), "true-hypothesis-posed"),
+        (Confirm(0, 0, "motion"), "no-false-confirm"),
+        (Augment(0, "new", 0, 0), "map-isomorphic"),
+        (
+            Reject(0, 0, "motion", Evidence(0, Percept(1, 0), Percept(0, None))),
+            "rejection-justified",
+        ),
+    ],
+)
+def test_in_the_empty_world_every_event_is_a_lie(event: Event, claim: str) -> None:
+    assert claim in failing(EMPTY, inserted(trace_of(EMPTY), 1, event))
+
+
+def test_a_case_knows_where_the_robot_was_and_what_s_was() -> None:
+    case = Case(WORLD, TRACE)
+    assert case.cost == 16
+    assert case.positions[0] == WORLD.root
+    assert (case.illegal, case.spoiled) == (None, None)
+    assert case.is_open(2, LOOP)
+    assert not case.is_open(2, LOOP + 1)
+    assert case.crossed(2, LOOP + 1) == 5
+    assert case.truth(2, LOOP) == 5
+    assert case.truth(2, LOOP + 1) is None

@@ -1,0 +1,105 @@
+"""Each claim catches a mapper with one fault, in the smallest world where the fault matters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from tests.checkers import faulty
+from tests.helpers import EIGHT, worlds
+from topo_verify import Limits, World, examine
+from topo_verify.algorithms.chart import Survey
+from topo_verify.robot.simulator import SimulatedRobot
+
+Mapper = Callable[[SimulatedRobot], Survey]
+
+
+def failing(mapper: Mapper, world: World, *, budget: int | None = None) -> set[str]:
+    """Which of the claims 1-8 fail."""
+    report = examine(mapper, world, limits=Limits(budget=budget))
+    return {claim for claim, status in report.claims.items() if status == "failed"} & EIGHT
+
+
+REJECTS_THE_TRUTH = {"true-hypothesis-kept", "map-isomorphic", "rejection-justified"}
+
+FAULTS: list[tuple[Mapper, str, set[str]]] = [
+    (
+        faulty.forgets_a_hypothesis,
+        "m2/5",
+        {"true-hypothesis-posed", "true-hypothesis-kept", "map-isomorphic"},
+    ),
+    (faulty.traces_through_unexplored_darts, "m4/36", REJECTS_THE_TRUTH),
+    (faulty.compares_off_by_one, "m5/85", REJECTS_THE_TRUTH),
+    (faulty.traces_loops_from_the_first_dart, "m5/446", REJECTS_THE_TRUTH),
+    (faulty.ignores_the_direction_of_the_marker, "m2/5", {"no-false-confirm", "map-isomorphic"}),
+    (faulty.draws_its_map_anticlockwise, "m2/4", {"map-isomorphic"}),
+    (faulty.does_not_count_its_first_move, "m1/0", {"cost-honest"}),
+    (faulty.knows_it_beforehand, "m1/0", {"cost-within-bound"}),
+]
+
+
+@pytest.mark.parametrize(("mapper", "world", "claims"), FAULTS)
+def test_a_faulty_mapper_is_caught(mapper: Mapper, world: str, claims: set[str]) -> None:
+    assert failing(mapper, World.from_id(world)) == claims
+
+
+def test_a_rejection_with_false_evidence_is_caught_where_it_does_no_harm() -> None:
+    world = World.from_id("m4/42")
+    assert failing(faulty.traces_through_unexplored_darts, world) == {"rejection-justified"}
+
+
+def test_every_claim_but_percepts_true_is_caught_by_a_faulty_mapper() -> None:
+    # A mapper cannot put percepts on record: those in a trace are the robot's.
+    assert {claim for _, _, claims in FAULTS for claim in claims} == EIGHT - {"percepts-true"}
+
+
+def test_a_mapper_that_wanders_is_caught_by_the_bound_if_not_by_its_budget() -> None:
+    world = World.from_id("m1/0")
+    assert failing(faulty.wanders, world, budget=1000) == {"cost-within-bound"}
+    assert failing(faulty.wanders, world) == {"map-isomorphic"}
+
+
+def test_a_fault_that_does_not_matter_in_a_world_is_not_held_against_the_mapper() -> None:
+    assert failing(faulty.draws_its_map_anticlockwise, World.from_id("m1/0")) == set()
+
+
+def test_a_mapper_that_declares_nothing_is_judged_on_percepts_map_and_cost() -> None:
+    silent = {
+        "true-hypothesis-posed",
+        "true-hypothesis-kept",
+        "no-false-confirm",
+        "rejection-justified",
+    }
+    for world in worlds(range(1, 4)):
+        report = examine(faulty.declares_nothing, world)
+        assert report.ok
+        claims = {claim: report.claims[claim] for claim in EIGHT}
+        assert {c for c, status in claims.items() if status == "not-declared"} == silent
+        assert {c for c, status in claims.items() if status == "ok"} == EIGHT - silent
+
+
+CLASSES: dict[str, Callable[[World], bool]] = {
+    "any": lambda world: bool(world.edges),
+    "loopless": lambda world: world.is_loopless,
+    "simple": lambda world: world.is_simple,
+}
+
+
+@pytest.mark.parametrize(
+    ("mapper", "smallest"),
+    [
+        (
+            faulty.ignores_the_direction_of_the_marker,
+            {"any": "m2/5", "loopless": "m3/28", "simple": "m4/183"},
+        ),
+        (faulty.ignores_the_marker, {"any": "m2/3", "loopless": "m2/3", "simple": "m3/12"}),
+    ],
+)
+def test_without_a_directed_marker_there_are_false_confirmations(
+    mapper: Mapper, smallest: dict[str, str]
+) -> None:
+    # The worlds that docs/semantics.md names: this is a limit of the marker, not of the mapper.
+    wrong = [w for w in worlds(range(1, 5)) if "no-false-confirm" in failing(mapper, w)]
+    for name, belongs in CLASSES.items():
+        assert next(world.id for world in wrong if belongs(world)) == smallest[name]
