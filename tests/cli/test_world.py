@@ -55,6 +55,30 @@ def test_convert_in_json_is_an_envelope_all_the_same(results: Call) -> None:
     assert (entry["file"], entry["text"]) == ("w.json", None)
 
 
+def test_convert_writes_planar_code_to_a_file(call: Call, folder: Path) -> None:
+    done = call("world convert 'family:cube(marker=5)' --to planar_code -o cube.pc")
+    assert (done.exit_code, "cube.pc" in done.stdout) == (0, True)
+    assert World.load(folder / "cube.pc").code == families.cube().code
+    assert World.from_json(call("world convert cube.pc").stdout).code == families.cube().code
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ("m0/0 --to planar_code", "--to planar_code: this format is no text; say with -o which"),
+        ("m2/9 --to planar_code -o x.pc", "planar_code holds simple worlds"),
+        ("m0/0 --to nonsense", "'json', 'planar_code'"),
+    ],
+)
+def test_convert_refuses_what_it_cannot_write(
+    call: Call, folder: Path, line: str, sentence: str
+) -> None:
+    done = call(f"world convert {line}")
+    assert done.exit_code == 2
+    assert sentence in done.stderr
+    assert not (folder / "x.pc").exists()
+
+
 @pytest.mark.parametrize(
     ("line", "totals"),
     [

@@ -30,6 +30,22 @@ EXAMPLES = [
     "dense(12,0.4,seed=3)",
     "dense(6,1.0)",
     "complete(5,seed=4,marker=0)",
+    "complete_bipartite(3,4,seed=4)",
+    "triangular_torus(3,4)",
+    "hexagonal_torus(2,3,marker=7)",
+    "random_tree(9,seed=1)",
+    "random_planar(12,seed=2,marker=5)",
+    "random_genus(12,3,seed=2)",
+    "path(5)",
+    "cycle(1,marker=1)",
+    "star(4)",
+    "wheel(5)",
+    "prism(3)",
+    "tetrahedron()",
+    "cube(marker=3)",
+    "octahedron()",
+    "dodecahedron()",
+    "icosahedron()",
 ]
 
 

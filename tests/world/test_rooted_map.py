@@ -258,3 +258,12 @@ def test_what_is_carried_along_has_to_fit_the_vertices() -> None:
 def test_a_position_is_finite(odd: tuple[float, float]) -> None:
     with pytest.raises(InputError, match=r"positions\[1\] is .* two finite numbers"):
         World(PATH.alpha, PATH.sigma, 0, positions=((0, 0), odd, (2, 2)))
+
+
+def test_its_text_brings_it_back_whatever_its_size() -> None:
+    small = World.from_id("m5/17")
+    assert small.text == "m5/17"
+    assert World.from_text(small.text) == small
+    large = families.path(300)
+    assert large.text.startswith("{")
+    assert World.from_text(large.text) == large

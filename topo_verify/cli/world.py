@@ -20,11 +20,14 @@ from topo_verify.cli.runs import Place, place, places
 from topo_verify.errors import InputError
 from topo_verify.world.classes import WorldClass
 from topo_verify.world.counting import MAX_ID_EDGES
-from topo_verify.world.formats import files
+from topo_verify.world.formats import files, planar_code
 from topo_verify.world.rooted_map import World
 
-FORMATS: dict[str, Callable[[World], str]] = {"json": World.to_json}
-"""What `convert --to` knows: the text of a world in each format."""
+FORMATS: dict[str, Callable[[World], str | bytes]] = {
+    "json": World.to_json,
+    "planar_code": planar_code.encode,
+}
+"""What `convert --to` knows: a world in each format, as text or, where that is none, as bytes."""
 
 MAX_EDGES = 1000
 """The most edges that worlds are counted and drawn with here: beyond, the numbers take minutes."""
@@ -49,7 +52,7 @@ class_option = click.option(
 
 
 class Shown(msgspec.Struct, frozen=True):
-    """What a world is; INTERFACE section 3. `id` is None beyond 200 edges."""
+    """What a world is; docs/commands.md. `id` is None beyond 200 edges."""
 
     name: str
     id: str | None
@@ -129,7 +132,11 @@ class Converted(msgspec.Struct, frozen=True):
     text: str | None
 
 
-@world.command(epilog=options.epilog("world convert m5/17 --to json -o FILE"))
+@world.command(
+    epilog=options.epilog(
+        "world convert m5/17 --to json", "world convert nyc --to planar_code -o F.pc"
+    )
+)
 @click.argument("world", metavar="WORLD")
 @click.option("--to", default="json", show_default=True, type=click.Choice([*FORMATS]))
 @click.option("-o", "file", default="-", metavar="FILE", help="Where to; default: standard output.")
@@ -140,12 +147,14 @@ def convert(output: Output, *, world: str, to: str, file: str, marker: int | Non
 
     def converted() -> Iterator[Result[Converted]]:
         at = place(world, marker)
-        text = FORMATS[to](at.world)
-        if file == "-":
-            yield Result(Converted(at.name, to, None, text))
-        else:
-            files.write(file, text + "\n")
+        content = FORMATS[to](at.world)
+        if file != "-":
+            files.write(file, content + "\n" if isinstance(content, str) else content)
             yield Result(Converted(at.name, to, file, None))
+        elif isinstance(content, str):
+            yield Result(Converted(at.name, to, None, content))
+        else:
+            raise InputError(f"--to {to}: this format is no text; say with -o which file to write")
 
     return output.run("world-convert", converted, _show_converted)
 
@@ -162,7 +171,7 @@ def _show_converted(entries: Sequence[Converted]) -> Iterator[Block]:
 
 
 class Counted(msgspec.Struct, frozen=True):
-    """How many worlds there are; INTERFACE section 3."""
+    """How many worlds there are; docs/commands.md."""
 
     edges: int
     # `class` cannot be a name in Python.

@@ -12,8 +12,8 @@ from topo_verify.world.rooted_map import World
 # counting.py           all rooted maps: how many, which number, which by number, listed, drawn
 # counting_by_genus.py  how many there are on each surface
 # classes.py            CLASS: planar, genus:1, simple, …
-# families/             lattices, tori, random graphs
-# formats/              world JSON
+# families/             lattices, tori, solids, shapes, random graphs and maps
+# formats/              world JSON, planar_code, NetworkX, GraphML, SUMO
 # naming.py             WORLD: a path, an id, family:…, nyc, -
 # data/                 the street network that comes with the package
 

@@ -15,7 +15,7 @@ the properties. They are properties of the map, so where the marker lies never m
 What `sample` does not do: a class other than `any` is drawn by rejection, exactly uniform, but
 hopeless where hardly a world is in the class; then it says so instead of running on.
 
-Source: INTERFACE section 2 (docs/semantics.md).
+Source: docs/semantics.md, section 16.
 """
 
 from __future__ import annotations

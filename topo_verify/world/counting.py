@@ -18,7 +18,8 @@ open dart, joins first by ascending partner, then new vertices by ascending degr
 A **table** is `(degrees, alpha)`: vertex `i` owns the next `degrees[i]` darts, `alpha[d]` is the
 other dart of `d`'s edge, the root is dart 0. It is the canonical code of its world.
 
-Source: SPEC section 9. Planar: W. T. Tutte, "A census of planar maps", Canad. J. Math. 15 (1963).
+Source: docs/semantics.md, section 12. Planar:
+W. T. Tutte, "A census of planar maps", Canad. J. Math. 15 (1963).
 """
 
 from __future__ import annotations
@@ -166,6 +167,30 @@ def _choose(rank: int, ways: Iterator[int]) -> tuple[int, int]:
     while rank >= size:
         index, rank, size = index + 1, rank - size, next(ways)
     return index, rank
+
+
+def id_parts(text: str) -> tuple[int, int]:
+    """Edges and rank of a world id, `m<edges>/<rank>`.
+
+    Raises:
+        InputError: the text is no id, or has more than 200 edges.
+    """
+    edges, slash, rank = text.removeprefix("m").partition("/")
+    # Not more digits than Python turns into an integer; the longest rank has 437.
+    digits = all(part.isascii() and part.isdigit() and len(part) < 1000 for part in (edges, rank))
+    if not (text.startswith("m") and slash and digits):
+        raise InputError(f"{text[:60]!r} is no world id: an id is m<edges>/<rank>, as m5/17")
+    require_id_edges(int(edges))
+    return int(edges), int(rank)
+
+
+def require_id_edges(edges: int) -> None:
+    """Refuse what is too large for an id (`InputError`)."""
+    if edges > MAX_ID_EDGES:
+        raise InputError(
+            f"a world with {edges} edges has no id (ids go up to {MAX_ID_EDGES} edges):"
+            " save it as a file and name the file"
+        )
 
 
 def sample(edges: int, random: Random) -> Table:

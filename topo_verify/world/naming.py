@@ -6,12 +6,12 @@
 | `nyc` | the street network that comes with the package |
 | `m5/17` | the world of that id |
 | `family:lattice(10,10,holes=0.2,seed=7)` | of a family, arguments being numbers |
-| anything else | a file of world JSON, by its path |
+| anything else | a file, by its path; its ending says its format (formats/loading.py) |
 
 The first line that fits counts; a file that is called like one of the others is named with `./`
 before it. The text behind `family:` is taken apart here and never handed to Python.
 
-Source: INTERFACE section 2 (docs/semantics.md).
+Source: docs/semantics.md, section 16.
 """
 
 from __future__ import annotations
@@ -88,8 +88,9 @@ def _from_family(text: str) -> World:
     make = FAMILIES.get(call[1]) if call else None
     if call is None or make is None:
         raise InputError(
-            f"'{files.shown(text)}' names no family of worlds: after 'family:' stands one of"
-            f" {', '.join(FAMILIES)} with numbers for arguments, as in family:lattice(3,4,seed=7)"
+            f"'{files.shown(text, limit=60)}' names no family of worlds: after 'family:' stands"
+            f" one of {', '.join(FAMILIES)} with numbers for arguments, as in"
+            " family:lattice(3,4,seed=7)"
         )
     signature = inspect.signature(make)
     try:

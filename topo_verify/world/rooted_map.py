@@ -11,7 +11,7 @@ their codes are equal.
 Orientation, stated once and for all: `sigma(d)` is the next exit **clockwise** after `d`, seen from
 above: the order in which the robot enumerates exits. Mirror images are different worlds.
 
-Source: SPEC section 1 (docs/semantics.md). Rotation systems: S. K. Lando and A. K. Zvonkin, "Graphs
+Source: docs/semantics.md, section 1. Rotation systems: S. K. Lando and A. K. Zvonkin, "Graphs
 on Surfaces and Their Applications" (2004), chapter 1.
 """
 
@@ -149,22 +149,20 @@ class World:
         Raises:
             InputError: the text is no id, the rank is out of range, or more than 200 edges.
         """
-        edges, slash, rank = text.removeprefix("m").partition("/")
-        if not (text.startswith("m") and slash and _is_number(edges) and _is_number(rank)):
-            raise InputError(f"{text[:60]!r} is no world id: an id is m<edges>/<rank>, as m5/17")
-        _require_id_edges(int(edges))
-        return cls.from_code(counting.unrank(int(edges), int(rank)), name=text)
+        return cls.from_code(counting.unrank(*counting.id_parts(text)), name=text)
 
     @classmethod
-    def load(cls, path: str | PathLike[str]) -> Self:
-        """The world in a file (see `topo_verify.world.formats`).
+    def load(cls, path: str | PathLike[str], *, graph: int | None = None) -> Self:
+        """The world in a file: .json, .pc, .plc, .graphml, .net.xml (`topo_verify.world.formats`).
 
+        Args:
+            graph: which of several graphs in a file of planar_code, counted from 0.
         Raises:
             InputError: the file cannot be read, or is no world; one sentence says where and why.
         """
-        from topo_verify.world.formats import world_json
+        from topo_verify.world.formats import loading
 
-        return world_json.load(cls, path)
+        return loading.load(cls, path, graph=graph)
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Self:
@@ -264,6 +262,18 @@ class World:
         ends = {frozenset((self.vertex_of[a], self.vertex_of[b])) for a, b in self.edges}
         return self.is_loopless and len(ends) == len(self.edges)
 
+    @property
+    def cost_bound(self) -> int:
+        """The most edge traversals that a run may cost: m·(n + (2m-1)·2(n-1)); m where n = 1."""
+        m, n = len(self.edges), len(self.vertices)
+        return m if n == 1 else m * (n + (2 * m - 1) * 2 * (n - 1))
+
+    def least_cost(self) -> int:
+        """The fewest edge traversals of a mapper that is right in all worlds: `least_cost.py`."""
+        from topo_verify.world.least_cost import least_cost
+
+        return least_cost(self)
+
     # ------------------------------------------------------------ which world it is
 
     @cached_property
@@ -301,8 +311,19 @@ class World:
         Raises:
             InputError: more than 200 edges: too large for an id; save the world to a file.
         """
-        _require_id_edges(len(self.edges))
+        counting.require_id_edges(len(self.edges))
         return f"m{len(self.edges)}/{counting.rank(self.code)}"
+
+    @classmethod
+    def from_text(cls, text: str) -> Self:
+        """The world that this `text` names: an id, or world JSON."""
+        return cls.from_json(text) if text.startswith("{") else cls.from_id(text)
+
+    @property
+    def text(self) -> str:
+        """The shortest text that names it: its id; its JSON where it is too large for an id."""
+        small = len(self.edges) <= counting.MAX_ID_EDGES
+        return self.id if small else self.to_json()
 
     def is_isomorphic(self, other: World) -> bool:
         """Is there a bijection of darts that keeps alpha, sigma and the root?"""
@@ -373,16 +394,3 @@ def _cycles(
         if cycle:
             cycles.append(tuple(cycle))
     return tuple(cycles)
-
-
-def _is_number(text: str) -> bool:
-    """Digits, and not more than Python turns into an integer (the longest rank has 437)."""
-    return text.isascii() and text.isdigit() and len(text) < 1000
-
-
-def _require_id_edges(edges: int) -> None:
-    if edges > counting.MAX_ID_EDGES:
-        raise InputError(
-            f"a world with {edges} edges has no id (ids go up to {counting.MAX_ID_EDGES} edges):"
-            " save it as a file and name the file"
-        )

@@ -1,4 +1,4 @@
-"""Families of worlds: lattices and random graphs, named by their arguments.
+"""Families of worlds: well-known graphs, lattices, random graphs and maps, named by arguments.
 
 Every world is called as it was made, `lattice(10,10,holes=0.2,seed=7)`, defaults left out; behind
 `family:` that text makes the same world again. What is random comes from `random.Random(seed)`, so
@@ -10,28 +10,80 @@ can come out in parts.
 
 **The marker** is drawn from the same seed after everything else: a vertex, then one of its exits.
 So an average over seeds is one over starting places too, and a lattice does not always start in
-its corner. `marker=DART` puts it elsewhere and changes nothing else. `torus` has no seed: dart 0.
+its corner. Random maps have it at their root (random_maps.py), families without a seed at dart 0.
+`marker=DART` puts it elsewhere and changes nothing else.
 
 **Rotations** follow the drawing where there is one (`lattice`, `king`: node 0 at the top left,
-exits clockwise from the north, positions with y upwards); in the other families they are drawn,
-each vertex's uniformly.
+exits clockwise from the north, positions with y upwards; the tori, shapes and solids likewise, but
+without positions); random maps are drawn with theirs; in the other families they are drawn, each
+vertex's uniformly.
 """
 
 from collections.abc import Callable, Mapping
 
 from topo_verify.world.families._arguments import MAX_DARTS
-from topo_verify.world.families.lattices import king, lattice, torus
-from topo_verify.world.families.random_graphs import complete, dense, regular
+from topo_verify.world.families.lattices import (
+    hexagonal_torus,
+    king,
+    lattice,
+    torus,
+    triangular_torus,
+)
+from topo_verify.world.families.random_graphs import complete, complete_bipartite, dense, regular
+from topo_verify.world.families.random_maps import random_genus, random_planar, random_tree
+from topo_verify.world.families.shapes import cycle, path, prism, star, wheel
+from topo_verify.world.families.solids import (
+    cube,
+    dodecahedron,
+    icosahedron,
+    octahedron,
+    tetrahedron,
+)
 from topo_verify.world.rooted_map import World
 
-# lattices.py       lattice, king, torus
-# random_graphs.py  regular, dense, complete
+# lattices.py       lattice, king, torus, triangular_torus, hexagonal_torus
+# random_graphs.py  regular, dense, complete, complete_bipartite
+# random_maps.py    random_tree, random_planar, random_genus
+# shapes.py         path, cycle, star, wheel, prism
+# solids.py         tetrahedron, cube, octahedron, dodecahedron, icosahedron
 # _building.py      from a graph with exits in clockwise order to its world
 # _arguments.py     checks, limits, names
 
 FAMILIES: Mapping[str, Callable[..., World]] = {
-    make.__name__: make for make in (lattice, king, torus, regular, dense, complete)
+    make.__name__: make
+    for make in (
+        *(lattice, king, torus, triangular_torus, hexagonal_torus),
+        *(regular, dense, complete, complete_bipartite),
+        *(random_tree, random_planar, random_genus),
+        *(path, cycle, star, wheel, prism),
+        *(tetrahedron, cube, octahedron, dodecahedron, icosahedron),
+    )
 }
 """All families by name: what may follow `family:`."""
 
-__all__ = ["FAMILIES", "MAX_DARTS", "complete", "dense", "king", "lattice", "regular", "torus"]
+__all__ = [
+    "FAMILIES",
+    "MAX_DARTS",
+    "complete",
+    "complete_bipartite",
+    "cube",
+    "cycle",
+    "dense",
+    "dodecahedron",
+    "hexagonal_torus",
+    "icosahedron",
+    "king",
+    "lattice",
+    "octahedron",
+    "path",
+    "prism",
+    "random_genus",
+    "random_planar",
+    "random_tree",
+    "regular",
+    "star",
+    "tetrahedron",
+    "torus",
+    "triangular_torus",
+    "wheel",
+]

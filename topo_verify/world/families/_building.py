@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from random import Random
 from typing import NamedTuple
 
@@ -19,6 +20,14 @@ class End(NamedTuple):
 
 Graph = dict[int, list[End]]
 """The exits of each node in clockwise order; nodes ascending."""
+
+
+def from_neighbours(rows: Iterable[Sequence[int]]) -> Graph:
+    """The simple graph whose nodes have these neighbours, in clockwise order."""
+    return {
+        node: [End(to, (min(node, to), max(node, to)), int(node > to)) for to in row]
+        for node, row in enumerate(rows)
+    }
 
 
 def with_holes(name: str, graph: Graph, holes: float, random: Random) -> Graph:

@@ -50,10 +50,54 @@ def torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
     Raises:
         InputError: an argument is out of range, or more than `MAX_DARTS` darts.
     """
-    rows, columns = arguments.size("torus", (rows, columns), darts_each=4)
-    marker = arguments.marker("torus", marker)
-    graph = _grid(rows, columns, (_NORTH, _EAST), wrapped=True)
-    name = arguments.name("torus", rows, columns, marker=marker)
+    return _wrapped("torus", (_NORTH, _EAST), (rows, columns), marker)
+
+
+def triangular_torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
+    """A torus with one diagonal in each square: all faces triangles. Genus 1, degrees 6.
+
+    Arguments and errors as for `torus`; it is simple from 3 rows and 3 columns on.
+    """
+    return _wrapped("triangular_torus", (_NORTH, _NORTH_EAST, _EAST), (rows, columns), marker)
+
+
+def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
+    """A honeycomb whose borders are joined: all faces hexagons. Genus 1, degrees 3.
+
+    There are two nodes a cell. Arguments and errors as for `torus`; it is simple from 2 rows and 2
+    columns on. It is the dual of the triangular torus of the same size.
+    """
+    family = "hexagonal_torus"
+    rows, columns = arguments.size(family, (rows, columns), darts_each=6)
+    marker = arguments.marker(family, marker)
+    graph: Graph = {}
+    for cell in range(rows * columns):
+        row, column = divmod(cell, columns)
+        for side in (0, 1):  # the cell's west node, whose three exits the edges are called by
+            step = (-1, 1)[side]
+            others = (
+                cell,
+                (row + step) % rows * columns + column,
+                row * columns + (column + step) % columns,
+            )
+            graph[2 * cell + side] = [
+                End(2 * other + 1 - side, ((cell, other)[side], way), side)
+                for way, other in enumerate(others)
+            ]
+    name = arguments.name(family, rows, columns, marker=marker)
+    return as_world(name, graph, 0 if marker is None else marker)
+
+
+def _wrapped(
+    family: str,
+    steps: Sequence[tuple[int, int]],
+    size: tuple[int, int],
+    marker: Dart | None,
+) -> World:
+    rows, columns = arguments.size(family, size, darts_each=2 * len(steps))
+    marker = arguments.marker(family, marker)
+    graph = _grid(rows, columns, steps, wrapped=True)
+    name = arguments.name(family, rows, columns, marker=marker)
     return as_world(name, graph, 0 if marker is None else marker)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, product
 from random import Random
 
 from topo_verify.errors import InputError
@@ -81,6 +81,30 @@ def complete(nodes: int, *, seed: int = 0, marker: Dart | None = None) -> World:
     marker = arguments.marker(family, marker)
     name = arguments.name(family, nodes, seed=seed, marker=marker)
     return _rotated(name, _graph(nodes, combinations(range(nodes), 2)), marker, Random(seed))
+
+
+def complete_bipartite(
+    left: int, right: int, *, seed: int = 0, marker: Dart | None = None
+) -> World:
+    """Every one of `left` nodes joined with every one of `right` others; random rotations.
+
+    Args:
+        left, right: 1 or more.
+        seed, marker: as for `lattice`.
+    Raises:
+        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
+    """
+    family = "complete_bipartite"
+    left, right = (
+        arguments.integer(family, "left", left, 1),
+        arguments.integer(family, "right", right, 1),
+    )
+    seed = arguments.integer(family, "seed", seed, 0)
+    arguments.require_darts(family, 2 * left * right)
+    marker = arguments.marker(family, marker)
+    name = arguments.name(family, left, right, seed=seed, marker=marker)
+    edges = product(range(left), range(left, left + right))
+    return _rotated(name, _graph(left + right, edges), marker, Random(seed))
 
 
 def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[int, int]]:

@@ -52,33 +52,35 @@ def too_large(name: str) -> str:
     )
 
 
-def write(path: str | PathLike[str], text: str) -> None:
-    """Write the text as UTF-8: whoever reads the file sees all that it held before or all of this.
+def write(path: str | PathLike[str], text: str | bytes) -> None:
+    """Write the bytes, or the text as UTF-8: all of it or nothing.
 
-    The text goes to a temporary file in the same folder, which then takes the file's place. Links
-    are followed, permissions kept. What is no regular file (a pipe, a terminal, the null device) is
-    written to directly, never replaced.
+    Whoever reads the file sees what it held before or all of this: the content goes to a temporary
+    file in the same folder, which then takes the file's place. Links are followed, permissions
+    kept. What is no regular file (a pipe, a terminal, the null device) is written to directly,
+    never replaced.
 
     Raises:
         InputError: the system refuses, with its reason; no temporary file is left behind.
     """
     try:
+        data = text.encode() if isinstance(text, str) else text
         target = Path(os.path.realpath(path))
         if target.exists() and not target.is_file():
-            target.write_text(text, encoding="utf-8")
+            target.write_bytes(data)
         else:
-            _replace(target, text)
+            _replace(target, data)
     except (OSError, ValueError) as error:
         raise InputError(
             f"cannot write {shown(path)}: {_reason(error)}; name a file that can be written"
         ) from error
 
 
-def _replace(target: Path, text: str) -> None:
+def _replace(target: Path, data: bytes) -> None:
     temporary = target.parent / f".topo-verify-{token_hex(8)}"
     try:
-        with temporary.open("x", encoding="utf-8") as file:
-            file.write(text)
+        with temporary.open("xb") as file:
+            file.write(data)
             file.flush()
             os.fsync(file.fileno())
         if target.exists():
@@ -87,6 +89,11 @@ def _replace(target: Path, text: str) -> None:
     except BaseException:  # an interrupt, too, leaves nothing behind
         temporary.unlink(missing_ok=True)
         raise
+
+
+def stem(path: str | PathLike[str]) -> str:
+    """What to call a world that has no name in its file: the file's name without its ending."""
+    return os.fsencode(Path(path).stem).decode("utf-8", "replace")
 
 
 def shown(text: str | PathLike[str], *, limit: int = 200) -> str:

@@ -15,16 +15,14 @@ kind. Every refusal is one sentence that names the file, the place in it and wha
 What this does not show: that the world is the one that was meant. Rotations given anticlockwise are
 a valid file; they are the mirror image.
 
-Source: INTERFACE section 6 (docs/semantics.md).
+Source: docs/semantics.md, section 14.
 """
 
 from __future__ import annotations
 
 import json
-import os
 import re
 from os import PathLike
-from pathlib import Path
 from typing import Annotated, Any, Final, Literal, TypeVar
 
 import msgspec
@@ -107,8 +105,7 @@ def load(cls: type[W], path: str | PathLike[str]) -> W:
     """
     name = files.shown(path)
     data = _parse(files.read(path), name)
-    stem = os.fsencode(Path(path).stem).decode("utf-8", "replace")
-    return from_data(cls, data, name=name, stem=stem)
+    return from_data(cls, data, name=name, stem=files.stem(path))
 
 
 def decode(cls: type[W], text: str | bytes, *, name: str = "world JSON") -> W:

@@ -1,0 +1,202 @@
+"""planar_code: other programs' files, there and back, and what is refused byte by byte."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from topo_verify.errors import InputError
+from topo_verify.world import World, counting, families
+from topo_verify.world.formats import planar_code
+
+DATA = Path(__file__).parents[2] / "data" / "planar_code"
+HEAD = b">>planar_code<<"
+TRIANGLE = HEAD + bytes([3, 2, 3, 0, 1, 3, 0, 1, 2, 0])
+
+
+def simple_planar(edges: int) -> list[World]:
+    """Every simple planar world of this size."""
+    worlds = map(World.from_code, counting.tables(edges))
+    return [world for world in worlds if world.is_simple and world.is_planar]
+
+
+def refusal_of(data: bytes, graph: int | None = None) -> str:
+    """The one sentence that refuses the bytes."""
+    with pytest.raises(InputError) as refusal:
+        planar_code.decode(World, data, graph=graph)
+    sentence = str(refusal.value)
+    assert sentence.isprintable()
+    assert sentence.startswith("planar_code")
+    assert len(sentence) < 400
+    return sentence
+
+
+# ---------------------------------------------------------------- other programs' files
+
+
+@pytest.mark.parametrize(
+    ("graph", "name"), [(0, "tetrahedron"), (1, "cube"), (2, "octahedron"), (3, "dodecahedron")]
+)
+def test_nautys_solids_are_ours(graph: int, name: str) -> None:
+    """Their rotations are unique but for the mirror image, which is the same for them."""
+    world = World.load(DATA / "solids.pc", graph=graph)
+    assert world.code == families.FAMILIES[name]().code
+    assert world.name == f"solids-{graph}"
+
+
+def test_nautys_grid_of_300_vertices_is_our_lattice() -> None:
+    world = World.load(DATA / "grid_300.pc")
+    lattice = families.lattice(15, 20, marker=0)
+    codes = {lattice.with_marker(dart).code for dart in range(2 * len(lattice.edges))}
+    assert world.code in codes
+    assert world.name == "grid_300"
+
+
+def test_all_graphs_of_a_file_are_read_and_no_more() -> None:
+    data = (DATA / "connected_5.pc").read_bytes()
+    worlds = [planar_code.decode(World, data, graph=graph) for graph in range(20)]
+    assert all(len(world.vertices) == 5 and world.is_planar for world in worlds)
+    assert max(len(world.edges) for world in worlds) == 9
+    assert "holds 20 graphs, and graph 20 (counted from 0)" in refusal_of(data, graph=20)
+    assert "holds several graphs: say which" in refusal_of(data)
+
+
+# ---------------------------------------------------------------- there and back
+
+
+@pytest.mark.parametrize("edges", range(6))
+def test_every_small_simple_planar_world_comes_back(edges: int) -> None:
+    for world in simple_planar(edges):
+        assert planar_code.decode(World, planar_code.encode(world)).code == world.code
+
+
+@given(seed=st.integers(0, 99), holes=st.floats(0, 0.5), rows=st.integers(2, 20))
+def test_a_lattice_comes_back_with_its_marker(seed: int, holes: float, rows: int) -> None:
+    world = families.lattice(rows, 20, holes=holes, seed=seed)
+    data = planar_code.encode(world)
+    assert planar_code.decode(World, data).code == world.code
+    assert data.startswith(b">>planar_code be<<\0") == (len(world.vertices) > 255)
+
+
+def test_isomorphic_worlds_give_the_same_bytes() -> None:
+    world = families.prism(3)
+    other = world.renumbered([*range(2, 18), 0, 1])
+    assert planar_code.encode(world) == planar_code.encode(other)
+
+
+def test_the_bytes_are_the_documented_ones() -> None:
+    assert planar_code.encode(families.cycle(3)) == TRIANGLE
+    assert planar_code.encode(World((), (), None)) == HEAD + bytes([1, 0])
+
+
+def test_the_first_dart_of_the_first_vertex_is_marked() -> None:
+    world = planar_code.decode(World, TRIANGLE)
+    assert world.root == world.vertices[0][0] == 0
+
+
+@pytest.mark.parametrize("size", [255, 256])
+def test_numbers_of_two_bytes_begin_with_256_vertices(size: int) -> None:
+    world = families.path(size)
+    assert planar_code.decode(World, planar_code.encode(world)).code == world.code
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        TRIANGLE.removeprefix(HEAD),
+        b">>planar_code <<" + TRIANGLE.removeprefix(HEAD),
+        b">>planar_code le<<\0\3\0\2\0\3\0\0\0\1\0\3\0\0\0\1\0\2\0\0\0",
+        b">>planar_code be<<\0\0\3\0\2\0\3\0\0\0\1\0\3\0\0\0\1\0\2\0\0",
+        HEAD + b"\0\0\3\0\2\0\3\0\0\0\1\0\3\0\0\0\1\0\2\0\0",
+    ],
+)
+def test_every_head_and_byte_order_is_read(data: bytes) -> None:
+    assert planar_code.decode(World, data).code == families.cycle(3).code
+
+
+def test_a_subclass_is_read_as_itself(tmp_path: Path) -> None:
+    class Town(World):
+        pass
+
+    (tmp_path / "town.pc").write_bytes(TRIANGLE)
+    assert type(Town.load(tmp_path / "town.pc")) is Town
+
+
+# ---------------------------------------------------------------- what is refused
+
+
+@pytest.mark.parametrize(
+    ("data", "sentence"),
+    [
+        (b"", "holds no graph: name a file"),
+        (HEAD, "holds no graph"),
+        (b">>graph6<<C~", "its head is '>>graph6<<C~', expected '>>planar_code<<'"),
+        (TRIANGLE[:-1], "graph 0 ends within the neighbours of vertex 3 of 3"),
+        (HEAD + b"\xff", "ends within the neighbours of vertex 1 of 255"),
+        (HEAD + b"\0", "a number of vertices was expected at byte 15"),
+        (HEAD + b"\0\0\0", "a number of vertices was expected at byte 15"),
+        (HEAD + b"\0\xff\xff\0", "ends within the neighbours of vertex 1 of 65535"),
+        (HEAD + b"\0\0\2\0\2", "ends within the neighbours of vertex 1 of 2"),
+        (TRIANGLE + b"\1", "holds several graphs|ends within"),
+        (HEAD + bytes([2, 3, 0, 1, 0]), "vertex 1 names the neighbour 3, and .* 1 … 2"),
+        (HEAD + bytes([1, 1, 1, 0]), "vertex 1 is its own neighbour: loops"),
+        (HEAD + bytes([2, 2, 2, 0, 1, 1, 0]), "vertex 1 names its neighbour 2 twice"),
+        (HEAD + bytes([2, 2, 0, 0]), "vertex 1 names 2 as a neighbour, but 2 does not name 1"),
+        (HEAD + bytes([2, 0, 0]), "not connected"),
+        (HEAD + bytes([4, 2, 0, 1, 0, 4, 0, 3, 0]), "not connected"),
+        (
+            HEAD + bytes([4, 2, 3, 4, 0, 1, 3, 4, 0, 1, 2, 4, 0, 1, 2, 3, 0]),
+            "a map of genus 1, and planar_code holds planar ones",
+        ),
+    ],
+)
+def test_bytes_that_are_no_simple_planar_world_are_refused(data: bytes, sentence: str) -> None:
+    with pytest.raises(InputError, match=sentence):
+        planar_code.decode(World, data)
+    refusal_of(data)
+
+
+def test_a_graph_that_is_named_is_named_in_the_refusal() -> None:
+    data = TRIANGLE + bytes([1, 1, 1, 0])
+    assert refusal_of(data, graph=1).startswith("planar_code, graph 1: vertex 1 is its own")
+    assert planar_code.decode(World, data, graph=0).code == families.cycle(3).code
+
+
+@pytest.mark.parametrize(
+    ("world", "sentence"),
+    [
+        (families.cycle(1), "holds simple worlds, and this one has loops or parallel edges"),
+        (families.cycle(2), "holds simple worlds"),
+        (families.torus(3, 3), "holds planar worlds, and this one has genus 1"),
+        (families.path(65536), "numbers vertices up to 65535, and the world has 65536"),
+    ],
+)
+def test_a_world_that_does_not_fit_is_refused(world: World, sentence: str) -> None:
+    with pytest.raises(InputError, match=sentence):
+        planar_code.encode(world)
+
+
+@given(data=st.binary(max_size=60), head=st.booleans())
+def test_any_bytes_give_a_world_or_one_sentence(data: bytes, head: bool) -> None:
+    world_or_refusal(HEAD * head + data)
+
+
+@given(data=st.data())
+def test_any_change_to_a_file_gives_a_world_or_one_sentence(data: st.DataObject) -> None:
+    content = bytearray((DATA / "solids.pc").read_bytes())
+    for _ in range(data.draw(st.integers(1, 4))):
+        content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
+    cut = data.draw(st.integers(0, len(content)))
+    world_or_refusal(bytes(content[:cut]), data.draw(st.none() | st.integers(0, 4)))
+
+
+def world_or_refusal(data: bytes, graph: int | None = None) -> None:
+    try:
+        world = planar_code.decode(World, data, graph=graph)
+    except InputError as refusal:
+        assert str(refusal).isprintable()  # noqa: PT017  a world is as good an outcome
+    else:
+        assert planar_code.decode(World, planar_code.encode(world)).code == world.code

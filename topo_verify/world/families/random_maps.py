@@ -1,0 +1,297 @@
+"""Random maps: trees and planar maps exactly uniform, maps of any given genus by adding edges.
+
+**Trees.** A rooted plane tree with m edges is a word of m ups and m downs that never sinks below
+its start. By the cycle lemma, m ups and m+1 downs, shuffled and read from behind their first lowest
+point, are such a word (and a last down): each equally likely.
+
+**Planar maps.** Every edge of a random tree gets a step -1, 0 or 1, which labels the vertices. Each
+corner, in the order of a walk around the tree, is joined with the next corner whose label is less
+by one, or with one new vertex where there is none. That gives a quadrangulation, a map in which
+every face has four sides; the vertices of even labels (or of odd ones: a coin decides), joined
+across each face, are the map. Each planar map with m edges arises from m+2 triples (tree, steps,
+coin), so it is **exactly uniform among all rooted planar maps**. Cost O(m).
+
+**Maps of a genus.** A random tree gets edges one after the other: one that joins two corners of a
+face splits that face, one that joins two faces makes them one and raises the genus. The numbers of
+vertices and the order of the two kinds are drawn so that every rooted map of that genus can come
+out; **they are not equally likely** (`world sample --class genus:1` draws those that are). Cost up
+to O(m²), hence `MAX_EDGES`.
+
+**The marker** is at the root of the map, drawn with it: where the map is uniform, so is the world.
+The simplest world of each is the one without edges.
+
+Source: G. Schaeffer, "Conjugaison d'arbres et cartes combinatoires aléatoires", thesis, Bordeaux
+1998; P. Chassaing and G. Schaeffer, "Random planar lattices and integrated superBrownian
+excursion", Probab. Theory Relat. Fields 128 (2004). Cycle lemma: A. Dvoretzky and Th. Motzkin, "A
+problem of arrangements", Duke Math. J. 14 (1947). The third is our own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import accumulate
+from random import Random
+
+from topo_verify.errors import InputError
+from topo_verify.world.families import _arguments as arguments
+from topo_verify.world.rooted_map import Dart, World
+
+MAX_EDGES = 10_000
+"""The most edges of `random_genus`: with as many it takes half a second."""
+
+
+def random_tree(edges: int, *, seed: int = 0, marker: Dart | None = None) -> World:
+    """A tree with its rotations, uniform among all rooted plane trees with so many edges.
+
+    Args:
+        edges: 0 or more.
+        seed: 0 or more.
+        marker: a dart; default: the root, drawn with the tree.
+    Raises:
+        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
+    """
+    edges, seed, marker = _checked("random_tree", edges, seed, marker)
+    name = arguments.name("random_tree", edges, seed=seed, marker=marker)
+    return _rooted(name, _turning([_walk(_tree(edges, Random(seed)))]), 0, marker)
+
+
+def random_planar(edges: int, *, seed: int = 0, marker: Dart | None = None) -> World:
+    """A planar map, uniform among all rooted ones; loops and parallel edges are usual.
+
+    Arguments and errors as for `random_tree`.
+    """
+    edges, seed, marker = _checked("random_planar", edges, seed, marker)
+    name = arguments.name("random_planar", edges, seed=seed, marker=marker)
+    random = Random(seed)
+    word = _tree(edges, random)
+    steps = [random.choice((-1, 0, 1)) for _ in range(edges)]
+    coin = random.randrange(2)
+    sigma, root = planar_map(word, steps, coin=coin) if word else ([], 0)
+    return _rooted(name, sigma, root, marker)
+
+
+def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None = None) -> World:
+    """A map of this genus; any can come out, not each as likely as another.
+
+    Args:
+        edges: at least twice the genus, at most `MAX_EDGES`.
+        genus: 0 or more.
+        seed, marker: as for `random_tree`.
+    Raises:
+        InputError: an argument is out of range.
+    """
+    family = "random_genus"
+    genus = arguments.integer(family, "genus", genus, 0)
+    edges = arguments.integer(family, "edges", edges, 2 * genus)
+    if edges > MAX_EDGES:
+        raise InputError(f"{family}: edges is {edges}, expected {MAX_EDGES} at most")
+    edges, seed, marker = _checked(family, edges, seed, marker)
+    name = arguments.name(family, edges, genus, seed=seed, marker=marker)
+    random = Random(seed)
+    in_tree = sum(random.randrange(2) for _ in range(edges - 2 * genus))
+    kinds = [1] * (edges - in_tree - genus) + [-1] * genus  # what each edge does to the faces
+    random.shuffle(kinds)
+    faces = _Faces(_walk(_tree(in_tree, random)))
+    for kind in _from_lowest_point(kinds):
+        (faces.split if kind > 0 else faces.join)(random)
+    root = random.randrange(2 * edges) if edges else 0
+    return _rooted(name, _turning(faces.faces), root, marker)
+
+
+def _checked(
+    family: str, edges: int, seed: int, marker: Dart | None
+) -> tuple[int, int, Dart | None]:
+    edges = arguments.integer(family, "edges", edges, 0)
+    seed = arguments.integer(family, "seed", seed, 0)
+    arguments.require_darts(family, 2 * edges)
+    return edges, seed, arguments.marker(family, marker)
+
+
+def _rooted(name: str, sigma: Sequence[Dart], root: Dart, marker: Dart | None) -> World:
+    """The world whose edges are the darts 0 and 1, 2 and 3 and so on."""
+    if marker is None and sigma:
+        marker = root
+    try:
+        return World(tuple(d ^ 1 for d in range(len(sigma))), tuple(sigma), marker, name=name)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from error
+
+
+def _turning(faces: Sequence[Sequence[Dart]]) -> list[Dart]:
+    """`sigma` of the map with these faces."""
+    sigma = [0] * sum(map(len, faces))
+    for face in faces:
+        for place, dart in enumerate(face):
+            sigma[face[place - 1] ^ 1] = dart
+    return sigma
+
+
+# ---------------------------------------------------------------- trees
+
+
+def _tree(edges: int, random: Random) -> list[int]:
+    word = [1] * edges + [-1] * (edges + 1)
+    random.shuffle(word)
+    return _from_lowest_point(word)[:-1]
+
+
+def _from_lowest_point(word: list[int]) -> list[int]:
+    """The word from behind its first lowest point on, then its beginning.
+
+    Where it ends at least as high as it starts, it never sinks below its start any more.
+    """
+    heights = [0, *accumulate(word)]
+    lowest = heights.index(min(heights))
+    return word[lowest:] + word[:lowest]
+
+
+def _walk(word: Sequence[int]) -> list[Dart]:
+    """The darts that a walk around the tree takes: 2e up edge e, 2e+1 back."""
+    walk: list[Dart] = []
+    above: list[int] = []
+    edges = 0
+    for step in word:
+        if step > 0:
+            above.append(edges)
+            walk.append(2 * edges)
+            edges += 1
+        else:
+            walk.append(2 * above.pop() + 1)
+    return walk
+
+
+# ---------------------------------------------------------------- planar maps
+
+
+def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple[list[Dart], Dart]:
+    """`sigma` and the root of the map that a tree with steps and a coin stand for.
+
+    Args:
+        word: the tree, ups (1) and downs (-1), at least one.
+        steps: what the label rises by along each edge, in the order of the ups.
+        coin: 0 or 1: the map's vertices have labels as even as the root's is, or as odd.
+    """
+    vertices, labels = _corners(word, steps)
+    around = _quadrangulation(vertices, labels)
+    # A dart of the quadrangulation at one of the map's vertices also stands for the corner before
+    # it; across its face (twice: cross, then turn) lies the corner that this one is joined with.
+    kept = [2 * i + (label - labels[0] + coin) % 2 for i, label in enumerate(labels)]
+    number: dict[Dart, Dart] = {}
+    for dart in kept:
+        if dart not in number:
+            number[dart] = len(number)
+            number[around[around[dart ^ 1] ^ 1]] = len(number)
+    sigma = [0] * len(kept)
+    for dart in kept:
+        sigma[number[dart]] = number[around[dart]]
+    return sigma, number[kept[0]]
+
+
+def _corners(word: Sequence[int], steps: Sequence[int]) -> tuple[list[int], list[int]]:
+    """The vertex and the label of each corner, in the order of the walk around the tree."""
+    rises = iter(steps)
+    vertices, labels = [0], [0]
+    below: list[tuple[int, int]] = []
+    count = 1
+    for step in word[:-1]:
+        if step > 0:
+            below.append((vertices[-1], labels[-1]))
+            labels.append(labels[-1] + next(rises))
+            vertices.append(count)
+            count += 1
+        else:
+            vertex, label = below.pop()
+            vertices.append(vertex)
+            labels.append(label)
+    return vertices, labels
+
+
+def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dart]:
+    """The next dart clockwise of each; arc i has dart 2i at corner i, 2i+1 where it leads."""
+    corners = len(labels)
+    arriving: list[list[Dart]] = [[] for _ in range(corners)]
+    at_new: list[Dart] = []
+    nearest: dict[int, int] = {}
+    for walked in reversed(range(2 * corners)):  # around twice: what follows the last is the first
+        corner = walked % corners
+        if walked < corners:
+            after = nearest.get(labels[corner] - 1)
+            (at_new if after is None else arriving[after]).append(2 * corner + 1)
+        nearest[labels[corner]] = corner
+    rotations: list[list[Dart]] = [[] for _ in range(max(vertices) + 1)]
+    for corner, (vertex, darts) in enumerate(zip(vertices, arriving, strict=True)):
+        # Arcs do not cross: at the corner, the one that comes from nearest before it is first.
+        rotations[vertex] += [*sorted(darts, key=_distance_to(corner, corners)), 2 * corner]
+    around = [0] * (2 * corners)
+    for rotation in [*rotations, at_new]:  # the new vertex lies outside: there it is backwards
+        for place, dart in enumerate(rotation):
+            around[rotation[place - 1]] = dart
+    return around
+
+
+def _distance_to(corner: int, corners: int) -> Callable[[Dart], int]:
+    return lambda dart: (corner - dart // 2) % corners
+
+
+# ---------------------------------------------------------------- maps of a genus
+
+
+class _Faces:
+    """The faces of a map that grows: it begins as a tree, and each call adds an edge.
+
+    `faces` are lists of darts, each in the order of a walk around it; `face_of` is the face of each
+    dart. The world of one vertex has one empty face.
+    """
+
+    def __init__(self, walk: list[Dart]) -> None:
+        self.faces = [walk]
+        self.face_of = [0] * len(walk)
+
+    def split(self, random: Random) -> None:
+        """Join two corners of one face: a random corner, and any corner of its face."""
+        face, first = self._corner(random)
+        darts = self.faces[face]
+        second = random.randrange(len(darts) or 1)
+        here, there = self._edge()
+        low, high = sorted((first, second))
+        parts = [[here, *darts[low:high]], [there, *darts[high:], *darts[:low]]]
+        parts.sort(key=len)
+        self.faces[face] = parts[1]
+        self.faces.append(parts[0])
+        self.face_of[parts[1][0]] = face
+        for dart in parts[0]:
+            self.face_of[dart] = len(self.faces) - 1
+
+    def join(self, random: Random) -> None:
+        """Join a random corner with a random corner of another face, each face as likely."""
+        one, first = self._corner(random)
+        two = (one + 1 + random.randrange(len(self.faces) - 1)) % len(self.faces)
+        second = random.randrange(len(self.faces[two]))
+        here, there = self._edge()
+        joined = [here, *_turned(self.faces[two], second), there, *_turned(self.faces[one], first)]
+        small, large = sorted((one, two), key=lambda face: len(self.faces[face]))
+        for dart in (here, *self.faces[small], there):
+            self.face_of[dart] = large
+        self.faces[large] = joined
+        last = self.faces.pop()
+        if small < len(self.faces):  # the last face takes the number that is free
+            moved = joined if large == len(self.faces) else last
+            self.faces[small] = moved
+            for dart in moved:
+                self.face_of[dart] = small
+
+    def _corner(self, random: Random) -> tuple[int, int]:
+        """A random dart's face and place in it; what is before a dart is its corner."""
+        if not self.face_of:
+            return 0, 0
+        dart = random.randrange(len(self.face_of))
+        return self.face_of[dart], self.faces[self.face_of[dart]].index(dart)
+
+    def _edge(self) -> tuple[Dart, Dart]:
+        darts = len(self.face_of)
+        self.face_of += [0, 0]
+        return darts, darts + 1
+
+
+def _turned(face: list[Dart], place: int) -> list[Dart]:
+    return face[place:] + face[:place]

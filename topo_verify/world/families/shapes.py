@@ -1,0 +1,96 @@
+"""Small well-known graphs, each drawn in the plane without crossings: genus 0.
+
+Nodes that lie on a circle are numbered clockwise, and exits are listed as they leave in that
+drawing. Nothing is drawn at random, so there is no seed; the marker is at dart 0 unless it is put
+elsewhere. The simplest world of each: `path(1)` (a node alone), `cycle(1)` (a loop), `star(1)` (an
+edge), `wheel(3)` (the tetrahedron), `prism(3)`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from topo_verify.world.families import _arguments as arguments
+from topo_verify.world.families._building import End, Graph, as_world, from_neighbours
+from topo_verify.world.rooted_map import Dart, World
+
+
+def path(nodes: int, *, marker: Dart | None = None) -> World:
+    """Nodes in a row, each joined with the next.
+
+    Args:
+        nodes: 1 or more.
+        marker: a dart; default: 0, at the first node.
+    Raises:
+        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
+    """
+
+    def rows(n: int) -> Iterable[list[int]]:
+        return ([to for to in (i + 1, i - 1) if 0 <= to < n] for i in range(n))
+
+    return _made("path", "nodes", (nodes, 1, 2), marker, lambda n: from_neighbours(rows(n)))
+
+
+def cycle(nodes: int, *, marker: Dart | None = None) -> World:
+    """Nodes on a circle: one has a loop, two are joined twice. Arguments as for `path`."""
+
+    def graph(n: int) -> Graph:
+        return {
+            i: [End((i + 1) % n, (i, 0), 0), End((i - 1) % n, ((i - 1) % n, 0), 1)]
+            for i in range(n)
+        }
+
+    return _made("cycle", "nodes", (nodes, 1, 2), marker, graph)
+
+
+def star(leaves: int, *, marker: Dart | None = None) -> World:
+    """One node joined with `leaves` others (1 or more). The rest as for `path`."""
+
+    def rows(n: int) -> Iterable[list[int]]:
+        return [list(range(1, n + 1)), *([0] for _ in range(n))]
+
+    return _made("star", "leaves", (leaves, 1, 2), marker, lambda n: from_neighbours(rows(n)))
+
+
+def wheel(rim: int, *, marker: Dart | None = None) -> World:
+    """A cycle of `rim` nodes (3 or more), each joined with a hub. The rest as for `path`."""
+
+    def rows(n: int) -> Iterable[list[int]]:
+        return [
+            list(range(1, n + 1)),
+            *([(i + 1) % n + 1, 0, (i - 1) % n + 1] for i in range(n)),
+        ]
+
+    return _made("wheel", "rim", (rim, 3, 4), marker, lambda n: from_neighbours(rows(n)))
+
+
+def prism(sides: int, *, marker: Dart | None = None) -> World:
+    """Two cycles of `sides` nodes (3 or more), one in the other, joined one to one.
+
+    The rest as for `path`.
+    """
+
+    def rows(n: int) -> Iterable[list[int]]:
+        return [
+            *([(i + 1) % n, n + i, (i - 1) % n] for i in range(n)),
+            *([i, n + (i + 1) % n, n + (i - 1) % n] for i in range(n)),
+        ]
+
+    return _made("prism", "sides", (sides, 3, 6), marker, lambda n: from_neighbours(rows(n)))
+
+
+def _made(
+    family: str,
+    parameter: str,
+    number: tuple[int, int, int],
+    marker: Dart | None,
+    graph: Callable[[int], Graph],
+) -> World:
+    """The world, its one number (value, least, darts that each counts for) checked first."""
+    value, least, darts_each = number
+    value = arguments.integer(family, parameter, value, least)
+    arguments.require_darts(family, darts_each * value)
+    marker = arguments.marker(family, marker)
+    name = arguments.name(family, value, marker=marker)
+    made = graph(value)
+    return as_world(name, made, 0 if marker is None and made[0] else marker)

@@ -1,0 +1,292 @@
+"""From a drawing to its world: places with coordinates, ways between them with their courses.
+
+The rotation at a place is the **clockwise order of the directions in which the ways leave**, from
+the north on, y upwards. A way leaves along the first segment of its course (its polyline); points
+that stand still at the beginning are passed over. Without a course a way is straight.
+
+Directions are compared exactly: in floating point where that decides, in fractions where it does
+not. Two ways that leave in the very same direction have no order, and none is made up: that is an
+error which names the place. So is a way that nowhere leaves its place.
+
+**Which end is which.** A course may be written from either end. It is turned round where that
+brings its ends nearer to the places they belong to.
+
+**One street, two directions.** Directed graphs often hold a street twice, once for each direction
+of travel. A directed way with the same course as an earlier one, backwards, is that one, and each
+has one such partner at most. Ways with different courses stay apart: two carriageways are two
+parallel edges. Undirected ways are never merged.
+
+The marker points at the first dart of the first place, unless it is named. Where ways cross without
+a place (bridges) the map need not be planar; the drawing is taken as it is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from contextlib import suppress
+from fractions import Fraction
+from functools import cmp_to_key
+from itertools import pairwise
+from math import hypot
+from typing import Any, NamedTuple, TypeVar
+
+from topo_verify.errors import InputError
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import World
+
+W = TypeVar("W", bound=World)
+
+Point = tuple[float, float]
+
+FARTHEST = 1e12
+"""The largest coordinate, either way: products of two differences are far from overflowing."""
+
+
+class Place(NamedTuple):
+    """A vertex to be."""
+
+    name: str
+    at: Point
+
+
+class Way(NamedTuple):
+    """An edge to be: from one place to another, by their numbers."""
+
+    start: int
+    end: int
+    course: Sequence[Point] = ()  # from start to end, both included; empty: straight
+    directed: bool = False
+    name: str = ""  # what to call it in messages
+
+
+class End(NamedTuple):
+    """One end of a way: side 0 is its start, side 1 its end."""
+
+    way: int
+    side: int
+
+
+def as_world(
+    cls: type[W],
+    places: Sequence[Place],
+    ways: Sequence[Way],
+    *,
+    source: str,
+    name: str = "",
+    marker: End | None = None,
+) -> W:
+    """The world of the drawing.
+
+    Args:
+        source: what to call the input in messages.
+        name: what to call the world.
+        marker: the end that it points at; default: the first dart of the first place.
+    Raises:
+        InputError: two ways leave a place in the same direction, a way has no direction, a place
+            has no way, or the drawing is not connected.
+    """
+    if not places:
+        raise InputError(f"{source} has no vertex: a world has one at least")
+    try:
+        courses = [_course(way, places) for way in ways]
+        kept, same = _merged(ways, courses)
+        exits = _exits(places, ways, courses, kept)
+        rotations = [_clockwise(place, row, ways) for place, row in zip(places, exits, strict=True)]
+        _require_connected(places, [ways[number] for number in kept])
+        dart = {end: n for n, end in enumerate(end for row in rotations for end in row)}
+        return cls.from_rotations(
+            [[dart[end] for end in row] for row in rotations],
+            [(dart[End(way, 0)], dart[End(way, 1)]) for way in kept],
+            dart[_survivor(marker, same)] if marker else 0 if dart else None,
+            name=name,
+            vertex_names=tuple(place.name for place in places),
+            positions=tuple(place.at for place in places),
+        )
+    except InputError as error:
+        raise InputError(f"{source}: {error}") from error
+
+
+# ---------------------------------------------------------------- courses
+
+
+def _course(way: Way, places: Sequence[Place]) -> tuple[Point, ...]:
+    """The way's points from its start to its end, none twice in a row."""
+    start, end = places[way.start], places[way.end]
+    points = list(way.course) or [start.at, end.at]
+    course = (points[0], *(b for a, b in pairwise(points) if a != b))
+    if len(course) < 2:
+        what = "a loop that is" if way.start == way.end else "an edge that is"
+        raise InputError(
+            f"at vertex '{files.shown(start.name)}' begins {what} a single point, so it leaves in"
+            " no direction: give it a geometry with two different points, or leave it out"
+        )
+    as_is = _apart(course[0], start.at) + _apart(course[-1], end.at)
+    turned = _apart(course[-1], start.at) + _apart(course[0], end.at)
+    return course[::-1] if turned < as_is else course
+
+
+def _apart(a: Point, b: Point) -> float:
+    return hypot(a[0] - b[0], a[1] - b[1])
+
+
+def _merged(
+    ways: Sequence[Way], courses: Sequence[tuple[Point, ...]]
+) -> tuple[list[int], dict[int, int]]:
+    """The ways that stay, and for each that goes the one that it is, backwards."""
+    kept: list[int] = []
+    same: dict[int, int] = {}
+    waiting: dict[tuple[int, int, tuple[Point, ...]], list[int]] = {}
+    for number, (way, course) in enumerate(zip(ways, courses, strict=True)):
+        partners = waiting.get((way.end, way.start, course[::-1])) if way.directed else None
+        if partners:
+            same[number] = partners.pop(0)
+            continue
+        kept.append(number)
+        if way.directed:
+            waiting.setdefault((way.start, way.end, course), []).append(number)
+    return kept, same
+
+
+def _survivor(end: End, same: dict[int, int]) -> End:
+    return End(same[end.way], 1 - end.side) if end.way in same else end
+
+
+# ---------------------------------------------------------------- directions
+
+
+class _Exit(NamedTuple):
+    """An end of a way and the two points that say where it leaves to."""
+
+    end: End
+    origin: Point
+    toward: Point
+
+    @property
+    def direction(self) -> Point:
+        return self.toward[0] - self.origin[0], self.toward[1] - self.origin[1]
+
+    @property
+    def westward(self) -> bool:
+        """In the second half of a turn clockwise from the north: from south up to the north?"""
+        x, y = self.direction
+        return x < 0 or (x == 0 and y < 0)
+
+    @property
+    def exact(self) -> tuple[Fraction, Fraction]:
+        (a, b), (c, d) = self.origin, self.toward
+        return Fraction(c) - Fraction(a), Fraction(d) - Fraction(b)
+
+
+def _exits(
+    places: Sequence[Place],
+    ways: Sequence[Way],
+    courses: Sequence[tuple[Point, ...]],
+    kept: Sequence[int],
+) -> list[list[_Exit]]:
+    exits: list[list[_Exit]] = [[] for _ in places]
+    for number in kept:
+        way, course = ways[number], courses[number]
+        exits[way.start].append(_Exit(End(number, 0), course[0], course[1]))
+        exits[way.end].append(_Exit(End(number, 1), course[-1], course[-2]))
+    for place, row in zip(places, exits, strict=True):
+        if not row and len(places) > 1:
+            raise InputError(
+                f"vertex '{files.shown(place.name)}' has no edge, so the world is not connected:"
+                " leave the vertex out"
+            )
+    return exits
+
+
+def _require_connected(places: Sequence[Place], ways: Sequence[Way]) -> None:
+    """Refuse a drawing in several parts, with a place that shows it."""
+    beside: list[list[int]] = [[] for _ in places]
+    for way in ways:
+        beside[way.start].append(way.end)
+        beside[way.end].append(way.start)
+    reached = {0: None}
+    queue = [0]
+    for at in queue:  # grows as it goes
+        fresh = dict.fromkeys(other for other in beside[at] if other not in reached)
+        reached |= fresh
+        queue += fresh
+    for number, place in enumerate(places):
+        if number not in reached:
+            raise InputError(
+                f"the world is not connected: no way leads from vertex"
+                f" '{files.shown(places[0].name)}' to vertex '{files.shown(place.name)}'; keep one"
+                f" of the parts ({len(queue)} of {len(places)} vertices are in the first)"
+            )
+
+
+def _clockwise(place: Place, exits: Sequence[_Exit], ways: Sequence[Way]) -> list[End]:
+    row = sorted(exits, key=cmp_to_key(_compared))
+    for one, other in pairwise(row):
+        if _compared(one, other) == 0:
+            names = [files.shown(ways[leaving.end.way].name, limit=60) for leaving in (one, other)]
+            raise InputError(
+                f"at vertex '{files.shown(place.name)}' two edges leave at the same angle,"
+                f" '{names[0]}' toward {one.toward} and '{names[1]}' toward {other.toward}, so"
+                " neither comes first: move a point of one of them, or leave one out"
+            )
+    return [one.end for one in row]
+
+
+def _compared(one: _Exit, other: _Exit) -> int:
+    """Negative where `one` comes first clockwise from the north, 0 for the very same direction."""
+    if one.westward != other.westward:
+        return 1 if one.westward else -1
+    (a, b), (c, d) = one.direction, other.direction
+    ahead, back = a * d, b * c
+    if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):  # far more than rounding can do
+        return 1 if ahead > back else -1
+    (p, q), (r, s) = one.exact, other.exact
+    turn = p * s - q * r
+    return (turn > 0) - (turn < 0)
+
+
+# ---------------------------------------------------------------- texts
+
+
+def number(value: Any, what: str) -> float:
+    """The value as a coordinate.
+
+    Raises:
+        InputError: it is no finite number, or larger than `FARTHEST`.
+    """
+    with suppress(TypeError, ValueError, OverflowError):
+        found = float(value)
+        if abs(found) <= FARTHEST:
+            return found + 0.0  # no negative zero
+    # A long integer is not written out: Python refuses to, beyond some thousand digits.
+    seen = "an integer" if isinstance(value, int) else repr(value)
+    raise InputError(
+        f"{what} is {files.shown(seen, limit=60)}, expected a number of at most {FARTHEST:.0e}"
+        " in size"
+    )
+
+
+def line(text: str, what: str) -> tuple[Point, ...]:
+    """The points of a polyline in well-known text, `LINESTRING (0 0, 1 2)`; heights are left out.
+
+    Raises:
+        InputError: the text is none.
+    """
+    found = re.fullmatch(r"\s*LINESTRING\s*(?:Z\s*)?\(([^()]*)\)\s*", text, re.IGNORECASE)
+    if not found:
+        raise InputError(
+            f"{what} is '{files.shown(text, limit=60)}', expected a line as LINESTRING (0 0, 1 2)"
+        )
+    return points([part.split() for part in found[1].split(",")], what)
+
+
+def points(rows: Sequence[Sequence[object]], what: str) -> tuple[Point, ...]:
+    """The points of a polyline, x and y each; a third coordinate, a height, is left out.
+
+    Raises:
+        InputError: a point has fewer or more coordinates, or one of them is no number.
+    """
+    for row in rows:
+        if len(row) not in {2, 3}:
+            raise InputError(f"{what} has a point of {len(row)} coordinates, expected x and y")
+    return tuple((number(row[0], what), number(row[1], what)) for row in rows)

@@ -1,0 +1,80 @@
+"""XML, read as a stream and without trust.
+
+What a document could do beyond being text is refused, not carried out: a document type declaration
+is the only place where entities are declared, so without it nothing expands ("billion laughs") and
+nothing is fetched from another file or from the network. Depth is limited; size is what
+`files.LIMIT` lets in. Nothing is kept but what the caller keeps, so a document of many elements
+needs little memory.
+
+Names come without their namespaces. Source: the expat of Python's standard library; the dangers
+are those in the section "XML security" of its manual.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from xml.parsers import expat
+
+from topo_verify.errors import InputError
+
+DEEPEST = 64
+"""Elements within elements; the formats here need 6."""
+
+_SEPARATOR = "\x01"
+"""What stands between a namespace and a name; no document can hold this character."""
+
+Start = Callable[[tuple[str, ...], dict[str, str]], None]
+"""Called with the names from the root to an element that begins, and its attributes."""
+
+End = Callable[[tuple[str, ...], str], None]
+"""Called with the names from the root to an element that ends, and the text just before its end."""
+
+
+def read(data: bytes, *, name: str, start: Start, end: End) -> None:
+    """Go through the document.
+
+    Args:
+        name: what to call the input in messages.
+    Raises:
+        InputError: it is no XML, has a document type, is nested too deeply; and what `start` and
+            `end` raise.
+    """
+    path: list[str] = []
+    text: list[str] = []
+
+    def begin(tag: str, attributes: dict[str, str]) -> None:
+        path.append(_local(tag))
+        if len(path) > DEEPEST:
+            raise InputError(f"{name}: its elements are nested too deeply, over {DEEPEST} deep")
+        text.clear()
+        start(tuple(path), {_local(key): value for key, value in attributes.items()})
+
+    def finish(_tag: str) -> None:
+        end(tuple(path), "".join(text))
+        text.clear()
+        path.pop()
+
+    def refuse(*_declared: object) -> None:
+        raise InputError(
+            f"{name} has a document type (<!DOCTYPE …>), which could expand without end or fetch"
+            " other files: take it out"
+        )
+
+    parser = expat.ParserCreate(namespace_separator=_SEPARATOR)
+    parser.buffer_text = True
+    parser.StartElementHandler = begin
+    parser.EndElementHandler = finish
+    parser.CharacterDataHandler = text.append
+    parser.StartDoctypeDeclHandler = refuse
+    try:
+        parser.Parse(data, True)  # noqa: FBT003  expat's own signature: this is all
+    except expat.ExpatError as error:
+        raise InputError(f"{name} is no valid XML: {error}") from error
+    except (LookupError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"{name} is no valid XML: {error}; save it as UTF-8") from error
+
+
+def _local(name: str) -> str:
+    return name.rpartition(_SEPARATOR)[2]

@@ -1,0 +1,191 @@
+"""NetworkX: planar embeddings both ways, and any graph with positions.
+
+NetworkX is loaded when one of these functions is called, not before.
+
+**Planar embeddings** (`networkx.PlanarEmbedding`) hold clockwise orders, as worlds do, for simple
+planar graphs: other worlds are refused. The vertices come in the order of the nodes, each from its
+first neighbour on; what is written numbers its nodes as the world numbers its vertices and begins
+with the marker's, so that the marker comes back as the first dart of the first vertex.
+
+**Graphs with positions** become worlds as drawing.py says: clockwise by the angle of each edge's
+first segment, y upwards; equal angles are an error. A street network from OSMnx can be given as it
+is, projected or not.
+
+Everywhere the marker is the first dart of the first vertex, unless it is named by the two ends of
+its edge: `marker=("a", "b")` lies at a and points to b; in a multigraph a key may follow.
+Vertices keep their nodes' names as texts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+from topo_verify.errors import InputError
+from topo_verify.world.formats import drawing, files
+from topo_verify.world.formats.drawing import End, Place, Point, Way
+from topo_verify.world.formats.planar_code import require_simple_and_planar
+from topo_verify.world.rooted_map import World
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+Marker = tuple[Any, ...]
+"""The node where the marker lies, the node that it points to, and perhaps the edge's key."""
+
+
+# ---------------------------------------------------------------- planar embeddings
+
+
+def from_planar_embedding(
+    embedding: nx.PlanarEmbedding[Any], *, marker: Marker | None = None, name: str = ""
+) -> World:
+    """The world with the embedding's rotations.
+
+    Args:
+        marker: (node, neighbour); default: the first node and its first neighbour.
+        name: what to call the world.
+    Raises:
+        InputError: the embedding is broken, empty or not connected, or has no such edge.
+    """
+    import networkx as nx
+
+    source = "the planar embedding"
+    given = cast("Any", embedding)
+    try:
+        given.check_structure()
+        rows = {node: list(given.neighbors_cw_order(node)) for node in given}
+    except (nx.NetworkXException, KeyError, TypeError) as error:
+        raise InputError(f"{source} is broken: {files.shown(str(error))}") from error
+    ends = [(node, other) for node, row in rows.items() for other in row]
+    dart: dict[Marker, int] = {end: number for number, end in enumerate(ends)}
+    if marker is not None and marker not in dart:
+        raise InputError(f"{source} has no edge for marker={files.shown(repr(marker))}")
+    try:
+        return World.from_rotations(
+            [[dart[node, other] for other in row] for node, row in rows.items()],
+            [(number, dart[b, a]) for number, (a, b) in enumerate(ends) if number < dart[b, a]],
+            dart[marker] if marker is not None else 0 if dart else None,
+            name=name,
+            vertex_names=tuple(map(str, rows)),
+        )
+    except InputError as error:
+        raise InputError(f"{source}: {error}") from error
+
+
+def to_planar_embedding(world: World) -> nx.PlanarEmbedding[int]:
+    """The embedding whose nodes are the numbers of the world's vertices, the marker's first.
+
+    Raises:
+        InputError: the world is not simple or not planar.
+    """
+    import networkx as nx
+
+    require_simple_and_planar(world, "a planar embedding")
+    first = world.marker_vertex
+    order = [first, *(v for v in range(len(world.vertices)) if v != first)]
+    rotations = list(world.vertices)
+    if world.root is not None:
+        turn = world.place_of[world.root]
+        rotations[first] = rotations[first][turn:] + rotations[first][:turn]
+    embedding: nx.PlanarEmbedding[int] = nx.PlanarEmbedding()
+    embedding.add_nodes_from(order)
+    embedding.set_data(
+        {v: [world.vertex_of[world.alpha[dart]] for dart in rotations[v]] for v in order}
+    )
+    return embedding
+
+
+# ---------------------------------------------------------------- graphs with positions
+
+
+def from_positions(
+    graph: nx.Graph[Any],
+    positions: Mapping[Any, Sequence[float]] | None = None,
+    *,
+    marker: Marker | None = None,
+    name: str = "",
+) -> World:
+    """The world of a drawn graph, directed or not, multigraph or not.
+
+    Args:
+        graph: its edges may have an attribute `geometry`: a list of (x, y), a text such as
+            LINESTRING (0 0, 1 2), or anything with such a list as its `coords`. Without it they are
+            straight.
+        positions: (x, y) of each node; default: the nodes' own attributes, `x` and `y` or `pos`.
+        marker: (node, neighbour) or (node, neighbour, key); default: the first dart of the first
+            node.
+        name: what to call the world.
+    Raises:
+        InputError: a position or geometry is missing or none, two edges leave a node at the same
+            angle, the graph is empty or not connected, or the marker names no edge or several.
+    """
+    given = cast("Any", graph)
+    nodes: dict[Any, int] = {node: number for number, node in enumerate(given)}
+    places = [Place(str(node), _at(given.nodes[node], node, positions)) for node in nodes]
+    labels = list(given.edges(keys=True)) if given.is_multigraph() else list(given.edges())
+    ways = [
+        Way(
+            *(nodes[label[0]], nodes[label[1]]),
+            course=_geometry(given, label),
+            directed=given.is_directed(),
+            name=repr(label),
+        )
+        for label in labels
+    ]
+    end = None if marker is None else _marked(marker, labels)
+    return drawing.as_world(World, places, ways, source="the graph", name=name, marker=end)
+
+
+def _at(attributes: Mapping[str, Any], node: Any, positions: Mapping[Any, Any] | None) -> Point:
+    what = f"the graph: the position of node {files.shown(repr(node), limit=60)}"
+    position: Any = attributes.get("pos") if positions is None else positions.get(node)
+    if position is None and positions is None and "x" in attributes and "y" in attributes:
+        position = attributes["x"], attributes["y"]
+    if position is None:
+        raise InputError(
+            f"{what} is missing: the rotation comes from positions; give each node x and y, or pos,"
+            " or hand a mapping to `positions`"
+        )
+    (point,) = drawing.points([_row(position, what)], what)
+    return point
+
+
+def _geometry(graph: Any, label: tuple[Any, ...]) -> Sequence[Point]:
+    what = f"the graph: the geometry of edge {files.shown(repr(label), limit=60)}"
+    value = graph.edges[label].get("geometry")
+    if value is None:
+        return ()
+    if isinstance(value, str):
+        return drawing.line(value, what)
+    rows = _row(getattr(value, "coords", value), what)
+    return drawing.points([_row(row, what) for row in rows], what)
+
+
+def _row(value: Any, what: str) -> list[Any]:
+    """What is in the row, whatever it is a row of."""
+    if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
+        shown = files.shown(repr(cast("Any", value)), limit=60)
+        raise InputError(f"{what} is {shown}, expected x and y in a row, or such rows")
+    return list(cast("Any", value))
+
+
+def _marked(marker: Marker, labels: Sequence[tuple[Any, ...]]) -> End:
+    """The one end of an edge that the marker's name fits; in a loop, its start.
+
+    In a directed graph an edge in the direction of the name goes before one against it.
+    """
+    near, key = marker[:2], marker[2:]
+    for side, ends in ((0, near), (1, near[::-1])):
+        fits = [n for n, label in enumerate(labels) if label[:2] == ends and key in ((), label[2:])]
+        if len(fits) == 1:
+            return End(fits[0], side)
+        if fits:
+            raise InputError(
+                f"the graph has {len(fits)} edges for marker={files.shown(repr(marker))}: name its"
+                " key, too, as in (node, neighbour, key)"
+            )
+    raise InputError(
+        f"the graph has no edge for marker={files.shown(repr(marker))}: name one by its two ends"
+        " and, in a multigraph, its key"
+    )

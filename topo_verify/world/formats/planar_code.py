@@ -1,0 +1,222 @@
+"""planar_code: the binary format of plantri, for simple planar worlds, many to a file.
+
+    >>planar_code<<  3  2 3 0  1 3 0  1 2 0       (a triangle; a number is a byte)
+
+Behind the head, which may be missing, stands one graph after the other: the number of vertices,
+then for each vertex the numbers of its neighbours in clockwise order, counted from 1, and a zero.
+A graph of more than 255 vertices begins with a zero byte, and from there on its numbers have two
+bytes each: the high byte first, as nauty writes them, unless the head is `>>planar_code le<<`.
+
+A neighbour's number tells which edge is meant only where the graph is simple, and the format is one
+for planar maps: any other world is refused, when read and when written. The format knows no marker.
+When read, it points at the first dart of the first vertex; when written, its vertex comes first,
+its dart first there, and the rest is numbered breadth-first: isomorphic worlds give the same bytes.
+
+What this does not show: that the writer's clockwise is ours. Seen from the other side of the sphere
+a file is that of the mirror image, and its bytes do not tell.
+
+Source: G. Brinkmann and B. D. McKay, plantri-guide.txt; the head and the byte order as in the guide
+of CaGe and in `planarg` of nauty 2.8.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import accumulate
+from os import PathLike
+from typing import TypeVar
+
+from topo_verify.errors import InputError
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import World
+
+W = TypeVar("W", bound=World)
+
+MAX_VERTICES = 2**16 - 1
+"""What two bytes can number."""
+
+_HEAD = re.compile(rb">>planar_code(?: ?(le|be))? ?<<")
+
+
+def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W:
+    """The world in the file, or the one of this number, counted from 0.
+
+    Raises:
+        InputError: as `decode`, or the file cannot be read.
+    """
+    return decode(cls, files.read(path), name=files.shown(path), graph=graph, stem=files.stem(path))
+
+
+def decode(
+    cls: type[W],
+    data: bytes,
+    *,
+    name: str = "planar_code",
+    graph: int | None = None,
+    stem: str = "",
+) -> W:
+    """The world in the bytes.
+
+    Args:
+        name: what to call the input in messages.
+        graph: which of the graphs, counted from 0; default: the only one.
+        stem: what to call the world; with `graph`, its number follows.
+    Raises:
+        InputError: no graph of that number, several and none named, or no simple planar world.
+    """
+    found = None
+    number = -1
+    for number, rows in enumerate(_graphs(data, name)):
+        if number == 1 and graph is None:
+            raise InputError(
+                f"{name} holds several graphs: say which, counted from 0, as in"
+                " World.load(path, graph=0), or give each a file"
+            )
+        if number == (graph or 0):
+            found = rows
+        if number == graph:
+            break
+    if found is None:
+        held = f"{number + 1} graphs" if number >= 0 else "no graph"
+        asked = "" if graph is None else f", and graph {graph} (counted from 0) is none of them"
+        raise InputError(f"{name} holds {held}{asked}: name a file with the graph that is meant")
+    title = stem if graph is None or not stem else f"{stem}-{graph}"
+    return _world(cls, found, name if graph is None else f"{name}, graph {graph}", title)
+
+
+def encode(world: World) -> bytes:
+    """The world as a file with one graph, head included.
+
+    Raises:
+        InputError: the world is not simple, not planar, or has more than `MAX_VERTICES` vertices.
+    """
+    require_simple_and_planar(world, "planar_code")
+    if len(world.vertices) > MAX_VERTICES:
+        raise InputError(
+            f"planar_code numbers vertices up to {MAX_VERTICES}, and the world has"
+            f" {len(world.vertices)}: write it as json"
+        )
+    degrees, alpha = world.code
+    ends = list(accumulate(degrees))
+    vertex_of = [vertex for vertex, degree in enumerate(degrees, 1) for _ in range(degree)]
+    numbers = [len(degrees)]
+    for end, degree in zip(ends, degrees, strict=True):
+        numbers += [vertex_of[alpha[dart]] for dart in range(end - degree, end)]
+        numbers.append(0)
+    if len(degrees) < 256:
+        return b">>planar_code<<" + bytes(numbers)
+    wide = b"".join(number.to_bytes(2, "big") for number in numbers)
+    return b">>planar_code be<<\0" + wide
+
+
+def require_simple_and_planar(world: World, what: str) -> None:
+    """Refuse a world that a format which names darts by their neighbours cannot hold."""
+    if not world.is_simple:
+        raise InputError(
+            f"{what} holds simple worlds, and this one has loops or parallel edges: keep it as"
+            " world JSON"
+        )
+    if not world.is_planar:
+        raise InputError(
+            f"{what} holds planar worlds, and this one has genus {world.genus}: keep it as world"
+            " JSON"
+        )
+
+
+# ---------------------------------------------------------------- reading
+
+
+def _graphs(data: bytes, name: str) -> Iterator[list[Sequence[int]]]:
+    """The neighbours of each vertex, numbered from 1, of one graph after the other."""
+    head = _HEAD.match(data)
+    if data.startswith(b">>") and head is None:
+        raise InputError(
+            f"{name} does not begin like planar_code: its head is"
+            f" '{files.shown(data[:20].decode('latin-1'))}', expected '>>planar_code<<'"
+        )
+    little = head is not None and head[1] == b"le"
+    at, number = head.end() if head else 0, 0
+    while at < len(data):
+        rows, at = _graph(data, at, f"{name}, graph {number}", little=little)
+        yield rows
+        number += 1
+
+
+def _graph(data: bytes, at: int, name: str, *, little: bool) -> tuple[list[Sequence[int]], int]:
+    """The graph that begins at this byte, and where it ends."""
+    wide = data[at] == 0
+    size = data[at]
+    if wide:
+        size = int.from_bytes(data[at + 1 : at + 3], "little" if little else "big")
+        if len(data) < at + 3 or not size:
+            raise InputError(f"{name}: a number of vertices was expected at byte {at}")
+    at += 3 if wide else 1
+    rows: list[Sequence[int]] = []
+    for vertex in range(1, size + 1):
+        row, at = _wide_row(data, at, little=little) if wide else _row(data, at)
+        if at > len(data):
+            raise InputError(
+                f"{name} ends within the neighbours of vertex {vertex} of {size}: the file is cut"
+                " off; write it again"
+            )
+        rows.append(row)
+    return rows, at
+
+
+def _row(data: bytes, at: int) -> tuple[Sequence[int], int]:
+    """The numbers up to the next zero, and where it goes on; past the end if there is no zero."""
+    end = data.find(0, at)
+    return (data[at:end], end + 1) if end >= 0 else ((), len(data) + 1)
+
+
+def _wide_row(data: bytes, at: int, *, little: bool) -> tuple[Sequence[int], int]:
+    row: list[int] = []
+    while at + 2 <= len(data):
+        number = int.from_bytes(data[at : at + 2], "little" if little else "big")
+        at += 2
+        if not number:
+            return row, at
+        row.append(number)
+    return (), len(data) + 1
+
+
+def _world(cls: type[W], rows: list[Sequence[int]], name: str, title: str) -> W:
+    dart_of: dict[tuple[int, int], int] = {}
+    rotations: list[list[int]] = []
+    for vertex, row in enumerate(rows, 1):
+        for other in row:
+            _require_neighbour(vertex, other, len(rows), name)
+            if (vertex, other) in dart_of:
+                raise InputError(
+                    f"{name}: vertex {vertex} names its neighbour {other} twice: only simple"
+                    " graphs can be read, parallel edges look alike in planar_code"
+                )
+            dart_of[vertex, other] = len(dart_of)
+        rotations.append([dart_of[vertex, other] for other in row])
+    for vertex, other in dart_of:
+        if (other, vertex) not in dart_of:
+            raise InputError(
+                f"{name}: vertex {vertex} names {other} as a neighbour, but {other} does not name"
+                f" {vertex}: an edge stands at both its ends"
+            )
+    edges = [(dart, dart_of[b, a]) for (a, b), dart in dart_of.items() if a < b]
+    try:
+        world = cls.from_rotations(rotations, edges, 0 if dart_of else None, name=title)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from error
+    if not world.is_planar:
+        raise InputError(
+            f"{name}: these rotations are a map of genus {world.genus}, and planar_code holds"
+            " planar ones: are the neighbours in clockwise order?"
+        )
+    return world
+
+
+def _require_neighbour(vertex: int, other: int, size: int, name: str) -> None:
+    if other > size:
+        raise InputError(
+            f"{name}: vertex {vertex} names the neighbour {other}, and the vertices are 1 … {size}"
+        )
+    if other == vertex:
+        raise InputError(f"{name}: vertex {vertex} is its own neighbour: loops cannot be read")

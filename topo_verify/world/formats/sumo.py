@@ -1,0 +1,97 @@
+"""SUMO's road networks, `.net.xml`: the undirected graph of their streets.
+
+Read are: each `<junction>` with its `id`, `x`, `y` (y upwards) and each `<edge>` with its `id`,
+`from`, `to` and, if it has one, its `shape`, the line in the middle of the street (SUMO leaves it
+out where it is straight). Lanes, connections, traffic lights and the kinds of traffic are passed
+over, and with them everything within a junction: elements whose id begins with ':'.
+
+**Both directions of a street are one edge.** SUMO's edges have one direction. Two of them between
+the same junctions, there and back, are one street if their ids differ in a leading '-' and nothing
+else (so SUMO names them), or if one has the shape of the other backwards; the shape of the first in
+the file counts. Others stay apart, as the carriageways of a motorway do.
+
+How the drawing becomes a world, and what is refused: drawing.py. Junctions without a street and
+networks in several parts are refused; `netconvert --keep-edges.components 1` keeps the largest.
+
+Source: Eclipse SUMO, user documentation, "SUMO Road Networks".
+"""
+
+from __future__ import annotations
+
+from os import PathLike
+from typing import TypeVar
+
+from topo_verify.errors import InputError
+from topo_verify.world.formats import drawing, files, markup
+from topo_verify.world.formats.drawing import Place, Point, Way
+from topo_verify.world.rooted_map import World
+
+W = TypeVar("W", bound=World)
+
+
+def load(cls: type[W], path: str | PathLike[str]) -> W:
+    """The world in the file.
+
+    Raises:
+        InputError: as `decode`, or the file cannot be read.
+    """
+    stem = files.stem(path).removesuffix(".net")
+    return decode(cls, files.read(path), name=files.shown(path), stem=stem)
+
+
+def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str = "") -> W:
+    """The world in the bytes.
+
+    Args:
+        name: what to call the input in messages.
+        stem: what to call the world.
+    Raises:
+        InputError: no SUMO network, or a drawing that is no world.
+    """
+    places: dict[str, Place] = {}
+    edges: dict[str, dict[str, str]] = {}
+
+    def start(path: tuple[str, ...], attributes: dict[str, str]) -> None:
+        if path[0] != "net":
+            raise InputError(f"{name} is no SUMO network: its first element is not <net>")
+        if path[1:] in {("junction",), ("edge",)}:
+            known = places if path[1] == "junction" else edges
+            key = attributes.get("id", "")
+            what = f"{name}: {path[1]} '{files.shown(key, limit=60)}'"
+            if not key or key in known:
+                why = "stands there twice" if key else "has no id"
+                raise InputError(f"{what} {why}: each has an id of its own")
+            if key.startswith(":"):
+                return
+            if path[1] == "edge":
+                edges[key] = attributes
+            else:
+                places[key] = Place(key, _at(attributes, what))
+
+    def end(_path: tuple[str, ...], _text: str) -> None:
+        """Everything is in the attributes."""
+
+    markup.read(data, name=name, start=start, end=end)
+    ways = _ways(places, edges, name)
+    return drawing.as_world(cls, list(places.values()), ways, source=name, name=stem)
+
+
+def _at(attributes: dict[str, str], what: str) -> Point:
+    x, y = (drawing.number(attributes.get(axis, ""), f"{what}, {axis}") for axis in "xy")
+    return x, y
+
+
+def _ways(places: dict[str, Place], edges: dict[str, dict[str, str]], name: str) -> list[Way]:
+    number = {key: place for place, key in enumerate(places)}
+    ways: dict[str, Way] = {}
+    for key, attributes in edges.items():
+        what = f"{name}: edge '{files.shown(key, limit=60)}'"
+        start, end = (number.get(attributes.get(side, "")) for side in ("from", "to"))
+        if start is None or end is None:
+            raise InputError(f"{what} joins what is no junction: 'from' and 'to' are their ids")
+        rows = [point.split(",") for point in attributes.get("shape", "").split()]
+        course = drawing.points(rows, f"{what}, shape")
+        other = ways.get(key[1:] if key.startswith("-") else f"-{key}")
+        if other is None or (other.start, other.end) != (end, start):
+            ways[key] = Way(start, end, course, directed=True, name=key)
+    return list(ways.values())
