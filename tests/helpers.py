@@ -10,7 +10,7 @@ import msgspec
 from hypothesis import strategies as st
 
 from topo_verify import World
-from topo_verify.algorithms import Algorithm
+from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.algorithms.exploration import Rule
 from topo_verify.algorithms.motion import Motion, retrace
 from topo_verify.checkers import Status, check
@@ -76,6 +76,18 @@ def path(vertices: int, *, marker: int) -> World:
 def trace_of(world: World | str, mapper: Algorithm | str = "basic") -> Trace:
     """What happens when an algorithm maps a world (or the world of this id)."""
     return explore(World.from_id(world) if isinstance(world, str) else world, mapper).trace
+
+
+def fits(name: str, world: World) -> bool:
+    """Does the world meet what the algorithm assumes?"""
+    return CATALOGUE[name].assumes != "planar" or world.is_planar
+
+
+PAPER = [name for name in CATALOGUE if "folding" not in name]
+"""The algorithms of the paper."""
+
+SURE = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
+"""The algorithms that are right in every world."""
 
 
 def variant(rule: Callable[[], Rule], motion: Motion = retrace) -> Algorithm:

@@ -27,8 +27,10 @@ FLOORS = {
     "robot": 1,
     "algorithms": 2,
     "checkers": 2,
-    "strategies": 2,
+    "strategies": 2.5,  # draws algorithms, too, and whoever runs them stands above
     "trial": 3,
+    "certificate": 3,
+    "gap": 3,
     "targets": 2.5,  # names mappers; below `trial`, which runs them
     "oracle": 4,
     "proofs": 4,

@@ -7,6 +7,7 @@ report = tv.examine(my_mapper, world)
 """
 
 from topo_verify.algorithms import CATALOGUE, Algorithm
+from topo_verify.certificate import Certificate, certify
 from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
 from topo_verify.robot.limits import Limits
 from topo_verify.robot.percept import Percept, Robot
@@ -19,6 +20,7 @@ __version__ = "0.1.0"
 __all__ = [
     "CATALOGUE",
     "Algorithm",
+    "Certificate",
     "ClaimFailed",
     "Exploration",
     "InputError",
@@ -31,6 +33,7 @@ __all__ = [
     "World",
     "__version__",
     "assert_maps",
+    "certify",
     "examine",
     "explore",
     "families",

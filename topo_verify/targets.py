@@ -1,10 +1,10 @@
 """The TARGET of a command: a mapper by name, from a module or from a file.
 
-    a catalogue name, several with commas, or `all`
+    a catalogue name, several with commas, or `all` (those that are right in all worlds)
     package.module:attribute
     path/file.py:attribute
 
-Source: INTERFACE section 2 (docs/semantics.md).
+Source: docs/semantics.md, section 16.
 """
 
 from __future__ import annotations
@@ -44,7 +44,8 @@ def targets(text: str, *, pick: str | None = None, order: str | None = None) -> 
     """
     if ":" in text:
         return (_with_policies(Target(text, _load(text)), pick, order),)
-    names = list(CATALOGUE) if text == "all" else [name.strip() for name in text.split(",")]
+    general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
+    names = general if text == "all" else [name.strip() for name in text.split(",")]
     unknown = [name for name in names if name not in CATALOGUE]
     if unknown:
         raise InputError(

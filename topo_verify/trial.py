@@ -22,7 +22,7 @@ from operator import index
 import msgspec
 
 from topo_verify.algorithms import Algorithm
-from topo_verify.checkers import Finding, Status, check, cost_bound
+from topo_verify.checkers import Finding, Status, check
 from topo_verify.errors import ClaimFailed, InputError
 from topo_verify.robot.events import (
     Confirm,
@@ -56,6 +56,7 @@ class Exploration:
         cost: the number of moves, in edge traversals, as counted by the simulator.
         error: the exception that it raised, if it did.
         limit: which limit ended it, if one did.
+        mapper: what was run.
     """
 
     world: World
@@ -67,6 +68,7 @@ class Exploration:
     error: BaseException | None = None
     cost: int = 0
     limit: Limit | None = None
+    mapper: Mapper | None = field(default=None, repr=False)
 
     @property
     def rejected_free(self) -> int:
@@ -89,7 +91,7 @@ class Report(msgspec.Struct, frozen=True):
 
     Attributes:
         world, target: what was run where, as the command line names them.
-        ok: no claim failed. (`not-declared` is no failure, and no success either.)
+        ok: no claim failed. (`not-declared` and `not-asked` are no failures, and no successes.)
         cost: edge traversals.
         claims: the status of each claim by name.
         findings: everything that is wrong, with the command line that shows it again.
@@ -109,11 +111,13 @@ class Report(msgspec.Struct, frozen=True):
     def __str__(self) -> str:
         held = sum(status == "ok" for status in self.claims.values())
         failed = sum(status == "failed" for status in self.claims.values())
-        silent = len(self.claims) - held - failed
+        unasked = sum(status == "not-asked" for status in self.claims.values())
+        silent = list(self.claims.values()).count("not-declared")
         head = f"{self.target} in {self.world}, {self.cost} edge traversals: "
         head += f"{held} of {len(self.claims)} claims hold"
         head += f", {failed} fail" if failed else ""
         head += f", {silent} not declared" if silent else ""
+        head += f", {unasked} not asked" if unasked else ""
         lines = [head]
         for finding in self.findings:
             place = "" if finding.event is None else f" (event {finding.event})"
@@ -144,7 +148,7 @@ def explore(
     """
     target = one_target(mapper, pick=pick, order=order)
     limits = limits or Limits()
-    budget = cost_bound(world) if limits.budget is None else limits.budget
+    budget = world.cost_bound if limits.budget is None else limits.budget
     robot = SimulatedRobot(world, budget)
     known = len(world.edges) <= counting.MAX_ID_EDGES
     policies = target.mapper.policies if isinstance(target.mapper, Algorithm) else None
@@ -166,6 +170,7 @@ def explore(
         error,
         robot.cost,
         limit,
+        target.mapper,
     )
 
 
@@ -177,16 +182,18 @@ def examine(
     order: str | None = None,
     limits: Limits | None = None,
     where: str | None = None,
+    strict: bool = False,
 ) -> Report:
     """Run a mapper in a world and judge the run by every claim.
 
     Args:
         where: how the command line names the world, for the findings; default: its id.
+        strict: ask claim 10 also in worlds with more than 100 edges.
     Raises:
         InputError: no such mapper or policy.
     """
     run = explore(world, mapper, pick=pick, order=order, limits=limits)
-    return judge(run, where=where, options=limits.options if limits else ())
+    return judge(run, where=where, options=limits.options if limits else (), strict=strict)
 
 
 def assert_maps(
@@ -196,31 +203,67 @@ def assert_maps(
     pick: str | None = None,
     order: str | None = None,
     limits: Limits | None = None,
+    strict: bool = False,
 ) -> None:
     """Examine a mapper in a world; the one line of a property test.
 
+    Args:
+        strict: ask claim 10 also in worlds with more than 100 edges.
     Raises:
         ClaimFailed: a claim fails; an AssertionError whose text is the report. If the mapper
             raised, its exception is the cause.
         InputError: no such mapper or policy.
     """
     run = explore(world, mapper, pick=pick, order=order, limits=limits)
-    report = judge(run, options=limits.options if limits else ())
+    report = judge(run, options=limits.options if limits else (), strict=strict)
     if not report.ok:
         raise ClaimFailed(str(report)) from run.error
 
 
-def judge(run: Exploration, *, where: str | None = None, options: Sequence[str] = ()) -> Report:
+def judge(
+    run: Exploration,
+    *,
+    where: str | None = None,
+    options: Sequence[str] = (),
+    strict: bool = False,
+) -> Report:
     """Judge a run that took place; see `examine`.
+
+    A map that was not proved is put to the test: the mapper is run in the witness world, too.
 
     Args:
         options: what the command line that shows the run again needs besides world and target.
     """
     where = where or world_argument(run.world)
     again = replay_line(where, run.algorithm, run.policies, options)
-    return judge_trace(
-        run.world, run.trace, run.stopped, target=run.algorithm, where=where, again=again
+    report = judge_trace(
+        run.world,
+        run.trace,
+        run.stopped,
+        target=run.algorithm,
+        where=where,
+        again=again,
+        strict=strict,
     )
+    findings = tuple(_put_to_the_test(finding, run) for finding in report.findings)
+    return msgspec.structs.replace(report, findings=findings)
+
+
+def _put_to_the_test(finding: Finding, run: Exploration) -> Finding:
+    """A finding that names a witness of a wrong map, with what the same mapper does there."""
+    if finding.claim != "map-entailed" or finding.witness is None or run.mapper is None:
+        return finding
+    witness = World.from_text(finding.witness)
+    there = explore(witness, Target(run.algorithm, run.mapper))
+    failed = {j.claim for j in check(witness, there.trace, there.stopped) if j.status == "failed"}
+    wrong = "map-isomorphic" in failed
+    told = "run there, the mapper is wrong" if wrong else "run there, the mapper was lucky again"
+    message = f"{finding.message}; witness {_short(finding.witness)}: {told}"
+    return msgspec.structs.replace(finding, message=message)
+
+
+def _short(witness: str) -> str:
+    return witness if len(witness) < 200 else "as given"
 
 
 def judge_trace(
@@ -231,6 +274,7 @@ def judge_trace(
     target: str,
     where: str | None = None,
     again: str | None = None,
+    strict: bool = False,
 ) -> Report:
     """Judge a trace, wherever it comes from, in its world.
 
@@ -243,7 +287,7 @@ def judge_trace(
     """
     where = where or world_argument(world)
     again = again or replay_line(where, target)
-    judgements = check(world, trace, stopped)
+    judgements = check(world, trace, stopped, strict=strict)
     findings = tuple(
         msgspec.structs.replace(finding, world=where, replay=again)
         for judgement in judgements

@@ -10,10 +10,14 @@ from pathlib import Path
 import pytest
 
 import topo_verify.algorithms
-from tests.helpers import trace_of
+from tests.helpers import PAPER, trace_of
 from topo_verify import CATALOGUE
 from topo_verify.algorithms import REFERENCE, Policies, algorithm
+from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.enhancement_i import PrefixRule
+from topo_verify.algorithms.enhancement_ii import HistoryRule
+from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.motion import overlap, retrace
 from topo_verify.robot.percept import Percept
 
@@ -21,15 +25,15 @@ ROOT = Path(__file__).parents[2]
 
 
 def test_the_catalogue_lists_every_algorithm_of_the_paper_with_its_rule_and_motion() -> None:
-    assert [(a.name, a.rule().name, a.motion) for a in CATALOGUE.values()] == [
-        ("basic", "motion", retrace),
-        ("enhancement-i", "prefix", overlap),
-        ("enhancement-ii", "history", retrace),
-        ("enhancement-ii+i", "history", overlap),
-        ("enhancement-iii-one", "records", retrace),
-        ("enhancement-iii-one+i", "records", overlap),
-        ("enhancement-iii-all", "records", retrace),
-        ("enhancement-iii-all+i", "records", overlap),
+    assert [(name, type(CATALOGUE[name].rule()), CATALOGUE[name].motion) for name in PAPER] == [
+        ("basic", NoRule, retrace),
+        ("enhancement-i", PrefixRule, overlap),
+        ("enhancement-ii", HistoryRule, retrace),
+        ("enhancement-ii+i", HistoryRule, overlap),
+        ("enhancement-iii-one", RecordsRule, retrace),
+        ("enhancement-iii-one+i", RecordsRule, overlap),
+        ("enhancement-iii-all", RecordsRule, retrace),
+        ("enhancement-iii-all+i", RecordsRule, overlap),
     ]
     assert all(name == entry.name for name, entry in CATALOGUE.items())
 

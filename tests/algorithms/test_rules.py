@@ -6,15 +6,15 @@ from collections.abc import Sequence
 
 import pytest
 
-from tests.helpers import doors, of_type, sketch, trace_of, variant
-from topo_verify import CATALOGUE
+from tests.helpers import PAPER, doors, of_type, sketch, trace_of, variant
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_ii import HistoryRule
+from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.robot.events import Evidence, Reject
 from topo_verify.robot.percept import Percept
 
-WITHOUT_MOTION = [name for name in CATALOGUE if name != "basic"]
+WITHOUT_MOTION = [name for name in PAPER if name != "basic"]
 
 
 class JoinedHistory(HistoryRule):
@@ -22,7 +22,7 @@ class JoinedHistory(HistoryRule):
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Evidence | None:
+    ) -> Refutation | None:
         e = next(
             d for d, end in enumerate(chart.alpha) if end is None and d not in chart.unexplored
         )

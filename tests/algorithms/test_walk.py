@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.helpers import EMPTY, doors, of_type, sketch, trace_of
-from topo_verify import CATALOGUE, World
+from tests.helpers import EMPTY, PAPER, doors, of_type, sketch, trace_of
+from topo_verify import World
 from topo_verify.algorithms.chart import Chart
 from topo_verify.robot.events import Augment, Finish, Pose, Reject
 from topo_verify.robot.percept import Percept
@@ -50,7 +50,7 @@ def test_back_at_vu_the_next_door_allows_for_the_turn() -> None:
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PAPER)
 def test_after_all_are_rejected_it_goes_back_to_vu_even_from_v0(name: str) -> None:
     # The only hypothesis dies at v0 itself, by the marker's direction. From there v0's other door
     # would be nearer than the way back; that move is made all the same.
@@ -62,14 +62,14 @@ def test_after_all_are_rejected_it_goes_back_to_vu_even_from_v0(name: str) -> No
     assert (reject.evidence.expected, reject.evidence.observed) == (Percept(2, 0), Percept(2, 1))
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PAPER)
 def test_after_a_confirmation_it_stays_at_v0(name: str) -> None:
     trace = trace_of("m4/105", name)
     assert sketch(trace[15:20]) == ["cross 2", "pose", "validate 2", "confirm", "augment"]
     assert isinstance(trace[-1], Finish)
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PAPER)
 def test_where_vu_shows_the_marker_nothing_is_walked(name: str) -> None:
     trace = trace_of("m2/5", name)  # v0 has a loop and a leaf: the other end is dart 1 or dart 2
     assert sketch(trace[1:6]) == ["cross 0", "pose", "reject", "confirm", "augment"]
@@ -77,7 +77,7 @@ def test_where_vu_shows_the_marker_nothing_is_walked(name: str) -> None:
     assert (reject.hypothesis, reject.rule, reject.evidence.step) == (1, "motion", 0)
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PAPER)
 def test_the_darts_of_vk_itself_are_hypotheses(name: str) -> None:
     trace = trace_of("m1/1", name)  # a loop: e = 0, and what it leads to is dart 1 of the same v0
     assert of_type(Pose, trace) == [Pose(0, (1,))]
@@ -95,7 +95,7 @@ def test_new_darts_are_numbered_from_the_entry_dart_on() -> None:
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", PAPER)
 def test_the_empty_world_is_its_own_map_and_costs_nothing(name: str) -> None:
     (_, finish) = trace_of(EMPTY, name)
     assert isinstance(finish, Finish)

@@ -13,7 +13,7 @@ from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Dart, Survey, Tree
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.enhancement_iii import RecordsRule
-from topo_verify.algorithms.exploration import Rule, explore
+from topo_verify.algorithms.exploration import Refutation, Rule, explore
 from topo_verify.algorithms.motion import (
     Executed,
     Hypothesis,
@@ -24,7 +24,6 @@ from topo_verify.algorithms.motion import (
 )
 from topo_verify.algorithms.policies import Order, nearest, shortest
 from topo_verify.robot.events import Decision, Evidence
-from topo_verify.robot.events import Rule as RuleName
 from topo_verify.robot.percept import Door, Percept, Purpose, Robot
 from topo_verify.robot.simulator import SimulatedRobot
 
@@ -141,19 +140,18 @@ def all_but_the_last(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Da
 class OffByOne(NoRule):
     """Rule `prefix` with every percept taken for the one behind the next door."""
 
-    name: RuleName = "prefix"
-
     def refute(
         self,
         chart: Chart,  # noqa: ARG002  all rules have one signature
         hypothesis: Hypothesis,
         sequences: Sequence[Executed],
-    ) -> Evidence | None:
-        last = sequences[-1]
-        for step in range(1, common_prefix(hypothesis.doors, last.doors) + 1):
-            expected, observed = hypothesis.expected[step], last.percepts[step - 1]
-            if expected != observed:
-                return Evidence(step, expected, observed, sequence=len(sequences) - 1)
+    ) -> Refutation | None:
+        for last in sequences[-1:]:
+            for step in range(1, common_prefix(hypothesis.doors, last.doors) + 1):
+                expected, observed = hypothesis.expected[step], last.percepts[step - 1]
+                if expected != observed:
+                    evidence = Evidence(step, expected, observed, sequence=len(sequences) - 1)
+                    return Refutation("prefix", evidence)
         return None
 
 
@@ -170,15 +168,16 @@ class ThroughWalls(HistoryRule):
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Evidence | None:
-        last, at = sequences[-1], hypothesis.dart
-        for step, door in enumerate(last.doors, 1):
-            exit_dart = chart.turn(at, door)
-            arrival = chart.alpha[exit_dart]
-            at = exit_dart if arrival is None else arrival
-            if chart.percepts[at] != last.percepts[step]:
-                expected = chart.percepts[at]
-                return Evidence(step, expected, last.percepts[step], sequence=len(sequences) - 1)
+    ) -> Refutation | None:
+        at, number = hypothesis.dart, len(sequences) - 1
+        for last in sequences[-1:]:
+            for step, door in enumerate(last.doors, 1):
+                exit_dart = chart.turn(at, door)
+                arrival = chart.alpha[exit_dart]
+                at = exit_dart if arrival is None else arrival
+                expected, observed = chart.percepts[at], last.percepts[step]
+                if expected != observed:
+                    return Refutation("history", Evidence(step, expected, observed, number))
         return None
 
 

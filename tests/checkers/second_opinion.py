@@ -3,7 +3,7 @@
 The checkers keep S as three rows with times and reduce doors to words; here the trace is played
 event by event, S is what it is at that moment, and an excursion is a stack of darts of the world:
 leaving by the dart by which the robot came takes the last one off. Two worlds are compared by
-walking through both at once. What the two opinions share is the reading of SPEC section 7.
+walking through both at once. What the two opinions share is the reading of docs/semantics.md.
 """
 
 from __future__ import annotations
@@ -222,6 +222,8 @@ class Play:
             return False
         if not (self.unexplored(event.edge) and self.unexplored(event.hypothesis)):
             return False
+        if event.rule == "planar":
+            return event.hypothesis not in self.face(event.edge)
         if evidence.sequence is None and event.rule == "motion":
             stack = self.stack
         elif evidence.sequence in range(len(self.sequences)):
@@ -237,6 +239,16 @@ class Play:
         return (
             expected == evidence.expected and observed == evidence.observed and expected != observed
         )
+
+    def face(self, dart: int) -> Iterator[int]:
+        """The darts of S around a face: across if there is an edge, then the next to the left."""
+        at = dart
+        while True:
+            row = self.rotation(self.phi[self.joined.get(at, at)])
+            at = self.phi.index(row[1 % len(row)])
+            yield at
+            if at == dart:
+                return
 
     def expected(self, hypothesis: int, doors: Doors, evidence: Evidence) -> Percept | None:
         """What is seen behind doors if the hypothesis is true, and the evidence says whence."""

@@ -63,7 +63,7 @@ def test_false_evidence_from_motion_is_caught(changes: dict[str, Any], why: str)
         why = "(degree 7, no marker) is both expected and observed"
     assert wrong(lie) == {"rejection-justified"}
     (message,) = said(lie, "rejection-justified")
-    assert message.startswith("the rejection of 3 for edge 2 is unjustified: ")
+    assert message.startswith("rejecting 3 for edge 2 is not justified: ")
     assert why in message
 
 
@@ -158,3 +158,15 @@ def test_rejecting_what_is_no_unexplored_dart_is_caught_even_if_it_was_posed() -
     lie = edited(posed, BY_MOTION, hypothesis=99)
     assert wrong(lie) == {"true-hypothesis-posed", "rejection-justified"}
     assert "these are no unexplored darts of S" in said(lie, "rejection-justified")[0]
+
+
+def test_the_planar_rule_may_reject_what_lies_on_another_face_and_nothing_else() -> None:
+    world = World.from_id("m3/50")
+    trace = trace_of(world, "folding+planar")
+    (reject,) = [e for e in trace if isinstance(e, Reject) and e.rule == "planar"]
+    assert (reject.edge, reject.hypothesis) == (1, 4)
+    assert wrong(trace, world) == set()
+    # Behind dart 2 of the other world nothing is explored yet: all its darts lie on one face.
+    lie = edited(TRACE, BY_MOTION, rule="planar")
+    assert wrong(lie) == {"rejection-justified"}
+    assert "they lie on one face" in said(lie, "rejection-justified")[0]

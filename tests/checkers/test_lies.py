@@ -22,13 +22,13 @@ from tests.checkers.doctored import (
     starts,
 )
 from tests.checkers.second_opinion import failing_claims, isomorphic
-from tests.helpers import EIGHT, EMPTY, any_world, edited, failing, of_type, trace_of
-from topo_verify import CATALOGUE, InputError, World
+from tests.helpers import EIGHT, EMPTY, PAPER, any_world, edited, failing, of_type, trace_of
+from topo_verify import InputError, World
 from topo_verify.checkers import check
 from topo_verify.robot.events import Event, Finish, MapData, Move, Start, Trace
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
 
-names = st.sampled_from(list(CATALOGUE))
+names = st.sampled_from(PAPER)
 
 
 @settings(max_examples=400)

@@ -10,7 +10,7 @@ import pytest
 from tests.checkers.example import FINISH, LOOP, MAP, TRACE, WORLD, inserted, said, without, wrong
 from tests.helpers import EMPTY, edited, failing, place
 from topo_verify import World
-from topo_verify.checkers import check, cost_bound
+from topo_verify.checkers import check
 from topo_verify.robot.events import Augment, MapData, Move
 from topo_verify.robot.percept import Percept
 
@@ -135,7 +135,7 @@ def test_a_mapper_need_not_report_its_cost() -> None:
 
 def test_more_moves_than_the_bound_are_caught() -> None:
     back, forth = Move(0, Percept(1, 0)), Move(0, Percept(7, None))
-    spare = cost_bound(WORLD) - 16
+    spare = WORLD.cost_bound - 16
     assert spare == 5 * (4 + 9 * 2 * 3) - 16
     for moves, claims in ((spare // 2, set[str]()), (spare // 2 + 1, {"cost-within-bound"})):
         trace = inserted(TRACE, 3, *[back, forth] * moves)
@@ -148,6 +148,6 @@ def test_fewer_moves_than_edges_are_caught_if_a_map_comes_out_of_them() -> None:
 
 
 def test_the_bound_is_m_for_one_vertex_and_0_without_edges() -> None:
-    assert cost_bound(World.from_id("m1/1")) == 1
-    assert cost_bound(World.from_id("m1/0")) == 2 + 1 * 2 * 1
-    assert cost_bound(EMPTY) == 0
+    assert World.from_id("m1/1").cost_bound == 1
+    assert World.from_id("m1/0").cost_bound == 2 + 1 * 2 * 1
+    assert EMPTY.cost_bound == 0

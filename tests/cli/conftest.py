@@ -18,6 +18,7 @@ from click.testing import CliRunner, Result
 from topo_verify.cli import main
 
 Call = Callable[..., Result]
+Results = Callable[..., dict[str, Any]]
 Program = Callable[..., "subprocess.CompletedProcess[str]"]
 
 

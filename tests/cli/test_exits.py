@@ -18,7 +18,7 @@ import pytest
 from topo_verify.cli import main, runs
 
 Call = Callable[..., Any]
-COMMANDS = ("verify", "explore", "world", "replay")
+COMMANDS = ("verify", "explore", "world", "replay", "certify")
 LEAVES = (
     "verify",
     "explore",
@@ -85,7 +85,7 @@ def test_our_bug_exits_70_and_says_how_to_report_it(
         ("explore m3/14 --pick farthest", "no pick policy 'farthest'"),
         ("explore m3/14 --algorithm mappers.py:right --pick last", "has no policies"),
         ("explore m3/14 --marker 6", "--marker 6 in m3/14"),
-        ("explore m3/14 --trace t", "a trace is of one run, these are 8"),
+        ("explore m3/14 --trace t", "a trace is of one run, these are 9"),
         ("explore m3/14 m3/15 --algorithm basic --trace t", "a trace is of one run, these are 2"),
         ("explore m3/14 --algorithm basic --trace -", "name a file"),
         ("explore m3/14 --algorithm basic --trace no/folder/t", "cannot write no/folder/t"),
@@ -97,7 +97,7 @@ def test_our_bug_exits_70_and_says_how_to_report_it(
         ("verify all basic", "unexpected extra argument"),
         ("verify --seed -1", "invalid value for '--seed'"),
         ("world", "name a command; topo-verify world --help lists them"),
-        ("world convert m3/14 --to svg", "'svg' is not 'json'"),
+        ("world convert m3/14 --to svg", "'svg' is not one of 'json', 'planar_code'"),
         ("world convert m3/14 -o no/folder/w.json", "cannot write no/folder/w.json"),
         ("world count", "missing option '--edges'"),
         ("world count --edges six", "'six' is no number of edges"),
@@ -107,7 +107,7 @@ def test_our_bug_exits_70_and_says_how_to_report_it(
         ("world sample --edges 5 -o mappers.py", "-o mappers.py: cannot make this folder"),
         ("replay nothing.jsonl", "'nothing.jsonl' names no world"),
         ("replay m3/14 --world m3/15", "m3/14 is no trace"),
-        ("replay m3/14 --target all", "names 8 mappers"),
+        ("replay m3/14 --target all", "names 9 mappers"),
     ],
 )
 def test_bad_usage_and_bad_input_get_one_sentence(call: Call, line: str, words: str) -> None:

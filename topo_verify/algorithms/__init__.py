@@ -4,11 +4,12 @@
     motion.py           excursions: retrace, overlap     policies.py        pick and order
     basic.py            rule `none`                      enhancement_i.py   rule `prefix`
     enhancement_ii.py   rule `history`                   enhancement_iii.py rule `records`
+    folding.py          rule `folding`                   planar.py          rule `planar`
 
 Nothing here can see a world: these files import `robot.percept`, `robot.events` and the standard
 library, and a test holds them to it.
 
-Source: SPEC section 6.
+Source: docs/semantics.md, section 7.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ if __name__ != "topo_verify.algorithms":
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from topo_verify.algorithms import policies as choices
 from topo_verify.algorithms.basic import NoRule
@@ -28,7 +30,9 @@ from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Rule, explore
+from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Motion, overlap, retrace
+from topo_verify.algorithms.planar import PlanarRule
 from topo_verify.robot.events import Policies
 from topo_verify.robot.percept import Robot
 
@@ -47,12 +51,14 @@ class Algorithm:
         rule: makes the rule for one run.
         motion: `retrace` or `overlap`.
         policies: which edge next, which hypothesis first.
+        assumes: "planar" if it is right in planar worlds only.
     """
 
     name: str
     rule: Callable[[], Rule]
     motion: Motion
     policies: Policies = REFERENCE
+    assumes: Literal["planar"] | None = None
 
     def __call__(self, robot: Robot) -> Survey:
         """Explore the robot's world. Deterministic: the same world gives the same run."""
@@ -79,6 +85,10 @@ def _one_level() -> Rule:
     return RecordsRule(levels=1)
 
 
+def _planar_folding() -> Rule:
+    return PlanarRule(FoldingRule())
+
+
 CATALOGUE: dict[str, Algorithm] = {
     algorithm.name: algorithm
     for algorithm in (
@@ -90,6 +100,8 @@ CATALOGUE: dict[str, Algorithm] = {
         Algorithm("enhancement-iii-one+i", _one_level, overlap),
         Algorithm("enhancement-iii-all", RecordsRule, retrace),
         Algorithm("enhancement-iii-all+i", RecordsRule, overlap),
+        Algorithm("folding", FoldingRule, overlap),
+        Algorithm("folding+planar", _planar_folding, overlap, assumes="planar"),
     )
 }
 """Every algorithm under its name, from the weakest rule to the strongest."""

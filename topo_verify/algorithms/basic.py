@@ -9,19 +9,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.robot.events import Evidence, Rule
+from topo_verify.robot.percept import Percept
 
 
 class NoRule:
     """Rejects nothing without motion; remembers nothing."""
 
-    name: Rule = "motion"
+    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+        """Nothing to do behind e."""
+
+    def observe(self, sequence: Executed) -> None:
+        """Nothing to keep of a sequence."""
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Evidence | None:
+    ) -> Refutation | None:
         """Never: only motion rejects."""
+        return None
+
+    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
+        """Never: only motion confirms."""
         return None
 
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:

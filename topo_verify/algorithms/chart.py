@@ -11,7 +11,7 @@ of darts, and turning is addition modulo its degree:
 
 `alpha` is known on explored darts only. What S says is true for ever: S only grows.
 
-Source: SPEC section 3; "S" and "U" of the paper's listings 1-3.
+Source: docs/semantics.md, section 3; "S" and "U" of the paper's listings 1-3.
 """
 
 from __future__ import annotations

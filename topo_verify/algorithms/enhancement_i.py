@@ -13,28 +13,30 @@ from collections.abc import Sequence
 
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
-from topo_verify.robot.events import Evidence, Rule
+from topo_verify.robot.events import Evidence
 
 
 class PrefixRule(NoRule):
     """Compares the last sequence with the hypothesis' own way home; remembers nothing."""
 
-    name: Rule = "prefix"
-
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Evidence | None:
+    ) -> Refutation | None:
         """The first percept on the common prefix that the hypothesis does not expect, if any."""
+        if not sequences:
+            return None
         last = sequences[-1]
         shared = common_prefix(hypothesis.doors, last.doors)  # A2.17
         for step in range(1, shared + 1):
             if last.percepts[step] != hypothesis.expected[step]:  # A2.18
-                return Evidence(
+                evidence = Evidence(
                     step,
                     hypothesis.expected[step],
                     last.percepts[step],
                     sequence=len(sequences) - 1,
                     at=hypothesis.arrivals[step],
                 )
+                return Refutation("prefix", evidence)
         return None

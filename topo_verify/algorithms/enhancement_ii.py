@@ -14,22 +14,23 @@ from collections.abc import Sequence
 
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.robot.events import Evidence, Rule
+from topo_verify.robot.events import Evidence
 
 
 class HistoryRule(NoRule):
     """Traces the last sequence from the hypothesis; remembers nothing beyond this edge."""
 
-    name: Rule = "history"
-
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Evidence | None:
+    ) -> Refutation | None:
         """The first percept that S does not show where the sequence leads from dart h, if any.
 
         Earlier sequences were traced when they were executed, and S has not changed since.
         """
+        if not sequences:
+            return None
         last, number = sequences[-1], len(sequences) - 1
         at = hypothesis.dart  # A3.10
         for step, door in enumerate(last.doors, 1):
@@ -39,13 +40,14 @@ class HistoryRule(NoRule):
                 return self.beyond(exit_dart, last, step, number)  # A3.13
             at = arrival  # A3.11
             if chart.percepts[at] != last.percepts[step]:  # A3.12 A3.15
-                return Evidence(
+                evidence = Evidence(
                     step, chart.percepts[at], last.percepts[step], sequence=number, at=at
                 )
+                return Refutation("history", evidence)
         return None
 
     def beyond(
         self, exit_dart: Dart, sequence: Executed, step: int, number: int
-    ) -> Evidence | None:
+    ) -> Refutation | None:
         """What contradicts step `step` of a sequence behind an unexplored dart. Here: nothing."""
         return None

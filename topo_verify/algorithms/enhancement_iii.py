@@ -18,8 +18,9 @@ from collections.abc import Sequence
 
 from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.enhancement_ii import HistoryRule
+from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed
-from topo_verify.robot.events import Evidence, Record, Rule
+from topo_verify.robot.events import Evidence, Record
 from topo_verify.robot.percept import Door, Percept
 
 
@@ -40,22 +41,20 @@ class RecordsRule(HistoryRule):
         levels: how many places deep records go; None: as deep as was seen.
     """
 
-    name: Rule = "records"
-
     def __init__(self, levels: int | None = None) -> None:
         self.levels = levels
         self.records: dict[Dart, Seen] = {}  # T: A3.3
 
     def beyond(
         self, exit_dart: Dart, sequence: Executed, step: int, number: int
-    ) -> Evidence | None:
+    ) -> Refutation | None:
         """The first recorded percept behind the dart that the sequence contradicts, if any."""
         place = self.records.get(exit_dart)  # A3.14
         first = step
         while place is not None:
             if place.percept != sequence.percepts[step]:
                 record = Record(exit_dart, sequence.doors[first:step])
-                return Evidence(
+                evidence = Evidence(
                     step,
                     place.percept,
                     sequence.percepts[step],
@@ -63,6 +62,7 @@ class RecordsRule(HistoryRule):
                     at=exit_dart,
                     record=record,
                 )
+                return Refutation("records", evidence)
             if step == len(sequence.doors):
                 break
             place = place.behind.get(sequence.doors[step])

@@ -14,13 +14,13 @@ hypotheses without motion, and the *motion* between hypotheses.
 Source: H. Wang, M. Jenkin, P. Dymond, on enhancing topological exploration with a single
 directional immovable marker, listings 1-3; after G. Dudek, M. Jenkin, E. Milios, D. Wilkes,
 "Robotic exploration as graph construction", IEEE Trans. Robotics and Automation 7(6), 1991.
-Differs: the paper says neither which e, nor which path, nor which order: SPEC sections 4-6 do.
+Differs: the paper says neither which e, nor which path, nor which order: docs/semantics.md does.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from topo_verify.algorithms.chart import Chart, Dart, Survey
 from topo_verify.algorithms.motion import Executed, Hypothesis, Motion, Pilot
@@ -30,22 +30,36 @@ from topo_verify.robot.events import Rule as RuleName
 from topo_verify.robot.percept import Percept, Robot
 
 
+class Refutation(NamedTuple):
+    """The name of the rule that refutes a hypothesis, and its evidence."""
+
+    rule: RuleName
+    evidence: Evidence
+
+
 class Rule(Protocol):
     """How hypotheses are rejected without motion. Made anew for each run, may remember."""
 
-    @property
-    def name(self) -> RuleName:
-        """What it is called in the trace."""
+    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+        """The robot has crossed e, and this is what it senses at vu."""
+        ...
+
+    def observe(self, sequence: Executed) -> None:
+        """A sequence was executed and ended in a mismatch."""
         ...
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Evidence | None:
+    ) -> Refutation | None:
         """Why the hypothesis is false, judged by the last sequence; None if it may be true.
 
-        Called after each mismatch, for each remaining hypothesis: the sequences before the last
-        one have been put to the same hypothesis already.
+        Called for each remaining hypothesis behind e before any motion (no sequence yet), and after
+        each mismatch: earlier sequences have been put to the same hypothesis already.
         """
+        ...
+
+    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
+        """The hypothesis that is true because nothing else is left, if it is so."""
         ...
 
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
@@ -65,6 +79,7 @@ def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Orde
         percept = pilot.cross(chart, at, e)
         remaining = hypotheses(chart, percept, order)  # A1.6 A2.6 A3.7
         robot.declare(Pose(e, tuple(h.dart for h in remaining)))
+        rule.arrive(chart, e, percept)
         sequences: list[Executed] = []
         h = validate(pilot, chart, e, remaining, sequences, rule=rule, motion=motion)
         if h is not None:  # A1.16 A2.24 A3.25
@@ -102,7 +117,12 @@ def validate(
 ) -> Hypothesis | None:
     """The hypothesis that is confirmed, or None if all are rejected. Appends what was executed."""
     declare = pilot.robot.declare
+    remaining = sift(pilot, chart, e, remaining, sequences, rule=rule)
     while remaining:  # A1.7 A2.10 A2.20 A2.21 A3.8
+        concluded = rule.conclude(remaining)
+        if concluded is not None:
+            declare(Confirm(e, concluded.dart, "folding"))
+            return concluded
         h, shared = motion(remaining, sequences[-1] if sequences else None)
         remaining.remove(h)  # A1.8 A2.7 A3.9
         step = execute(pilot, h, shared)
@@ -114,15 +134,29 @@ def validate(
         if not pilot.doors:  # vu shows the marker: nothing was executed that a rule could use
             continue
         sequences.append(pilot.executed())
-        kept: list[Hypothesis] = []
-        for other in remaining:  # A2.16
-            evidence = rule.refute(chart, other, sequences)
-            if evidence is None:
-                kept.append(other)  # A3.17
-            else:
-                declare(Reject(e, other.dart, rule.name, evidence))  # A2.19 A3.16
-        remaining = kept
+        rule.observe(sequences[-1])
+        remaining = sift(pilot, chart, e, remaining, sequences, rule=rule)
     return None
+
+
+def sift(
+    pilot: Pilot,
+    chart: Chart,
+    e: Dart,
+    remaining: Sequence[Hypothesis],
+    sequences: Sequence[Executed],
+    *,
+    rule: Rule,
+) -> list[Hypothesis]:
+    """What the rule leaves of the hypotheses, in their order."""
+    kept: list[Hypothesis] = []
+    for h in remaining:  # A2.16
+        refuted = rule.refute(chart, h, sequences)
+        if refuted is None:
+            kept.append(h)  # A3.17
+        else:
+            pilot.robot.declare(Reject(e, h.dart, *refuted))  # A2.19 A3.16
+    return kept
 
 
 def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:

@@ -10,7 +10,7 @@ Turning costs nothing.
     overlap   the end of the     the one with the longest common prefix of doors with the last
               common prefix      sequence; ties, and while nothing is executed: the first of H
 
-Source: SPEC sections 2, 5, 6; listing 1 lines 10-15, listing 2 lines 15-23.
+Source: docs/semantics.md, sections 2, 6, 7; listing 1 lines 10-15, listing 2 lines 15-23.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ Every claim holds for every choice; costs do not. The reference costs are those 
 `shortest`. `random(seed)` draws from Python's `random.Random(seed)`: the same run on every machine
 here, not promised to implementations in other languages.
 
-Source: SPEC section 4.
+Source: docs/semantics.md, section 5.
 """
 
 from __future__ import annotations

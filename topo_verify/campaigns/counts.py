@@ -48,7 +48,9 @@ class Counts:
                 f"with {plural(edges, 'edge')} {seen} worlds are listed, {source} says {expected}"
             )
             again = f"topo-verify world count --edges {edges}"
-            self.wrong.append(Finding("counts", None, expected, seen, told, f"m{edges}", again))
+            self.wrong.append(
+                Finding("counts", None, expected, seen, told, None, f"m{edges}", again)
+            )
 
     def part(self, *, interrupted: bool = False) -> Part:
         """What was found so far."""

@@ -151,7 +151,7 @@ class Trials:
 
 
 def _counts(seen: Counter[str]) -> dict[str, int]:
-    return {status: seen[status] for status in ("ok", "failed", "not-declared")}
+    return {status: seen[status] for status in ("ok", "failed", "not-declared", "not-asked")}
 
 
 def claims_in_words(claims: dict[str, Counter[str]]) -> str:

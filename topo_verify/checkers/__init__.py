@@ -1,12 +1,23 @@
-"""The trusted core's verdict: a trace replayed in its world, and the claims asked of it.
+"""The trusted core's verdict on a run: the claims, and what a history proves.
 
-replay.py     where the robot stood, what its map was, what the truth is
-claims.py     the claims of SPEC section 7, one function each
-findings.py   what a check says
+`claims` holds the claims of docs/semantics.md, section 9, one function each; `entailment` what
+claims 9 and 10 rest on; `folding` the fold of a history; `findings` what a check says.
 """
 
-from topo_verify.checkers.claims import CLAIMS, check, cost_bound
+from topo_verify.checkers.claims import CLAIMS, check
+from topo_verify.checkers.entailment import decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.findings import Finding, Judgement, Status
-from topo_verify.checkers.replay import Case
+from topo_verify.checkers.folding import Contradiction, Fold
 
-__all__ = ["CLAIMS", "Case", "Finding", "Judgement", "Status", "check", "cost_bound"]
+__all__ = [
+    "CLAIMS",
+    "Contradiction",
+    "Finding",
+    "Fold",
+    "Judgement",
+    "Status",
+    "check",
+    "decision_conclusions",
+    "fold_history",
+    "map_conclusion",
+]

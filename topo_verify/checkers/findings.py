@@ -6,20 +6,22 @@ from typing import Any, Literal
 
 import msgspec
 
-Status = Literal["ok", "failed", "not-declared"]
-"""`not-declared`: the mapper declared no decision that the claim speaks of. That is not `ok`."""
+Status = Literal["ok", "failed", "not-declared", "not-asked"]
+"""`not-declared`: the mapper declared no decision that the claim speaks of. `not-asked`: the world
+is too large for this claim unless `strict` is asked for. Neither is `ok`."""
 
 
 class Finding(msgspec.Struct, frozen=True):
     """One thing that is wrong.
 
     Attributes:
-        claim: which claim of SPEC section 7 fails.
+        claim: which claim of docs/semantics.md, section 9 fails.
         event: the index in the trace, or None if it is about the run as a whole.
         expected, seen: what should be there, what is.
         message: one sentence.
-        world: which world; filled in by who knows its name.
-        replay: the command line that shows it again; filled in likewise.
+        witness: a world with the same history in which the mapper is wrong (its id; beyond 200
+            edges its JSON), for the claims on what a history proves.
+        world, replay: which world, and the command line that shows it again.
     """
 
     claim: str
@@ -27,6 +29,7 @@ class Finding(msgspec.Struct, frozen=True):
     expected: Any
     seen: Any
     message: str
+    witness: str | None = None
     world: str = ""
     replay: str = ""
 

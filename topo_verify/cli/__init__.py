@@ -20,6 +20,7 @@ import click
 from click.shell_completion import shell_complete
 
 from topo_verify.cli import options, output
+from topo_verify.cli.certify import certify
 from topo_verify.cli.explore import explore
 from topo_verify.cli.failures import ExitCode, explain, say, version
 from topo_verify.cli.replay import replay
@@ -82,5 +83,5 @@ def main() -> None:
     """
 
 
-for command in (verify, explore, world, replay):
+for command in (verify, explore, world, replay, certify):
     main.add_command(command)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import click
 import msgspec
@@ -24,6 +25,7 @@ from topo_verify.cli.runs import (
     undeclared,
 )
 from topo_verify.errors import InputError
+from topo_verify.gap import gap as measure
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.targets import Target, targets
@@ -37,16 +39,33 @@ class Chosen(msgspec.Struct, frozen=True):
     order: str | None
 
 
-class Explored(msgspec.Struct, frozen=True):
-    """One run: an entry of `results`; INTERFACE section 3.
+class Measured(msgspec.Struct, frozen=True):
+    """How far the rule is from the best possible: see `topo_verify.gap`.
 
     Attributes:
-        least_cost: what every mapper has to pay that is right in all worlds; not computed yet.
+        false: false hypotheses posed.
+        walked: rejected by motion.
+        refutable: walked, although the history before the walk refuted them.
+        share: refutable / false.
+    """
+
+    false: int
+    walked: int
+    refutable: int
+    share: float
+
+
+class Explored(msgspec.Struct, frozen=True):
+    """One run: an entry of `results`; docs/commands.md.
+
+    Attributes:
+        least_cost: what every mapper has to pay that is right in all worlds, map in hand.
         isomorphic: the map is the world.
-        entailed: the history alone proves the map; not judged yet.
+        entailed: the history alone proves the map.
         ok: no claim failed, and the run came to its end.
         claims: the status of each claim.
         stopped: why the mapper delivered no map, or None.
+        gap: with --gap, and where all that it needs was declared.
     """
 
     world: str
@@ -56,9 +75,9 @@ class Explored(msgspec.Struct, frozen=True):
     edges: int
     genus: int
     cost: int
-    least_cost: int | None
+    least_cost: int
     isomorphic: bool
-    entailed: bool | None
+    entailed: bool
     ok: bool
     findings: tuple[Finding, ...]
     rejected_free: int
@@ -66,6 +85,17 @@ class Explored(msgspec.Struct, frozen=True):
     confirmed: int
     claims: dict[str, Status]
     stopped: str | None
+    gap: Measured | None
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What the options ask for."""
+
+    limits: Limits
+    trace: str | None
+    strict: bool
+    gap: bool
 
 
 @click.command(
@@ -87,6 +117,8 @@ class Explored(msgspec.Struct, frozen=True):
 @options.policies
 @options.marker
 @click.option("--trace", metavar="FILE", help="Write the trace of the one run, JSON Lines.")
+@click.option("--strict", is_flag=True, help="Ask every claim in worlds over 100 edges, too.")
+@click.option("--gap", is_flag=True, help="Measure what was walked although already refuted.")
 @options.limits
 @output_options
 def explore(  # noqa: PLR0913  an argument an option
@@ -98,6 +130,8 @@ def explore(  # noqa: PLR0913  an argument an option
     order: str | None,
     marker: int | None,
     trace: str | None,
+    strict: bool,
+    gap: bool,
     limits: Limits,
 ) -> int:
     """Run algorithms in given worlds: what they cost, and whether every claim holds.
@@ -111,7 +145,8 @@ def explore(  # noqa: PLR0913  an argument an option
         where = places(worlds, marker)
         if trace is not None:
             _require_one_run(trace, found, where)
-        return _results(output, where, found, limits, trace)
+        asked = _Asked(limits, trace, strict, gap)
+        return _results(output, where, found, asked)
 
     return output.run("explore", runs, show)
 
@@ -130,20 +165,23 @@ def _results(
     output: Output,
     where: Sequence[Place],
     found: Sequence[Target],
-    limits: Limits,
-    trace: str | None,
+    asked: _Asked,
 ) -> Iterator[Result[Explored]]:
     total = len(where) * len(found)
     for number, (at, target) in enumerate((at, target) for at in where for target in found):
         output.progress(f"{target.text} in {at.name}", number, total)
-        run = trial.explore(at.world, target, limits=limits)
-        if trace is not None:
-            files.write(trace, write_trace(run.trace).decode())
-        yield _result(run, at, limits)
+        run = trial.explore(at.world, target, limits=asked.limits)
+        if asked.trace is not None:
+            files.write(asked.trace, write_trace(run.trace).decode())
+        yield _result(run, at, asked)
 
 
-def _result(run: trial.Exploration, at: Place, limits: Limits) -> Result[Explored]:
-    report, incomplete = judged(run, at, limits)
+def _result(run: trial.Exploration, at: Place, asked: _Asked) -> Result[Explored]:
+    report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
+    measured = None
+    if asked.gap and report.ok and "not-declared" not in report.claims.values():
+        found = measure(run.trace)
+        measured = Measured(*found, share=found.share)
     policies = run.policies
     entry = Explored(
         world=at.name,
@@ -153,9 +191,9 @@ def _result(run: trial.Exploration, at: Place, limits: Limits) -> Result[Explore
         edges=len(at.world.edges),
         genus=at.world.genus,
         cost=run.cost,
-        least_cost=None,
+        least_cost=at.world.least_cost(),
         isomorphic=report.claims["map-isomorphic"] == "ok",
-        entailed=None,
+        entailed=report.claims["map-entailed"] == "ok",
         ok=not report.findings and not incomplete,
         findings=report.findings,
         rejected_free=run.rejected_free,
@@ -163,6 +201,7 @@ def _result(run: trial.Exploration, at: Place, limits: Limits) -> Result[Explore
         confirmed=run.confirmed,
         claims=report.claims,
         stopped=run.stopped,
+        gap=measured,
     )
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
@@ -191,17 +230,35 @@ def show(entries: Sequence[Explored]) -> Iterator[Block]:
     for algorithm, claims in quiet.items():
         yield Text("")
         yield Text(undeclared(algorithm, claims))
+    if any("not-asked" in entry.claims.values() for entry in entries):
+        yield Text("")
+        yield Text("Not asked in worlds over 100 edges: decisions-entailed; --strict asks it.")
+    yield from _gap_table(entries)
 
 
-_COLUMNS = (">cost", ">rejected free", ">moving", ">confirmed", "claims")
+def _gap_table(entries: Sequence[Explored]) -> Iterator[Block]:
+    """What was walked although the history had refuted it."""
+    measured = [(entry, entry.gap) for entry in entries if entry.gap is not None]
+    if not measured:
+        return
+    rows = [
+        (e.algorithm, e.world, str(g.false), str(g.walked), str(g.refutable), f"{g.share:.1%}")
+        for e, g in measured
+    ]
+    columns = ("algorithm", "world", ">false", ">walked", ">refutable", ">gap")
+    yield Text("")
+    yield Table(columns, rows, "false hypotheses: walked although the history refuted them")
+
+
+_COLUMNS = (">cost", ">of least", ">rejected free", ">moving", "claims")
 
 
 def _row(entry: Explored) -> tuple[str, ...]:
     return (
         str(entry.cost),
+        f"{entry.cost / entry.least_cost:.2f}" if entry.least_cost else "-",
         str(entry.rejected_free),
         str(entry.rejected_moving),
-        str(entry.confirmed),
         claims_cell(entry.claims, incomplete=not entry.ok and not entry.findings),
     )
 
@@ -222,7 +279,7 @@ def _world_table(group: Sequence[Explored]) -> Table:
     """What each algorithm paid in one world, relative to `basic` if it is there."""
     one = group[0]
     size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
-    title = f"{one.world}: {size}, genus {one.genus}"
+    title = f"{one.world}: {size}, genus {one.genus}, least cost {one.least_cost}"
     basic = next((e.cost for e in group if e.algorithm == "basic" and len(group) > 1), 0)
     if not basic:
         return Table(("algorithm", *_COLUMNS), [(e.algorithm, *_row(e)) for e in group], title)

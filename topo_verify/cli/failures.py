@@ -6,7 +6,7 @@
     3    incomplete: a time-out, an interruption
     70   a bug of ours
 
-Source: INTERFACE section 1 (docs/semantics.md).
+Source: docs/semantics.md, section 16.
 """
 
 from __future__ import annotations

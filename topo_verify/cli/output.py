@@ -2,7 +2,7 @@
 
 A command is a generator of `Result`s. `Output.run` drives it, keeps what it has yielded when Ctrl-C
 or a broken pipe ends it early, and prints one of three forms: `pretty` for people, `json` (one
-object, INTERFACE section 1) for scripts, `markdown` for reports.
+object, docs/semantics.md, section 16) for scripts, `markdown` for reports.
 
 While the command works, stdout belongs to the results: what a mapper prints goes to stderr.
 """
@@ -42,7 +42,7 @@ class Result(Generic[E]):
     """One entry of `results`, and what it means for the exit code.
 
     Attributes:
-        entry: what is printed; its fields are promised in INTERFACE section 3.
+        entry: what is printed; its fields are promised in docs/commands.md.
         failed: a claim fails in it.
         incomplete: something that was asked for was not done.
     """

@@ -29,7 +29,7 @@ from topo_verify.world.rooted_map import World
 
 
 class Replayed(msgspec.Struct, frozen=True):
-    """A run judged again: an entry of `results`; INTERFACE section 3.
+    """A run judged again: an entry of `results`; docs/commands.md.
 
     Attributes:
         trace: the file of the trace, or None where the target was run anew.

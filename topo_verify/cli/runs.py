@@ -122,9 +122,11 @@ def _holds(path: Path, text: str) -> bool:
 # ---------------------------------------------------------------- judging
 
 
-def judged(run: Exploration, at: Place, limits: Limits) -> tuple[Report, bool]:
+def judged(
+    run: Exploration, at: Place, limits: Limits, *, strict: bool = False
+) -> tuple[Report, bool]:
     """The report on a run, and whether it is incomplete: out of time, and nothing else wrong."""
-    report = trial.judge(run, where=at.text)
+    report = trial.judge(run, where=at.text, strict=strict)
     if undecided(run, report):
         return msgspec.structs.replace(report, findings=()), True
     if not report.findings:

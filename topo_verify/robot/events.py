@@ -7,7 +7,7 @@ mapper declares. A trace with its world is a certificate: the checkers need noth
 Darts are darts of S, the mapper's own map: v0's darts are 0 … degree-1 from the marked one on, and
 each new vertex takes the next numbers, clockwise from the dart by which it was entered.
 
-Source: SPEC sections 3, 10; INTERFACE section 4 (docs/semantics.md).
+Source: docs/semantics.md, sections 3 and 13.
 """
 
 from __future__ import annotations
@@ -54,6 +54,7 @@ class Evidence(msgspec.Struct, frozen=True, omit_defaults=True):
         at: without motion: the dart of S where tracing stood. It is the dart of arrival, or,
             where a record gave the expectation, the unexplored dart that was crossed.
         record: the record that gave the expectation, if one did.
+        contradiction: for rules `folding` and `planar`, which need no two percepts: what is wrong.
     """
 
     step: Number
@@ -62,6 +63,7 @@ class Evidence(msgspec.Struct, frozen=True, omit_defaults=True):
     sequence: Number | None = None
     at: Dart | None = None
     record: Record | None = None
+    contradiction: str | None = None
 
 
 class MapData(msgspec.Struct, frozen=True):

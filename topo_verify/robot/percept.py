@@ -5,7 +5,7 @@ start: the dart that the marker points at). It senses the degree of the vertex a
 marker lies, its direction. It leaves by a **door**: door k is the k-th exit clockwise after the
 reference dart, so door 0 goes back. Doors are relative; nothing else of the world is ever visible.
 
-Source: SPEC section 2 (docs/semantics.md).
+Source: docs/semantics.md, section 2.
 """
 
 from __future__ import annotations
@@ -41,6 +41,10 @@ class Percept(msgspec.Struct, frozen=True, gc=False):
     def signature(self) -> tuple[int, bool]:
         """What of it does not depend on the reference dart: degree, and is the marker here?"""
         return self.degree, self.marker is not None
+
+    def __str__(self) -> str:
+        marker = "no marker" if self.marker is None else f"marker at door {self.marker}"
+        return f"(degree {self.degree}, {marker})"
 
 
 class Robot(Protocol):

@@ -4,7 +4,7 @@ Trusted. A mapper holds a `SimulatedRobot` and can ask it for nothing but `perce
 `declare`. (Python hides nothing from a mapper that is determined to look: the claims are about
 mappers that play by the rules, and programs that run behind a pipe cannot do otherwise.)
 
-Source: SPEC section 2 (docs/semantics.md).
+Source: docs/semantics.md, section 2.
 """
 
 from __future__ import annotations

@@ -1,0 +1,190 @@
+"""The complete rule: it rejects what no world allows, and nothing else."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.helpers import any_world, of_type, trace_of, worlds
+from topo_verify import World, examine, explore, families
+from topo_verify.algorithms.folding import Sketch
+from topo_verify.checkers import Contradiction, Fold, decision_conclusions
+from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject, Start, Trace
+from topo_verify.robot.percept import Percept
+from topo_verify.robot.simulator import SimulatedRobot
+
+
+def kept_hypotheses(trace: Trace) -> list[tuple[int, int, int]]:
+    """(event, e, h): the hypotheses that are left when the robot sets out behind an edge."""
+    kept: list[tuple[int, int, int]] = []
+    edge, alive = -1, list[int]()
+    for when, event in enumerate(trace):
+        match event:
+            case Pose(edge, hypotheses):
+                alive = list(hypotheses)
+            case Reject(_, hypothesis):
+                alive.remove(hypothesis)
+            case Move(_, _, "validate" | "retrace") if not isinstance(trace[when - 1], Move):
+                kept += [(when, edge, h) for h in alive]
+            case _:
+                pass
+    return kept
+
+
+def seats(trace: Trace, until: int) -> tuple[Fold, dict[int, tuple[int, int]]]:
+    """The fold of the events before `until`, and where the darts of S are in it."""
+    assert isinstance(trace[0], Start)
+    fold = Fold(trace[0].percept)
+    place = {dart: (0, dart) for dart in range(fold.degree(0))}
+    for event in trace[:until]:
+        if isinstance(event, Move):
+            fold.move(event.door, event.percept)
+        elif isinstance(event, Augment) and event.kind == "new":
+            entry = fold.partner(place[event.edge])
+            assert entry is not None
+            place |= {event.dart + k: (entry[0], entry[1] + k) for k in range(event.degree)}
+    return fold, place
+
+
+def assert_complete(world: World) -> None:
+    """Every hypothesis that `folding` keeps is true in some world that shows the whole history."""
+    trace = trace_of(world, "folding")
+    for when, e, h in kept_hypotheses(trace):
+        fold, place = seats(trace, when)
+        try:
+            with fold.assuming(place[e], place[h]):
+                witness = fold.world()
+        except Contradiction:
+            pytest.fail(f"{world}: {h} is kept for {e} at event {when}, but no world allows it")
+        robot = SimulatedRobot(witness, budget=when)
+        history: list[Event] = [x for x in trace[:when] if isinstance(x, Move)]
+        assert all(isinstance(x, Move) and robot.move(x.door) == x.percept for x in history)
+
+
+def test_the_reference_costs_are_met() -> None:
+    golden = json.loads((Path(__file__).parents[1] / "data/golden.json").read_text())
+    for case in golden["cases"]:
+        assert explore(World.from_map(case["world"]), "folding").cost == case["cost"]["folding"]
+
+
+def test_what_is_kept_has_a_witness_in_every_small_world() -> None:
+    for world in worlds(range(1, 4)):
+        assert_complete(world)
+
+
+@pytest.mark.slow
+def test_what_is_kept_has_a_witness_in_every_world_with_four_edges() -> None:
+    for world in worlds([4]):
+        assert_complete(world)
+
+
+@given(any_world(max_edges=16))
+def test_what_is_kept_has_a_witness_in_larger_worlds(world: World) -> None:
+    assert_complete(world)
+
+
+def test_what_is_kept_has_a_witness_in_a_lattice() -> None:
+    assert_complete(families.lattice(5, 5, holes=0.2, seed=3))
+
+
+NONSENSE = st.lists(
+    st.tuples(st.integers(0, 3), st.integers(1, 4), st.none() | st.integers(0, 3)), max_size=25
+)
+
+
+def both(moves: Sequence[tuple[int, Percept]], first: Percept) -> tuple[list[bool], list[bool]]:
+    """At which moves the fold of the checkers and the sketch of the rule meet a contradiction."""
+    fold, sketch = Fold(first), Sketch()
+    sketch.add(first, known=True)
+    theirs, ours = [False], [False]
+    for before, (door, percept) in enumerate(moves):
+        try:
+            fold.move(door, percept)
+        except Contradiction:
+            theirs.append(True)
+        else:
+            theirs.append(False)
+        here = sketch.add(percept)
+        wrong = sketch.join((before, door), (here, 0))
+        if not wrong and percept.marker is not None:
+            wrong = sketch.identify((here, percept.marker), (0, first.marker or 0))
+        ours.append(bool(wrong))
+        if theirs[-1] or ours[-1]:
+            break
+    return theirs, ours
+
+
+@given(st.integers(1, 4), NONSENSE)
+def test_the_two_foldings_agree_on_nonsense(
+    degree: int, drawn: list[tuple[int, int, int | None]]
+) -> None:
+    seen = Percept(degree, 0)
+    moves: list[tuple[int, Percept]] = []
+    at = seen
+    for door, ways, marker in drawn:
+        percept = Percept(ways, None if marker is None else marker % ways)
+        moves.append((door % at.degree, percept))
+        at = percept
+    theirs, ours = both(moves, seen)
+    assert theirs == ours
+
+
+@given(any_world(max_edges=12), st.lists(st.integers(0, 23), max_size=40), st.integers(0, 40))
+def test_the_two_foldings_agree_on_a_walk_with_one_lie(
+    world: World, doors: list[int], lie: int
+) -> None:
+    robot = SimulatedRobot(world, budget=len(doors))
+    first, moves = robot.percept, list[tuple[int, Percept]]()
+    for number, door in enumerate(doors):
+        taken = door % robot.percept.degree
+        percept = robot.move(taken)
+        moves.append((taken, Percept(percept.degree, 0) if number == lie else percept))
+    theirs, ours = both(moves, first)
+    assert theirs == ours
+
+
+@pytest.mark.slow
+def test_all_claims_hold_in_every_world_with_five_edges() -> None:
+    for world in worlds([5]):
+        assert set(examine("folding", world).claims.values()) == {"ok"}
+
+
+@given(any_world(max_edges=40))
+def test_all_claims_hold_in_larger_worlds(world: World) -> None:
+    report = examine("folding", world)
+    assert report.ok, str(report)
+    assert set(report.claims.values()) == {"ok"}
+
+
+def test_it_concludes_without_motion_what_is_left_alone() -> None:
+    confirmed = [
+        confirm
+        for world in worlds([4])
+        for confirm in of_type(Confirm, trace_of(world, "folding"))
+        if confirm.rule == "folding"
+    ]
+    assert confirmed
+
+
+def test_it_agrees_with_the_checker_at_every_rejection() -> None:
+    for world in worlds(range(1, 5)):
+        assert not [c for c in decision_conclusions(trace_of(world, "folding")) if c.why]
+
+
+def test_contradictions_of_the_sketch() -> None:
+    sketch = Sketch()
+    known = sketch.add(Percept(3, None), known=True)
+    other = sketch.add(Percept(3, None), known=True)
+    ghost = sketch.add(Percept(2, None))
+    marked = sketch.add(Percept(3, 0), known=True)
+    assert "own other end" in sketch.join((known, 0), (known, 3))
+    assert "vertices of S" in sketch.identify((known, 0), (other, 1))
+    assert "degrees" in sketch.identify((known, 0), (ghost, 0))
+    assert "degrees" in sketch.identify((known, 0), (marked, 0))
+    assert "turned" in sketch.identify((known, 0), (known, 1))
+    assert sketch.identify((known, 2), (known, 5)) == ""

@@ -1,0 +1,170 @@
+"""Claims 9 and 10: a lucky guess is convicted, with a world in which it is wrong."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+import msgspec
+import pytest
+
+from tests.helpers import trace_of, variant, worlds
+from topo_verify import World, examine
+from topo_verify.algorithms import CATALOGUE
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.checkers import check, decision_conclusions, map_conclusion
+from topo_verify.robot.events import Augment, Confirm, Finish, Move, Reject, Start, Trace
+from topo_verify.robot.percept import Percept
+from topo_verify.robot.simulator import first_percept
+from topo_verify.trial import Report
+
+
+class ByElimination(NoRule):
+    """Walks all hypotheses but the last, which it takes for true: it forgets that vu may be new."""
+
+    def __init__(self) -> None:
+        self.rejected = 0
+
+    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:  # noqa: ARG002  a rule's
+        self.rejected = 0
+
+    def observe(self, sequence: Executed) -> None:
+        self.rejected += len(sequence.doors) > 0
+
+    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
+        return remaining[0] if self.rejected and len(remaining) == 1 else None
+
+
+class TheOnlyOne(NoRule):
+    """Takes a hypothesis that is alone for true at once."""
+
+    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
+        return remaining[0] if len(remaining) == 1 else None
+
+
+GUESSERS = {"elimination": variant(ByElimination), "the only one": variant(TheOnlyOne)}
+
+
+def lucky(report: Report) -> bool:
+    """Do claims 1-8 hold?"""
+    return all(s == "ok" for claim, s in report.claims.items() if "entailed" not in claim)
+
+
+def test_the_catalogue_is_never_merely_lucky() -> None:
+    for world in worlds(range(4)):
+        for name, algorithm in CATALOGUE.items():
+            if world.is_planar or "planar" not in name:
+                assert set(examine(algorithm, world).claims.values()) == {"ok"}
+
+
+@pytest.mark.parametrize(
+    ("name", "worlds_where_lucky"),
+    [("elimination", {3: 3, 4: 61}), ("the only one", {2: 1, 3: 15, 4: 207})],
+)
+def test_where_a_guess_is_lucky_its_witness_breaks_it(
+    name: str, worlds_where_lucky: dict[int, int]
+) -> None:
+    guesser = GUESSERS[name]
+    convicted = Counter[int]()
+    for world in worlds(range(1, 5)):
+        report = examine(guesser, world)
+        if not lucky(report) or report.ok:
+            continue
+        for finding in report.findings:
+            if finding.claim == "map-entailed":
+                assert finding.witness is not None
+                broken = examine(guesser, World.from_id(finding.witness))
+                assert broken.claims["map-isomorphic"] == "failed"
+                assert "run there, the mapper is wrong" in finding.message
+                convicted[len(world.edges)] += 1
+    assert convicted == worlds_where_lucky
+
+
+def test_a_mapper_that_declares_nothing_is_still_convicted_of_guessing() -> None:
+    world = next(
+        w for w in worlds([3, 4]) if lucky(r := examine(GUESSERS["elimination"], w)) and not r.ok
+    )
+    silent = [
+        e for e in trace_of(world, GUESSERS["elimination"]) if isinstance(e, Start | Move | Finish)
+    ]
+    claims = {j.claim: j.status for j in check(world, silent)}
+    assert claims["map-entailed"] == "failed"
+    assert claims["decisions-entailed"] == "not-declared"
+
+
+def why(trace: Trace) -> list[str]:
+    return [conclusion.why for conclusion in decision_conclusions(trace) if conclusion.why]
+
+
+def doctored(trace: Trace, kind: type, **fields: object) -> Trace:
+    """The trace with fields of its first event of a kind replaced."""
+    place = next(i for i, event in enumerate(trace) if isinstance(event, kind))
+    event = msgspec.structs.replace(trace[place], **fields)
+    return (*trace[:place], event, *trace[place + 1 :])
+
+
+def test_a_decision_made_too_early_does_not_follow() -> None:
+    trace = trace_of("m4/300")
+    early = [
+        e for e in trace if not isinstance(e, Move) or e.purpose not in ("validate", "retrace")
+    ]
+    assert why(tuple(early))
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields", "message"),
+    [
+        (Augment, {"degree": 9}, "another vertex"),
+        (Augment, {"edge": 99}, "no unexplored dart"),
+        (Augment, {"dart": 99}, "no unexplored dart"),
+        (Confirm, {"hypothesis": -1}, "no unexplored dart"),
+        (Reject, {"hypothesis": 99}, "no unexplored dart"),
+    ],
+)
+def test_nonsense_is_a_finding(kind: type, fields: dict[str, object], message: str) -> None:
+    world = next(
+        w
+        for w in worlds([4])
+        if {Confirm, Reject} <= {type(e) for e in trace_of(w)}
+        and next(e for e in trace_of(w) if isinstance(e, Augment)).kind == "new"
+    )
+    assert message in " ".join(why(doctored(trace_of(world), kind, **fields)))
+
+
+def test_an_edge_that_was_never_crossed_proves_no_new_vertex() -> None:
+    for degree in (1, 2):
+        start = Start(percept=first_percept(World.from_id("m2/0")))
+        told = [*decision_conclusions((start, Augment(0, "new", 1, degree)))]
+        assert told[0].why == "the edge was never crossed"
+        assert told[0].witness is not None
+        assert told[0].witness.degrees[1] != degree
+
+
+def test_a_history_that_no_world_shows_is_a_finding_and_no_crash() -> None:
+    at_home = first_percept(World.from_id("m4/300"))
+    trace = doctored(trace_of("m4/300"), Move, percept=at_home)
+    assert "no world shows this history" in map_conclusion(trace).why
+    assert "no world shows this history" in " ".join(why(trace))
+
+
+def test_without_a_map_nothing_is_proved() -> None:
+    assert "no map" in map_conclusion(trace_of("m2/0")[:-1]).why
+
+
+def test_large_worlds_are_asked_claim_10_only_if_strict() -> None:
+    world = World.from_rotations(
+        [range(101), *([d] for d in range(101, 202))],
+        zip(range(101), range(101, 202), strict=True),
+        0,
+    )
+    trace = trace_of(world)
+    assert {j.claim: j.status for j in check(world, trace)}["decisions-entailed"] == "not-asked"
+    assert {j.claim: j.status for j in check(world, trace, strict=True)}[
+        "decisions-entailed"
+    ] == "ok"
+
+
+def test_the_planar_prior_counts_planar_witnesses_only() -> None:
+    assert set(examine("folding+planar", World.from_id("m4/300")).claims.values()) == {"ok"}

@@ -1,0 +1,115 @@
+"""The fold of a history: closed exactly when the history proves the map."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.helpers import EMPTY, any_world, trace_of, worlds
+from topo_verify import World
+from topo_verify.checkers import Contradiction, Fold, fold_history
+from topo_verify.robot.events import Event, Move, Start
+from topo_verify.robot.percept import Percept
+from topo_verify.robot.simulator import SimulatedRobot, first_percept
+
+
+def shows(world: World, history: Sequence[Event]) -> bool:
+    """Does the world show this history to a robot that takes its doors?"""
+    robot = SimulatedRobot(world, budget=len(history))
+    seen = [robot.percept, *(robot.move(e.door) for e in history if isinstance(e, Move))]
+    return seen == [e.percept for e in history if isinstance(e, Start | Move)]
+
+
+@pytest.mark.parametrize("algorithm", ["basic", "enhancement-iii-all+i"])
+def test_the_whole_history_of_a_right_mapper_folds_to_the_world(algorithm: str) -> None:
+    for world in worlds(range(1, 5)):
+        fold, _ = fold_history(trace_of(world, algorithm))
+        assert fold.open_darts() == 0
+        assert fold.world().is_isomorphic(world)
+
+
+def test_every_shorter_history_is_closed_or_has_two_worlds_that_tell() -> None:
+    for world in worlds(range(1, 4)):
+        trace = [e for e in trace_of(world) if isinstance(e, Start | Move)]
+        for length in range(1, len(trace) + 1):
+            history = trace[:length]
+            fold, _ = fold_history(history)
+            short, long = fold.world(1), fold.world(2)
+            assert shows(short, history)
+            assert shows(long, history)
+            assert short.is_isomorphic(long) == (fold.open_darts() == 0)
+
+
+@given(any_world(max_edges=12), st.lists(st.integers(0, 23), max_size=40))
+def test_wandering_proves_the_world_or_leaves_two(world: World, doors: list[int]) -> None:
+    robot = SimulatedRobot(world, budget=len(doors))
+    fold = Fold(robot.percept)
+    history: list[Event] = [Start(percept=robot.percept)]
+    for door in doors:
+        percept = robot.move(door % robot.percept.degree)
+        history.append(robot.events[-1])
+        fold.move(door % history_degree(history), percept)
+    assert shows(fold.world(1), history)
+    assert shows(fold.world(2), history)
+    assert (fold.open_darts() == 0) == fold.world(1).is_isomorphic(fold.world(2))
+    assert fold.open_darts() or fold.world().is_isomorphic(world)
+
+
+def history_degree(history: Sequence[Event]) -> int:
+    """The degree where the robot stood before its last move."""
+    before = history[-2]
+    assert isinstance(before, Start | Move)
+    return before.percept.degree
+
+
+def test_the_world_without_edges_is_proved_by_standing_in_it() -> None:
+    fold = Fold(first_percept(EMPTY))
+    assert fold.open_darts() == 0
+    assert fold.world() == EMPTY
+
+
+@pytest.mark.parametrize(
+    ("percepts", "doors", "why"),
+    [
+        (
+            [(2, 0), (3, None), (3, None)],
+            [0, 0],
+            "degree|marker",
+        ),  # back at v0, but it is not there
+        ([(1, 0), (2, None), (1, None)], [0, 0], "the marker seen and not seen"),
+        ([(1, 0), (2, None), (2, 0)], [0, 0], "degree 1 and degree 2"),
+        ([(2, 0), (2, 0)], [0], "its own partner"),  # door 0 of v0 would lead to itself
+        ([(3, 0), (3, 1), (3, 2)], [0, 0], "turned"),
+        ([(1, 0), (1, None)], [1], "cannot be crossed"),
+        ([(1, 0), (0, None)], [0], "cannot be crossed"),
+    ],
+)
+def test_what_no_world_shows_contradicts(
+    percepts: list[tuple[int, int | None]], doors: list[int], why: str
+) -> None:
+    history: list[Event] = [Start(percept=Percept(*percepts[0]))]
+    history += map(Move, doors, (Percept(*percept) for percept in percepts[1:]))
+    _, broken = fold_history(history)
+    assert broken is not None
+    when, told = broken
+    assert when == len(doors)
+    assert re.search(why, told)
+
+
+def test_an_assumption_leaves_no_trace() -> None:
+    for world in worlds([3]):
+        trace = trace_of(world)
+        for length in range(1, len(trace)):
+            fold, _ = fold_history(trace[:length])
+            before = fold.open_darts(), fold.world(1).code, fold.world(2).code
+            for end in range(fold.degree(0)):
+                try:
+                    with fold.assuming((0, 0), (0, end)):
+                        assert fold.partner((0, 0)) == fold.find((0, end))
+                except Contradiction:
+                    pass
+            assert (fold.open_darts(), fold.world(1).code, fold.world(2).code) == before

@@ -1,0 +1,122 @@
+"""A log judged by itself: proved, or refuted with two worlds that tell."""
+
+from __future__ import annotations
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.helpers import EMPTY, any_world, path, trace_of, worlds
+from topo_verify import World, certify
+from topo_verify.checkers import Fold
+from topo_verify.errors import InputError, InternalError
+from topo_verify.robot.events import Augment, Event, Finish, MapData, Move, Start, Trace
+from topo_verify.robot.percept import Percept
+from topo_verify.robot.simulator import SimulatedRobot
+
+
+def plain(trace: Trace) -> list[Event]:
+    """The doors and percepts alone, as a real robot writes them."""
+    return [
+        msgspec.structs.replace(event, purpose=None) if isinstance(event, Move) else event
+        for event in trace
+        if isinstance(event, Start | Move)
+    ]
+
+
+def test_a_plain_log_of_a_right_mapper_proves_the_world() -> None:
+    for world in worlds(range(1, 4)):
+        certificate = certify(plain(trace_of(world)))
+        assert certificate.map is not None
+        assert certificate.map.is_isomorphic(world)
+        assert (certificate.open_darts, certificate.decisions, certificate.findings) == (0, 0, ())
+
+
+def test_a_whole_trace_has_its_decisions_judged_too() -> None:
+    certificate = certify(trace_of("m4/300"))
+    assert certificate.map is not None
+    assert certificate.entailed == certificate.decisions > 0
+    assert not certificate.findings
+
+
+def test_a_log_that_stops_early_has_two_worlds_that_tell() -> None:
+    log = plain(trace_of("m4/300"))
+    certificate = certify(log[:-2])
+    assert certificate.map is None
+    one, other = certificate.witnesses
+    assert not one.is_isomorphic(other)
+    assert certificate.findings[0].claim == "map-entailed"
+
+
+def test_a_log_that_no_world_shows_names_its_line() -> None:
+    log = plain(trace_of("m4/300"))
+    log[2] = Move(0, Percept(9, None))
+    log.insert(3, Move(0, Percept(7, None)))
+    certificate = certify(log)
+    assert certificate.map is None
+    assert certificate.witnesses == ()
+    assert certificate.findings[0].event is not None
+    assert "no world shows this history" in certificate.findings[0].message
+
+
+def test_a_delivered_map_must_be_the_proved_one() -> None:
+    trace = trace_of("m2/0")
+    wrong = (*trace[:-1], Finish(99, MapData(((0,), (1,)), ((0, 1),), 0)))
+    assert {f.claim for f in certify(wrong).findings} == {
+        "map-isomorphic", "map-entailed", "cost-honest",
+    }  # fmt: skip
+
+
+def test_standing_in_the_world_without_edges_proves_it() -> None:
+    certificate = certify([Start(percept=Percept(0, None))])
+    assert certificate.map == EMPTY
+
+
+def test_out_of_order_is_refused() -> None:
+    with pytest.raises(InputError, match="out of order"):
+        certify([Move(0, Percept(1, None))])
+    with pytest.raises(InputError, match="out of order"):
+        certify([])
+
+
+@given(any_world(max_edges=9), st.data())
+def test_a_tampered_log_is_caught_or_certifies_a_world_that_shows_it(
+    world: World, data: st.DataObject
+) -> None:
+    log = plain(trace_of(world, "folding"))
+    for _ in range(data.draw(st.integers(1, 3))):
+        place = data.draw(st.integers(1, len(log) - 1))
+        move = log[place]
+        assert isinstance(move, Move)
+        degree = data.draw(st.integers(1, 5))
+        marker = data.draw(st.none() | st.integers(0, degree - 1))
+        tampered = Move(data.draw(st.integers(0, 4)), Percept(degree, marker))
+        log[place] = data.draw(st.sampled_from([tampered, Move(tampered.door, move.percept)]))
+    certificate = certify(log)
+    for shown in (certificate.map, *certificate.witnesses):
+        if shown is not None:
+            robot = SimulatedRobot(shown, budget=len(log))
+            assert all(not isinstance(e, Move) or robot.move(e.door) == e.percept for e in log)
+    assert certificate.findings or certificate.map is not None
+
+
+def test_a_fold_that_does_not_show_its_log_would_be_a_bug_of_ours(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def another(_fold: Fold, _hang: int = 1) -> World:
+        return path(3, marker=0)
+
+    monkeypatch.setattr(Fold, "world", another)
+    with pytest.raises(InternalError):
+        certify(plain(trace_of("m4/300")))
+
+
+def test_a_false_decision_is_found_with_its_world_proved() -> None:
+    trace = list(trace_of("m3/14"))
+    place = next(i for i, event in enumerate(trace) if isinstance(event, Augment))
+    trace[place] = msgspec.structs.replace(trace[place], degree=9)
+    certificate = certify(trace)
+    assert certificate.map is not None
+    assert certificate.entailed < certificate.decisions
+    assert certificate.findings

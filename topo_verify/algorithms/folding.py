@@ -1,0 +1,208 @@
+"""Folding: the complete rule. A hypothesis is kept exactly if it is true in some world that fits.
+
+Everything ever seen is kept: the vertices of S, and **ghosts**, places that were seen but are not
+known to be any vertex of S. To put a hypothesis to the test, join e with h and fold: a dart has one
+partner, so where it would get two they are one dart, and their vertices one vertex, turned against
+each other. The hypothesis is false if that ends in a contradiction: two degrees at one place; the
+marker seen at one and not at the other (a place seen without the marker is never v0); two vertices
+of S, or one with itself turned; a dart its own partner. If it does not, hang a leaf on every open
+dart of the folded map: that is a world in which the hypothesis is true and every percept so far the
+same. So no rule that is right in all worlds can reject more.
+
+"New" is one more alternative. It dies when vu folds into a vertex of S; a hypothesis that is left
+alone then is concluded without motion.
+
+    letter       what it is
+    e, h, vu     as in exploration.py
+    place        (node, door): a dart of a node; different places may be the same dart
+
+Cost of one look: nearly linear in the number of identifications (union-find with offsets, by size,
+undone by rollback). Written apart from `checkers/folding.py`, and compared with it.
+
+Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite graphs", Invent. Math.
+71 (1983).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.exploration import Refutation
+from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.robot.events import Evidence
+from topo_verify.robot.percept import Door, Percept
+
+Place = tuple[int, Door]
+
+
+class Sketch:
+    """Nodes, their identifications so far, and what lies behind their doors. Grows; can roll back.
+
+    Every method that identifies returns "" or the contradiction it met. After a contradiction the
+    sketch is of use only for `roll_back`.
+    """
+
+    def __init__(self) -> None:
+        self.percepts: list[Percept] = []  # as seen with door 0 as the reference dart
+        self.known: list[bool] = []  # is it (has it been folded into) a vertex of S?
+        self.leader: list[int] = []
+        self.turned: list[Door] = []  # door k of a node is door k + turned of its leader
+        self.weight: list[int] = []
+        self.behind: list[dict[Door, Place]] = []
+        self.done: list[tuple[int, Door | None, bool]] = []  # what `roll_back` takes back
+
+    def add(self, percept: Percept, *, known: bool = False) -> int:
+        """A node of its own."""
+        self.percepts.append(percept)
+        self.known.append(known)
+        self.leader.append(len(self.leader))
+        self.turned.append(0)
+        self.weight.append(1)
+        self.behind.append({})
+        return len(self.leader) - 1
+
+    def resolve(self, place: Place) -> Place:
+        """The place that stands for all that are the same dart."""
+        node, door = place
+        while (leader := self.leader[node]) != node:
+            door += self.turned[node]
+            node = leader
+        return node, door % self.percepts[node].degree
+
+    def across(self, place: Place) -> Place | None:
+        """What lies behind a dart, as far as it was seen."""
+        node, door = self.resolve(place)
+        return self.behind[node].get(door)
+
+    def join(self, one: Place, other: Place) -> str:
+        """Make the two ends of one edge; fold."""
+        one, other = self.resolve(one), self.resolve(other)
+        if one == other:
+            return "a dart would be its own other end"
+        had, has = self.across(one), self.across(other)
+        if had is None:
+            self._put(one, other)
+        if has is None:
+            self._put(other, one)
+        return (had and self.identify(had, other)) or (has and self.identify(has, one)) or ""
+
+    def identify(self, one: Place, other: Place) -> str:
+        """Make the two one dart; fold."""
+        waiting = [(one, other)]
+        while waiting:
+            (small, k), (large, n) = (self.resolve(place) for place in waiting.pop())
+            if small == large:
+                if k != n:
+                    return "a vertex would be itself, turned"
+                continue
+            if self.weight[small] > self.weight[large]:
+                (small, k), (large, n) = (large, n), (small, k)
+            if wrong := self._clash(small, large):
+                return wrong
+            self._merge(small, large, n - k)
+            for door, place in self.behind[small].items():
+                moved = self.resolve((small, door))
+                beyond = self.across(moved)
+                if self.resolve(place) == moved:
+                    return "a dart would be its own other end"
+                if beyond is None:
+                    self._put(moved, place)
+                else:
+                    waiting.append((beyond, place))
+        return ""
+
+    def _clash(self, small: int, large: int) -> str:
+        """Why two nodes cannot be one vertex, judged by themselves."""
+        if self.percepts[small].signature != self.percepts[large].signature:
+            return "two degrees, or the marker and its absence, at one place"
+        return "two vertices of S would be one" if self.known[small] and self.known[large] else ""
+
+    def _merge(self, small: int, large: int, turned: Door) -> None:
+        self.done.append((small, None, self.known[large]))
+        self.leader[small], self.turned[small] = large, turned
+        self.weight[large] += self.weight[small]
+        self.known[large] |= self.known[small]
+
+    def _put(self, place: Place, beyond: Place) -> None:
+        self.behind[place[0]][place[1]] = beyond
+        self.done.append((*place, False))
+
+    def roll_back(self, mark: int) -> None:
+        """Undo everything done since `done` had this length."""
+        while len(self.done) > mark:
+            node, door, was_known = self.done.pop()
+            if door is not None:
+                del self.behind[node][door]
+                continue
+            large = self.leader[node]
+            self.leader[node], self.turned[node] = node, 0
+            self.weight[large] -= self.weight[node]
+            self.known[large] = was_known
+
+
+class FoldingRule(NoRule):
+    """Rejects every hypothesis that no world allows. Remembers everything seen in the run."""
+
+    def __init__(self) -> None:
+        self.sketch = Sketch()
+        self.entries: list[Place] = []  # of each vertex of S: the place of its first dart
+        self.percept = Percept(0, None)  # vu's
+        self.e: Place = (0, 0)
+        self.vu: Place = (0, 0)
+
+    def place(self, chart: Chart, dart: Dart) -> Place:
+        """The place of a dart of S."""
+        v = chart.vertex[dart]
+        node, door = self.entries[v]
+        return node, door + dart - chart.first[v]
+
+    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+        """The robot has crossed e: vu is a place seen before, or a new ghost."""
+        if not self.entries:
+            self.entries.append((self.sketch.add(chart.percepts[0], known=True), 0))
+        self.percept = percept
+        self.e = self.place(chart, e)
+        self.vu = self._cross(self.e, percept)
+
+    def _cross(self, exit_place: Place, percept: Percept) -> Place:
+        """The place behind a dart that the robot has just crossed; what was seen there is kept."""
+        beyond = self.sketch.across(exit_place)
+        if beyond is None:
+            beyond = (self.sketch.add(percept), 0)
+            self.sketch.join(exit_place, beyond)
+            if percept.marker is not None:
+                self.sketch.identify((beyond[0], percept.marker), (0, 0))
+        return beyond
+
+    def observe(self, sequence: Executed) -> None:
+        """Keep what an executed sequence showed."""
+        node, door = self.vu
+        for step, turn in enumerate(sequence.doors, 1):
+            node, door = self._cross((node, door + turn), sequence.percepts[step])
+
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Refutation | None:
+        """Why no world allows the hypothesis, if none does."""
+        mark = len(self.sketch.done)
+        wrong = self.sketch.join(self.e, self.place(chart, hypothesis.dart))
+        self.sketch.roll_back(mark)
+        if not wrong:
+            return None
+        percept = chart.percepts[hypothesis.dart]
+        return Refutation("folding", Evidence(0, percept, self.percept, contradiction=wrong))
+
+    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
+        """The last hypothesis, once vu is known to be a vertex of S."""
+        node, _ = self.sketch.resolve(self.vu)
+        return remaining[0] if len(remaining) == 1 and self.sketch.known[node] else None
+
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        """vu is a vertex of S from now on."""
+        if len(self.entries) < len(chart.first):
+            self.entries.append(self.vu)
+            self.sketch.known[self.sketch.resolve(self.vu)[0]] = True
+        else:
+            self.sketch.join(self.e, self.place(chart, entry))

@@ -1,0 +1,131 @@
+"""Claims 9 and 10: what a mapper concluded must follow from its history, not from luck.
+
+Trusted. A mapper that guesses right passes every check that looks at one world. Here its history is
+folded, and each conclusion must hold in EVERY world that shows this history; where it does not, the
+answer carries a **witness**: a world with the same history in which the conclusion is false. For a
+mapper that declares the planar prior (it rejects by rule `planar`), only planar witnesses count.
+
+Source: docs/semantics.md, sections 9 and 11.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from topo_verify.checkers.folding import Contradiction, Fold, Place
+from topo_verify.errors import InputError
+from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Reject, Start
+from topo_verify.world.rooted_map import World
+
+
+class Conclusion(NamedTuple):
+    """What was concluded at event `when`: why it does not follow ("": it does), and a witness."""
+
+    when: int
+    why: str
+    witness: World | None = None
+
+
+def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
+    """The fold of a trace; and at which move, and why, no world shows it any more, if so."""
+    assert isinstance(trace[0], Start)
+    fold = Fold(trace[0].percept)
+    for when, event in enumerate(trace):
+        if isinstance(event, Move):
+            try:
+                fold.move(event.door, event.percept)
+            except Contradiction as contradiction:
+                return fold, (when, str(contradiction))
+    return fold, None
+
+
+def map_conclusion(trace: Sequence[Event]) -> Conclusion:
+    """Does the history alone prove the map that was delivered?"""
+    finish, last = trace[-1], len(trace) - 1
+    if not isinstance(finish, Finish):
+        return Conclusion(0, "no map was delivered")
+    fold, broken = fold_history(trace)
+    if broken is not None:
+        return Conclusion(broken[0], f"no world shows this history: {broken[1]}")
+    try:
+        code = World.from_rotations(finish.map.vertices, finish.map.edges, finish.map.marker).code
+    except InputError as error:
+        return Conclusion(last, f"what was delivered is no map: {error}")
+    left = fold.open_darts()
+    why = f"darts never crossed: {left}" if left else "the history proves another map"
+    for witness in (fold.world(1), fold.world(2)) if left else (fold.world(),):
+        if witness.code != code:
+            return Conclusion(last, why, witness)
+    return Conclusion(last, "")
+
+
+def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
+    """Every declared reject, confirm and augmentation, up to the first that draws a wrong S."""
+    assert isinstance(trace[0], Start)
+    fold = Fold(trace[0].percept)
+    seats: list[Place] = [(0, door) for door in range(fold.degree(0))]  # where the darts of S are
+    opened = set(range(len(seats)))
+    prior = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
+    for when, event in enumerate(trace):
+        if isinstance(event, Move):
+            try:
+                fold.move(event.door, event.percept)
+            except Contradiction as contradiction:
+                yield Conclusion(when, f"no world shows this history: {contradiction}")
+                return
+        if not isinstance(event, Reject | Confirm | Augment):
+            continue
+        new = isinstance(event, Augment) and event.kind == "new"
+        other = event.dart if isinstance(event, Augment) else event.hypothesis
+        if event.edge not in opened or other not in ([len(seats)] if new else opened):
+            yield Conclusion(when, f"{event.edge} or {other} is no unexplored dart of S")
+            return
+        e = seats[event.edge]
+        if isinstance(event, Reject):
+            conclusion = _leads_to_none(fold, when, e, [seats[other]], prior=prior)
+        elif new:
+            assert isinstance(event, Augment)
+            rest = [seats[h] for h in sorted(opened - {event.edge})]
+            conclusion = _new(fold, when, e, event.degree, seats)
+            if not conclusion.why:
+                conclusion = _leads_to_none(fold, when, e, rest, prior=prior)
+        elif fold.partner(e) == fold.find(seats[other]):
+            conclusion = Conclusion(when, "")
+        else:
+            why = f"darts {event.edge} and {other} may well belong to different edges"
+            conclusion = Conclusion(when, why, fold.world())
+        yield conclusion
+        if isinstance(event, Augment):
+            entry = fold.partner(e)
+            if conclusion.why or entry is None:
+                return
+            if new:
+                opened |= set(range(len(seats), len(seats) + event.degree))
+                seats += [(entry[0], entry[1] + door) for door in range(event.degree)]
+            opened -= {event.edge, other}
+
+
+def _new(fold: Fold, when: int, e: Place, degree: int, seats: Sequence[Place]) -> Conclusion:
+    """Was e crossed, to a place of this degree that is not known to be a vertex of S?"""
+    entry = fold.partner(e)
+    if entry is None:
+        return Conclusion(when, "the edge was never crossed", fold.world(2 if degree == 1 else 1))
+    if fold.degree(entry[0]) != degree or entry[0] in {fold.find(seat)[0] for seat in seats}:
+        return Conclusion(when, "the edge leads to another vertex", fold.world())
+    return Conclusion(when, "")
+
+
+def _leads_to_none(
+    fold: Fold, when: int, e: Place, ends: Sequence[Place], *, prior: bool
+) -> Conclusion:
+    """Does a contradiction follow from each of these being the other end of e?"""
+    for end in ends:
+        try:
+            with fold.assuming(e, end):
+                witness = fold.world()
+                if witness.is_planar or not prior:
+                    return Conclusion(when, "the edge may well lead there", witness)
+        except Contradiction:
+            pass
+    return Conclusion(when, "")

@@ -1,0 +1,183 @@
+"""What a history proves, from its percepts and doors alone: no world is needed.
+
+**Folding** (Stallings). One node a visit, its dart 0 the reference dart of that visit. The move by
+door k joins the earlier node's dart k with the later node's dart 0. Every visit that saw the marker
+is v0, turned by the marker's direction. A dart has one partner: where it would get two, these are
+one dart, so their vertices are one vertex, turned by an offset; and so on until nothing changes
+(union-find with offsets, nearly linear). Each step identifies only what is one dart in every world
+that shows this history; so the result maps into all of them, dart by dart.
+
+- No dart left open: the fold is a covering in which v0 has one copy, hence it IS the world.
+- A dart left open: a leaf hung on every open dart, or a path of two, makes two different worlds
+  with this same history. Nothing is proved; these are its **witness worlds**.
+- A **contradiction** (two degrees at one place, the marker seen at one and not at the other, a
+  vertex turned against itself, a dart its own partner) says that no world shows this history; and
+  under an assumption, that the assumption is false in every world that does.
+
+What this does not show: that the percepts are true (claim 1 does), or anything for a mapper that
+may assume more than "some connected embedded graph", as that it is planar.
+
+Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite graphs", Invent. Math.
+71 (1983).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from contextlib import contextmanager
+
+from topo_verify.robot.percept import Door, Percept
+from topo_verify.world.rooted_map import World
+
+Place = tuple[int, int]
+"""A dart of the fold: a node and one of its doors. Different places may be one dart."""
+
+
+class Contradiction(Exception):
+    """No world shows this history (under the assumption made)."""
+
+
+class Fold:
+    """The fold of a history. Grows by `visit` and `move`; `assuming` looks ahead and returns."""
+
+    def __init__(self, percept: Percept) -> None:
+        self._seen: list[Percept] = []
+        self._parent: list[int] = []
+        self._offset: list[int] = []  # dart d of a node is dart d + offset of its parent
+        self._size: list[int] = []
+        self._partner: list[dict[int, Place]] = []
+        self._undo: list[tuple[int, int | None]] = []
+        self.visit(percept)
+
+    def visit(self, percept: Percept) -> int:
+        """A new node; v0 if the marker is seen there."""
+        node = len(self._seen)
+        self._seen.append(percept)
+        self._parent.append(node)
+        self._offset.append(0)
+        self._size.append(1)
+        self._partner.append({})
+        if percept.marker is not None and node:
+            self._identify((node, percept.marker), (0, self._seen[0].marker or 0))
+        return node
+
+    def move(self, door: Door, percept: Percept) -> None:
+        """The robot left its last visit by a door; what it sensed behind it."""
+        if not 0 <= door < self._seen[-1].degree or percept.degree < 1:
+            raise Contradiction(f"door {door} of {self._seen[-1].degree} cannot be crossed")
+        here = len(self._seen) - 1
+        self.join((here, door), (self.visit(percept), 0))
+
+    def find(self, place: Place) -> Place:
+        """The one place that stands for all that are the same dart."""
+        node, dart = place
+        while self._parent[node] != node:
+            dart += self._offset[node]
+            node = self._parent[node]
+        return node, dart % self._seen[node].degree
+
+    def partner(self, place: Place) -> Place | None:
+        """The other end of a dart's edge, or None: the dart is open."""
+        node, dart = self.find(place)
+        end = self._partner[node].get(dart)
+        return None if end is None else self.find(end)
+
+    def join(self, one: Place, other: Place) -> None:
+        """The two are the ends of one edge. Raises Contradiction."""
+        for place, end in ((one, other), (other, one)):
+            node, dart = self.find(place)
+            if (node, dart) == self.find(end):
+                raise Contradiction("a dart would be its own partner")
+            if dart in self._partner[node]:
+                self._identify(self._partner[node][dart], end)
+            else:
+                self._set(node, dart, end)
+
+    def _identify(self, one: Place, other: Place) -> None:
+        pairs = [(one, other)]
+        while pairs:
+            (a, i), (b, j) = map(self.find, pairs.pop())
+            if a == b:
+                if i != j:
+                    raise Contradiction("a vertex would be itself, turned")
+                continue
+            if self._size[a] > self._size[b]:
+                (a, i), (b, j) = (b, j), (a, i)
+            lost, kept = self._seen[a], self._seen[b]
+            if lost.degree != kept.degree:
+                raise Contradiction(
+                    f"degree {kept.degree} and degree {lost.degree} at the same place"
+                )
+            if (lost.marker is None) != (kept.marker is None):
+                raise Contradiction("the marker seen and not seen at the same place")
+            self._parent[a], self._offset[a] = b, j - i
+            self._size[b] += self._size[a]
+            self._undo.append((a, None))
+            for dart, end in self._partner[a].items():
+                moved = (dart + j - i) % kept.degree
+                if self.find(end) == (b, moved):
+                    raise Contradiction("a dart would be its own partner")
+                if moved in self._partner[b]:
+                    pairs.append((self._partner[b][moved], end))
+                else:
+                    self._set(b, moved, end)
+
+    def _set(self, node: int, dart: int, end: Place) -> None:
+        self._partner[node][dart] = end
+        self._undo.append((node, dart))
+
+    @contextmanager
+    def assuming(self, one: Place, other: Place) -> Generator[None]:
+        """Inside the block the two are the ends of one edge. Raises Contradiction."""
+        mark = len(self._undo)
+        try:
+            self.join(one, other)
+            yield
+        finally:
+            while len(self._undo) > mark:
+                node, dart = self._undo.pop()
+                if dart is not None:
+                    del self._partner[node][dart]
+                else:
+                    self._size[self._parent[node]] -= self._size[node]
+                    self._parent[node], self._offset[node] = node, 0
+
+    def possible(self, one: Place, other: Place) -> bool:
+        """Does some world with this history have the two as the ends of one edge?"""
+        try:
+            with self.assuming(one, other):
+                return True
+        except Contradiction:
+            return False
+
+    def degree(self, node: int) -> int:
+        """The degree of a node."""
+        return self._seen[node].degree
+
+    def open_darts(self) -> int:
+        """How many darts were never crossed, neither way."""
+        return sum(self._seen[node].degree - len(self._partner[node]) for node in self._roots())
+
+    def _roots(self) -> list[int]:
+        return [node for node, parent in enumerate(self._parent) if node == parent]
+
+    def world(self, hang: int = 1) -> World:
+        """The fold as a world, with a path of this many vertices hung on every open dart."""
+        first: dict[int, int] = {}
+        vertices: list[range] = []
+        edges: list[tuple[int, int]] = []
+        fresh = 0
+        for node in self._roots():
+            first[node] = fresh
+            vertices.append(range(fresh, fresh := fresh + self._seen[node].degree))
+        for node, rotation in zip(tuple(first), tuple(vertices), strict=True):
+            for dart, here in enumerate(rotation):
+                end = self.partner((node, dart))
+                if end is None:
+                    path = range(fresh, fresh := fresh + 2 * hang - 1)
+                    vertices += [path[i : i + 2] for i in range(0, len(path), 2)]
+                    edges += [(here, path[0]), *zip(path[1::2], path[2::2], strict=True)]
+                elif here < first[end[0]] + end[1]:
+                    edges.append((here, first[end[0]] + end[1]))
+        node, dart = self.find((0, 0)) if fresh else (0, 0)
+        return World.from_rotations(vertices, edges, first[node] + dart if fresh else None)
