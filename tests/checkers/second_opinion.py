@@ -263,7 +263,9 @@ class Play:
 def isomorphic(drawn: MapData, world: World) -> bool:
     """Is this the world? Both are walked through at once, from the marker on."""
     sigma = {d: r[i - len(r) + 1] for r in drawn.vertices for i, d in enumerate(r)}
-    alpha = {d: e[1 - i] for e in drawn.edges if len(e) == 2 for i, d in enumerate(e)}
+    if any(len(edge) != 2 for edge in drawn.edges):
+        return False
+    alpha = {d: e[1 - i] for e in drawn.edges for i, d in enumerate(e)}
     darts = [d for r in drawn.vertices for d in r]
     ends = [d for e in drawn.edges for d in e]
     if sorted(darts) != sorted(ends) or len(set(darts)) != len(darts) or len(alpha) != len(ends):

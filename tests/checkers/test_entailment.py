@@ -13,10 +13,21 @@ from topo_verify import World, examine
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.checkers import check, decision_conclusions, map_conclusion
-from topo_verify.robot.events import Augment, Confirm, Finish, Move, Reject, Start, Trace
-from topo_verify.robot.percept import Percept
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Decision,
+    Evidence,
+    Finish,
+    Move,
+    Reject,
+    Start,
+    Trace,
+)
+from topo_verify.robot.percept import Percept, Robot
 from topo_verify.robot.simulator import first_percept
 from topo_verify.trial import Report
 
@@ -42,6 +53,49 @@ class TheOnlyOne(NoRule):
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         return remaining[0] if len(remaining) == 1 else None
+
+
+class TheRestIsNew(NoRule):
+    """Takes vu for new after the first mismatch."""
+
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Refutation | None:
+        if not sequences:
+            return None
+        percept = chart.percepts[hypothesis.dart]
+        return Refutation("history", Evidence(0, percept, percept))
+
+
+class StopsEarly(NoRule):
+    """Takes the last two darts of U for the two ends of one edge, and does not go there."""
+
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:  # noqa: ARG002  a rule's
+        if len(chart.unexplored) == 2:
+            chart.join(*chart.unexplored)
+
+
+class Mute:
+    """A robot that keeps to itself what its mapper declares."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        self.move = robot.move
+
+    @property
+    def percept(self) -> Percept:
+        return self.robot.percept
+
+    def declare(self, event: Decision) -> None:
+        """Nobody is told."""
+
+
+class Tactful(Mute):
+    """A robot that is not told what was rejected."""
+
+    def declare(self, event: Decision) -> None:
+        if not isinstance(event, Reject):
+            self.robot.declare(event)
 
 
 GUESSERS = {"elimination": variant(ByElimination), "the only one": variant(TheOnlyOne)}
@@ -80,6 +134,35 @@ def test_where_a_guess_is_lucky_its_witness_breaks_it(
                 assert "run there, the mapper is wrong" in finding.message
                 convicted[len(world.edges)] += 1
     assert convicted == worlds_where_lucky
+
+
+def test_a_silent_guess_is_convicted_by_its_history_alone() -> None:
+    guesser = variant(StopsEarly)
+    convicted = 0
+    for world in worlds([3, 4]):
+        report = examine(lambda robot: guesser(Mute(robot)), world)
+        if report.claims["map-isomorphic"] == "failed" or report.ok:
+            continue
+        finding = next(f for f in report.findings if f.claim == "map-entailed")
+        assert "run there, the mapper is wrong" in finding.message
+        convicted += 1
+    assert convicted >= 10
+
+
+@pytest.mark.parametrize("place", ["m5/105", "m5/205", "m5/207", "m5/209", "m5/965", "m5/1019"])
+def test_a_place_taken_for_new_too_early_is_convicted_though_the_map_is_proved(place: str) -> None:
+    """In six worlds with five edges, and in none with fewer, it was merely lucky."""
+
+    def guesser(robot: Robot) -> object:
+        return variant(TheRestIsNew)(Tactful(robot))
+
+    report = examine(guesser, World.from_id(place))
+    assert lucky(report)
+    assert report.claims["map-entailed"] == "ok"
+    (finding, *_) = report.findings
+    assert finding.claim == "decisions-entailed"
+    assert finding.witness is not None
+    assert not examine(guesser, World.from_id(finding.witness)).ok
 
 
 def test_a_mapper_that_declares_nothing_is_still_convicted_of_guessing() -> None:

@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from tests.checkers.example import FINISH, LOOP, MAP, TRACE, WORLD, inserted, said, without, wrong
-from tests.helpers import EMPTY, edited, failing, place
+from tests.helpers import EIGHT, EMPTY, edited, failing, place
 from topo_verify import World
 from topo_verify.checkers import check
 from topo_verify.robot.events import Augment, MapData, Move
@@ -151,3 +151,32 @@ def test_the_bound_is_m_for_one_vertex_and_0_without_edges() -> None:
     assert World.from_id("m1/1").cost_bound == 1
     assert World.from_id("m1/0").cost_bound == 2 + 1 * 2 * 1
     assert EMPTY.cost_bound == 0
+
+
+@pytest.mark.parametrize(
+    ("change", "expected", "seen"),
+    [
+        ({"cost": 17}, 16, 17),
+        (
+            {"map": MapData(((0,), (1,)), ((0, 1),), 0)},
+            "4 vertices, 5 edges",
+            "2 vertices, 1 edges",
+        ),
+        ({"map": MapData((), (), None)}, "a map", None),
+    ],
+)
+def test_what_was_delivered_is_wrong_at_the_last_event(
+    change: dict[str, Any], expected: object, seen: object
+) -> None:
+    (judgement,) = (
+        j for j in check(WORLD, edited(TRACE, FINISH, **change)) if j.findings and j.claim in EIGHT
+    )
+    (finding,) = judgement.findings
+    assert (finding.event, finding.expected, finding.seen) == (FINISH, expected, seen)
+
+
+def test_an_unfinished_s_is_wrong_at_the_last_event() -> None:
+    lie = without(without(TRACE, FINISH - 1), FINISH - 2)
+    (judgement,) = (j for j in check(WORLD, lie) if j.claim == "map-isomorphic")
+    (finding,) = judgement.findings
+    assert (finding.event, finding.expected, finding.seen) == (len(lie) - 1, 0, 1)

@@ -22,6 +22,7 @@ def test_show_has_the_promised_fields(results: Call) -> None:
     assert entry == {
         "name": "m3/14", "id": "m3/14", "vertices": 3, "edges": 3, "faces": 2, "genus": 0,
         "degrees": [2, 3, 1], "simple": False, "loopless": True, "planar": True, "marker": 0,
+        "least_cost": 4,
     }  # fmt: skip
 
 
@@ -33,9 +34,9 @@ def test_a_world_too_large_for_an_id_has_none(results: Call) -> None:
 def test_show_for_people_tells_degrees_marker_and_licence(call: Call) -> None:
     text = call("world show nyc m0/0").stdout
     assert "2 of degree 1, 9 of degree 2, 14 of degree 3, 21 of degree 4" in text
-    assert "planar    yes" in text
+    assert "planar      yes" in text
     assert "OpenStreetMap" in text
-    assert "marker    none" in text
+    assert "marker      none" in text
 
 
 def test_convert_writes_what_can_be_read_again(call: Call, folder: Path) -> None:

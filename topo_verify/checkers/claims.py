@@ -12,7 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from topo_verify.checkers.entailment import decision_conclusions, map_conclusion
+from topo_verify.checkers.entailment import (
+    decision_conclusions,
+    delivered_code,
+    map_conclusion,
+)
 from topo_verify.checkers.findings import Finding, Judgement
 from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
@@ -138,7 +142,7 @@ def map_isomorphic(case: Case) -> Iterator[Wrong]:
         told = f"the map is delivered while {left} darts of S are unexplored"
         yield last, 0, left, told, None
     try:
-        code = World.from_rotations(finish.map.vertices, finish.map.edges, finish.map.marker).code
+        code = delivered_code(finish.map)
     except InputError as error:
         yield last, "a map", None, f"what was delivered is no map: {error}", None
         return

@@ -11,12 +11,13 @@ Source: docs/semantics.md, sections 9 and 11.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 from topo_verify.checkers.folding import Contradiction, Fold, Place
 from topo_verify.errors import InputError
-from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Reject, Start
-from topo_verify.world.rooted_map import World
+from topo_verify.robot.events import Augment, Confirm, Event, Finish, MapData, Move, Reject, Start
+from topo_verify.world.rooted_map import Code, World
 
 
 class Conclusion(NamedTuple):
@@ -40,6 +41,12 @@ def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
     return fold, None
 
 
+@lru_cache(maxsize=16)
+def delivered_code(delivered: MapData) -> Code:
+    """The canonical code of a delivered map; asked twice a run. Raises InputError: it is none."""
+    return World.from_rotations(delivered.vertices, delivered.edges, delivered.marker).code
+
+
 def map_conclusion(trace: Sequence[Event]) -> Conclusion:
     """Does the history alone prove the map that was delivered?"""
     finish, last = trace[-1], len(trace) - 1
@@ -49,7 +56,7 @@ def map_conclusion(trace: Sequence[Event]) -> Conclusion:
     if broken is not None:
         return Conclusion(broken[0], f"no world shows this history: {broken[1]}")
     try:
-        code = World.from_rotations(finish.map.vertices, finish.map.edges, finish.map.marker).code
+        code = delivered_code(finish.map)
     except InputError as error:
         return Conclusion(last, f"what was delivered is no map: {error}")
     left = fold.open_darts()

@@ -65,6 +65,7 @@ class Shown(msgspec.Struct, frozen=True):
     loopless: bool
     planar: bool
     marker: int | None
+    least_cost: int
     source: str
     licence: str
 
@@ -97,6 +98,7 @@ def _shown(at: Place) -> Shown:
         loopless=world.is_loopless,
         planar=world.is_planar,
         marker=world.marker,
+        least_cost=world.least_cost(),
         source=world.source,
         licence=world.licence,
     )
@@ -112,6 +114,7 @@ def _show(entries: Sequence[Shown]) -> Iterator[Block]:
         facts: dict[str, Any] = msgspec.structs.asdict(entry)
         facts["degrees"] = ", ".join(f"{number} of degree {d}" for d, number in degrees)
         facts["marker"] = "none" if entry.marker is None else f"at dart {entry.marker}"
+        facts["least cost"] = f"{facts.pop('least_cost')} edge traversals"
         rows = [(name, _word(fact)) for name, fact in facts.items() if fact not in ("", None)]
         yield Table(("property", "value"), rows, headed=False)
 
