@@ -21,6 +21,7 @@ class Cost(msgspec.Struct, frozen=True):
     Attributes:
         cost: edge traversals.
         ratio: the cost relative to that of `basic`; None if the mapper fails here.
+        of_least: the cost relative to the least cost of a proof, map in hand.
         rejected_free, rejected_moving: hypotheses rejected without and by motion.
         confirmed: hypotheses confirmed.
         reference: an algorithm of the catalogue, shown for comparison with a mapper of the user's.
@@ -29,6 +30,7 @@ class Cost(msgspec.Struct, frozen=True):
     algorithm: str
     cost: int
     ratio: float | None
+    of_least: float
     rejected_free: int
     rejected_moving: int
     confirmed: int

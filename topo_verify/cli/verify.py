@@ -132,10 +132,11 @@ def _costs(entry: Part) -> Table:
                 f"({one.algorithm})" if one.reference else one.algorithm,
                 str(one.cost),
                 "fails" if one.ratio is None else f"{one.ratio:.2f}",
+                "-" if one.ratio is None else f"{one.of_least:.2f}",
                 f"{100 * one.rejected_free / rejected:.0f} %" if rejected else "-",
             )
         )
-    columns = ("mapper", ">cost", ">of basic", ">rejected without motion")
+    columns = ("mapper", ">cost", ">of basic", ">of least", ">rejected without motion")
     title = f"{entry.part}: costs in edge traversals"
     if any(one.reference for one in entry.costs):
         title += ", (others) for comparison"

@@ -10,7 +10,7 @@ Source: docs/semantics.md, section 2.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, Protocol, get_args
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol, get_args
 
 import msgspec
 
@@ -26,6 +26,10 @@ Purpose = Literal["walk", "cross", "validate", "retrace"]
 PURPOSES: tuple[Purpose, ...] = get_args(Purpose)
 
 
+MOST_DOORS = 1_000_000
+"""What is read from a file may not claim more: a fold has a place for every door."""
+
+
 class Percept(msgspec.Struct, frozen=True, gc=False):
     """What is sensed at a vertex, relative to the reference dart.
 
@@ -34,7 +38,7 @@ class Percept(msgspec.Struct, frozen=True, gc=False):
         marker: the door that the marker points at, or None if the marker is not here.
     """
 
-    degree: int
+    degree: Annotated[int, msgspec.Meta(ge=0, le=MOST_DOORS)]
     marker: Door | None
 
     @property
