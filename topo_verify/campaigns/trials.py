@@ -207,7 +207,7 @@ class Costs:
             algorithm=run.algorithm,
             cost=run.cost,
             ratio=round(run.cost / self.basic, 3),
-            of_least=round(run.cost / self.world.least_cost(), 3),
+            of_least=round(run.cost / self.world.least_cost(), 4),
             rejected_free=run.rejected_free,
             rejected_moving=run.rejected_moving,
             confirmed=run.confirmed,
