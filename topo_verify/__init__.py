@@ -6,6 +6,8 @@ run = tv.explore(world, "enhancement-ii")
 report = tv.examine(my_mapper, world)
 """
 
+from typing import TYPE_CHECKING, Any
+
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.certificate import Certificate, certify
 from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
@@ -14,6 +16,9 @@ from topo_verify.robot.percept import Percept, Robot
 from topo_verify.trial import Exploration, Report, assert_maps, examine, explore
 from topo_verify.world import families
 from topo_verify.world.rooted_map import World
+
+if TYPE_CHECKING:
+    from topo_verify import strategies
 
 __version__ = "0.1.0"
 
@@ -37,4 +42,13 @@ __all__ = [
     "examine",
     "explore",
     "families",
+    "strategies",
 ]
+
+
+def __getattr__(name: str) -> Any:  # Hypothesis is loaded by those alone who ask for strategies
+    if name == "strategies":
+        import topo_verify.strategies
+
+        return topo_verify.strategies
+    raise AttributeError(f"module 'topo_verify' has no attribute {name!r}")

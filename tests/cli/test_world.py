@@ -117,3 +117,36 @@ def test_sample_writes_world_files(call: Call, folder: Path) -> None:
     names = call("world sample --edges 220 -n 2 -o out/here").stdout.split()
     assert names == ["out/here/m220-seed0-0.json", "out/here/m220-seed0-1.json"]
     assert [len(World.load(folder / name).edges) for name in names] == [220, 220]
+
+
+def test_sample_draws_from_a_strategy(call: Call, results: Call) -> None:
+    strategy = "nonplanar_worlds(genus=2, max_edges=9)"
+    line = f"world sample --strategy '{strategy}' -n 3 --seed 0"
+    done = call(line)
+    ids = done.stdout.split()
+    assert len(ids) == 3
+    assert all(World.from_id(name).genus == 2 for name in ids)
+    envelope = results(line)
+    assert [entry["id"] for entry in envelope["results"]] == ids
+    assert {entry["class"] for entry in envelope["results"]} == {None}
+    assert {entry["strategy"] for entry in envelope["results"]} == {strategy}
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ("world sample --strategy worlds --edges 3", "--edges beside --strategy"),
+        ("world sample --strategy worlds --class planar", "--class beside --strategy"),
+        ("world sample -n 3", "say with --edges how many, or with --strategy which worlds"),
+        ("world sample --strategy nothing", "'nothing' names no strategy"),
+        (
+            "world sample --strategy 'worlds(min_edges=300,max_edges=300)'",
+            "with 300 edges has no id",
+        ),
+        ("world sample --strategy 'worlds(min_edges=2,max_edges=1)'", "min_edges=2 is above"),
+    ],
+)
+def test_a_sample_that_cannot_be_drawn_is_told_why(call: Call, line: str, sentence: str) -> None:
+    done = call(line)
+    assert done.exit_code == 2
+    assert sentence in done.stderr

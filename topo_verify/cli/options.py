@@ -89,3 +89,16 @@ def policies(command: Callable[..., int]) -> Callable[..., int]:
 marker = click.option(
     "--marker", type=int, metavar="DART", help="Lay the marker elsewhere: let it point at DART."
 )
+
+
+MAX_EDGES = 1000
+"""The most edges that worlds are counted and drawn with here: beyond, the numbers take minutes."""
+
+world_class = click.option(
+    "--class",
+    "kind",
+    default="any",
+    show_default=True,
+    metavar="CLASS",
+    help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; several with commas.",
+)

@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
-from random import Random
 from typing import Any
 
 import click
@@ -17,6 +15,7 @@ from topo_verify.cli.layout import Block, Raw, Table
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import Place, place, places
+from topo_verify.cli.sample import sample
 from topo_verify.errors import InputError
 from topo_verify.world.classes import WorldClass
 from topo_verify.world.counting import MAX_ID_EDGES
@@ -29,23 +28,13 @@ FORMATS: dict[str, Callable[[World], str | bytes]] = {
 }
 """What `convert --to` knows: a world in each format, as text or, where that is none, as bytes."""
 
-MAX_EDGES = 1000
-"""The most edges that worlds are counted and drawn with here: beyond, the numbers take minutes."""
-
 
 @click.group(epilog=options.epilog("world show nyc", "world count --edges 6 --class planar"))
 def world() -> None:
     """Show, convert, count and sample worlds."""
 
 
-class_option = click.option(
-    "--class",
-    "kind",
-    default="any",
-    show_default=True,
-    metavar="CLASS",
-    help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; several with commas.",
-)
+world.add_command(sample)
 
 
 # ---------------------------------------------------------------- show
@@ -188,8 +177,10 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
     if not found:
         raise click.BadParameter(f"{value!r} is no number of edges and no range as 1..6")
     first, last = int(found[1]), int(found[2] or found[1])
-    if not first <= last <= MAX_EDGES:
-        raise click.BadParameter(f"{value!r}: numbers of edges go up, and up to {MAX_EDGES}")
+    if not first <= last <= options.MAX_EDGES:
+        raise click.BadParameter(
+            f"{value!r}: numbers of edges go up, and up to {options.MAX_EDGES}"
+        )
     return range(first, last + 1)
 
 
@@ -197,7 +188,7 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
     epilog=options.epilog("world count --edges 6", "world count --edges 1..5 --class simple")
 )
 @click.option("--edges", callback=_range, required=True, metavar="N", help="How many, or A..B.")
-@class_option
+@options.world_class
 @output_options
 def count(output: Output, *, edges: range, kind: str) -> int:
     """Count the worlds with so many edges, up to isomorphism (rooted maps)."""
@@ -214,69 +205,3 @@ def count(output: Output, *, edges: range, kind: str) -> int:
 def _show_counted(entries: Sequence[Counted]) -> Iterator[Block]:
     rows = [(str(e.edges), e.kind, str(e.total)) for e in entries]
     yield Table((">edges", "class", ">worlds"), rows)
-
-
-# ---------------------------------------------------------------- sample
-
-
-class Sampled(msgspec.Struct, frozen=True):
-    """A world that was drawn; `id` is None beyond 200 edges, `file` where none was asked for."""
-
-    id: str | None
-    edges: int
-    kind: str = msgspec.field(name="class")
-    seed: int
-    file: str | None
-
-
-@world.command(
-    epilog=options.epilog("world sample --edges 20 -n 5", "world sample --edges 300 -o FOLDER")
-)
-@click.option(
-    "--edges", type=click.IntRange(0, MAX_EDGES), required=True, metavar="N", help="How many."
-)
-@class_option
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, metavar="N")
-@click.option(
-    "-n", "number", type=click.IntRange(min=1), default=1, show_default=True, help="Worlds."
-)
-@click.option("-o", "folder", metavar="FOLDER", help="Write world files there.")
-@output_options
-def sample(
-    output: Output, *, edges: int, kind: str, seed: int, number: int, folder: str | None
-) -> int:
-    """Draw worlds, each with the same probability among those of its class; prints their ids."""
-    if folder is None and edges > MAX_ID_EDGES:
-        raise InputError(
-            f"--edges {edges}: worlds with more than {MAX_ID_EDGES} edges have no id to print; say"
-            " with -o which folder to write them to"
-        )
-
-    def sampled() -> Iterator[Result[Sampled]]:
-        random, worlds, file = Random(seed), WorldClass.parse(kind), None
-        target = None if folder is None else _folder(folder)
-        output.note(f"seed {seed}")
-        for index in range(number):
-            output.progress("drawing worlds", index, number)
-            drawn = worlds.sample(edges, random)
-            if target is not None:
-                file = str(target / f"m{edges}-seed{seed}-{index}.json")
-                files.write(file, drawn.to_json() + "\n")
-            yield Result(
-                Sampled(id=_id(drawn), edges=edges, kind=str(worlds), seed=seed, file=file)
-            )
-
-    return output.run("world-sample", sampled, _show_sampled, seed=seed)
-
-
-def _folder(name: str) -> Path:
-    try:
-        Path(name).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"-o {name}: cannot make this folder: {error.strerror}") from error
-    return Path(name)
-
-
-def _show_sampled(entries: Sequence[Sampled]) -> Iterator[Block]:
-    for entry in entries:
-        yield Raw(entry.file or str(entry.id))

@@ -377,6 +377,9 @@ class World:
         size = f"{len(self.vertices)} vertices, {len(self.edges)} edges, genus {self.genus}"
         return f"<World {self.name!r}: {size}>"
 
+    def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
+        printer.text(repr(self))
+
 
 def _cycles(
     permutation: Sequence[Dart], starts: Sequence[Dart] = ()

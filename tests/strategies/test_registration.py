@@ -1,0 +1,66 @@
+"""What Hypothesis knows of topo_verify without being told, in a program of its own."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+from hypothesis import find, settings
+from hypothesis import strategies as st
+
+from topo_verify import World
+from topo_verify.strategies import registration
+
+
+def printed(code: str) -> str:
+    """What a fresh Python prints that runs this code, warnings being errors."""
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=True
+    )
+    return done.stdout.strip()
+
+
+def test_worlds_are_drawn_wherever_a_world_is_annotated() -> None:
+    code = """
+from hypothesis import find, strategies as st
+from topo_verify import World
+
+def edges(world: World) -> int:
+    return len(world.edges)
+
+print(find(st.builds(edges), lambda number: number > 2))
+"""
+    assert printed(code) == "3"
+
+
+def test_the_profiles_are_there_as_soon_as_hypothesis_is_imported() -> None:
+    code = """
+from hypothesis import settings
+for name in ("topo-ci", "topo-nightly"):
+    profile = settings.get_profile(name)
+    print(profile.max_examples, profile.derandomize, profile.deadline)
+"""
+    assert printed(code).splitlines() == ["100 True None", "5000 False None"]
+
+
+def test_whoever_imports_hypothesis_gets_nothing_heavy_with_it() -> None:
+    code = """
+import sys, hypothesis
+heavy = ("z3", "networkx", "numpy", "click", "rich", "pytest")
+print([name for name in heavy if name in sys.modules])
+"""
+    assert printed(code) == "[]"
+
+
+def test_it_works_from_either_end() -> None:
+    """Whichever is imported first, each asks for the other half-way."""
+    assert printed("import topo_verify.strategies as s; print(s.worlds is not None)") == "True"
+    code = "import hypothesis, topo_verify as tv; print(tv.strategies.worlds is not None)"
+    assert printed(code) == "True"
+
+
+def test_registering_twice_does_no_harm() -> None:
+    registration.register()
+    registration.register()
+    assert find(st.from_type(World), lambda world: world.genus == 1).id == "m2/8"
+    assert settings.get_profile("topo-ci").print_blob

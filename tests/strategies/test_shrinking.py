@@ -1,0 +1,160 @@
+"""What the strategies shrink to, pinned: a change here changes what users see of their failures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from random import Random
+
+import pytest
+from hypothesis import find, settings
+from hypothesis.strategies import SearchStrategy
+
+from tests.strategies import features
+from tests.strategies.features import Condition
+from topo_verify import World, examine
+from topo_verify.algorithms import Algorithm
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, retrace
+from topo_verify.robot.limits import Limits
+from topo_verify.robot.percept import Percept
+from topo_verify.strategies import (
+    dense_worlds,
+    lattices,
+    nonplanar_worlds,
+    planar_worlds,
+    symmetric_worlds,
+    tree_worlds,
+    uniform_worlds,
+    worlds,
+)
+
+CALLS = 250
+"""No search below takes more: finding the first world included."""
+
+
+def minimal(
+    strategy: SearchStrategy[World], condition: Condition, *, seed: int | None = None
+) -> tuple[World, int]:
+    """What a search ends with, and how many worlds it looked at."""
+    calls = 0
+
+    def counted(world: World) -> bool:
+        nonlocal calls
+        calls += 1
+        return condition(world)
+
+    chosen = settings(max_examples=1000, derandomize=seed is None, database=None, deadline=None)
+    random = None if seed is None else Random(seed)
+    return find(strategy, counted, settings=chosen, random=random), calls
+
+
+@pytest.mark.parametrize(
+    ("strategy", "simplest"),
+    [
+        (worlds(), "m0/0"),
+        (worlds(min_edges=1), "m1/0"),
+        (worlds(marker="leaf"), "m1/0"),
+        (worlds(simple=True, min_edges=4), "m4/266"),
+        (planar_worlds(), "m0/0"),
+        (nonplanar_worlds(), "m2/8"),
+        (nonplanar_worlds(genus=2), "m4/629"),
+        (tree_worlds(), "m0/0"),
+        (dense_worlds(), "m0/0"),
+        (dense_worlds(min_edges=3, simple=True), "m3/24"),
+        (lattices(), "m0/0"),
+        (lattices(min_edges=4), "m4/87"),
+        (symmetric_worlds(), "m0/0"),
+        (symmetric_worlds(min_edges=3), "m3/13"),
+        (uniform_worlds(edges=0), "m0/0"),
+        (uniform_worlds(edges=12), "m12/0"),
+    ],
+)
+def test_the_simplest_world_of_a_strategy(strategy: SearchStrategy[World], simplest: str) -> None:
+    world, calls = minimal(strategy, lambda _: True)
+    assert world.id == simplest
+    assert calls <= CALLS
+
+
+SHRINKS: list[tuple[Condition, str]] = [
+    (lambda world: world.genus == 1, "m2/8"),
+    (lambda world: world.genus == 2, "m4/629"),
+    (features.has_loop, "m1/1"),
+    (features.has_parallel_edges, "m2/3"),
+    (features.has_bridge, "m1/0"),
+    (features.has_three_of_one_degree, "m3/24"),
+    (features.is_dear, "m11/134485045224"),
+    (lambda world: len(world.edges) >= 9, "m9/265571352"),
+    (lambda world: not features.has_bridge(world), "m0/0"),
+    (lambda world: len(world.faces) == 3, "m2/7"),
+]
+
+
+@pytest.mark.parametrize(("condition", "simplest"), SHRINKS)
+def test_what_worlds_shrink_to(condition: Condition, simplest: str) -> None:
+    world, calls = minimal(worlds(), condition)
+    assert world.id == simplest
+    assert calls <= CALLS
+
+
+# ---------------------------------------------------------------- planted faults
+
+
+class AnyDirection(Percept, frozen=True, eq=False):
+    """A percept that takes another for equal if only the direction of the marker differs."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Percept) and self.signature == other.signature
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash(self.signature)
+
+
+class NoMarker(AnyDirection, frozen=True, eq=False):
+    """A percept that takes another for equal if the degree is."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Percept) and self.degree == other.degree
+
+    def __hash__(self) -> int:
+        return hash(self.degree)
+
+
+def careless(last_percept: type[Percept]) -> Algorithm:
+    """`basic`, but the last percept of a way home is compared as this one compares."""
+
+    def motion(hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
+        choice = retrace(hypotheses, last)
+        expected = choice.hypothesis.expected
+        end = last_percept(expected[-1].degree, expected[-1].marker)
+        vars(choice.hypothesis)["expected"] = (*expected[:-1], end)
+        return choice
+
+    return Algorithm("careless", NoRule, motion)
+
+
+def errs(mapper: Algorithm) -> Callable[[World], bool]:
+    """Is the mapper wrong in a world? A lost one walks on: it is stopped early."""
+    return lambda world: not examine(mapper, world, limits=Limits(budget=600)).ok
+
+
+SMALLEST = [
+    (AnyDirection, worlds(max_edges=30), 2),
+    (AnyDirection, worlds(max_edges=30, loopless=True), 3),
+    (AnyDirection, worlds(max_edges=30, simple=True), 4),
+    (NoMarker, worlds(max_edges=30), 2),
+    (NoMarker, worlds(max_edges=30, loopless=True), 3),
+    (NoMarker, worlds(max_edges=30, simple=True), 4),
+]
+"""What is compared, where, and the edges of the smallest world of all in which it goes wrong."""
+
+
+@pytest.mark.parametrize(("last_percept", "strategy", "edges"), SMALLEST)
+def test_a_planted_fault_shrinks_to_within_one_edge_of_its_smallest_world(
+    last_percept: type[Percept], strategy: SearchStrategy[World], edges: int
+) -> None:
+    world, calls = minimal(strategy, errs(careless(last_percept)))
+    assert edges <= len(world.edges) <= edges + 1
+    assert calls <= CALLS

@@ -1,0 +1,44 @@
+"""Hypothesis strategies: worlds of many kinds, mappers, door words.
+
+    general.py     worlds, planar_worlds, nonplanar_worlds    shapes.py     bounds, what is possible
+    trees.py       tree_worlds                                growth.py     from bytes to a world
+    dense.py       dense_worlds                               drawing.py    how worlds are drawn
+    grids.py       lattices                                   mapping.py     mappers, policies
+    symmetric.py   symmetric_worlds                           doors.py      door_words
+    uniform.py     uniform_worlds                             observing.py  notes and features
+
+registration.py is what the entry point `hypothesis` calls. docs/property-tests.md begins with a
+first test and shows the simplest world of each strategy.
+"""
+
+from __future__ import annotations
+
+if __name__ != "topo_verify.strategies":
+    raise ImportError(
+        f"this package is topo_verify.strategies; as {__name__!r} its classes would exist twice"
+    )
+
+from topo_verify.strategies.dense import dense_worlds
+from topo_verify.strategies.doors import door_words
+from topo_verify.strategies.general import nonplanar_worlds, planar_worlds, worlds
+from topo_verify.strategies.grids import lattices
+from topo_verify.strategies.mapping import mappers, policies
+from topo_verify.strategies.observing import observe
+from topo_verify.strategies.symmetric import symmetric_worlds
+from topo_verify.strategies.trees import tree_worlds
+from topo_verify.strategies.uniform import uniform_worlds
+
+__all__ = [
+    "dense_worlds",
+    "door_words",
+    "lattices",
+    "mappers",
+    "nonplanar_worlds",
+    "observe",
+    "planar_worlds",
+    "policies",
+    "symmetric_worlds",
+    "tree_worlds",
+    "uniform_worlds",
+    "worlds",
+]

@@ -1,0 +1,166 @@
+"""Lattices: rectangles of a grid with nodes taken out, the paper's street networks.
+
+    strategy   draws                                              its simplest world
+    lattices   rectangles of the grid, with holes, connected      m0/0: one vertex, nothing else
+
+A rectangle is drawn that may have too many edges; then nodes are taken out, none whose loss would
+part the rest. Where the number of edges still is too great, single edges are taken out as well:
+closed streets. All are planar and simple, their degrees are 4 at most; each carries its positions.
+`topo_verify.world.families.lattice` has the families of the paper's figures; here is what varies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal, get_args
+
+from hypothesis import strategies as st
+from hypothesis.strategies import SearchStrategy
+
+from topo_verify.strategies.drawing import AT_MOST, at_most, draw_dart, marked_darts, one_of, scaled
+from topo_verify.strategies.shapes import WIDEST, edge_bounds, require_marker
+from topo_verify.world.rooted_map import Dart, World
+
+LatticeMarker = Literal["any", "hub"]
+"""As everywhere; a lattice need not have a dead end."""
+
+Node = tuple[int, int]
+"""Row and column."""
+
+Grid = dict[Node, list[Node]]
+"""The neighbours of each node, clockwise from the north."""
+
+_HOLES = 4
+"""There is at most one hole to so many edges."""
+
+
+def lattices(
+    *, min_edges: int = 0, max_edges: int = WIDEST, marker: LatticeMarker = "any"
+) -> SearchStrategy[World]:
+    """Rectangles of a grid with holes. Shrinks to few edges, then to whole rectangles.
+
+    Args:
+        min_edges, max_edges: as everywhere.
+        marker: "any" exit, or "hub": at a vertex of the greatest degree.
+    Raises:
+        InputError: an argument is out of range.
+    """
+    least, most = edge_bounds("lattices", min_edges, max_edges)
+    require_marker("lattices", marker, get_args(LatticeMarker))
+    return _lattices(least, most, marker)
+
+
+@st.composite
+def _lattices(draw: st.DrawFn, least: int, most: int, marker: LatticeMarker) -> World:
+    bound = max(least, at_most(most, draw(st.sampled_from(AT_MOST))))
+    sizes = _sizes(least, bound)
+    columns = draw(sizes.columns)
+    rows = draw(sizes.rows[columns])
+    turn, *holes = draw(st.binary(min_size=1, max_size=1 + most // _HOLES))
+    grid = _rectangle(rows, columns)
+    for hole in holes:
+        _take_out(grid, divmod(scaled(rows * columns, hole), columns), least)
+    if _edges(grid) > bound:
+        _thin(grid, bound, turn)
+    return _world(grid, lambda vertex: draw_dart(draw, marked_darts(vertex, marker), 2 * most))
+
+
+@dataclass(frozen=True, slots=True)
+class _Sizes:
+    """How large a rectangle may be.
+
+    Attributes:
+        columns: the longer side; ascending, and each as often as there are shorter ones to it.
+        rows: these shorter ones.
+    """
+
+    columns: SearchStrategy[int]
+    rows: dict[int, SearchStrategy[int]]
+
+
+@lru_cache(maxsize=256)
+def _sizes(least: int, bound: int) -> _Sizes:
+    """The rectangles with enough edges and not too many too many: what is taken out helps.
+
+    Too many are a quarter more, and one column more: so any number of edges can be had, in several
+    widths, and there is room for holes.
+    """
+    rows = {
+        c: [r for r in range(1, c + 1) if least <= 2 * r * c - r - c <= bound * 5 // 4 + 2 * r]
+        for c in range(1, bound * 5 // 4 + 4)
+    }
+    columns = [c for c, fitting in rows.items() for _ in fitting]
+    return _Sizes(one_of(columns), {c: one_of(rows[c]) for c in columns})
+
+
+def _rectangle(rows: int, columns: int) -> Grid:
+    return {
+        (y, x): [
+            (y + down, x + right)
+            for down, right in ((-1, 0), (0, 1), (1, 0), (0, -1))
+            if 0 <= y + down < rows and 0 <= x + right < columns
+        ]
+        for y in range(rows)
+        for x in range(columns)
+    }
+
+
+def _edges(grid: Grid) -> int:
+    return sum(map(len, grid.values())) // 2
+
+
+def _take_out(grid: Grid, node: Node, least: int) -> None:
+    """Take a node out, if enough edges are left and what is left hangs together."""
+    exits = grid.get(node, [])
+    if exits and _edges(grid) - len(exits) >= least and _are_joined(grid, exits, without=node):
+        del grid[node]
+        for other in exits:
+            grid[other].remove(node)
+
+
+def _are_joined(grid: Grid, nodes: list[Node], *, without: Node | None = None) -> bool:
+    """Do ways lead from the first of these nodes to the others, none through `without`?"""
+    seen = {nodes[0]} if without is None else {nodes[0], without}
+    queue = [nodes[0]]
+    for node in queue:  # grows as it goes
+        fresh = [other for other in grid[node] if other not in seen]
+        seen.update(fresh)
+        queue += fresh
+    return seen.issuperset(nodes)
+
+
+def _thin(grid: Grid, bound: int, turn: int) -> None:
+    """Close single streets until no more than `bound` are left, beginning where the byte says."""
+    streets = [(u, v) for u, exits in grid.items() for v in exits if u < v]
+    spare = len(streets) - bound
+    turn = scaled(len(streets), turn)
+    for u, v in streets[turn:] + streets[:turn]:
+        if spare <= 0:
+            return
+        before = grid[u], grid[v]
+        grid[u] = [w for w in grid[u] if w != v]
+        grid[v] = [w for w in grid[v] if w != u]
+        if _are_joined(grid, [u, v]):
+            spare -= 1
+        else:
+            grid[u], grid[v] = before
+    for _ in range(spare):  # a tree by now: its last dead end goes
+        _take_out(grid, next(u for u in reversed(grid) if len(grid[u]) == 1), 0)
+
+
+def _world(grid: Grid, draw_root: Callable[[list[int]], Dart]) -> World:
+    """Its world: darts numbered node by node, clockwise from the north; y upwards."""
+    number = {
+        street: dart
+        for dart, street in enumerate((u, v) for u, exits in grid.items() for v in exits)
+    }
+    sigma: list[Dart] = []
+    for exits in grid.values():
+        first = len(sigma)
+        sigma += [*range(first + 1, first + len(exits)), first] if exits else []
+    order = {node: v for v, node in enumerate(grid)}
+    root = draw_root([order[u] for u, _ in number]) if number else None
+    alpha = tuple(number[v, u] for u, v in number)
+    return World(alpha, tuple(sigma), root, positions=tuple((float(x), float(-y)) for y, x in grid))

@@ -1,0 +1,297 @@
+"""From a string of bytes to a world, one byte an edge.
+
+    letter         what it is                                                          e.g.
+    edge k         darts 2k and 2k+1; alpha(d) is d ^ 1                                 4, 5
+    corner d       the place between dart d and the next one clockwise, sigma(d)        5
+    newest corner  that of the highest dart                                            2k-1
+
+A byte is two bits of kind (leaf, split or cross: see `shapes.py`) and six bits of place, counted
+from the newest edge back. A leaf grows at that corner: at place 0 it is the newest leaf's sister,
+at place 1 its daughter. A closing leads from the newest corner to that corner among those that it
+may lead to; where it may lead to none, from the next newest. A kind that cannot be had, or after
+which the bounds could not be kept any more, gives way to the next kind.
+
+Why this way: places are relative, so that taking a byte out leaves a similar world. Zeros make a
+star, ones a path. Hypothesis tries zeros first, and keeps them wherever they fail as well; in a
+star no hypothesis is ever posed, so they seldom do, and it goes on to something smaller. (Paths at
+zero were tried: planted faults then ended in paths, at twice the edges of their smallest worlds.)
+
+Above 32 edges there are more than 64 corners: there a second string of bytes says how many times 64
+further.
+
+Every map that keeps the bounds is reached. Take a spanning tree and its vertices in an order that
+grows it; let each vertex grow as a leaf, then close its edges to itself and to earlier vertices in
+the order in which they lie clockwise from the edge by which it grew, a loop at its second end: each
+leads from the newest corner. So the marker cannot stay where growth began, at dart 0: it is drawn
+on its own. Only where it must lie at a leaf is it dart 0: the first edge is then in every tree.
+
+Cost: O(m) a byte, and there are m bytes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from copy import copy
+from dataclasses import dataclass
+from itertools import cycle
+from random import Random
+from typing import Any, Literal
+
+from topo_verify.strategies.shapes import MANY, Shape
+from topo_verify.world.rooted_map import Dart
+
+Kind = Literal["leaf", "split", "cross"]
+Kinds = tuple[Kind, Kind, Kind, Kind]
+"""What the two highest bits of a byte ask for, simplest first."""
+
+BALANCED: Kinds = ("leaf", "leaf", "split", "cross")
+CROWDED: Kinds = ("leaf", "split", "split", "cross")
+
+PLACES = 64
+"""How many places a byte can tell apart."""
+
+ONE_STRING = PLACES // 2
+"""Up to so many edges, a byte can tell all corners apart."""
+
+_INSTEAD: dict[Kind, tuple[Kind, Kind, Kind]] = {
+    "leaf": ("leaf", "split", "cross"),
+    "split": ("split", "cross", "leaf"),
+    "cross": ("cross", "split", "leaf"),
+}
+
+_TRIALS = 32
+"""How often bytes that lead into a dead end are shuffled before they are given up."""
+
+
+@dataclass(frozen=True, slots=True)
+class Grown:
+    """A map: dart 0 leaves the first vertex, and alpha(d) is d ^ 1.
+
+    Attributes:
+        sigma: the next dart clockwise.
+        vertex: the vertex of each dart, in the order in which they grew.
+        closings: the edges outside the tree, in the order in which they came.
+    """
+
+    sigma: tuple[Dart, ...]
+    vertex: tuple[int, ...]
+    closings: tuple[int, ...]
+
+    @property
+    def alpha(self) -> tuple[Dart, ...]:
+        """The other dart of each dart's edge."""
+        return tuple(dart ^ 1 for dart in range(len(self.sigma)))
+
+
+def grow(shape: Shape, kinds: Kinds, steps: bytes, further: bytes = b"\0") -> Grown | None:
+    """The map that these bytes mean; None if it came to a dead end, and so did all its shuffles.
+
+    Guarantees that the map has len(steps) edges and keeps the bounds, and that None can happen only
+    where `max_degree`, `simple` or `loopless` leave hardly any map.
+    """
+    shape = shape.at(len(steps))
+    shuffle = Random(steps)  # a function of the bytes, nothing else
+    for trial in range(_TRIALS):
+        sapling = _Sapling(shape, len(steps), genus_first=trial > 0)
+        grown = sapling.grow(kinds, steps, further)
+        if grown is not None:
+            return grown
+        if trial:
+            steps = shuffle.randbytes(len(steps))
+    return None
+
+
+class _Sapling:
+    """A map that grows. Lives for one call of `grow`."""
+
+    def __init__(self, shape: Shape, edges: int, *, genus_first: bool = False) -> None:
+        self._shape = shape
+        self._genus_first = genus_first
+        self._edges = edges
+        self._sigma: list[Dart] = []
+        self._vertex: list[int] = []
+        self._face: list[int] = []
+        self._closings: list[int] = []
+        self._room = [shape.first_room]  # per vertex: how many darts more it may have
+        self._total_room = shape.first_room
+        self._joins: dict[tuple[int, int], int] = {}  # edges between two vertices, where it matters
+        self._counts_joins = shape.max_parallel < MANY or shape.max_loops < MANY
+        self._bounded = shape.max_degree < MANY or shape.leaf
+        self._genus = 0
+        self._faces = 1
+        self._labels = 1
+
+    def grow(self, kinds: Kinds, steps: bytes, further: bytes) -> Grown | None:
+        """All the edges, one a byte; None at a dead end."""
+        for step, more in zip(steps, cycle(further), strict=False):
+            place = step % PLACES + PLACES * more
+            kind = kinds[step // PLACES]
+            if self._genus_first and self._genus < self._shape.min_genus and kind != "leaf":
+                kind = "split" if self._faces == 1 else "cross"
+            if not any(self._add(kind, place) for kind in _INSTEAD[kind]):
+                return None
+        return Grown(tuple(self._sigma), tuple(self._vertex), tuple(self._closings))
+
+    def _add(self, kind: Kind, place: int) -> bool:
+        """Add an edge of this kind, if there is one and the rest can still be done after it."""
+        if kind == "leaf":
+            possible = self._can_finish(1, 0, 0, self._shape.max_degree - 2)
+        elif kind == "split":
+            possible = self._can_finish(0, 1, 0, -2)
+        else:
+            possible = self._faces > 1 and self._can_finish(0, -1, 1, -2)
+        if not possible:
+            return False
+        careful = self._genus_first and kind == "split" and self._genus < self._shape.min_genus
+        for near, far in self._moves(kind, place):
+            books = self._books() if careful else None
+            if kind == "leaf":
+                self._leaf(near)
+            else:
+                self._join(near, far, across=kind == "cross")
+            if books is None or any(True for _ in self._moves("cross", 0)):
+                return True
+            self._restore(books)
+        return False
+
+    def _can_finish(self, vertices: int, faces: int, genus: int, room: int) -> bool:
+        return self._shape.can_finish(
+            edges=self._edges,
+            left=self._edges - len(self._sigma) // 2 - 1,
+            vertices=len(self._room) + vertices,
+            faces=self._faces + faces,
+            genus=self._genus + genus,
+            room=self._total_room + room,
+        )
+
+    # ------------------------------------------------------------ where an edge may go
+
+    def _moves(self, kind: Kind, place: int) -> Iterator[tuple[Dart, Dart]]:
+        """The corners where an edge of this kind may begin and end, those at this place first."""
+        darts = len(self._sigma)
+        if not darts:
+            if kind == "leaf" or self._may_join(0, 0):
+                yield -1, -1
+        elif kind != "leaf":
+            for near in range(darts - 1, -1, -1):
+                for far in _from_place(self._far_ends(near, across=kind == "cross"), place):
+                    yield near, far
+        elif self._bounded:
+            corners = (d ^ 1 for d in range(darts - 1, -1, -1))
+            free = [d for d in corners if self._room[self._vertex[d]] > 0]
+            for near in _from_place(free, place):
+                yield near, near
+        else:
+            near = darts - 1 - nth(place, darts) ^ 1
+            yield near, near
+
+    def _far_ends(self, near: Dart, *, across: bool) -> list[Dart]:
+        """The corners, newest first, to which an edge may lead from this one."""
+        face, vertex, here = self._face, self._vertex, self._face[near ^ 1]
+        corners = range(len(face) - 1, -1, -1)
+        if across:
+            ends = [d for d in corners if face[d ^ 1] != here]
+        else:
+            ends = [d for d in corners if face[d ^ 1] == here]
+        if not (self._bounded or self._counts_joins):
+            return ends
+        u = vertex[near]
+        fit = [self._may_join(u, v) for v in range(len(self._room))]
+        return [d for d in ends if fit[vertex[d]]]
+
+    def _may_join(self, u: int, v: int) -> bool:
+        if u == v:
+            return self._room[u] > 1 and self._joins.get((u, u), 0) < self._shape.max_loops
+        return (
+            self._room[u] > 0
+            and self._room[v] > 0
+            and self._joins.get((min(u, v), max(u, v)), 0) < self._shape.max_parallel
+        )
+
+    # ------------------------------------------------------------ how it grows
+
+    def _insert(self, corner: Dart, dart: Dart) -> None:
+        """Put the dart, which is the next one, into the corner."""
+        self._sigma.append(self._sigma[corner])
+        self._sigma[corner] = dart
+
+    def _leaf(self, corner: Dart) -> None:
+        darts, new = len(self._sigma), len(self._room)
+        if corner < 0:
+            vertex, face = 0, 0
+            self._sigma.append(0)
+        else:
+            vertex, face = self._vertex[corner], self._face[corner ^ 1]
+            self._insert(corner, darts)
+        self._sigma.append(darts + 1)
+        self._vertex += [vertex, new]
+        self._face += [face, face]
+        self._room[vertex] -= 1
+        self._room.append(self._shape.max_degree - 1)
+        self._total_room += self._shape.max_degree - 2
+        self._count_join(vertex, new)
+
+    def _join(self, near: Dart, far: Dart, *, across: bool) -> None:
+        a = len(self._sigma)
+        b = a + 1
+        if near < 0:
+            u, v, face = 0, 0, 0
+            self._sigma += [b, a]
+        else:
+            u, v, face = self._vertex[far], self._vertex[near], self._face[near ^ 1]
+            self._insert(far, a)
+            self._insert(a if near == far else near, b)
+        self._vertex += [u, v]
+        self._face += [face, face]
+        self._faces += -1 if across else 1
+        self._genus += across
+        if not across:
+            face = self._labels
+            self._labels += 1
+        self._label(b, face)
+        self._closings.append(a // 2)
+        self._room[u] -= 1
+        self._room[v] -= 1
+        self._total_room -= 2
+        self._count_join(u, v)
+
+    def _label(self, dart: Dart, face: int) -> None:
+        """Name the face of this dart: the new one of a split, all of what a cross made one."""
+        first = dart
+        while True:
+            self._face[dart] = face
+            dart = self._sigma[dart ^ 1]
+            if dart == first:
+                break
+
+    def _count_join(self, u: int, v: int) -> None:
+        if self._counts_joins:
+            ends = (min(u, v), max(u, v))
+            self._joins[ends] = self._joins.get(ends, 0) + 1
+
+    # ------------------------------------------------------------ how it is tried out
+
+    def _books(self) -> dict[str, Any]:
+        """Everything that changes, as it stands."""
+        return {name: copy(value) for name, value in vars(self).items() if name != "_shape"}
+
+    def _restore(self, books: dict[str, Any]) -> None:
+        vars(self).update(books)
+
+
+def _from_place(corners: list[Dart], place: int) -> list[Dart]:
+    """The corners from this place on, then those before it."""
+    if not corners:
+        return []
+    start = nth(place, len(corners))
+    return corners[start:] + corners[:start]
+
+
+def nth(place: int, corners: int) -> int:
+    """The number of one of so many corners: the place itself, as many of its low bits as there fit.
+
+    So it stays the same while corners that come after it go away.
+    """
+    bits = (corners - 1).bit_length()
+    number = place & ((1 << bits) - 1)
+    return number if number < corners else number - (1 << bits >> 1)

@@ -1,0 +1,53 @@
+"""What a strategy is called on a command line: `planar_worlds(max_edges=20, simple=True)`.
+
+A name alone is the strategy with its widest arguments; only `uniform_worlds` must be told how many
+edges. The text is taken apart in `topo_verify.world.calls`, never run by Python.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import MappingProxyType
+
+from hypothesis.strategies import SearchStrategy
+
+from topo_verify.strategies.dense import dense_worlds
+from topo_verify.strategies.general import nonplanar_worlds, planar_worlds, worlds
+from topo_verify.strategies.grids import lattices
+from topo_verify.strategies.symmetric import symmetric_worlds
+from topo_verify.strategies.trees import tree_worlds
+from topo_verify.strategies.uniform import uniform_worlds
+from topo_verify.world import calls
+from topo_verify.world.rooted_map import World
+
+WORLDS: MappingProxyType[str, Callable[..., SearchStrategy[World]]] = MappingProxyType(
+    {
+        make.__name__: make
+        for make in (
+            worlds,
+            planar_worlds,
+            nonplanar_worlds,
+            tree_worlds,
+            lattices,
+            dense_worlds,
+            symmetric_worlds,
+            uniform_worlds,
+        )
+    }
+)
+"""Every strategy that draws worlds, by its name."""
+
+_KIND = calls.Kind("strategy", "", "'planar_worlds(max_edges=20)'", words=True)
+
+
+def strategy_from(text: str) -> SearchStrategy[World]:
+    """The strategy that the text names.
+
+    Raises:
+        InputError: there is none of that name, its arguments do not fit, or no world keeps them.
+    Example:
+        >>> from hypothesis import find
+        >>> find(strategy_from("nonplanar_worlds(genus=2)"), lambda world: True).genus
+        2
+    """
+    return calls.call(text, WORLDS, _KIND, bare=True)

@@ -1,0 +1,43 @@
+"""What Hypothesis learns of topo_verify as soon as both are installed.
+
+    st.from_type(World)   draws from `worlds()`, so World may stand in any annotation
+    topo-ci               a profile: the same examples everywhere, no deadline
+    topo-nightly          a profile: new examples every time, fifty times as many
+
+Hypothesis calls `register` when it is imported (entry point, group `hypothesis`), in every program
+of the environment. So it makes no strategy and imports nothing that `import topo_verify` does not.
+"""
+
+from __future__ import annotations
+
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+
+from topo_verify.strategies.general import worlds
+from topo_verify.world.rooted_map import World
+
+
+def register() -> None:
+    """Register the type and the profiles. Twice does no harm."""
+    st.register_type_strategy(World, _worlds)
+    settings.register_profile(
+        "topo-ci",
+        max_examples=100,
+        derandomize=True,
+        deadline=None,
+        print_blob=True,
+        # How fast examples come depends on the machine, not on the code's worth.
+        suppress_health_check=[HealthCheck.too_slow],
+    )
+    settings.register_profile(
+        "topo-nightly",
+        max_examples=5_000,
+        derandomize=False,
+        deadline=None,
+        print_blob=True,
+        suppress_health_check=[HealthCheck.too_slow],
+    )
+
+
+def _worlds(_: type[World]) -> st.SearchStrategy[World]:
+    return worlds()

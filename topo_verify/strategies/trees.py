@@ -1,0 +1,35 @@
+"""Trees: worlds in which no hypothesis is ever true.
+
+    strategy      draws                                        its simplest world
+    tree_worlds   every plane tree within the bounds           m0/0: one vertex, nothing else
+
+Whatever a mapper confirms in one of them, it confirms falsely.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hypothesis.strategies import SearchStrategy
+
+from topo_verify.strategies.drawing import worlds_of
+from topo_verify.strategies.shapes import WIDEST, Marker, grown_shape
+from topo_verify.world.rooted_map import World
+
+
+def tree_worlds(
+    *,
+    min_edges: int = 0,
+    max_edges: int = WIDEST,
+    max_degree: int | None = None,
+    marker: Marker = "any",
+) -> SearchStrategy[World]:
+    """Every plane tree within the bounds. Shrinks to few edges, and stars.
+
+    Args: what they mean stands in `topo_verify.strategies.shapes`.
+    Raises:
+        InputError: no tree keeps all the bounds.
+    """
+    shape = grown_shape("tree_worlds", max_degree=max_degree, marker=marker)
+    shape = replace(shape, max_cycles=0)
+    return worlds_of("tree_worlds", shape, min_edges=min_edges, max_edges=max_edges, marker=marker)
