@@ -1,0 +1,123 @@
+"""The ten claims as statements about a run that can be read on their own, without the checkers.
+
+Each takes a run and asserts. `STATEMENTS` has them under the names of the claims.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from tests.helpers import of_type
+from tests.properties.truth import Truth
+from topo_verify import Exploration, certify
+from topo_verify.robot.events import Augment, Confirm, Finish, Move, Pose, Reject, Start
+from topo_verify.world.rooted_map import World
+
+
+def percepts_true(run: Exploration) -> None:
+    """What is sensed is what the world shows."""
+    truth = Truth(run)
+    for event, _ in truth.events():
+        if isinstance(event, Move):
+            assert event.percept == truth.sensed(truth.at)
+
+
+def true_hypothesis_posed(run: Exploration) -> None:
+    """If the edge leads to a known vertex, its dart is among the hypotheses."""
+    for event, true_end in Truth(run).events():
+        if isinstance(event, Pose) and true_end is not None:
+            assert true_end in event.hypotheses
+
+
+def true_hypothesis_kept(run: Exploration) -> None:
+    """No rule and no motion rejects the true hypothesis."""
+    for event, true_end in Truth(run).events():
+        if isinstance(event, Reject):
+            assert event.hypothesis != true_end
+
+
+def no_false_confirm(run: Exploration) -> None:
+    """What is confirmed is true."""
+    for event, true_end in Truth(run).events():
+        if isinstance(event, Confirm):
+            assert event.hypothesis == true_end
+
+
+def map_isomorphic(run: Exploration) -> None:
+    """Every map on the way is a part of the world, the last one all of it."""
+    truth = Truth(run)
+    for event, true_end in truth.events():
+        if isinstance(event, Augment):
+            assert (event.kind == "new") == (true_end is None)
+            assert event.dart == (len(truth.image) if true_end is None else true_end)
+            assert (
+                event.degree == truth.sensed(truth.run.world.alpha[truth.image[event.edge]]).degree
+            )
+    assert run.map is not None
+    assert World.from_map(run.map).is_isomorphic(run.world)
+    assert sorted(truth.image) == list(range(len(run.world.alpha)))
+    assert all(
+        run.world.alpha[truth.image[dart]] == truth.image[other]
+        for dart, other in truth.joined.items()
+    )
+
+
+def cost_honest(run: Exploration) -> None:
+    """The reported cost is the number of moves."""
+    (finish,) = of_type(Finish, run.trace)
+    assert finish.cost == len(of_type(Move, run.trace)) == run.cost
+
+
+def cost_within_bound(run: Exploration) -> None:
+    """Every edge is walked, and none of them more often than O(mn) times."""
+    m, n = len(run.world.edges), len(run.world.vertices)
+    assert m <= run.cost <= (m if n == 1 else m * (n + (2 * m - 1) * 2 * (n - 1)))
+    assert run.world.least_cost() <= run.cost
+
+
+def rejection_justified(run: Exploration) -> None:
+    """What was observed is what the world shows, and not what S shows."""
+    truth = Truth(run)
+    for event, _ in truth.events():
+        if not isinstance(event, Reject) or event.rule == "folding":
+            continue
+        evidence = event.evidence
+        assert evidence.expected != evidence.observed
+        if evidence.record is None and evidence.at is not None:
+            assert evidence.expected == truth.sensed(truth.image[evidence.at])
+        if event.rule == "motion":
+            assert evidence.observed == truth.sensed(truth.at)
+
+
+def map_entailed(run: Exploration) -> None:
+    """The bare log of doors and percepts proves the map."""
+    log = [event for event in run.trace if isinstance(event, Start | Move)]
+    proved = certify(log).map
+    assert proved is not None
+    assert proved.is_isomorphic(run.world)
+
+
+def decisions_entailed(run: Exploration) -> None:
+    """Each decision follows from what was seen before it."""
+    certificate = certify(run.trace)
+    assert certificate.entailed == certificate.decisions
+    assert certificate.decisions == len(of_type(Reject, run.trace)) + len(
+        of_type(Confirm, run.trace)
+    ) + len(of_type(Augment, run.trace))
+
+
+STATEMENTS: dict[str, Callable[[Exploration], None]] = {
+    statement.__name__.replace("_", "-"): statement
+    for statement in (
+        percepts_true,
+        true_hypothesis_posed,
+        true_hypothesis_kept,
+        no_false_confirm,
+        map_isomorphic,
+        cost_honest,
+        cost_within_bound,
+        rejection_justified,
+        map_entailed,
+        decisions_entailed,
+    )
+}

@@ -1,0 +1,125 @@
+"""Every claim, of every algorithm with every policy, in worlds of every strategy.
+
+Twice: as statements that can be read on their own (`statements.py`), and as the checkers judge it.
+(In every small world the claims are asked elsewhere: here worlds are larger, and drawn.)
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.helpers import SURE, edited, place
+from tests.properties.statements import STATEMENTS
+from tests.properties.worlds import STRATEGIES, runs
+from topo_verify import CATALOGUE, Exploration, World, explore
+from topo_verify.checkers import CLAIMS
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Evidence,
+    Finish,
+    Move,
+    Pose,
+    Reject,
+    Trace,
+)
+from topo_verify.robot.percept import Percept
+from topo_verify.strategies import observe, policies
+from topo_verify.trial import judge
+
+every_strategy = pytest.mark.parametrize("strategy", STRATEGIES)
+
+few = settings(max_examples=settings().max_examples // 4)
+"""A quarter for each of eight strategies: twice as many in all, in any profile."""
+
+
+def test_every_claim_is_stated() -> None:
+    assert list(STATEMENTS) == list(CLAIMS)
+
+
+@pytest.mark.parametrize("claim", STATEMENTS)
+@every_strategy
+@few
+@given(data=st.data())
+def test_every_claim_is_true_of_every_run(claim: str, strategy: str, data: st.DataObject) -> None:
+    STATEMENTS[claim](data.draw(runs(strategy)))
+
+
+# ---------------------------------------------------------------- as the checkers judge it
+
+
+def judged(run: Exploration) -> dict[str, str]:
+    """The status of each claim; the run is told to whoever looks at a failure."""
+    observe(run)
+    return dict(judge(run).claims)
+
+
+@every_strategy
+@pytest.mark.parametrize("name", SURE)
+@few
+@given(data=st.data())
+def test_every_claim_of_every_algorithm_holds_in_the_worlds_of_every_strategy(
+    strategy: str, name: str, data: st.DataObject
+) -> None:
+    world, chosen = data.draw(STRATEGIES[strategy]), data.draw(policies())
+    run = explore(world, name, pick=chosen.pick, order=chosen.order)
+    assert judged(run) == dict.fromkeys(CLAIMS, "ok")
+
+
+@pytest.mark.parametrize("strategy", ["planar_worlds", "tree_worlds", "lattices"])
+@given(data=st.data())
+def test_every_claim_of_what_assumes_a_plane_holds_in_planar_worlds(
+    strategy: str, data: st.DataObject
+) -> None:
+    world, chosen = data.draw(STRATEGIES[strategy]), data.draw(policies())
+    (name,) = (name for name in CATALOGUE if name not in SURE)
+    run = explore(world, name, pick=chosen.pick, order=chosen.order)
+    assert judged(run) == dict.fromkeys(CLAIMS, "ok")
+
+
+# ---------------------------------------------------------------- the statements can fail
+
+
+RUN = explore(World.from_id("m4/300"), "basic")
+"""Behind edge 5 darts 1, 2, 3 are posed, and 3 is true; behind edge 2 a walk confirms dart 6."""
+
+
+def other(kind: type[Event], nth: int = 0, **changes: Any) -> Trace:
+    """The trace of the run with other fields in the n-th event of this type."""
+    return edited(RUN.trace, place(RUN.trace, kind, nth), **changes)
+
+
+def without_the_last_walk() -> Trace:
+    """The trace without the move that led to the last confirmation."""
+    walked = place(RUN.trace, Confirm, -1) - 1
+    return RUN.trace[:walked] + RUN.trace[walked + 1 :]
+
+
+LIES: dict[str, Trace] = {
+    "percepts-true": other(Move, percept=Percept(9, None)),
+    "true-hypothesis-posed": other(Pose, 1, hypotheses=(1, 2)),
+    "true-hypothesis-kept": other(Reject, hypothesis=3),
+    "no-false-confirm": other(Confirm, hypothesis=1),
+    "map-isomorphic": other(Augment, 1, dart=2),
+    "cost-honest": other(Finish, cost=RUN.cost - 1),
+    "rejection-justified": other(
+        Reject, evidence=Evidence(0, expected=Percept(4, 1), observed=Percept(4, 1))
+    ),
+    "map-entailed": without_the_last_walk(),
+    "decisions-entailed": without_the_last_walk(),
+}
+"""For each claim but one a trace of which it is not true; that one is about the cost."""
+
+
+@pytest.mark.parametrize("claim", STATEMENTS)
+def test_every_statement_is_true_of_a_run_and_false_of_a_lie(claim: str) -> None:
+    STATEMENTS[claim](RUN)
+    lie = replace(RUN, trace=LIES[claim]) if claim in LIES else replace(RUN, cost=10**9)
+    with pytest.raises(AssertionError):
+        STATEMENTS[claim](lie)

@@ -1,0 +1,60 @@
+"""Statements that look true and are not, each with the smallest worlds in which it fails.
+
+They are kept so that nobody "mends" them. How many worlds there are, and how large the difference:
+docs/findings.md.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from tests.helpers import SURE, worlds
+from topo_verify import CATALOGUE, explore
+from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.world.rooted_map import World
+
+
+@cache
+def cost(world: World, name: str) -> int:
+    return CATALOGUE[name](SimulatedRobot(world, world.cost_bound)).cost
+
+
+def dearer(name: str, than: str, edges: range) -> list[str]:
+    """The worlds in which one algorithm costs more than another, smallest first."""
+    return [world.id for world in worlds(edges) if cost(world, name) > cost(world, than)]
+
+
+@pytest.mark.parametrize(
+    ("stronger", "weaker", "first", "worlds_of_that_size"),
+    [
+        ("enhancement-ii", "enhancement-i", "m4/16", 2),
+        ("enhancement-iii-all", "enhancement-i", "m4/16", 2),
+        ("enhancement-iii-one", "enhancement-ii+i", "m4/16", 2),
+        ("enhancement-i", "basic", "m5/177", 7),
+        ("enhancement-iii-all+i", "basic", "m5/177", 7),
+        ("enhancement-ii+i", "enhancement-ii", "m5/177", 7),
+        ("folding", "basic", "m5/177", 4),
+        ("folding", "enhancement-iii-all", "m5/177", 4),
+    ],
+)
+def test_a_stronger_algorithm_may_cost_more(
+    stronger: str, weaker: str, first: str, worlds_of_that_size: int
+) -> None:
+    """To reject earlier is to stand elsewhere afterwards, and the next edge is the nearest."""
+    size = int(first[1])
+    assert not dearer(stronger, weaker, range(1, size))
+    found = dearer(stronger, weaker, range(size, size + 1))
+    assert (found[0], len(found)) == (first, worlds_of_that_size)
+
+
+@pytest.mark.parametrize("name", SURE)
+def test_a_mirror_image_alone_may_cost_something_else(name: str) -> None:
+    """Policies go by numbers, and numbers go clockwise. With mirrored doors it costs the same."""
+    unlike = (
+        world.id
+        for world in worlds(range(1, 4))
+        if cost(world, name) != explore(world.mirror(), name).cost
+    )
+    assert next(unlike) == "m3/38"

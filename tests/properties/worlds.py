@@ -1,0 +1,28 @@
+"""What the property tests run in: worlds of each strategy, of a size that takes milliseconds."""
+
+from __future__ import annotations
+
+from hypothesis import strategies as st
+from hypothesis.strategies import SearchStrategy
+
+from topo_verify import Exploration, World, explore, strategies
+from topo_verify.strategies import mappers, observe
+
+STRATEGIES: dict[str, SearchStrategy[World]] = {
+    "worlds": strategies.worlds(max_edges=16),
+    "planar_worlds": strategies.planar_worlds(max_edges=16),
+    "nonplanar_worlds": strategies.nonplanar_worlds(max_edges=16),
+    "tree_worlds": strategies.tree_worlds(max_edges=20),
+    "dense_worlds": strategies.dense_worlds(max_edges=16),
+    "lattices": strategies.lattices(max_edges=24),
+    "symmetric_worlds": strategies.symmetric_worlds(max_edges=16),
+    "uniform_worlds": strategies.uniform_worlds(edges=9),
+}
+
+
+@st.composite
+def runs(draw: st.DrawFn, name: str) -> Exploration:
+    """A run of any algorithm that is right in all worlds, with any policies, in such a world."""
+    run = explore(draw(STRATEGIES[name]), draw(mappers()))
+    observe(run)
+    return run
