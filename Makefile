@@ -45,7 +45,7 @@ types: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/pyright --pythonpath $(BIN)/python
 
-bench: $(VENV)/.core
+bench: $(VENV)/.bench
 	$(BIN)/python benchmarks/run.py
 
 # --- set-up: an environment, then what is pinned, then this tree in editable form --------------
@@ -66,13 +66,17 @@ $(VENV)/.dev: $(VENV)/.core
 	$(INSTALL) -c constraints.txt --no-build-isolation -e '.[dev]'
 	@touch $@
 
+$(VENV)/.bench: $(VENV)/.core
+	$(INSTALL) -c constraints.txt --no-build-isolation -e '.[bench]'
+	@touch $@
+
 # --- for maintainers ---------------------------------------------------------------------------
 
 # One resolution for all supported Pythons, markers included. No header and no index: the file
 # names neither the machine nor the registry that it was made with.
 constraints: $(VENV)/.created
 	$(INSTALL) uv
-	$(BIN)/uv pip compile --quiet --universal --upgrade --python-version 3.11 --extra dev \
+	$(BIN)/uv pip compile --quiet --universal --upgrade --python-version 3.11 --extra dev --extra bench --extra proofs \
 	    --no-header --no-annotate --no-emit-index-url --no-emit-find-links pyproject.toml -o constraints.new
 	{ echo "# The versions that the suite is run with, on every supported Python: make constraints"; cat constraints.new; } > constraints.txt
 	rm constraints.new

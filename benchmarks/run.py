@@ -1,8 +1,8 @@
 """The speeds that the project promises, measured here and now: `make bench`.
 
-Three things on one core, each beside what is required of it: listing worlds, all small worlds
-through all algorithms with and without traces and checkers, and one large lattice. Times are those
-of the processor, so that other work on the machine counts for little.
+Each beside what is required of it: listing worlds, all small worlds through all algorithms with and
+without traces and checkers, drawing worlds with Hypothesis, one large lattice. All on one core, in
+processor time, so that other work on the machine counts for little.
 """
 
 from __future__ import annotations
@@ -10,6 +10,8 @@ from __future__ import annotations
 import platform
 from collections.abc import Callable, Iterator
 from time import process_time
+
+import drawing
 
 from topo_verify import CATALOGUE, World, examine, families
 from topo_verify.robot.simulator import SimulatedRobot
@@ -58,7 +60,7 @@ def examine_all() -> None:
             assert report.ok, str(report)
 
 
-def row(what: str, measured: str, required: str = "") -> None:
+def row(what: str, measured: str = "", required: str = "") -> None:
     """One line of the table."""
     print(f"{what:<58}{measured:>18}{required:>18}")
 
@@ -76,6 +78,9 @@ def main() -> None:
     what = f"{worlds:,} worlds with 1-5 edges x {len(PAPER)} algorithms"
     row(what, f"{seconds(explore_all):.1f} s")
     row("  the same with traces and all checkers", f"{seconds(examine_all):.1f} s", "< 40 s")
+
+    print()
+    drawing.table(row)
 
     lattice = families.lattice(20, 20, holes=0.2, seed=7)
     vertices, edges = len(lattice.vertices), len(lattice.edges)

@@ -31,7 +31,7 @@ from topo_verify.targets import Target, targets
     default=campaign.SEED,
     show_default=True,
     metavar="N",
-    help="Draws the sampled worlds.",
+    help="Draws the sampled and generated worlds.",
 )
 @options.limits
 @output_options
@@ -83,7 +83,7 @@ def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
 def _live(entry: Part) -> Iterator[Block]:
     """One part, as soon as it is done."""
     row = (entry.part, entry.verdict, entry.summary)
-    yield Table(("part", "verdict", "summary"), [row], widths=(14, 9, 0), headed=False)
+    yield Table(("part", "verdict", "summary"), [row], widths=(16, 9, 0), headed=False)
     yield from _first(entry)
 
 

@@ -1,0 +1,52 @@
+"""The first property test of docs/property-tests.md, run as its readers will run it."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLE = ROOT / "examples" / "property_test"
+PAGE = (ROOT / "docs" / "property-tests.md").read_text()
+
+
+def test_the_page_shows_the_example_as_it_is() -> None:
+    blocks = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+    assert (EXAMPLE / "test_my_mapper.py").read_text() == blocks[0]
+
+
+@pytest.mark.parametrize(("arguments", "world"), [("", "m1/1"), (", simple=True", "m3/13")])
+def test_it_fails_with_the_world_that_the_page_says(
+    arguments: str, world: str, tmp_path: Path
+) -> None:
+    shutil.copytree(EXAMPLE, tmp_path, dirs_exist_ok=True)
+    test = tmp_path / "test_my_mapper.py"
+    test.write_text(test.read_text().replace("max_edges=30", f"max_edges=30{arguments}"))
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", test],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert f"world=World.from_id('{world}')" in done.stdout
+    assert f"again: topo-verify replay {world} --target my_mapper:explore" in done.stdout
+    assert f"World.from_id('{world}')" in done.stdout
+    assert f"`{world}`" in PAGE
+
+
+def test_the_other_test_of_the_page_passes() -> None:
+    source = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)[1]
+    done = subprocess.run(
+        [sys.executable, "-c", f"{source}\ntest_no_algorithm_is_cheaper_than_a_proof()"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
