@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from time import process_time
 
 import drawing
+import search
 
 from topo_verify import CATALOGUE, World, examine, families
 from topo_verify.robot.simulator import SimulatedRobot
@@ -81,6 +82,9 @@ def main() -> None:
 
     print()
     drawing.table(row)
+
+    print()
+    search.table(row)
 
     lattice = families.lattice(20, 20, holes=0.2, seed=7)
     vertices, edges = len(lattice.vertices), len(lattice.edges)

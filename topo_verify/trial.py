@@ -249,6 +249,12 @@ def judge(
     return msgspec.structs.replace(report, findings=findings)
 
 
+def undecided(run: Exploration, report: Report) -> bool:
+    """Did it only run out of time while it moved on? Then nobody knows whether it is right."""
+    lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
+    return run.limit == "world-timeout" and lost
+
+
 def _put_to_the_test(finding: Finding, run: Exploration) -> Finding:
     """A finding that names a witness of a wrong map, with what the same mapper does there."""
     if finding.claim != "map-entailed" or finding.witness is None or run.mapper is None:

@@ -165,8 +165,17 @@ def test_formulas_count_where_nobody_can_list() -> None:
 
 
 def test_a_class_without_a_formula_is_not_counted_where_listing_takes_too_long() -> None:
-    with pytest.raises(InputError, match=r"class simple: there is no formula .* 7 edges or fewer"):
-        WorldClass.parse("simple").count(8)
+    with pytest.raises(InputError, match=r"class planar,simple: there is no .* 7 edges or fewer"):
+        WorldClass.parse("planar,simple").count(8)
+    with pytest.raises(InputError, match="counted up to 16 edges only"):
+        WorldClass.parse("simple").count(17)
+
+
+@pytest.mark.parametrize("text", ["simple", "loopless", "max-degree:3", "loopless,max-degree:4"])
+def test_classes_of_graphs_are_counted_by_degrees_as_by_a_list(text: str) -> None:
+    chosen = WorldClass.parse(text)
+    for edges in range(6):
+        assert chosen.count(edges) == sum(map(chosen.admits, counting.tables(edges)))
 
 
 # ---------------------------------------------------------------- one of them

@@ -20,7 +20,7 @@ from topo_verify.campaigns.parts import Cost, Part, Tell, Verdict, plural
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.robot.limits import Limits
 from topo_verify.targets import Target
-from topo_verify.trial import Exploration, Report
+from topo_verify.trial import Exploration, Report, undecided
 from topo_verify.world.rooted_map import World
 
 PATIENCE = 3
@@ -28,12 +28,6 @@ PATIENCE = 3
 
 KEPT_RUNS, KEPT_FINDINGS = 3, 5
 """Of how many failing runs findings are kept, and how many of each."""
-
-
-def undecided(run: Exploration, report: Report) -> bool:
-    """Did it only run out of time while it moved on? Then nobody knows whether it is right."""
-    lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
-    return run.limit == "world-timeout" and lost
 
 
 @dataclass

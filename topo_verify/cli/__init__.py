@@ -1,6 +1,7 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
-verify.py, explore.py, world.py, replay.py   the commands
+verify.py, explore.py, world.py (sample.py), search.py,
+replay.py, certify.py     the commands
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown
@@ -24,6 +25,7 @@ from topo_verify.cli.certify import certify
 from topo_verify.cli.explore import explore
 from topo_verify.cli.failures import ExitCode, explain, say, version
 from topo_verify.cli.replay import replay
+from topo_verify.cli.search import search
 from topo_verify.cli.verify import verify
 from topo_verify.cli.world import world
 
@@ -83,5 +85,12 @@ def main() -> None:
     """
 
 
-for command in (verify, explore, world, replay, certify):
+for command in (
+    verify,
+    explore,
+    world,
+    search,
+    replay,
+    certify,
+):
     main.add_command(command)

@@ -14,12 +14,11 @@ import msgspec
 
 from topo_verify import trial
 from topo_verify.campaigns.parts import plural
-from topo_verify.campaigns.trials import undecided
 from topo_verify.checkers import Finding
 from topo_verify.cli.layout import Block, Bullets, Command, Text
 from topo_verify.errors import InputError
 from topo_verify.robot.limits import Limits
-from topo_verify.trial import Exploration, Report
+from topo_verify.trial import Exploration, Report, undecided
 from topo_verify.world.counting import MAX_ID_EDGES
 from topo_verify.world.naming import world_from
 from topo_verify.world.rooted_map import World

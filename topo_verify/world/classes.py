@@ -26,11 +26,12 @@ from random import Random
 
 from topo_verify.errors import InputError
 from topo_verify.world import counting
+from topo_verify.world.counting_by_degrees import count_graphs
 from topo_verify.world.counting_by_genus import count_genus
 from topo_verify.world.rooted_map import World
 
 MAX_LISTED_EDGES = 7
-"""Classes that no formula counts are counted by listing: 1,708,394 worlds with 7 edges."""
+"""Some classes are counted by listing: 1,708,394 worlds with 7 edges."""
 
 MAX_TRIES = 100_000
 """So many worlds are drawn, at most, in search of one in the class."""
@@ -136,12 +137,19 @@ class WorldClass:
     def count(self, edges: int) -> int:
         """How many worlds with this many edges are in the class.
 
-        By a formula for `any`, `planar` and the genus; else by listing all worlds.
+        By a formula for `any`, `planar` and the genus; for classes of graphs by their degrees, up
+        to 16 edges. Where a genus is combined with a property of the graph neither reaches: then
+        all worlds are listed and looked at one by one. None of these knows how a class is searched
+        (`growing.py`), so a search that meets the number has left nothing out.
         Raises:
-            InputError: there is no formula, and more than `MAX_LISTED_EDGES` edges.
+            InputError: more edges than can be counted.
         """
         if self._has_formula:
             return self._count_by_formula(edges)
+        if self.genus is None and self.most_genus is None:
+            return count_graphs(
+                edges, most_degree=self.most_degree, loopless=self.loopless, simple=self.simple
+            )
         if edges > MAX_LISTED_EDGES:
             raise InputError(
                 f"class {self}: there is no formula for how many worlds are in it, and with {edges}"

@@ -1,0 +1,49 @@
+"""How fast the exhaustive search is, and that its memory does not grow with the worlds.
+
+`.venv/bin/python benchmarks/search.py` alone, or with everything else: `make bench`. Seconds are
+those on the clock, for two processes share the work; the processor seconds of both stand beside
+them, for a machine that does other work. Memory is the most that any process took.
+"""
+
+from __future__ import annotations
+
+import resource
+from collections.abc import Callable
+from time import perf_counter
+
+from topo_verify.search import search
+
+Row = Callable[[str, str, str], None]
+
+WORKERS = 2
+
+
+def _processor() -> float:
+    """Processor seconds so far, with the processes that have ended."""
+    mine, theirs = (resource.getrusage(who) for who in _WHO)
+    return mine.ru_utime + mine.ru_stime + theirs.ru_utime + theirs.ru_stime
+
+
+_WHO = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+
+
+def table(row: Row) -> None:
+    """Print the rows."""
+    for edges, required in ((4, ""), (5, ""), (6, "< 60 s")):
+        begin, processor = perf_counter(), _processor()
+        found = search("basic", edges=edges, workers=WORKERS)
+        assert found.verdict == "EXHAUSTED"
+        took, used = perf_counter() - begin, _processor() - processor
+        what = f"search basic --edges {edges}, {found.total:,} worlds, {WORKERS} workers"
+        row(what, f"{took:.1f} s", required)
+        most = max(resource.getrusage(who).ru_maxrss for who in _WHO) // 1024
+        row("  processor seconds; the most memory of a process", f"{used:.1f} s; {most} MB", "")
+
+
+def main() -> None:
+    """Print them with no other benchmark."""
+    table(lambda what, measured, required: print(f"{what:<58}{measured:>18}{required:>18}"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,176 @@
+"""`search` on the command line: its JSON, its exit codes, and what a person reads."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Call = Callable[..., Any]
+FIELDS = {"target", "class", "edges", "checked", "total", "verdict", "counterexample", "by_edges"}
+SIZES = {"edges", "checked", "total", "max_cost", "total_cost", "worst"}
+
+
+def test_the_entry_of_an_exhausted_class_has_the_promised_fields(results: Call) -> None:
+    (entry,) = results("search basic --edges 3 --class planar")["results"]
+    assert entry.keys() >= FIELDS
+    assert (entry["target"], entry["class"], entry["edges"]) == ("basic", "planar", 3)
+    assert (entry["verdict"], entry["checked"], entry["total"]) == ("EXHAUSTED", 65, 65)
+    assert entry["counterexample"] is None
+    assert [size.keys() >= SIZES for size in entry["by_edges"]] == [True] * 3
+    assert [size["max_cost"] for size in entry["by_edges"]] == [1, 3, 10]
+    assert entry["by_edges"][2]["worst"] == ["m3/9"]
+
+
+@pytest.mark.parametrize("workers", [0, 1, 2])
+def test_a_counterexample_exits_1_and_is_the_same_whoever_found_it(
+    results: Call, call: Call, workers: int
+) -> None:
+    line = f"search mappers.py:guesses --edges 3 --workers {workers}"
+    (entry,) = results(line, code=1)["results"]
+    first = entry["counterexample"]
+    assert first.keys() == {"world", "edges", "claim", "message", "replay"}
+    assert (first["world"], first["edges"], first["claim"]) == ("m1/1", 1, "map-isomorphic")
+    assert (entry["verdict"], entry["checked"]) == ("REFUTED", 2)
+    assert call(first["replay"].removeprefix("topo-verify ")).exit_code == 1
+
+
+def test_json_is_equal_byte_for_byte_but_for_timing(program: Call) -> None:
+    line = "search mappers.py:ignores_direction --edges 3 --keep-going --format json --workers"
+    texts = {
+        program(f"{line} {workers}", PYTHONHASHSEED=seed).stdout.split('"timing"')[0]
+        for workers, seed in (("0", "1"), ("1", "2"), ("2", "3"))
+    }
+    assert len(texts) == 1
+    assert json.loads(texts.pop() + '"timing": {}}')["exit"] == 1
+
+
+def test_several_targets_are_searched_one_after_the_other(results: Call) -> None:
+    entries = results("search basic,folding --edges 2 --workers 0")["results"]
+    assert [entry["target"] for entry in entries] == ["basic", "folding"]
+
+
+def test_a_mapper_out_of_time_exits_3(results: Call, call: Call) -> None:
+    line = "search mappers.py:strolls --edges 1 --workers 0 --world-timeout 0.02"
+    (entry,) = results(line, code=3)["results"]
+    assert (entry["verdict"], entry["checked"]) == ("UNKNOWN", 0)
+    assert "in 2 more a run was out of time" in " ".join(call(line).stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("search", "name a TARGET, or two mappers with --compare A,B"),
+        ("search basic --compare basic,folding", "one of the two"),
+        ("search --compare basic", "name two algorithms of the catalogue, as A,B"),
+        ("search --compare basic,basic", "name two algorithms of the catalogue, as A,B"),
+        ("search basic --edges 0", "invalid value for '--edges'"),
+        ("search basic --class tidy", "'tidy' is no class"),
+        ("search basic --class simple,planar --edges 9", "there is no formula"),
+        ("search basic,folding --ledger L", "a ledger is of one TARGET; basic,folding names 2"),
+        ("search basic --ledger mappers.py", "it is no ledger: name another file"),
+        ("search basic --policies every", "over a hundred million ways to choose; ask for 3 edges"),
+        ("search mappers.py:silent --policies all", "has no policies"),
+        ("search basic --workers -1", "invalid value for '--workers'"),
+    ],
+)
+def test_what_cannot_be_searched_gets_one_sentence(call: Call, line: str, words: str) -> None:
+    done = call(line)
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+# ---------------------------------------------------------------- for people
+
+
+def test_a_person_reads_how_much_of_what_was_checked(call: Call) -> None:
+    text = call("search basic --edges 3 --workers 0").stdout
+    assert text.splitlines()[0] == "basic: worlds of 1 to 3 edges"
+    assert "EXHAUSTED: 86 of 86 worlds checked, no claim failed" in text
+    assert "max cost" not in text
+
+
+def test_a_person_reads_the_smallest_counterexample_and_its_line(call: Call) -> None:
+    text = call("search mappers.py:guesses --edges 3 --workers 0").stdout
+    assert "REFUTED: 2 of 86 worlds checked, a claim fails in 1" in text
+    assert "smallest counterexample: m1/1\n" in text
+    assert "  again: topo-verify replay m1/1 --target mappers.py:guesses\n" in text
+
+
+def test_keeping_going_shows_the_smallest_world_of_each_claim(call: Call) -> None:
+    text = call("search mappers.py:guesses --edges 3 --workers 0 --keep-going").stdout
+    assert "claim that fails   in worlds  smallest\n" in text
+    assert "cost-within-bound" in text
+
+
+def test_worst_shows_costs_and_the_worlds_that_have_them(call: Call) -> None:
+    lines = call("search basic --edges 3 --workers 0 --worst").stdout.splitlines()
+    titles = "edges checked total failing max cost mean in worlds which"
+    assert " ".join(lines[1].split()) == titles
+    assert lines[4].split() == ["3", "74", "74", "0", "10", "3.91", "1", "m3/9"]
+    assert "m2/1, m2/2, m2/6" in lines[3]
+
+
+def test_compare_shows_where_the_first_costs_more(call: Call, results: Call) -> None:
+    line = "search --compare enhancement-ii,enhancement-i --edges 4 --workers 0"
+    (entry,) = results(line)["results"]
+    assert [size["compare"]["dearer"] for size in entry["by_edges"]] == [0, 0, 0, 2]
+    assert entry["by_edges"][3]["compare"]["first"][0] == {
+        "world": "m4/16", "cost": 11, "other": 9,
+    }  # fmt: skip
+    text = call(line).stdout
+    assert "A enhancement-ii, B enhancement-i: worlds of 1 to 4 edges" in text
+
+
+def test_what_a_mapper_does_not_declare_is_said(call: Call) -> None:
+    text = " ".join(call("search mappers.py:silent --edges 2 --workers 0").stdout.split())
+    assert "Not judged, for mappers.py:silent declares nothing on it: true-hypothesis-p" in text
+
+
+def test_markdown_has_tables(call: Call) -> None:
+    text = call("search basic --edges 2 --workers 0 --format markdown").stdout
+    assert "| edges | checked | total | failing |" in text
+
+
+# ---------------------------------------------------------------- ledger, Ctrl-C
+
+
+def test_a_ledger_is_gone_on_with(results: Call, folder: Path) -> None:
+    line = "search basic --workers 2 --ledger done --edges"
+    (before,) = results(f"{line} 2")["results"]
+    assert (folder / "done").exists()
+    (after,) = results(f"{line} 3")["results"]
+    assert after["by_edges"][:2] == before["by_edges"]
+    assert after["checked"] == 86
+
+
+@pytest.mark.parametrize("workers", ["0", "2"])
+def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path, workers: str) -> None:
+    line = "search mappers.py:starts_and_sleeps --move-timeout 60 --format json --workers"
+    running = subprocess.Popen(
+        [sys.executable, "-m", "topo_verify", *line.split(), workers],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509  no threads here
+    )
+    while not (folder / "at-work").exists():
+        assert running.poll() is None, running.communicate()
+        time.sleep(0.02)
+    running.send_signal(signal.SIGINT)
+    out, error = running.communicate(timeout=30)
+    envelope = json.loads(out)
+    (entry,) = envelope["results"]
+    assert running.returncode == envelope["exit"] == 3
+    assert entry["verdict"] == "UNKNOWN"
+    assert 0 <= entry["checked"] <= 2  # the worlds of one edge, as far as they were done
+    assert error.startswith("topo-verify: interrupted; 1 result came out before")

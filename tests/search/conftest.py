@@ -1,0 +1,18 @@
+"""A folder of its own for each test of the search, with the mappers in it."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The current folder of the test; it holds mappers.py."""
+    shutil.copy(Path(__file__).parent / "mappers.py", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [*sys.path])  # a mapper's folder is put there
+    return tmp_path

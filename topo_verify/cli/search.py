@@ -1,0 +1,350 @@
+"""`topo-verify search`: every world up to so many edges, and the smallest counterexample."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass
+
+import click
+import msgspec
+
+from topo_verify.campaigns.parts import plural
+from topo_verify.cli import options
+from topo_verify.cli.failures import version
+from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.runs import undeclared
+from topo_verify.errors import InputError
+from topo_verify.robot.limits import Limits
+from topo_verify.search import Compared, Costs, Failure, Found, Plan, Search, Size
+from topo_verify.search.ledger import Ledger
+from topo_verify.search.plan import CHOICES, Choices
+from topo_verify.search.workers import processors
+from topo_verify.targets import Target, targets
+from topo_verify.world.classes import WorldClass
+
+SHOWN = 3
+"""Of worlds that have something in common, so many are shown; JSON has more."""
+
+
+class Counterexample(msgspec.Struct, frozen=True):
+    """A world in which a claim fails, and the line that shows it again."""
+
+    world: str
+    edges: int
+    claim: str
+    message: str
+    replay: str
+
+
+class FailingClaim(msgspec.Struct, frozen=True):
+    """In how many of the checked worlds a claim fails, and the smallest of them."""
+
+    claim: str
+    failing: int
+    smallest: Counterexample
+
+
+class ByEdges(msgspec.Struct, frozen=True):
+    """The worlds of one size; docs/commands.md.
+
+    Attributes:
+        checked, total, failing, undecided: worlds.
+        runs: in which no claim fails; costs are theirs, in edge traversals.
+        max_cost, total_cost: the highest of them, and the sum.
+        attained: in how many worlds the highest.
+        worst: the first of these.
+        compare: with --compare: where the first mapper costs more than the second, and less.
+    """
+
+    edges: int
+    checked: int
+    total: int
+    failing: int
+    undecided: int
+    runs: int
+    max_cost: int
+    total_cost: int
+    attained: int
+    worst: tuple[str, ...]
+    compare: Compared | None
+
+
+class Searched(msgspec.Struct, frozen=True, rename={"kind": "class"}):
+    """One search: an entry of `results`; docs/commands.md."""
+
+    target: str
+    kind: str
+    edges: int
+    policies: str
+    checked: int
+    total: int
+    verdict: str
+    counterexample: Counterexample | None
+    by_edges: tuple[ByEdges, ...]
+    claims: tuple[FailingClaim, ...]
+    not_declared: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What the options ask for."""
+
+    edges: int
+    kind: WorldClass
+    workers: int
+    ledger: str | None
+    keep_going: bool
+    policies: Choices
+    worst: bool
+    compare: bool
+    limits: Limits
+
+
+@click.command(
+    short_help="Every world up to N edges: the smallest counterexample.",
+    epilog=options.epilog(
+        "search basic --edges 5",
+        "search my_mapper.py:explore --class planar --keep-going",
+        "search enhancement-i --edges 6 --ledger FILE --worst",
+        "search --compare enhancement-ii,enhancement-i --edges 5",
+    ),
+)
+@click.argument("target", required=False, metavar="[TARGET]")
+@click.option(
+    "--edges",
+    type=click.IntRange(min=1),
+    default=5,
+    show_default=True,
+    metavar="N",
+    help="Worlds of 1 to N edges.",
+)
+@options.world_class
+@click.option(
+    "--workers",
+    type=click.IntRange(min=0),
+    metavar="N",
+    help="So many processes; 0: this one alone.  [default: one a processor]",
+)
+@click.option("--ledger", metavar="FILE", help="Keep what is done in FILE, and go on from there.")
+@click.option("--keep-going", is_flag=True, help="Do not stop at the first counterexample.")
+@click.option(
+    "--policies",
+    type=click.Choice(CHOICES),
+    default="reference",
+    show_default=True,
+    help="The reference policies, all that have names, or every choice there is.",
+)
+@click.option(
+    "--worst", is_flag=True, help="Show the highest costs, and the worlds that have them."
+)
+@click.option("--compare", metavar="A,B", help="Where does A cost more than B?")
+@options.limits
+@output_options
+def search(  # noqa: PLR0913  an argument an option
+    output: Output,
+    *,
+    target: str | None,
+    edges: int,
+    kind: str,
+    workers: int | None,
+    ledger: str | None,
+    keep_going: bool,
+    policies: Choices,
+    worst: bool,
+    compare: str | None,
+    limits: Limits,
+) -> int:
+    """Examine a mapper in every world of 1 to N edges, smallest first.
+
+    Stops at the smallest counterexample, or says EXHAUSTED and of how many worlds. TARGET is a name
+    of the catalogue, several with commas, all, module:attribute or file.py:attribute.
+    """
+
+    def searches() -> Iterator[Result[Searched]]:
+        asked = _Asked(
+            edges=edges,
+            kind=WorldClass.parse(kind),
+            workers=processors() if workers is None else workers,
+            ledger=ledger,
+            keep_going=keep_going,
+            policies=policies,
+            worst=worst,
+            compare=compare is not None,
+            limits=limits,
+        )
+        for mappers in _mappers(target, compare, ledger):
+            yield from _searched(output, mappers, asked)
+
+    def show(entries: Sequence[Searched]) -> Iterator[Block]:
+        for entry in entries:
+            yield from _show(entry, worst=worst)
+
+    return output.run("search", searches, show)
+
+
+def _mappers(
+    target: str | None, compare: str | None, ledger: str | None
+) -> list[tuple[Target, ...]]:
+    """The mappers of each search: one, or the two that are compared."""
+    if (target is None) == (compare is None):
+        raise InputError("name a TARGET, or two mappers with --compare A,B: one of the two")
+    if compare is not None:
+        pair = targets(compare)
+        if len(pair) != 2 or pair[0] == pair[1]:
+            raise InputError(f"--compare {compare}: name two algorithms of the catalogue, as A,B")
+        return [pair]
+    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(target or "")]
+    if ledger is not None and len(found) != 1:
+        raise InputError(
+            f"--ledger {ledger}: a ledger is of one TARGET; {target} names {len(found)}"
+        )
+    return found
+
+
+def _searched(
+    output: Output, mappers: tuple[Target, ...], asked: _Asked
+) -> Iterator[Result[Searched]]:
+    """One search, also where it is interrupted."""
+    plan = Plan(
+        targets=tuple(mapper.text for mapper in mappers),
+        edges=asked.edges,
+        kind=str(asked.kind),
+        choices=asked.policies,
+        keep_going=asked.keep_going,
+        limits=asked.limits,
+    )
+    book = None if asked.ledger is None else Ledger(asked.ledger, plan, mappers, version())
+    with book or nullcontext():
+        work = Search(plan, mappers, workers=asked.workers, ledger=book)
+        try:
+            work.work(output.progress)
+        except KeyboardInterrupt:
+            yield _result(work.found(), asked)
+            raise
+        yield _result(work.found(), asked)
+
+
+def _result(found: Found, asked: _Asked) -> Result[Searched]:
+    first = found.counterexample
+    tally = found.tally
+    silent = (
+        c for c, seen in tally.statuses.items() if not seen.keys() & {"ok", "failed"} and seen
+    )
+    entry = Searched(
+        target=",".join(found.plan.targets),
+        kind=found.plan.kind,
+        edges=found.plan.edges,
+        policies=found.plan.choices,
+        checked=found.checked,
+        total=found.total,
+        verdict=found.verdict,
+        counterexample=None if first is None else _counterexample(first),
+        by_edges=tuple(_by_edges(size, found.plan, asked) for size in found.by_edges),
+        claims=tuple(
+            FailingClaim(claim, failing.worlds, _counterexample(failing.smallest))
+            for claim, failing in found.claims.items()
+        ),
+        not_declared=tuple(silent),
+    )
+    return Result(entry, failed=found.verdict == "REFUTED", incomplete=found.verdict == "UNKNOWN")
+
+
+def _counterexample(failure: Failure) -> Counterexample:
+    return Counterexample(
+        failure.world, failure.edges, failure.claim, failure.message, failure.replay
+    )
+
+
+def _by_edges(size: Size, plan: Plan, asked: _Asked) -> ByEdges:
+    costs = size.tally.costs.get(plan.targets[0], Costs())
+    return ByEdges(
+        edges=size.edges,
+        checked=size.checked,
+        total=size.total,
+        failing=size.failing,
+        undecided=size.tally.undecided,
+        runs=costs.runs,
+        max_cost=costs.most,
+        total_cost=costs.total,
+        attained=costs.attained,
+        worst=costs.worst,
+        compare=size.tally.compared if asked.compare else None,
+    )
+
+
+# ---------------------------------------------------------------- for people
+
+
+def _show(entry: Searched, *, worst: bool) -> Iterator[Block]:
+    kind = "" if entry.kind == "any" else f", class {entry.kind}"
+    policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
+    title = f"{_who(entry)}: worlds of 1 to {plural(entry.edges, 'edge')}{kind}{policies}"
+    rows = [
+        (str(e.edges), str(e.checked), str(e.total), str(e.failing), *(_costs(e) if worst else ()))
+        for e in entry.by_edges
+    ]
+    costs = (">max cost", ">mean", ">in worlds", "which") if worst else ()
+    yield Table((">edges", ">checked", ">total", ">failing", *costs), rows, title)
+    pairs = [_compared(e.edges, e.compare) for e in entry.by_edges if e.compare is not None]
+    if pairs:
+        yield Text("")
+        yield Table((">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs)
+    yield Text("")
+    yield Text(f"{entry.verdict}: {_upshot(entry)}")
+    yield from _counterexamples(entry)
+    if entry.not_declared and entry.verdict != "REFUTED":
+        yield Text(undeclared(entry.target, entry.not_declared))
+
+
+def _who(entry: Searched) -> str:
+    if all(e.compare is None for e in entry.by_edges):
+        return entry.target
+    first, _, second = entry.target.partition(",")
+    return f"A {first}, B {second}"
+
+
+def _costs(entry: ByEdges) -> tuple[str, ...]:
+    mean = f"{entry.total_cost / entry.runs:.2f}" if entry.runs else "-"
+    worst = _some(entry.worst, entry.attained)
+    return str(entry.max_cost), mean, str(entry.attained), worst
+
+
+def _compared(edges: int, pair: Compared) -> tuple[str, ...]:
+    first = [f"{world.world} ({world.cost}, {world.other})" for world in pair.first]
+    row = map(str, (edges, pair.dearer, pair.most, pair.cheaper))
+    return (*row, _some(first, pair.dearer))
+
+
+def _some(names: Sequence[str], number: int) -> str:
+    """The first of so many."""
+    shown = ", ".join(names[:SHOWN])
+    return f"{shown} …" if number > SHOWN else shown or "-"
+
+
+def _upshot(entry: Searched) -> str:
+    worlds = f"{entry.checked} of {plural(entry.total, 'world')}"
+    failing = sum(size.failing for size in entry.by_edges)
+    undecided = sum(size.undecided for size in entry.by_edges)
+    late = f"; in {plural(undecided, 'more', 'more')} a run was out of time" if undecided else ""
+    if entry.verdict == "REFUTED":
+        return f"{worlds} checked, a claim fails in {failing}{late}"
+    if entry.verdict == "UNKNOWN":
+        return f"{worlds} checked, no claim failed there{late}"
+    return f"{worlds} checked, no claim failed{late}"
+
+
+def _counterexamples(entry: Searched) -> Iterator[Block]:
+    """The smallest; of several claims, the smallest of each."""
+    first = entry.counterexample
+    if first is None:
+        return
+    yield Text(f"smallest counterexample: {first.world}")
+    yield Bullets((f"{first.claim}: {first.message}",))
+    yield Command(first.replay, "again: ")
+    if sum(size.failing for size in entry.by_edges) > 1:
+        rows = [(c.claim, str(c.failing), c.smallest.world) for c in entry.claims]
+        yield Text("")
+        yield Table(("claim that fails", ">in worlds", "smallest"), rows)

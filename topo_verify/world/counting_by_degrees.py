@@ -1,0 +1,132 @@
+"""How many worlds have a property of their graph: loopless, simple, no vertex above a degree.
+
+Where the property says nothing of the rotations, every graph counts with all of its rotations. Give
+the vertices labels and let the darts of each be 0 … d-1. There are
+
+    wirings(d1, …, dn)    ways to join all darts in pairs such that the property holds.
+
+Each world (rooted, hence without symmetry) comes from a multiset of degrees, up to the numbering of
+equal vertices and up to where the numbering of each vertex's darts begins. So with one term for
+each partition of 2m into degrees,
+
+    T(x) = Σ x^m · wirings(d1, …, dn) / Π d_i / Π (how often each degree occurs)!
+
+counts all maps, connected or not, each 1 / (its symmetries) times; log T counts the connected ones,
+and rooting them at one of 2m darts takes the symmetries away: N(m) = 2m · [x^m] log T(x).
+
+Wirings are counted by taking the darts of the first vertex off: a dart of it meets one of another
+vertex with so many darts, or (unless loopless) another dart of its own; `simple` takes different
+vertices for all darts at once. What is left is a smaller multiset, so they are remembered. Nothing
+here knows how worlds are listed: its agreement with the lists (tests) is evidence for both.
+
+Cost: as many multisets as there are partitions of the numbers up to 2m, each with all ways to lower
+it: a second or two at `MAX_EDGES`.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import cache
+from math import comb, factorial, prod
+
+from topo_verify.errors import InputError
+
+Degrees = tuple[int, ...]
+"""A multiset of degrees, descending."""
+
+MAX_EDGES = 16
+"""Beyond, there are too many multisets of degrees."""
+
+
+def count_graphs(
+    edges: int, *, most_degree: int | None = None, loopless: bool = False, simple: bool = False
+) -> int:
+    """The number of rooted maps of any genus with this many edges and these properties.
+
+    Args:
+        most_degree: no vertex has more darts.
+        loopless: no edge joins a vertex with itself.
+        simple: loopless, and no two edges join the same two vertices.
+    Raises:
+        InputError: a negative number of edges; more than `MAX_EDGES`, unless no degree is above 2.
+    """
+    if edges < 0:
+        raise InputError(f"edges={edges}: the number of edges is 0 or more")
+    highest = 2 * edges if most_degree is None else min(most_degree, 2 * edges)
+    if edges > MAX_EDGES and highest > 2:
+        raise InputError(
+            f"edges={edges}: worlds with a property of their graph are counted up to {MAX_EDGES}"
+            " edges only"
+        )
+    total = [_all_maps(m, highest, loopless=loopless, simple=simple) for m in range(edges + 1)]
+    connected = [Fraction(0)]
+    for m in range(1, edges + 1):  # log, from T' = T·(log T)'
+        known = sum((k * connected[k] * total[m - k] for k in range(1, m)), Fraction(0))
+        connected.append(total[m] - known / m)
+    rooted = 2 * edges * connected[edges] if edges else Fraction(1)
+    assert rooted.denominator == 1, "a number of worlds"
+    return rooted.numerator
+
+
+def _all_maps(edges: int, highest: int, *, loopless: bool, simple: bool) -> Fraction:
+    """[x^m] T(x)."""
+    number = Fraction(0)
+    for degrees in _partitions(2 * edges, highest):
+        ways = _simple_wirings(degrees) if simple else _wirings(degrees, loopless=loopless)
+        alike = prod(map(factorial, Counter(degrees).values()))
+        number += Fraction(ways, prod(degrees) * alike)
+    return number
+
+
+def _partitions(total: int, highest: int) -> Iterator[Degrees]:
+    if total == 0:
+        yield ()
+    for first in range(min(total, highest), 0, -1):
+        for rest in _partitions(total - first, first):
+            yield (first, *rest)
+
+
+@cache
+def _wirings(degrees: Degrees, *, loopless: bool) -> int:
+    """In how many ways all darts are joined in pairs."""
+    if not degrees:
+        return 1
+    first, rest = degrees[0], degrees[1:]
+    ways = 0
+    if first > 1 and not loopless:
+        ways += (first - 1) * _wirings(_sorted(first - 2, *rest), loopless=False)
+    for degree, times in Counter(rest).items():
+        left = list(rest)
+        left.remove(degree)
+        lower = _wirings(_sorted(first - 1, degree - 1, *left), loopless=loopless)
+        ways += times * degree * lower
+    return ways
+
+
+@cache
+def _simple_wirings(degrees: Degrees) -> int:
+    """The same, where all darts of a vertex meet different other vertices."""
+    if not degrees:
+        return 1
+    met = _meetings(degrees[0], tuple(Counter(degrees[1:]).items()))
+    return factorial(degrees[0]) * sum(ways * _simple_wirings(_sorted(*left)) for ways, left in met)
+
+
+def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple[int, Degrees]]:
+    """Which vertices so many darts meet, from groups (degree, how many): ways, and what is left."""
+    if not groups:
+        if darts == 0:
+            yield 1, ()
+        return
+    (degree, times), *others = groups
+    for chosen in range(min(darts, times) + 1):
+        here = comb(times, chosen) * degree**chosen
+        left = (degree - 1,) * chosen + (degree,) * (times - chosen)
+        for ways, further in _meetings(darts - chosen, tuple(others)):
+            yield here * ways, left + further
+
+
+def _sorted(*degrees: int) -> Degrees:
+    return tuple(sorted(filter(None, degrees), reverse=True))
