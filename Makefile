@@ -76,7 +76,7 @@ $(VENV)/.bench: $(VENV)/.core
 # names neither the machine nor the registry that it was made with.
 constraints: $(VENV)/.created
 	$(INSTALL) uv
-	$(BIN)/uv pip compile --quiet --universal --upgrade --python-version 3.11 --extra dev --extra bench --extra proofs \
+	$(BIN)/uv pip compile --quiet --universal --upgrade --python-version 3.11 --extra dev --extra bench \
 	    --no-header --no-annotate --no-emit-index-url --no-emit-find-links pyproject.toml -o constraints.new
 	{ echo "# The versions that the suite is run with, on every supported Python: make constraints"; cat constraints.new; } > constraints.txt
 	rm constraints.new

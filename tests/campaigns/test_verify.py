@@ -53,6 +53,7 @@ def test_the_whole_campaign_exhausts_what_it_says() -> None:
     assert [(part.part, part.verdict, part.checked, part.total) for part in parts] == [
         ("counts", "EXHAUSTED", 119364, 119364),
         ("small-worlds", "EXHAUSTED", 8954, 8954),
+        ("proofs", "PROVED", 166, 166),
         ("sampled-worlds", "SAMPLED", 200, 200),
         ("generated-worlds", "SAMPLED", 160, 160),
         ("street-network", "SAMPLED", 1, 1),
@@ -82,7 +83,7 @@ def test_progress_is_told_part_by_part() -> None:
 
     list(verify(targets("basic"), quick=True, tell=tell))
     assert [*dict.fromkeys(part for part, _, _ in told)] == [
-        "counts", "small-worlds", "sampled-worlds", "generated-worlds", "street-network",
+        "counts", "small-worlds", "proofs", "sampled-worlds", "generated-worlds", "street-network",
     ]  # fmt: skip
     assert all(done <= total for _, done, total in told)
 

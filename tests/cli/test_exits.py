@@ -23,6 +23,7 @@ COMMANDS = (
     "explore",
     "world",
     "search",
+    "prove",
     "replay",
     "certify",
 )

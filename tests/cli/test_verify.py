@@ -11,10 +11,10 @@ import pytest
 from topo_verify import CATALOGUE
 
 Call = Callable[..., Any]
-PARTS = ["counts", "small-worlds", "sampled-worlds", "generated-worlds", "street-network"]
+PARTS = ["counts", "small-worlds", "proofs", "sampled-worlds", "generated-worlds", "street-network"]
 
 
-def test_quick_checks_the_catalogue_in_five_parts(results: Call) -> None:
+def test_quick_checks_the_catalogue_in_six_parts(results: Call) -> None:
     envelope = results("verify --quick")
     assert (envelope["format"], envelope["seed"]) == ("topo-verify/verify", 0)
     parts = envelope["results"]
@@ -23,8 +23,8 @@ def test_quick_checks_the_catalogue_in_five_parts(results: Call) -> None:
         assert part.keys() >= {"part", "verdict", "ok", "checked", "total", "summary", "findings"}
         assert part["ok"]
         assert part["checked"] == part["total"]
-    assert [part["verdict"] for part in parts] == ["EXHAUSTED"] * 2 + ["SAMPLED"] * 3
-    assert [part["total"] for part in parts] == [8954, 86, 40, 40, 1]
+    assert [part["verdict"] for part in parts] == ["EXHAUSTED"] * 2 + ["PROVED"] + ["SAMPLED"] * 3
+    assert [part["total"] for part in parts] == [8954, 86, 62, 40, 40, 1]
     assert parts[1]["summary"] == "86 of 86 worlds of 1 to 3 edges × 9 mappers: 10 claims hold"
     assert [cost["algorithm"] for cost in parts[-1]["costs"]] == list(CATALOGUE)[:9]
     assert parts[-1]["costs"][0]["ratio"] == 1
@@ -35,7 +35,7 @@ def test_each_part_has_its_own_line(call: Call) -> None:
     assert lines[0].endswith("basic, 10 claims, seed 3")
     starts = [line.split()[:2] for line in lines if line.split()[:1] and line.split()[0] in PARTS]
     assert starts == [
-        *map(list, zip(PARTS, ["EXHAUSTED"] * 2 + ["SAMPLED"] * 3, strict=True))
+        *map(list, zip(PARTS, ["EXHAUSTED"] * 2 + ["PROVED"] + ["SAMPLED"] * 3, strict=True))
     ]
 
 

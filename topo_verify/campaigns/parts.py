@@ -9,7 +9,7 @@ import msgspec
 
 from topo_verify.checkers import Finding
 
-Verdict = Literal["EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED"]
+Verdict = Literal["PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED"]
 
 Tell = Callable[[str, int, int], None]
 """Called as work goes on: (part, how much of it is done, how much there is)."""
@@ -42,7 +42,8 @@ class Part(msgspec.Struct, frozen=True):
 
     Attributes:
         part: its name.
-        verdict: EXHAUSTED: every world of a finite class, `checked` equals `total`.
+        verdict: PROVED: of worlds of any size. EXHAUSTED: every world of a finite class, `checked`
+            equals `total`.
         ok: nothing was found, and nothing left out.
         checked, total: worlds.
         summary: one sentence.

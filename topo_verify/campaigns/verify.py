@@ -1,9 +1,10 @@
-"""The main job: what can be checked in about a minute, in five parts, each with its own verdict.
+"""The main job: what can be checked in about a minute, in six parts, each with its own verdict.
 
 | part | what | quick |
 | --- | --- | --- |
 | `counts` | every world of 1 to 6 edges is listed; their numbers are the known ones | 1 to 5 |
 | `small-worlds` | every world of 1 to 5 edges, every mapper, every claim | 1 to 3 |
+| `proofs` | what Z3 proves of worlds of any size; negatives, mutants refuted | the first |
 | `sampled-worlds` | 200 worlds of 6 to 30 edges, drawn uniformly among those of a size | 40 |
 | `generated-worlds` | 160 worlds as property tests meet them, 20 of each strategy | 40 |
 | `street-network` | a real street network, and what each mapper pays there | the same |
@@ -21,6 +22,7 @@ from random import Random
 from topo_verify.campaigns.counts import Counts
 from topo_verify.campaigns.generated import generated_worlds
 from topo_verify.campaigns.parts import Job, Part, Tell
+from topo_verify.campaigns.proofs import Proofs
 from topo_verify.campaigns.small_worlds import SmallWorlds
 from topo_verify.campaigns.trials import PATIENCE, Costs, Trials
 from topo_verify.robot.limits import Limits
@@ -68,6 +70,7 @@ def _jobs(targets: Sequence[Target], seed: int, limits: Limits, *, quick: bool) 
     largest, sampled, each = (3, 40, 5) if quick else (5, 200, 20)
     yield Counts(5 if quick else 6)
     yield SmallWorlds(largest, targets, limits)
+    yield Proofs(quick=quick)
     yield Trials(
         name="sampled-worlds",
         about=" drawn with 6 to 30 edges",

@@ -1,6 +1,6 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
-verify.py, explore.py, world.py (sample.py), search.py,
+verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py),
 replay.py, certify.py     the commands
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
@@ -24,6 +24,7 @@ from topo_verify.cli import options, output
 from topo_verify.cli.certify import certify
 from topo_verify.cli.explore import explore
 from topo_verify.cli.failures import ExitCode, explain, say, version
+from topo_verify.cli.prove import prove
 from topo_verify.cli.replay import replay
 from topo_verify.cli.search import search
 from topo_verify.cli.verify import verify
@@ -90,6 +91,7 @@ for command in (
     explore,
     world,
     search,
+    prove,
     replay,
     certify,
 ):

@@ -1,0 +1,175 @@
+"""`topo-verify prove`: verdicts, exit codes, and what is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Call, Program, Results
+from topo_verify.proofs import catalogue as proofs_catalogue
+from topo_verify.proofs import mutants
+from topo_verify.proofs.inductive import theorem
+from topo_verify.proofs.obligations.obligation import A, B, Obligation
+from topo_verify.proofs.terms import eq, neg
+from topo_verify.proofs.theorems import Outcome, Theorem
+
+FIELDS = {
+    "name", "kind", "claim", "verdict", "expected", "ok", "premises_satisfiable", "replayed",
+    "solver", "edges", "certificate",
+}  # fmt: skip
+
+
+def test_a_theorem_is_proved_and_a_mutant_refuted(results: Results) -> None:
+    envelope = results("prove percept history-shifted-by-one planar-keeps")
+    assert envelope["format"] == "topo-verify/prove"
+    proved, mutant, planar = envelope["results"]
+    assert proved.keys() >= FIELDS
+    assert (proved["verdict"], proved["premises_satisfiable"]) == ("PROVED", True)
+    assert proved["claim"] == "true-hypothesis-kept"
+    assert (mutant["verdict"], mutant["expected"], mutant["ok"]) == ("REFUTED", "REFUTED", True)
+    assert mutant["replayed"] == {"replayed": 1, "total": 1}
+    assert (planar["kind"], planar["edges"]) == ("negative", 2)
+
+
+def test_a_person_sees_what_stands_behind_it(call: Call) -> None:
+    done = call("prove percept confirm-undirected")
+    assert done.exit_code == 0
+    seen = " ".join(done.stdout.split())  # cells are folded
+    for told in ("2 theorems (1 inductive, 1 mutant)", "premises", "used 6", "replays", "1 of 1"):
+        assert told in seen
+    assert "docs/proofs.md" in done.stdout
+
+
+def test_markdown_has_the_same(call: Call) -> None:
+    assert "| percept | inductive | PROVED | ok |" in call("prove percept --format markdown").stdout
+
+
+def test_the_list_tells_all_and_proves_nothing(results: Results, call: Call) -> None:
+    envelope = results("prove --list")
+    assert envelope["format"] == "topo-verify/prove-list"
+    names = [entry["name"] for entry in envelope["results"]]
+    assert len(names) == len(set(names)) > 150
+    assert {entry["kind"] for entry in envelope["results"]} == {
+        "inductive",
+        "bounded",
+        "negative",
+        "mutant",
+    }
+    assert "induction over words" in call("prove word-trace-step --list").stdout
+
+
+def test_kinds_and_sizes_are_chosen(results: Results) -> None:
+    kinds = results("prove --list --kind negative")["results"]
+    assert {entry["kind"] for entry in kinds} == {"negative"}
+    small = results("prove --list --kind bounded --edges 2")["results"]
+    assert small
+    assert all(entry["edges"] <= 2 for entry in small)
+
+
+def test_long_theorems_come_when_asked_for(results: Results) -> None:
+    usual = {entry["name"] for entry in results("prove --list")["results"]}
+    deep = {entry["name"] for entry in results("prove --list --deep")["results"]}
+    assert usual < deep
+
+
+def test_the_questions_are_written_as_smt_lib(results: Results, folder: Path) -> None:
+    results("prove percept confirm-undirected --smt2 there")
+    texts = [
+        (folder / "there" / f"{n}.smt2").read_text() for n in ("percept", "confirm-undirected")
+    ]
+    assert texts[0].startswith("(set-logic UF)")
+    assert texts[1].startswith("(set-logic QF_UF)")
+    assert all(text.rstrip().endswith("(check-sat)") for text in texts)
+
+
+def test_two_runs_are_byte_equal_without_the_timing(program: Program) -> None:
+    def entries(seed: str) -> str:
+        line = "prove percept records-written-early new-apart-step --format json"
+        return program(line, PYTHONHASHSEED=seed).stdout.split('"timing"')[0]
+
+    assert entries("1") == entries("2")
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("prove percet", "do you mean percept"),
+        ("prove nothing-like-it", "prove --list lists them"),
+        ("prove percept --kind mutant", "no theorem of kind mutant among percept"),
+        ("prove --kind bounded --edges 99", "1 to 6 edges"),
+        ("prove percept --timeout 0", "--timeout"),
+        ("prove percept --smt2 mappers.py", "name a folder"),
+        ("prove percept --solver yices", "--solver"),
+    ],
+)
+def test_bad_use_gets_a_sentence_with_the_mend(call: Call, line: str, told: str) -> None:
+    done = call(line)
+    assert done.exit_code == 2
+    assert told in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+# ---------------------------------------------------------------- no pass is no pass
+
+
+@pytest.fixture
+def stocked(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A catalogue with theorems that do not come out as they should."""
+
+    def obligation(name: str, **more: object) -> Theorem:
+        fields: dict[str, object] = {
+            "name": name,
+            "words": "",
+            "claims": ("no-false-confirm",),
+            "theory": ("phi-injective",),
+            "goal": eq(A, B),
+            "needs": (),
+        }
+        return theorem(Obligation(**(fields | more)))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+
+    def lucky(one: Theorem) -> Theorem:
+        def prove(_budget: object) -> Outcome:
+            return Outcome(verdict="EXHAUSTED", solver="none")
+
+        return Theorem(
+            name="unrefuted",
+            kind="mutant",
+            claims=one.claims,
+            words="",
+            symbols="",
+            solver_part="",
+            expected="REFUTED",
+            prove=prove,
+            queries=one.queries,
+        )
+
+    shelf = (
+        obligation("unprovable"),
+        obligation("vacuous", given={"absurd": neg(eq(A, A))}),
+        lucky(mutants.PLANAR),
+    )
+
+    def stock(_edges: int | None = None) -> tuple[Theorem, ...]:
+        return shelf
+
+    monkeypatch.setattr(proofs_catalogue, "catalogue", stock)
+
+
+@pytest.mark.usefixtures("stocked")
+@pytest.mark.parametrize(
+    ("name", "code", "verdict"),
+    [("unprovable", 3, "UNKNOWN"), ("vacuous", 3, "PROVED"), ("unrefuted", 1, "EXHAUSTED")],
+)
+def test_what_is_not_as_it_must_be_is_no_pass(
+    results: Results, name: str, code: int, verdict: str
+) -> None:
+    (entry,) = results(f"prove {name}", code=code)["results"]
+    assert (entry["ok"], entry["verdict"]) == (False, verdict)
+
+
+@pytest.mark.usefixtures("stocked")
+def test_and_a_person_is_told_so(call: Call) -> None:
+    done = call("prove vacuous unprovable")
+    assert "VACUOUS" in done.stdout
+    assert "Not as it must be" in done.stdout

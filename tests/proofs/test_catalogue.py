@@ -1,0 +1,61 @@
+"""The catalogue of theorems: names, claims, choosing."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from topo_verify.checkers import CLAIMS
+from topo_verify.errors import InputError
+from topo_verify.proofs.catalogue import catalogue, choose
+from topo_verify.proofs.inductive import INDUCTIVE
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_every_obligation_has_a_mutant() -> None:
+    changed = Counter(theorem.of for theorem in catalogue() if theorem.kind == "mutant")
+    assert all(changed[theorem.name] for theorem in INDUCTIVE)
+
+
+def test_every_claim_that_a_proof_can_carry_rests_on_a_theorem() -> None:
+    carried = {claim for theorem in INDUCTIVE for claim in theorem.claims}
+    left = {"percepts-true", "cost-honest", "cost-within-bound", "rejection-justified"}
+    assert carried == CLAIMS.keys() - left, "docs/proofs.md says why these are left"
+
+
+def test_every_step_that_is_argued_stands_in_the_page_on_proofs() -> None:
+    page = " ".join((ROOT / "docs" / "proofs.md").read_text(encoding="utf-8").split()).lower()
+    for theorem in INDUCTIVE:
+        stem = theorem.name.removesuffix("-base").removesuffix("-step")
+        assert any(f"`{stem}{end}`" in page for end in ("", "-base", "-step")), theorem.name
+        for step in theorem.argued:
+            assert step in page, (theorem.name, step)
+
+
+def test_each_question_is_a_whole_script_and_says_what_is_expected() -> None:
+    for theorem in catalogue():
+        if theorem.kind in ("inductive", "mutant") and theorem.edges is None:
+            for query in theorem.queries():
+                assert query.smt2.startswith("(set-logic ")
+                assert query.expected == ("unsat" if theorem.kind == "inductive" else "sat")
+
+
+def test_a_name_is_chosen_once_and_in_the_order_given() -> None:
+    names = [theorem.name for theorem in choose(["trace-step", "percept", "trace-step"])]
+    assert names == ["trace-step", "percept"]
+
+
+def test_no_such_theorem_is_refused_with_what_comes_near() -> None:
+    with pytest.raises(InputError, match="do you mean trace-step"):
+        choose(["trace-stop"])
+
+
+def test_the_package_alone_loads_no_solver() -> None:
+    code = "import topo_verify, topo_verify.cli, sys; print('z3' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"

@@ -1,0 +1,160 @@
+"""`topo-verify prove`: the theorems, proved or refuted by Z3, each with what stands behind it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import click
+
+from topo_verify.cli import options
+from topo_verify.cli import theorems as shown
+from topo_verify.cli.layout import Block, Text
+from topo_verify.cli.output import Live, Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.errors import InputError, InternalError
+
+if TYPE_CHECKING:
+    from topo_verify.proofs.theorems import Budget, Theorem
+
+
+@click.command(
+    short_help="Prove the theorems behind the claims with Z3.",
+    epilog=options.epilog(
+        "prove",
+        "prove --list",
+        "prove percept word-confirm-step --list",
+        "prove --kind inductive --solver cvc5",
+        "prove --kind bounded --certify",
+    ),
+)
+@click.argument("names", nargs=-1, metavar="[NAME...]")
+@click.option("--list", "listing", is_flag=True, help="Tell the theorems, prove nothing.")
+@click.option(
+    "--kind", "kinds", multiple=True, type=click.Choice(shown.KINDS), help="Only this kind."
+)
+@click.option(
+    "--edges",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Bounded theorems in worlds of at most N edges.",
+)
+@click.option(
+    "--solver",
+    type=click.Choice(["z3", "cvc5"]),
+    default="z3",
+    show_default=True,
+    help="cvc5: put every question to cvc5 as well.",
+)
+@click.option(
+    "--timeout",
+    type=click.IntRange(1, options.MOST_SECONDS),
+    default=60,
+    show_default=True,
+    metavar="SECONDS",
+    help="For each question to a solver.",
+)
+@click.option("--deep", is_flag=True, help="Also the theorems that take minutes.")
+@click.option("--certify", is_flag=True, help="Have checked certificates for bounded theorems.")
+@click.option("--smt2", "folder", metavar="DIR", help="Write each question there as SMT-LIB 2.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, metavar="N")
+@output_options
+def prove(  # noqa: PLR0913  an argument an option
+    output: Output,
+    *,
+    names: tuple[str, ...],
+    listing: bool,
+    kinds: tuple[str, ...],
+    edges: int | None,
+    solver: str,
+    timeout: int,
+    deep: bool,
+    certify: bool,
+    folder: str | None,
+    seed: int,
+) -> int:
+    """Prove the theorems that the claims rest on, and refute what must not be provable.
+
+    NAME is a theorem; without one all that are quick are proved. Inductive theorems speak of worlds
+    of any size, bounded ones of every world of a few edges; negatives and mutants must be REFUTED.
+    A theorem that is vacuous or comes back unknown is no pass (exit 3).
+    """
+    from topo_verify.proofs.catalogue import choose
+    from topo_verify.proofs.theorems import Budget
+
+    theorems = choose(names, kinds=kinds, edges=edges, deep=deep)
+    if listing:
+        return output.run(
+            "prove-list", lambda: map(Result, map(shown.listed, theorems)), shown.show_list
+        )
+    _require(second=solver == "cvc5", certify=certify)
+    budget = Budget(timeout=timeout, seed=seed, certify=certify, tell=output.progress)
+
+    seconds: dict[str, float] = {}
+
+    def proved() -> Iterator[Result[shown.Proved]]:
+        for number, theorem in enumerate(theorems):
+            output.progress(theorem.name, number, len(theorems))
+            if folder is not None:
+                _export(theorem, Path(folder))
+            begin = perf_counter()
+            result = _proved(theorem, budget, second=solver == "cvc5")
+            seconds[theorem.name] = perf_counter() - begin
+            yield result
+
+    def one(entry: shown.Proved) -> Iterator[Block]:
+        return shown.live(entry, seconds[entry.name])
+
+    live = Live((Text(shown.head(theorems, budget)),), one, shown.end)
+    return output.run("prove", proved, shown.show, live=live, seed=seed, deep=deep)
+
+
+def _require(*, second: bool, certify: bool) -> None:
+    """Refuse to begin where a solver or a checker is missing."""
+    from topo_verify.proofs import certificates, second_opinion
+
+    if second:
+        second_opinion.require_tools()
+    if certify:
+        certificates.require_tools()
+
+
+def _export(theorem: Theorem, folder: Path) -> None:
+    from topo_verify.proofs.second_opinion import export
+
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"--smt2 {folder}: it is a file; name a folder")
+    for query in theorem.queries():
+        export(query, folder)
+
+
+def _proved(theorem: Theorem, budget: Budget, *, second: bool) -> Result[shown.Proved]:
+    outcome = theorem.prove(budget)
+    opinion = _opinion(theorem, budget) if second else None
+    standing = theorem.standing(outcome)
+    return Result(
+        shown.entry_of(theorem, outcome, opinion),
+        failed=standing == "failed",
+        incomplete=standing == "open",
+    )
+
+
+def _opinion(theorem: Theorem, budget: Budget) -> shown.Opinions | None:
+    """What cvc5 says of the questions; None if there are none.
+
+    Raises:
+        InternalError: the two solvers contradict each other.
+    """
+    from topo_verify.proofs.second_opinion import ask
+
+    opinions = [ask(query, timeout=budget.timeout) for query in theorem.queries()]
+    for opinion in opinions:
+        if opinion.standing == "disagrees":
+            raise InternalError(f"the solvers disagree: {opinion}")
+    if not opinions:
+        return None
+    count = Counter(opinion.standing for opinion in opinions)
+    return shown.Opinions(opinions[0].solver, count["agrees"], count["unknown"], len(opinions))

@@ -1,0 +1,258 @@
+"""What `topo-verify prove` prints: entries for scripts, tables for people."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from topo_verify.campaigns.parts import plural
+from topo_verify.cli.layout import Block, Bullets, Table, Text
+
+if TYPE_CHECKING:
+    from topo_verify.proofs.theorems import Budget, Outcome, Theorem
+
+KINDS = ("inductive", "bounded", "negative", "mutant")
+
+
+class Replayed(msgspec.Struct, frozen=True):
+    """Of the models found, how many came true in the simulator."""
+
+    replayed: int
+    total: int
+
+
+class Certified(msgspec.Struct, frozen=True):
+    """A proof object and what its checker said."""
+
+    format: str
+    checker: str
+    checked: bool
+    clauses: int
+    steps: int
+    why: str
+
+
+class Opinions(msgspec.Struct, frozen=True):
+    """What a second solver said of the questions behind a theorem."""
+
+    solver: str
+    agrees: int
+    unknown: int
+    total: int
+
+
+class Proved(msgspec.Struct, frozen=True):
+    """One theorem: an entry of `results`; docs/commands.md.
+
+    Attributes:
+        claim: the claims that rest on it, with commas.
+        ok: the verdict is the expected one, the premises can hold, what was found was replayed.
+    """
+
+    name: str
+    kind: str
+    claim: str
+    verdict: str
+    expected: str
+    ok: bool
+    premises_satisfiable: bool | None
+    replayed: Replayed | None
+    solver: str
+    edges: int | None
+    certificate: Certified | None
+    checked: int | None
+    total: int | None
+    counterexample: str | None
+    history: tuple[int, ...] | None
+    core: tuple[str, ...]
+    opinion: Opinions | None
+    of: str | None
+    words: str
+    note: str
+
+
+class Listed(msgspec.Struct, frozen=True):
+    """One theorem, not yet proved: an entry of `results` of --list."""
+
+    name: str
+    kind: str
+    claim: str
+    expected: str
+    edges: int | None
+    deep: bool
+    of: str | None
+    words: str
+    symbols: str
+    solver_part: str
+    argued: tuple[str, ...]
+    assumed: tuple[str, ...]
+
+
+def entry_of(theorem: Theorem, outcome: Outcome, opinion: Opinions | None) -> Proved:
+    """What became of a theorem, as it is printed."""
+    made = outcome.certificate
+    return Proved(
+        name=theorem.name,
+        kind=theorem.kind,
+        claim=",".join(theorem.claims),
+        verdict=outcome.verdict,
+        expected=theorem.expected,
+        ok=theorem.ok(outcome),
+        premises_satisfiable=outcome.premises_satisfiable,
+        replayed=None if outcome.replayed is None else Replayed(*outcome.replayed),
+        solver=outcome.solver,
+        edges=theorem.edges,
+        certificate=None
+        if made is None
+        else Certified(made.format, made.checker, made.checked, made.clauses, made.steps, made.why),
+        checked=outcome.checked,
+        total=outcome.total,
+        counterexample=outcome.counterexample,
+        history=outcome.history,
+        core=outcome.core,
+        opinion=opinion,
+        of=theorem.of,
+        words=theorem.words,
+        note=outcome.note,
+    )
+
+
+def listed(theorem: Theorem) -> Listed:
+    """A theorem as it is listed."""
+    return Listed(
+        name=theorem.name,
+        kind=theorem.kind,
+        claim=",".join(theorem.claims),
+        expected=theorem.expected,
+        edges=theorem.edges,
+        deep=theorem.deep,
+        of=theorem.of,
+        words=theorem.words,
+        symbols=theorem.symbols,
+        solver_part=theorem.solver_part,
+        argued=theorem.argued,
+        assumed=theorem.assumed,
+    )
+
+
+# ---------------------------------------------------------------- for people
+
+FEW = 5
+"""So many theorems are listed with all that there is to say of them."""
+
+
+def head(theorems: Sequence[Theorem], budget: Budget) -> str:
+    """What is about to be done."""
+    from topo_verify.proofs import z3solver
+
+    kinds = Counter[str](theorem.kind for theorem in theorems)
+    told = ", ".join(f"{kinds[kind]} {kind}" for kind in KINDS if kinds[kind])
+    many = plural(len(theorems), "theorem")
+    return f"{z3solver.name()}, seed {budget.seed}: {many} ({told})"
+
+
+def _row(entry: Proved) -> tuple[str, ...]:
+    return (entry.name, entry.kind, entry.verdict, "ok" if entry.ok else "not ok", _told(entry))
+
+
+def _told(entry: Proved) -> str:
+    """What a person wants to see beside the verdict."""
+    words: list[str] = []
+    if entry.total is not None:
+        words.append(f"{entry.checked} of {plural(entry.total, 'world')}")
+    if entry.kind in ("inductive", "bounded"):
+        words += [_VACUITY[entry.premises_satisfiable]] if entry.verdict != "UNKNOWN" else []
+    if entry.core and entry.kind == "inductive":
+        words.append(f"used {plural(len(entry.core), 'premise')}")
+    if entry.history is not None:
+        words.append(f"in {entry.counterexample}, doors {' '.join(map(str, entry.history))}")
+    if entry.replayed is not None:
+        words.append("replays" if entry.replayed.replayed == entry.replayed.total else "NO REPLAY")
+    if entry.certificate is not None:
+        made = entry.certificate
+        checked = "checked" if made.checked else f"NOT CHECKED ({made.why})"
+        words.append(f"{made.format} {checked} by {made.checker}")
+    if entry.opinion is not None:
+        second = entry.opinion
+        words.append(f"{second.solver} agrees on {second.agrees} of {second.total}")
+        words += [f"unknown on {second.unknown}"] if second.unknown else []
+    if entry.note and (not entry.ok or entry.history is None):
+        words.append(entry.note)
+    return "; ".join(words)
+
+
+_VACUITY = {
+    True: "premises satisfiable",
+    False: "VACUOUS: its premises cannot hold",
+    None: "premises not shown satisfiable",
+}
+
+
+def show(entries: Sequence[Proved]) -> Iterator[Block]:
+    """Everything at once."""
+    yield Table(("theorem", "kind", "verdict", "", "what stands behind it"), [*map(_row, entries)])
+    yield from end(entries)
+
+
+def live(entry: Proved, seconds: float) -> Iterator[Block]:
+    """One theorem, as soon as it is done."""
+    name, kind, verdict, ok, told = _row(entry)
+    row = (name, kind, verdict, ok, f"{seconds:.2f} s", told)
+    columns = ("theorem", "kind", "verdict", "", ">time", "what stands behind it")
+    yield Table(columns, [row], widths=(26, 9, 9, 2, 6, 0), headed=False)
+
+
+def end(entries: Sequence[Proved]) -> Iterator[Block]:
+    """The upshot: how many of each kind are as they must be."""
+    yield Text("")
+    rows: list[tuple[str, ...]] = []
+    for kind in KINDS:
+        mine = [entry for entry in entries if entry.kind == kind]
+        if not mine:
+            continue
+        replays = [entry.replayed for entry in mine if entry.replayed is not None]
+        done = sum(one.replayed for one in replays)
+        papers = sum(entry.certificate is not None and entry.certificate.checked for entry in mine)
+        rows.append(
+            (
+                kind,
+                f"{sum(entry.ok for entry in mine)} of {len(mine)}",
+                f"{done} of {sum(one.total for one in replays)}" if replays else "-",
+                f"{papers} of {len(mine)}" if kind == "bounded" else "-",
+            )
+        )
+    columns = ("kind", ">as expected", ">models replayed", ">with a checked certificate")
+    yield Table(columns, rows)
+    wrong = [f"{entry.name}: {entry.verdict}; {entry.note}" for entry in entries if not entry.ok]
+    if wrong:
+        yield Text("Not as it must be:")
+        yield Bullets(tuple(wrong))
+    yield Text("What is argued in words, what is assumed, what is not shown: docs/proofs.md.")
+
+
+def show_list(entries: Sequence[Listed]) -> Iterator[Block]:
+    """Theorems in a table; a few of them with all that there is to say."""
+    if len(entries) <= FEW:
+        for entry in entries:
+            yield from _details(entry)
+        return
+    rows = [
+        (e.name, e.kind, e.expected, "" if e.edges is None else str(e.edges), e.words)
+        for e in entries
+    ]
+    yield Table(("theorem", "kind", "expected", ">edges", "what it says"), rows)
+
+
+def _details(entry: Listed) -> Iterator[Block]:
+    yield Text(f"{entry.name} ({entry.kind}, expected {entry.expected}): {entry.words}")
+    lines = (
+        f"in symbols: {entry.symbols}",
+        f"the solver: {entry.solver_part}",
+        f"argued: {'; '.join(entry.argued) or 'nothing'}",
+        f"assumed: {', '.join(entry.assumed) or 'nothing'}",
+        f"claims: {entry.claim or 'none'}",
+    )
+    yield Bullets(lines)

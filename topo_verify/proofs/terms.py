@@ -1,0 +1,248 @@
+"""Formulas of many-sorted first-order logic: built once, read three ways.
+
+The same term is written out as SMT-LIB 2 (what Z3 and any other solver are given, so an exported
+file is the very question that was asked), is expanded over tiny domains (`finite.py`), and is
+evaluated on concrete worlds with no solver at all (`structures.py`). So what a proof says of a rule
+and what a test runs against the code of that rule cannot drift apart.
+
+    Var     x, bound by a quantifier or free         App   f(a, b), also `and`, `=>`, `=`, ...
+    Symbol  a function: name, sorts, result           Forall for all x ...: body
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+BOOL = "Bool"
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """A function symbol; a constant has no arguments. Call it to apply it."""
+
+    name: str
+    arguments: tuple[str, ...]
+    result: str
+
+    def __call__(self, *arguments: Term) -> App:
+        """The application; sorts are checked, since a wrong one would be a wrong theorem."""
+        sorts = tuple(argument.sort for argument in arguments)
+        if sorts != self.arguments:
+            raise TypeError(f"{self.name} takes {self.arguments}, not {sorts}")
+        return App(self, arguments)
+
+
+@dataclass(frozen=True, slots=True)
+class Var:
+    """A variable of a sort."""
+
+    name: str
+    sort: str
+
+
+@dataclass(frozen=True, slots=True)
+class App:
+    """A function applied to terms."""
+
+    symbol: Symbol
+    arguments: tuple[Term, ...] = ()
+
+    @property
+    def sort(self) -> str:
+        """The sort of its value."""
+        return self.symbol.result
+
+
+@dataclass(frozen=True, slots=True)
+class Forall:
+    """The body holds for all values of the variables.
+
+    `patterns` say at which terms a solver should try it (each a group of terms to be met together).
+    They mean nothing.
+    """
+
+    variables: tuple[Var, ...]
+    body: Term
+    patterns: tuple[tuple[Term, ...], ...] = ()
+
+    @property
+    def sort(self) -> str:
+        """Always Bool."""
+        return BOOL
+
+
+Term = Var | App | Forall
+
+CONNECTIVES = frozenset({"and", "or", "not", "=>", "=", "true"})
+"""The names of symbols that need no declaration."""
+
+
+def conj(*parts: Term) -> Term:
+    """All of them hold."""
+    return parts[0] if len(parts) == 1 else _connect("and", *parts)
+
+
+def disj(*parts: Term) -> Term:
+    """One of them holds."""
+    return parts[0] if len(parts) == 1 else _connect("or", *parts)
+
+
+def neg(part: Term) -> Term:
+    """It does not hold."""
+    return _connect("not", part)
+
+
+def implies(*parts: Term) -> Term:
+    """If all but the last hold, the last holds."""
+    return _connect("=>", conj(*parts[:-1]), parts[-1])
+
+
+def eq(one: Term, other: Term) -> Term:
+    """They are equal; between formulas: one holds iff the other does."""
+    if one.sort != other.sort:
+        raise TypeError(f"= between {one.sort} and {other.sort}")
+    return App(Symbol("=", (one.sort, one.sort), BOOL), (one, other))
+
+
+def differ(one: Term, other: Term) -> Term:
+    """They are not equal."""
+    return neg(eq(one, other))
+
+
+def forall(
+    variables: Var | tuple[Var, ...], *parts: Term, tried_at: tuple[tuple[Term, ...], ...] = ()
+) -> Term:
+    """For all of them: if all but the last part hold, the last holds."""
+    row = (variables,) if isinstance(variables, Var) else variables
+    return Forall(row, parts[0] if len(parts) == 1 else implies(*parts), tried_at)
+
+
+def _connect(name: str, *parts: Term) -> Term:
+    return Symbol(name, (BOOL,) * len(parts), BOOL)(*parts)
+
+
+def constant(name: str, sort: str) -> App:
+    """A constant of its own."""
+    return Symbol(name, (), sort)()
+
+
+# ---------------------------------------------------------------- what is in a term
+
+
+def symbols(term: Term) -> Iterator[Symbol]:
+    """The symbols of a term that need a declaration, as often as they occur."""
+    match term:
+        case Var():
+            pass
+        case Forall(_, body, patterns):
+            yield from symbols(body)
+            for group in patterns:
+                for hint in group:
+                    yield from symbols(hint)
+        case App(symbol, arguments):
+            if symbol.name not in CONNECTIVES:
+                yield symbol
+            for argument in arguments:
+                yield from symbols(argument)
+
+
+def sorts_of(term: Term) -> set[str]:
+    """The sorts in a term."""
+    match term:
+        case Var(_, sort):
+            return {sort}
+        case Forall(variables, body):
+            return {v.sort for v in variables} | sorts_of(body)
+        case App(symbol, arguments):
+            own = set[str]() if symbol.name in CONNECTIVES else {*symbol.arguments, symbol.result}
+            return own.union(*map(sorts_of, arguments))
+
+
+def substitute(term: Term, values: dict[Term, Term]) -> Term:
+    """The term with these variables or constants replaced. No variable is captured by accident.
+
+    (Bound variables are replaced by nothing: callers replace free ones with closed terms.)
+    """
+    if term in values:
+        return values[term]
+    match term:
+        case Var():
+            return term
+        case Forall(variables, body, patterns):
+            inner = {old: new for old, new in values.items() if old not in variables}
+            hints = tuple(tuple(substitute(p, inner) for p in group) for group in patterns)
+            return Forall(variables, substitute(body, inner), hints)
+        case App(symbol, arguments):
+            return App(symbol, tuple(substitute(argument, values) for argument in arguments))
+
+
+# ---------------------------------------------------------------- text
+
+
+def text(term: Term) -> str:
+    """The term in SMT-LIB 2."""
+    match term:
+        case Var(name):
+            return name
+        case Forall(variables, body, patterns):
+            bound = " ".join(f"({v.name} {v.sort})" for v in variables)
+            hints = "".join(f" :pattern ({' '.join(map(text, group))})" for group in patterns)
+            return f"(forall ({bound}) {f'(! {text(body)}{hints})' if hints else text(body)})"
+        case App(symbol, ()):
+            return symbol.name
+        case App(symbol, arguments):
+            return f"({symbol.name} {' '.join(map(text, arguments))})"
+
+
+_WORDS = {"and": " ∧ ", "or": " or ", "=>": " → ", "=": " = "}
+
+
+def shown(term: Term, *, inner: bool = False) -> str:
+    """The term for people."""
+    words = ""
+    match term:
+        case Var(name):
+            return name
+        case Forall(variables, body):
+            words = f"∀{','.join(v.name for v in variables)}: {shown(body)}"
+        case App(Symbol("not"), (App(Symbol("="), (one, other)),)):
+            return f"{shown(one, inner=True)} ≠ {shown(other, inner=True)}"
+        case App(Symbol("not"), (part,)):
+            return f"¬{shown(part, inner=True)}"
+        case App(symbol, arguments) if symbol.name in _WORDS:
+            words = _WORDS[symbol.name].join(shown(a, inner=True) for a in arguments)
+        case App(symbol, arguments):
+            row = ", ".join(shown(a) for a in arguments)
+            return f"{symbol.name}({row})" if arguments else symbol.name
+    return f"({words})" if inner else words
+
+
+def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
+    """The declarations of all sorts and symbols in some terms, in a fixed order."""
+    found: dict[str, Symbol] = {}
+    sorts: set[str] = set()
+    for term in terms:
+        sorts |= sorts_of(term)
+        for symbol in symbols(term):
+            if found.setdefault(symbol.name, symbol) != symbol:
+                raise TypeError(f"two symbols are called {symbol.name}")
+    lines = [f"(declare-sort {sort} 0)" for sort in sorted(sorts - {BOOL})]
+    return lines + [
+        f"(declare-fun {symbol.name} ({' '.join(symbol.arguments)}) {symbol.result})"
+        for symbol in sorted(found.values(), key=lambda symbol: symbol.name)
+    ]
+
+
+def script(assertions: dict[str, Term], *, logic: str = "UF") -> str:
+    """A whole SMT-LIB 2 script that asks whether all these can hold at once; each has a name.
+
+    Raises:
+        TypeError: a name is also that of a symbol, which the language forbids.
+    """
+    used = {symbol.name for term in assertions.values() for symbol in symbols(term)}
+    if clash := sorted(used & assertions.keys()):
+        raise TypeError(f"{', '.join(clash)}: an assertion is called like a symbol")
+    lines = [f"(set-logic {logic})", *declarations(list(assertions.values()))]
+    lines += [f"(assert (! {text(term)} :named {name}))" for name, term in assertions.items()]
+    return "\n".join([*lines, "(check-sat)", ""])
