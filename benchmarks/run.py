@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from time import process_time
 
 import drawing
+import oracle
 import search
 
 from topo_verify import CATALOGUE, World, examine, families
@@ -85,6 +86,9 @@ def main() -> None:
 
     print()
     search.table(row)
+
+    print()
+    oracle.table(row)
 
     lattice = families.lattice(20, 20, holes=0.2, seed=7)
     vertices, edges = len(lattice.vertices), len(lattice.edges)

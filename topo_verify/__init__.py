@@ -4,21 +4,24 @@ import topo_verify as tv
 world = tv.World.from_id("m5/17")
 run = tv.explore(world, "enhancement-ii")
 report = tv.examine(my_mapper, world)
+
+Names are imported when they are first asked for: pytest imports this package in every session of
+the environment, for the sake of its plugin, and most sessions ask for nothing.
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
-
-from topo_verify.algorithms import CATALOGUE, Algorithm
-from topo_verify.certificate import Certificate, certify
-from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
-from topo_verify.robot.limits import Limits
-from topo_verify.robot.percept import Percept, Robot
-from topo_verify.trial import Exploration, Report, assert_maps, examine, explore
-from topo_verify.world import families
-from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
     from topo_verify import strategies
+    from topo_verify.algorithms import CATALOGUE, Algorithm
+    from topo_verify.certificate import Certificate, certify
+    from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
+    from topo_verify.robot.limits import Limits
+    from topo_verify.robot.percept import Percept, Robot
+    from topo_verify.trial import Exploration, Report, assert_maps, examine, explore
+    from topo_verify.world import families
+    from topo_verify.world.rooted_map import World
 
 __version__ = "0.1.0"
 
@@ -45,10 +48,29 @@ __all__ = [
     "strategies",
 ]
 
+_MODULES = {
+    "algorithms": ("CATALOGUE", "Algorithm"),
+    "certificate": ("Certificate", "certify"),
+    "errors": ("ClaimFailed", "InputError", "InternalError", "TopoVerifyError"),
+    "robot.limits": ("Limits",),
+    "robot.percept": ("Percept", "Robot"),
+    "trial": ("Exploration", "Report", "assert_maps", "examine", "explore"),
+    "world": ("families",),
+    "world.rooted_map": ("World",),
+}
+"""Where the names of `__all__` live."""
 
-def __getattr__(name: str) -> Any:  # Hypothesis is loaded by those alone who ask for strategies
+_HOME = {name: f"topo_verify.{module}" for module, names in _MODULES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
     if name == "strategies":
-        import topo_verify.strategies
+        return import_module("topo_verify.strategies")
+    if name not in _HOME:
+        raise AttributeError(f"module 'topo_verify' has no attribute {name!r}")
+    found = globals()[name] = getattr(import_module(_HOME[name]), name)
+    return found
 
-        return topo_verify.strategies
-    raise AttributeError(f"module 'topo_verify' has no attribute {name!r}")
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -315,7 +315,9 @@ def replay_line(
     where: str, target: str, policies: Policies | None = None, options: Sequence[str] = ()
 ) -> str:
     """The command line that shows a run again."""
-    words = ["topo-verify", "replay", where, "--target", target]
+    words = ["topo-verify", "replay", where]
+    command = target.removeprefix("--cmd ")  # of a program; docs/oracle.md
+    words += ["--target", target] if command == target else ["--cmd", command]
     for name, default in (("pick", "nearest"), ("order", "shortest")):
         value = getattr(policies, name, default)
         words += [f"--{name}", value] if value != default else []

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from topo_verify.campaigns.generated import STRATEGIES, generated_worlds
+from topo_verify.campaigns.generated import generated_worlds
+from topo_verify.oracle.corpus import STRATEGIES
 from topo_verify.strategies.naming import WORLDS
 
 

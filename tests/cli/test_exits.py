@@ -24,6 +24,9 @@ COMMANDS = (
     "world",
     "search",
     "prove",
+    "conform",
+    "record",
+    "compare",
     "replay",
     "certify",
 )

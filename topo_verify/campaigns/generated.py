@@ -11,19 +11,8 @@ from __future__ import annotations
 
 from functools import cache
 
+from topo_verify.oracle.corpus import STRATEGIES
 from topo_verify.world.rooted_map import World
-
-STRATEGIES = (
-    "worlds(min_edges=1, max_edges=24)",
-    "planar_worlds(min_edges=1, max_edges=24)",
-    "nonplanar_worlds(max_edges=24)",
-    "tree_worlds(min_edges=1, max_edges=24)",
-    "lattices(min_edges=1, max_edges=40)",
-    "dense_worlds(min_edges=1, max_edges=24)",
-    "symmetric_worlds(min_edges=1, max_edges=24)",
-    "uniform_worlds(edges=12)",
-)
-"""Every strategy, as `topo-verify world sample --strategy` takes it."""
 
 
 @cache

@@ -1,6 +1,6 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
-verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py),
+verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py), conform.py, record.py, compare.py,
 replay.py, certify.py     the commands
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
@@ -22,9 +22,12 @@ from click.shell_completion import shell_complete
 
 from topo_verify.cli import options, output
 from topo_verify.cli.certify import certify
+from topo_verify.cli.compare import compare
+from topo_verify.cli.conform import conform
 from topo_verify.cli.explore import explore
 from topo_verify.cli.failures import ExitCode, explain, say, version
 from topo_verify.cli.prove import prove
+from topo_verify.cli.record import record
 from topo_verify.cli.replay import replay
 from topo_verify.cli.search import search
 from topo_verify.cli.verify import verify
@@ -92,6 +95,9 @@ for command in (
     world,
     search,
     prove,
+    conform,
+    record,
+    compare,
     replay,
     certify,
 ):

@@ -26,9 +26,10 @@ from topo_verify.cli.runs import (
 )
 from topo_verify.errors import InputError
 from topo_verify.gap import gap as measure
+from topo_verify.oracle import naming
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
-from topo_verify.targets import Target, targets
+from topo_verify.targets import Target
 from topo_verify.world.formats import files
 
 
@@ -109,11 +110,10 @@ class _Asked:
 @click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
 @click.option(
     "--algorithm",
-    default="all",
-    show_default=True,
     metavar="TARGET",
-    help="Names of the catalogue with commas, or all; module:attribute or file.py:attribute.",
+    help="Names of the catalogue; module:attribute or file.py:attribute.  [default: all]",
 )
+@options.program
 @options.policies
 @options.marker
 @click.option("--trace", metavar="FILE", help="Write the trace of the one run, JSON Lines.")
@@ -125,7 +125,8 @@ def explore(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
     worlds: tuple[str, ...],
-    algorithm: str,
+    algorithm: str | None,
+    command: str | None,
     pick: str | None,
     order: str | None,
     marker: int | None,
@@ -141,7 +142,8 @@ def explore(  # noqa: PLR0913  an argument an option
     """
 
     def runs() -> Iterator[Result[Explored]]:
-        found = targets(algorithm, pick=pick, order=order)
+        text = naming.target_text(algorithm, command, "all")
+        found = naming.targets(text, pick=pick, order=order)
         where = places(worlds, marker)
         if trace is not None:
             _require_one_run(trace, found, where)

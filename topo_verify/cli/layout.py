@@ -62,7 +62,7 @@ class Table:
         columns: the titles; one that begins with `>` stands over numbers, flush right.
         rows: as many cells each as there are columns.
         title: what the rows have in common.
-        widths: least widths, for tables that are printed a row at a time.
+        widths: for tables that are printed a row at a time; 0: as wide as it may be.
         headed: print the titles? (Markdown always does.)
     """
 
@@ -124,7 +124,7 @@ def _grid(block: Table) -> Grid:
             _clean(title.removeprefix(">")),
             justify="right" if title.startswith(">") else "left",
             overflow="fold",
-            min_width=block.widths[place] if block.widths else None,
+            width=block.widths[place] or None if block.widths else None,
         )
     for row in block.rows:
         grid.add_row(*(Line(_clean(cell), style=STYLES.get(cell, "")) for cell in row))

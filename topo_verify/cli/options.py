@@ -102,3 +102,11 @@ world_class = click.option(
     metavar="CLASS",
     help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; several with commas.",
 )
+
+
+program = click.option(
+    "--cmd",
+    "command",
+    metavar="'PROGRAM ARGS'",
+    help="A program in place of a TARGET, run without a shell: docs/oracle.md.",
+)

@@ -20,9 +20,9 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import Place, finding_line, held, judged, place, silent
 from topo_verify.errors import InputError
+from topo_verify.oracle import naming
 from topo_verify.robot.events import Start, read_trace
 from topo_verify.robot.limits import Limits
-from topo_verify.targets import one_target
 from topo_verify.trial import Report
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
@@ -57,6 +57,7 @@ class Replayed(msgspec.Struct, frozen=True):
 )
 @click.argument("what", metavar="FILE|WORLD")
 @click.option("--target", metavar="TARGET", help="The mapper to run in WORLD.  [default: basic]")
+@options.program
 @options.policies
 @options.marker
 @click.option("--world", "where", metavar="WORLD", help="Where the trace in FILE was left.")
@@ -67,6 +68,7 @@ def replay(  # noqa: PLR0913  an argument an option
     *,
     what: str,
     target: str | None,
+    command: str | None,
     pick: str | None,
     order: str | None,
     marker: int | None,
@@ -82,7 +84,7 @@ def replay(  # noqa: PLR0913  an argument an option
     def replayed() -> Iterator[Result[Replayed]]:
         data = _bytes(what)
         if data is not None and _is_trace(data):
-            given = {"--target": target, "--pick": pick, "--order": order}
+            given = {"--target": target, "--cmd": command, "--pick": pick, "--order": order}
             words = [name for name, value in given.items() if value is not None]
             _require_none((*words, *limits.options), what)
             yield _judged(output, what, data, where, marker)
@@ -90,7 +92,8 @@ def replay(  # noqa: PLR0913  an argument an option
         if where is not None:
             raise InputError(f"--world {where}: {what} is no trace, and --world is for a trace")
         at = place(what, marker, data)
-        mapper = one_target("basic" if target is None else target, pick=pick, order=order)
+        text = naming.target_text(target, command, "basic")
+        mapper = naming.one_target(text, pick=pick, order=order)
         output.progress(f"{mapper.text} in {at.name}", 0, 1)
         run = trial.explore(at.world, mapper, limits=limits)
         report, incomplete = judged(run, at, limits)

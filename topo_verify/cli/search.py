@@ -17,12 +17,13 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
 from topo_verify.errors import InputError
+from topo_verify.oracle import naming
 from topo_verify.robot.limits import Limits
 from topo_verify.search import Compared, Costs, Failure, Found, Plan, Search, Size
 from topo_verify.search.ledger import Ledger
 from topo_verify.search.plan import CHOICES, Choices
 from topo_verify.search.workers import processors
-from topo_verify.targets import Target, targets
+from topo_verify.targets import Target
 from topo_verify.world.classes import WorldClass
 
 SHOWN = 3
@@ -113,6 +114,7 @@ class _Asked:
     ),
 )
 @click.argument("target", required=False, metavar="[TARGET]")
+@options.program
 @click.option(
     "--edges",
     type=click.IntRange(min=1),
@@ -147,6 +149,7 @@ def search(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
     target: str | None,
+    command: str | None,
     edges: int,
     kind: str,
     workers: int | None,
@@ -175,7 +178,7 @@ def search(  # noqa: PLR0913  an argument an option
             compare=compare is not None,
             limits=limits,
         )
-        for mappers in _mappers(target, compare, ledger):
+        for mappers in _mappers(target, command, compare, ledger):
             yield from _searched(output, mappers, asked)
 
     def show(entries: Sequence[Searched]) -> Iterator[Block]:
@@ -186,21 +189,20 @@ def search(  # noqa: PLR0913  an argument an option
 
 
 def _mappers(
-    target: str | None, compare: str | None, ledger: str | None
+    target: str | None, command: str | None, compare: str | None, ledger: str | None
 ) -> list[tuple[Target, ...]]:
     """The mappers of each search: one, or the two that are compared."""
-    if (target is None) == (compare is None):
+    if (target is None and command is None) == (compare is None):
         raise InputError("name a TARGET, or two mappers with --compare A,B: one of the two")
     if compare is not None:
-        pair = targets(compare)
+        pair = naming.targets(compare)
         if len(pair) != 2 or pair[0] == pair[1]:
             raise InputError(f"--compare {compare}: name two algorithms of the catalogue, as A,B")
         return [pair]
-    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(target or "")]
+    text = naming.target_text(target, command)
+    found: list[tuple[Target, ...]] = [(mapper,) for mapper in naming.targets(text)]
     if ledger is not None and len(found) != 1:
-        raise InputError(
-            f"--ledger {ledger}: a ledger is of one TARGET; {target} names {len(found)}"
-        )
+        raise InputError(f"--ledger {ledger}: a ledger is of one TARGET; {text} names {len(found)}")
     return found
 
 

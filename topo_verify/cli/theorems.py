@@ -199,10 +199,10 @@ def show(entries: Sequence[Proved]) -> Iterator[Block]:
 
 def live(entry: Proved, seconds: float) -> Iterator[Block]:
     """One theorem, as soon as it is done."""
-    name, kind, verdict, ok, told = _row(entry)
-    row = (name, kind, verdict, ok, f"{seconds:.2f} s", told)
-    columns = ("theorem", "kind", "verdict", "", ">time", "what stands behind it")
-    yield Table(columns, [row], widths=(26, 9, 9, 2, 6, 0), headed=False)
+    told = _told(entry) if entry.ok else f"NOT OK ({entry.kind}): {_told(entry)}"
+    row = (entry.name, entry.verdict, f"{seconds:.2f} s", told)
+    columns = ("theorem", "verdict", ">time", "what stands behind it")
+    yield Table(columns, [row], widths=(28, 9, 7, 0), headed=False)
 
 
 def end(entries: Sequence[Proved]) -> Iterator[Block]:

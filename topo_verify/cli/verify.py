@@ -15,15 +15,17 @@ from topo_verify.cli.layout import Block, Table, Text
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks, undeclared
+from topo_verify.oracle import naming
 from topo_verify.robot.limits import Limits
-from topo_verify.targets import Target, targets
+from topo_verify.targets import Target
 
 
 @click.command(
     short_help="Check the catalogue, or a mapper of your own: one report.",
     epilog=options.epilog("verify", "verify my_mapper.py:explore", "verify --quick --format json"),
 )
-@click.argument("target", default="all", metavar="[TARGET]")
+@click.argument("target", required=False, metavar="[TARGET]")
+@options.program
 @click.option("--quick", is_flag=True, help="Smaller sizes: a few seconds.")
 @click.option(
     "--seed",
@@ -35,13 +37,22 @@ from topo_verify.targets import Target, targets
 )
 @options.limits
 @output_options
-def verify(output: Output, *, target: str, quick: bool, seed: int, limits: Limits) -> int:
-    """Check the algorithms of the catalogue, or a mapper of your own, in four parts.
+def verify(
+    output: Output,
+    *,
+    target: str | None,
+    command: str | None,
+    quick: bool,
+    seed: int,
+    limits: Limits,
+) -> int:
+    """Check the algorithms of the catalogue, or a mapper of your own, part by part.
 
     TARGET is `all` (the default), names of the catalogue with commas, package.module:attribute or
     path/file.py:attribute. A mapper takes a robot and returns a map.
     """
-    mappers = targets(target)
+    text = naming.target_text(target, command, "all")
+    mappers = naming.targets(text)
 
     def parts() -> Iterator[Result[Part]]:
         tell = output.progress
@@ -55,7 +66,7 @@ def verify(output: Output, *, target: str, quick: bool, seed: int, limits: Limit
         parts,
         lambda entries: _show(head, entries),
         live=Live(head, _live, _end),
-        target=target,
+        target=text,
         quick=quick,
         seed=seed,
     )

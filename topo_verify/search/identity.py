@@ -2,7 +2,8 @@
 
 For an algorithm of the catalogue these are the parts of topo_verify that decide what a search
 finds. For a mapper of the user's these and its own file, and the neighbours that it imports (they
-stand in the same folder, or in the same package), and theirs.
+stand in the same folder, or in the same package), and theirs. For a program, what stands in the
+files that its command names.
 
 What this does not see: imports by a computed name, data that a mapper reads, libraries.
 """
@@ -18,11 +19,13 @@ from pathlib import Path
 
 from topo_verify import errors
 from topo_verify.algorithms import Algorithm
+from topo_verify.oracle.naming import fingerprint
+from topo_verify.oracle.program import Program
 from topo_verify.targets import Target
 
 _PACKAGE = Path(errors.__file__).resolve().parent
 
-DECIDE = ("algorithms", "checkers", "robot", "search", "targets.py", "trial.py", "world")
+DECIDE = ("algorithms", "checkers", "oracle", "robot", "search", "targets.py", "trial.py", "world")
 """The parts of topo_verify whose change may change what a search finds."""
 
 
@@ -30,7 +33,9 @@ def source_hash(mappers: Iterable[Target]) -> str:
     """The hash of these mappers' sources, as they are now, in hexadecimal."""
     digest = sha256(_own().encode())
     for mapper in mappers:
-        if not isinstance(mapper.mapper, Algorithm):
+        if isinstance(mapper.mapper, Program):
+            digest.update(fingerprint(mapper.text).encode())
+        elif not isinstance(mapper.mapper, Algorithm):
             for name, text in sorted(_sources(mapper).items()):
                 digest.update(f"\0{name}\0".encode() + sha256(text).digest())
     return digest.hexdigest()

@@ -20,6 +20,8 @@ from typing import Literal
 import msgspec
 
 from topo_verify.errors import InputError, InternalError
+from topo_verify.oracle import naming
+from topo_verify.oracle.program import Program
 from topo_verify.robot.limits import Limits
 from topo_verify.search.examining import Interrupted, examine_shard
 from topo_verify.search.ledger import Ledger
@@ -28,7 +30,7 @@ from topo_verify.search.plan import Choices, Plan, Shard
 from topo_verify.search.tally import Costs, Failing, Failure, Tally
 from topo_verify.search.variants import require_choices
 from topo_verify.search.workers import Crew
-from topo_verify.targets import Mapper, Target, one_target, targets
+from topo_verify.targets import Mapper, Target, one_target
 from topo_verify.world.classes import WorldClass
 
 Verdict = Literal["EXHAUSTED", "UNKNOWN", "REFUTED"]
@@ -126,12 +128,14 @@ def search(  # noqa: PLR0913  an argument an option
 
 
 def _targets(target: Mapper | str | Target) -> tuple[Target, ...]:
-    return targets(target) if isinstance(target, str) else (one_target(target),)
+    return naming.targets(target) if isinstance(target, str) else (one_target(target),)
 
 
 def _require_texts(mappers: Sequence[Target]) -> None:
     """Can other processes find these mappers by their texts? (`InputError` if not)."""
     for mapper in mappers:
+        if isinstance(mapper.mapper, Program):
+            continue
         try:
             found = one_target(mapper.text).mapper
         except InputError as error:

@@ -29,11 +29,11 @@ from typing import BinaryIO
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.oracle.naming import targets
 from topo_verify.search.examining import examine_shard
 from topo_verify.search.identity import source_hash
 from topo_verify.search.plan import Plan, Shard
 from topo_verify.search.tally import Tally
-from topo_verify.targets import targets
 
 PR_SET_PDEATHSIG = 1
 

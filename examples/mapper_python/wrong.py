@@ -1,0 +1,8 @@
+"""The same mapper, but it draws its map anticlockwise: that of the mirror image."""
+
+from mapper import explore as right
+
+
+def explore(robot):
+    found = right(robot)
+    return {**found, "vertices": [row[::-1] for row in found["vertices"]]}

@@ -1,0 +1,131 @@
+"""`topo-verify conform`: entries, exit codes, what a person is shown."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Call, Program, Results
+
+ROOM = Path(__file__).parents[1] / "oracle"
+
+BASIC = f"--cmd '{sys.executable} -m topo_verify.oracle.serve basic'"
+SKIPS = f"--cmd '{sys.executable} {ROOM / 'misbehaving.py'} skips'"
+BATCH = f"--cmd '{sys.executable} {ROOM / 'batch_program.py'} right'"
+
+PROMISED = {
+    *("target", "level", "worlds", "passed", "skipped", "errored", "verdict", "findings", "cost")
+}
+
+
+def test_an_entry_a_level_with_every_promised_field(results: Results) -> None:
+    found = results(f"conform {BASIC} --like basic --worlds edges<=2 --workers 1")
+    assert found["format"] == "topo-verify/conform"
+    assert [entry["level"] for entry in found["results"]] == [
+        *("result", "claims", "decisions", "cost")
+    ]
+    for entry in found["results"]:
+        assert entry.keys() >= PROMISED
+        assert entry["cost"].keys() == {"mapper", "reference", "ratio"}
+        assert (entry["worlds"], entry["passed"], entry["verdict"]) == (12, 12, "EXHAUSTED")
+
+
+def test_a_finding_exits_1_and_says_how_to_see_it_again(results: Results) -> None:
+    line = "conform mappers.py:guesses --worlds edges<=2 --workers 0"
+    found = results(line, code=1)
+    finding = found["results"][0]["findings"][0]
+    assert finding.keys() >= {"claim", "world", "event", "expected", "seen", "message", "replay"}
+    again = shlex.split(finding["replay"])
+    assert again[:3] == ["topo-verify", "conform", "mappers.py:guesses"]
+    once = results(shlex.join([*again[1:], "--workers", "0"]), code=1)
+    assert once["results"][0]["findings"][0]["message"] == finding["message"]
+
+
+def test_a_skipped_world_exits_3(results: Results) -> None:
+    found = results(f"conform {SKIPS} --worlds edges<=1 --workers 0", code=3)
+    assert found["results"][0]["skipped"] == 1
+    assert found["results"][0]["verdict"] == "UNKNOWN"
+
+
+def test_batch_mode(results: Results) -> None:
+    found = results(f"conform {BATCH} --batch --like basic --worlds edges<=2 --worlds m4/41")
+    assert {entry["passed"] for entry in found["results"]} == {13}
+
+
+def test_several_mappers_are_told_apart(results: Results) -> None:
+    found = results("conform basic,enhancement-i --worlds nyc --workers 0")
+    assert [(e["target"], e["level"]) for e in found["results"]] == [
+        (target, level)
+        for target in ("basic", "enhancement-i")
+        for level in ("result", "claims", "cost")
+    ]
+    assert found["results"][-1]["cost"] == {"mapper": 982, "reference": 1468, "ratio": 0.6689}
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("conform", "name a TARGET, or a program"),
+        ("conform basic --cmd ./mapper", "one of the two"),
+        ("conform --cmd /no/such/program --worlds m1/0", "cannot start '/no/such/program'"),
+        ('conform --cmd "\'" --worlds m1/0', "quote"),
+        ("conform basic --worlds nowhere", "names no world"),
+        ("conform basic --like best", "no algorithm 'best'"),
+        ("conform basic --batch --worlds m1/0", "for programs"),
+        ("conform nothing --worlds m1/0", "no algorithm 'nothing'"),
+    ],
+)
+def test_bad_input_exits_2_with_one_sentence(call: Call, line: str, words: str) -> None:
+    done = call(line)
+    assert done.exit_code == 2
+    assert words in done.stderr
+    assert done.stdout == ""
+
+
+def test_a_person_is_shown_where_two_runs_part(call: Call) -> None:
+    done = call("conform basic --like enhancement-ii --worlds m4/41 --workers 0")
+    assert done.exit_code == 1
+    for words in (
+        "decisions  REFUTED",
+        "decisions in 1 world, first m4/41:",
+        "reject 4 for dart 7 by history",
+        "known then: degrees 1 5 2; explored edges 0-1 2-6",
+        "again: topo-verify conform basic --like enhancement-ii --worlds m4/41",
+        "Cost over 1 world: 11 edge traversals, enhancement-ii 9: 1.222 of it.",
+    ):
+        assert words in done.stdout
+
+
+def test_a_person_is_told_what_was_not_judged(call: Call) -> None:
+    done = call("conform mappers.py:silent --worlds edges<=1 --workers 0")
+    assert "declares nothing on it: true-hypothesis-posed" in done.stdout.replace("\n", " ")
+    done = call(f"conform {SKIPS} --worlds edges<=1 --workers 0")
+    assert "Not decided: 1 skipped." in done.stdout
+    assert "no loops, please" in done.stdout
+
+
+def test_markdown_has_the_same_table(call: Call) -> None:
+    done = call("conform basic --worlds edges<=1 --workers 0 --format markdown")
+    assert "| result | EXHAUSTED | 2 | 0 | 0 | 2 |" in done.stdout
+
+
+def test_transcripts_are_kept(call: Call, folder: Path) -> None:
+    call("conform mappers.py:guesses --worlds m2/0 --workers 0 --transcript said/here")
+    assert (folder / "said" / "here" / "m2-0.jsonl").is_file()
+
+
+def test_two_runs_differ_in_timing_alone(program: Program) -> None:
+    line = (
+        "conform mappers.py:ignores_direction --like basic --worlds edges<=2 --worlds generated:8"
+    )
+    outs = [
+        program(f"{line} --format json --workers {workers}", PYTHONHASHSEED=seed).stdout
+        for workers, seed in ((0, "1"), (2, "2"))
+    ]
+    one, two = (out.split('"timing"')[0] for out in outs)
+    assert one == two
+    assert json.loads(outs[0])["exit"] == 1

@@ -1,0 +1,63 @@
+"""Programs as TARGETs: every command that takes a mapper takes `--cmd`."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Call = Callable[..., Any]
+
+RIGHT = f"{shlex.quote(sys.executable)} -m topo_verify.oracle.serve basic"
+WRONG = f"{shlex.quote(sys.executable)} -m topo_verify.oracle.serve mappers.py:guesses"
+
+
+@pytest.mark.parametrize("workers", [0, 2])
+def test_search_goes_through_all_worlds_with_a_program(results: Call, workers: int) -> None:
+    (entry,) = results(f'search --cmd "{RIGHT}" --edges 3 --workers {workers}')["results"]
+    assert (entry["verdict"], entry["checked"]) == ("EXHAUSTED", 86)
+    assert entry["target"].startswith("--cmd ")
+    assert entry["by_edges"][2]["max_cost"] == 10
+
+
+def test_a_wrong_program_has_its_smallest_counterexample_which_replay_shows(
+    results: Call,
+) -> None:
+    (entry,) = results(f'search --cmd "{WRONG}" --edges 3', code=1)["results"]
+    (ours,) = results("search mappers.py:guesses --edges 3", code=1)["results"]
+    assert entry["counterexample"]["world"] == ours["counterexample"]["world"]
+    line = entry["counterexample"]["replay"].removeprefix("topo-verify ")
+    (again,) = results(line, code=1)["results"]
+    assert again["findings"]
+
+
+def test_a_changed_program_does_not_go_on_with_a_ledger(call: Call, folder: Path) -> None:
+    script = folder / "run.sh"
+    script.write_text(f"#!/bin/sh\nexec {RIGHT}\n")
+    script.chmod(0o755)
+    line = f'search --cmd "{script}" --edges 2 --ledger book.sqlite'
+    assert call(line).exit_code == 0
+    assert call(line).exit_code == 0
+    script.write_text(f"#!/bin/sh\n# changed\nexec {RIGHT}\n")
+    done = call(line)
+    assert done.exit_code == 2
+    assert "has changed since" in done.stderr
+
+
+def test_verify_and_explore_run_programs(results: Call) -> None:
+    parts = results(f'verify --cmd "{RIGHT}" --quick')["results"]
+    assert {part["ok"] for part in parts} == {True}
+    (entry,) = results(f'explore nyc --cmd "{RIGHT}"')["results"]
+    (ours,) = results("explore nyc --algorithm basic")["results"]
+    assert entry["cost"] == ours["cost"]
+
+
+@pytest.mark.parametrize("line", ["verify basic", "explore nyc --algorithm basic", "search basic"])
+def test_a_target_and_a_program_are_one_too_many(call: Call, line: str) -> None:
+    done = call(f'{line} --cmd "{RIGHT}"')
+    assert done.exit_code == 2
+    assert "one of the two, not both" in done.stderr

@@ -1,0 +1,107 @@
+"""`topo-verify record`: what it writes, what it says, and how it ends."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Call, Results
+from topo_verify.oracle import baseline
+
+FIELDS = {"target", "worlds", "equal", "wrong", "dearer", "cheaper", "other_decisions"}
+PROGRAM = """
+import json, sys
+sys.stdin.readline()
+print(json.dumps({"type": "error", "why": "not today"}), flush=True)
+sys.stdin.readline()
+"""
+
+
+def test_the_default_corpus_is_recorded(results: Results, folder: Path) -> None:
+    envelope = results("record basic --out b.jsonl.gz")
+    assert (envelope["format"], envelope["seed"]) == ("topo-verify/record", 0)
+    (entry,) = envelope["results"]
+    assert entry.keys() >= FIELDS
+    assert (entry["worlds"], entry["equal"], entry["wrong"]) == (953, 953, 0)
+    assert entry["corpus"] == "edges<=4 (792), generated:160 (160), nyc (1)"
+    written = baseline.load(folder / "b.jsonl.gz")
+    assert written.header.worlds == ("corpus",)
+    assert written.header.digest == entry["digest"]
+    assert sum(one.cost for one in written.entries) == entry["cost"]
+
+
+def test_two_recordings_are_the_same_file(call: Call, folder: Path) -> None:
+    for name in ("one", "other"):
+        done = call(f"record mappers.py:right --worlds 'edges<=3' --seed 3 --out {name}")
+        assert done.exit_code == 0
+    assert (folder / "one").read_bytes() == (folder / "other").read_bytes()
+
+
+def test_limits_worlds_seed_and_policies_are_in_the_file(call: Call, folder: Path) -> None:
+    call(
+        "record basic --pick last --worlds generated:8 --worlds nyc --seed 5 --budget 9999"
+        " --move-timeout 2 --out b"
+    )
+    header = baseline.load(folder / "b").header
+    assert (header.worlds, header.seed, header.total) == (("generated:8", "nyc"), 5, 9)
+    assert header.policies is not None
+    assert (header.policies.pick, header.policies.order) == ("last", "shortest")
+    assert (header.limits.budget, header.limits.move_timeout) == (9999, 2)
+
+
+def test_a_mapper_that_fails_is_recorded_and_exits_1(results: Results, call: Call) -> None:
+    line = "record mappers.py:guesses --worlds 'edges<=2' --out b"
+    (entry,) = results(line, code=1)["results"]
+    assert (entry["equal"], entry["wrong"], entry["file"]) == (1, 11, "b")
+    assert entry["findings"][0]["world"] == "m1/1"
+    assert call(entry["findings"][0]["replay"].removeprefix("topo-verify ")).exit_code == 1
+    text = call(line).stdout
+    assert "again: topo-verify replay m1/1 --target mappers.py:guesses" in text
+    assert "written: b" in text
+
+
+def test_a_mapper_that_hangs_has_no_baseline(call: Call, results: Results, folder: Path) -> None:
+    line = "record mappers.py:loops --worlds 'edges<=2' --move-timeout 0.06 --out b"
+    (entry,) = results(line, code=1)["results"]
+    assert (entry["wrong"], entry["undecided"], entry["file"]) == (3, 9, None)
+    assert not (folder / "b").exists()
+    assert "No baseline is written" in call(line).stdout
+
+
+def test_a_mapper_that_is_too_slow_is_incomplete(results: Results) -> None:
+    line = "record mappers.py:strolls --worlds m2/0 --world-timeout 0.02 --out b"
+    (entry,) = results(line, code=3)["results"]
+    assert (entry["equal"], entry["wrong"], entry["undecided"]) == (0, 0, 1)
+
+
+def test_a_program_that_gives_a_world_up_leaves_it_undecided(
+    results: Results, folder: Path
+) -> None:
+    (folder / "program.py").write_text(PROGRAM)
+    command = shlex.quote(f"{shlex.quote(sys.executable)} program.py")
+    (entry,) = results(f"record --cmd {command} --worlds m2/0 --out b", code=3)["results"]
+    assert entry["undecided"] == 1
+    assert entry["target"].startswith("--cmd ")
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("record basic", "'--out'"),
+        ("record --out b", "name a TARGET, or a program"),
+        ("record basic --cmd ./mapper --out b", "one of the two"),
+        ("record all --out b", "names 9 mappers: name one"),
+        ("record nix --out b", "no algorithm 'nix'"),
+        ("record basic --worlds 'edges<=99' --out b", "'edges<=99'"),
+        ("record basic --worlds m1/0 --out nowhere/b", "cannot write nowhere/b"),
+        ("record --cmd ./mapper --pick last --out b", "policies"),
+    ],
+)
+def test_bad_input_gets_one_sentence(call: Call, line: str, told: str) -> None:
+    done = call(line)
+    assert done.exit_code == 2, done.output
+    assert told in done.stderr
+    assert len(done.stderr.splitlines()) == 1

@@ -1,0 +1,365 @@
+"""The pytest plugin, in sessions of its own: what is collected, what fails, what is said.
+
+A session in a process of its own is what users have; it also keeps the plugin that runs these tests
+apart from the one that they are about.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from topo_verify import pytest_plugin as plugin
+from topo_verify.checkers import CLAIMS
+
+pytest_plugins = ["pytester"]
+
+Session = Callable[..., pytest.RunResult]
+
+MARKED = """
+import pytest
+
+@pytest.mark.topo(target="{target}", edges=2)
+def test_mine() -> None:
+    with open("body", "a") as file:
+        file.write("x")
+"""
+
+DECLARED = (
+    *("true-hypothesis-posed", "true-hypothesis-kept", "no-false-confirm"),
+    *("rejection-justified", "decisions-entailed"),
+)
+"""The claims on what a mapper declares."""
+
+
+@pytest.fixture
+def session(pytester: pytest.Pytester) -> Session:
+    """Call pytest in a folder with mappers.py; warnings are errors."""
+    shutil.copy(Path(__file__).parent / "cli" / "mappers.py", pytester.path)
+
+    def session(*arguments: str, test: str = "") -> pytest.RunResult:
+        if test:
+            pytester.makepyfile(test_it=test)
+        # Hypothesis's plugin is imported when a session ends, which takes a second.
+        usual = ("-W", "error", "--strict-markers", "-p", "no:hypothesispytest", "-rsf")
+        return pytester.runpytest_subprocess(*usual, *arguments)
+
+    return session
+
+
+def said(result: pytest.RunResult) -> str:
+    """What a session printed, in one line."""
+    return " ".join(result.stdout.str().split())
+
+
+# ---------------------------------------------------------------- the mark
+
+
+def test_a_mark_turns_a_mapper_into_one_test_a_claim(session: Session) -> None:
+    result = session("-v", test=MARKED.format(target="mappers:right"))
+    result.assert_outcomes(passed=len(CLAIMS))
+    for claim in CLAIMS:
+        result.stdout.fnmatch_lines(f"test_it.py::test_mine[[]{claim}[]] PASSED*")
+    result.stdout.fnmatch_lines(
+        ["*= topo-verify =*", "mappers:right: 12 of 12 worlds of 1 to 2 edges, 0 counterexamples"]
+    )
+
+
+def test_the_mapper_runs_once_in_each_world_and_the_body_after_each_claim(
+    session: Session, pytester: pytest.Pytester
+) -> None:
+    pytester.makepyfile(
+        counting="""
+        import mappers
+
+        def explore(robot):
+            with open("runs", "a") as file:
+                file.write("x")
+            return mappers.right(robot)
+        """
+    )
+    result = session(test=MARKED.format(target="counting:explore"))
+    result.assert_outcomes(passed=len(CLAIMS))
+    assert len((pytester.path / "runs").read_text()) == 12
+    assert len((pytester.path / "body").read_text()) == len(CLAIMS)
+
+
+def test_a_wrong_mapper_fails_by_claim_with_the_world_and_the_line(session: Session) -> None:
+    result = session(test=MARKED.format(target="mappers:guesses"))
+    failing = ("map-isomorphic", "cost-within-bound", "map-entailed")
+    result.assert_outcomes(passed=2, failed=3, skipped=5)
+    for claim in failing:
+        result.stdout.fnmatch_lines(f"FAILED test_it.py::test_mine[[]{claim}[]]*")
+    assert "map-isomorphic fails in 11 of 12 worlds of 1 to 2 edges, first in m1/1" in said(result)
+    result.stdout.fnmatch_lines(
+        [
+            "  world: m1/1",
+            "  again: topo-verify replay m1/1 --target mappers:guesses",
+            "mappers:guesses: 12 of 12 worlds*, 11 counterexamples, first m1/1",
+        ]
+    )
+    assert "Traceback" not in result.stdout.str()
+
+
+def test_what_is_not_declared_is_skipped_and_does_not_pass(session: Session) -> None:
+    result = session("-v", test=MARKED.format(target="mappers:silent"))
+    result.assert_outcomes(passed=5, skipped=5)
+    for claim in DECLARED:
+        assert f"{claim}: not judged, for the mapper declares nothing on it" in said(result)
+
+
+def test_a_mapper_that_raises_shows_where(session: Session) -> None:
+    result = session("-k", "isomorphic", test=MARKED.format(target="mappers:raises"))
+    result.assert_outcomes(failed=1, deselected=len(CLAIMS) - 1)
+    assert "the mapper raised ValueError: no\\x1b[31m way\\nat all" in said(result)
+    source = (Path(__file__).parent / "cli" / "mappers.py").read_text().splitlines()
+    line = next(n for n, text in enumerate(source, 1) if "raise ValueError" in text)
+    result.stdout.fnmatch_lines([f"  raised at: *mappers.py:{line}"])
+
+
+def test_a_mapper_that_hangs_fails_and_leaves_the_rest_undecided(session: Session) -> None:
+    test = MARKED.format(target="mappers:loops")
+    result = session("--topo-move-timeout", "0.06", test=test)
+    result.assert_outcomes(failed=len(CLAIMS))
+    assert "map-isomorphic fails in 3 of 3 worlds" in said(result)
+    assert "the mapper did not move for 0.06 s" in said(result)
+    assert "cost-honest is not decided: 3 of 12 worlds" in said(result)
+
+
+def test_a_mapper_that_is_too_slow_never_passes(session: Session) -> None:
+    test = MARKED.format(target="mappers:strolls")
+    result = session("--topo-world-timeout", "0.02", test=test)
+    result.assert_outcomes(failed=len(CLAIMS))
+    assert "3 of 12 worlds of 1 to 2 edges, 0 counterexamples; not decided: 3 of 12" in said(result)
+
+
+def test_a_mark_takes_a_callable_stands_on_classes_and_meets_parameters(session: Session) -> None:
+    result = session(
+        "-v",
+        test="""
+        import pytest
+        from mappers import right
+
+        @pytest.mark.topo(target=right, edges=1)
+        class TestMine:
+            @pytest.mark.parametrize("colour", ["red", "blue"])
+            def test_one(self, colour: str, tmp_path) -> None:
+                assert colour
+
+            @pytest.mark.topo(target="basic,folding", edges=1)
+            def test_two(self) -> None: ...
+        """,
+    )
+    result.assert_outcomes(passed=4 * len(CLAIMS))
+    result.stdout.fnmatch_lines(
+        [
+            "*TestMine::test_one[[]map-isomorphic-red[]]*",
+            "*TestMine::test_two[[]folding-map-isomorphic[]]*",
+            "mappers:right: 2 of 2 worlds of 1 to 1 edges*",
+            "basic: 2 of 2 worlds of 1 to 1 edges*",
+        ]
+    )
+
+
+MISTAKES = {
+    'target="nix"': "no algorithm 'nix'",
+    'target="mappers:nix"': "mappers has no attribute 'nix'",
+    'target="nowhere:nix"': "cannot import 'nowhere'",
+    "target=17": "17 is no mapper",
+    "": "names no mapper: write @pytest.mark.topo(target=",
+    '"basic"': "does not take 'basic'",
+    'target="basic", worlds=3': "does not take worlds=…",
+    'target="basic", edges=0': "edges=0: that is a number of edges",
+    'target="basic", edges=10': "ask for 9 or fewer",
+}
+"""Arguments of a mark, and what is said to them."""
+
+
+def test_a_mark_that_cannot_be_meant_is_an_error_of_one_sentence(
+    session: Session, pytester: pytest.Pytester
+) -> None:
+    for number, mark in enumerate(MISTAKES):
+        test = f"import pytest\n@pytest.mark.topo({mark})\ndef test_mine() -> None: ...\n"
+        pytester.makepyfile(**{f"test_{number}": test})
+    result = session()
+    result.assert_outcomes(errors=len(MISTAKES))
+    parts = re.split(r"(?m)^_+ ERROR collecting test_\d\.py _+$", result.stdout.str())
+    for part, told in zip(parts[1:], MISTAKES.values(), strict=True):
+        assert told in part
+    assert "Traceback" not in result.stdout.str()
+
+
+def test_a_mark_that_would_do_nothing_is_an_error(session: Session) -> None:
+    result = session(
+        test="""
+        import pytest, unittest
+
+        @pytest.mark.topo(target="basic")
+        class TestOld(unittest.TestCase):
+            def test_mine(self) -> None: ...
+        """
+    )
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    assert "TestOld::test_mine: the mark topo is for functions" in result.stderr.str()
+
+
+# ---------------------------------------------------------------- options
+
+
+def test_the_option_alone_collects_tests_without_a_file(session: Session) -> None:
+    result = session("--topo-target", "mappers.py:right", "--topo-edges", "2")
+    result.assert_outcomes(passed=len(CLAIMS))
+    result.stdout.fnmatch_lines(
+        [
+            f"collected {len(CLAIMS)} items",
+            "mappers.py:right ..........*",
+            "mappers.py:right: 12 of 12 worlds of 1 to 2 edges, 0 counterexamples",
+        ]
+    )
+
+
+def test_marks_without_a_target_mean_that_of_the_option(session: Session) -> None:
+    test = "import pytest\npytestmark = pytest.mark.topo\ndef test_mine() -> None: ...\n"
+    result = session("--topo-target", "basic,folding", "--topo-edges", "1", test=test)
+    result.assert_outcomes(passed=4 * len(CLAIMS))
+
+
+def test_the_mark_selects_the_tests_of_the_option(session: Session) -> None:
+    option = ("--topo-target", "basic", "--topo-edges", "1")
+    test = "def test_other() -> None: ...\n"
+    session(*option, "-m", "topo", test=test).assert_outcomes(passed=len(CLAIMS), deselected=1)
+
+
+def test_a_target_that_is_none_is_an_error_of_collection(session: Session) -> None:
+    result = session("--topo-target", "nix")
+    assert result.ret == pytest.ExitCode.INTERRUPTED
+    assert "ERROR collecting nix" in result.stdout.str()
+    assert "no algorithm 'nix': there are basic" in result.stdout.str()
+
+
+def test_numbers_that_cannot_be_meant_are_refused() -> None:
+    parser = pytest.Parser(_ispytest=True)
+    plugin.pytest_addoption(parser)
+    usual = parser.parse([])
+    assert (usual.topo_edges, usual.topo_move_timeout, usual.topo_world_timeout) == (4, 5, 60)
+    assert parser.parse(["--topo-edges", "6"]).topo_edges == 6
+    for option, texts in (
+        ("--topo-edges", ("0", "-1", "1.5", "many", "")),
+        ("--topo-move-timeout", ("0", "-1", "nan", "inf", "soon", "")),
+        ("--topo-world-timeout", ("0",)),
+    ):
+        for text in texts:
+            with pytest.raises(pytest.UsageError, match=f"{option}: '{text}' is no number of"):
+                parser.parse([f"{option}={text}"])
+
+
+def test_the_help_has_a_group_and_the_mark_is_known(session: Session) -> None:
+    text = session("--help").stdout.str()
+    group = text.partition("topo-verify (mappers with one robot and one marker):")[2]
+    assert re.findall(r"--topo-[a-z-]+(?==)", group.partition("\n\n")[0]) == [
+        *("--topo-target", "--topo-edges", "--topo-move-timeout", "--topo-world-timeout")
+    ]
+    session("--markers").stdout.fnmatch_lines("@pytest.mark.topo(target=*): one test a claim*")
+
+
+# ---------------------------------------------------------------- fixtures
+
+
+def test_the_fixtures_give_a_robot_and_a_report(session: Session) -> None:
+    result = session(
+        test="""
+        import topo_verify as tv
+        from hypothesis import given
+
+        def test_robot(topo_robot) -> None:
+            robot = topo_robot("m2/9")
+            assert (robot.percept.degree, robot.move(3).marker) == (4, 0)
+            assert robot.cost == 1
+            assert topo_robot(tv.World.from_id("m1/0"), budget=1).percept.degree == 1
+
+        def test_examine(topo_examine) -> None:
+            assert topo_examine("basic", "nyc").world == "nyc"
+            report = topo_examine("mappers:guesses", "m2/9")
+            assert report.ok, str(report)
+
+        @given(world=tv.strategies.worlds(max_edges=4))
+        def test_property(topo_examine, world) -> None:
+            assert topo_examine("basic", world).ok
+        """
+    )
+    result.assert_outcomes(passed=2, failed=1)
+    assert "again: topo-verify replay m2/9 --target mappers:guesses" in said(result)
+    assert "topo-verify =" not in result.stdout.str()  # nothing to sum up
+
+
+# ---------------------------------------------------------------- beside others
+
+
+def test_nothing_heavy_is_imported_until_a_mapper_is_tested(tmp_path: Path) -> None:
+    (tmp_path / "test_it.py").write_text("def test_it() -> None: ...\n")
+    heavy = ("z3", "hypothesis", "networkx", "numpy", "rich", "click")
+    code = (
+        "import sys, pytest\n"
+        "pytest.main(['-q', '-p', 'no:hypothesispytest', '-p', 'no:cacheprovider'])\n"
+        f"print('loaded', [name for name in {heavy!r} if name in sys.modules],\n"
+        "      'topo_verify.campaigns' in sys.modules, 'topo_verify.pytest_plugin' in sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert done.stdout.splitlines()[-1] == "loaded [] False True", done.stdout + done.stderr
+
+
+def test_a_junit_file_has_the_worlds_and_the_line(
+    session: Session, pytester: pytest.Pytester
+) -> None:
+    session("--junitxml=junit.xml", test=MARKED.format(target="mappers:guesses"))
+    tree = ET.parse(pytester.path / "junit.xml")  # noqa: S314  written a moment ago
+    (case,) = [c for c in tree.iter("testcase") if c.get("name") == "test_mine[map-isomorphic]"]
+    facts = {p.get("name"): p.get("value") for p in case.iter("property")}
+    assert facts == {
+        "topo_target": "mappers:guesses",
+        "topo_edges": "2",
+        "topo_verdict": "REFUTED",
+        "topo_checked": "12",
+        "topo_total": "12",
+        "topo_failing": "11",
+        "topo_world": "m1/1",
+        "topo_replay": "topo-verify replay m1/1 --target mappers:guesses",
+    }
+    assert case.find("failure") is not None
+
+
+@pytest.mark.skipif(find_spec("xdist") is None, reason="pytest-xdist is not installed")
+@pytest.mark.parametrize("how", ["load", "loadscope"])
+def test_the_summary_is_the_same_with_several_processes(session: Session, how: str) -> None:
+    test = MARKED.format(target="mappers:guesses")
+    option = ("--topo-target", "basic", "--topo-edges", "3")
+    result = session("-n", "2", "--dist", how, *option, test=test)
+    result.assert_outcomes(passed=12, failed=3, skipped=5)
+    summary = result.stdout.str().partition("= topo-verify =")[2].splitlines()[1:4]
+    assert sorted(summary) == [
+        "  again: topo-verify replay m1/1 --target mappers:guesses",
+        "basic: 86 of 86 worlds of 1 to 3 edges, 0 counterexamples",
+        "mappers:guesses: 12 of 12 worlds of 1 to 2 edges, 11 counterexamples, first m1/1",
+    ]
+
+
+@pytest.mark.skipif(find_spec("pytest_cov") is None, reason="pytest-cov is not installed")
+def test_the_lines_of_the_mapper_are_covered_beside_pytest_cov(
+    session: Session, pytester: pytest.Pytester
+) -> None:
+    pytester.makepyfile(
+        mine="import mappers\n\n\ndef explore(robot):\n    return mappers.right(robot)\n"
+    )
+    result = session("--cov=mine", "--cov-report=term", test=MARKED.format(target="mine:explore"))
+    result.assert_outcomes(passed=len(CLAIMS))
+    result.stdout.re_match_lines(r"mine\.py +3 +0 +100%")

@@ -1,0 +1,271 @@
+"""`topo-verify conform`: the oracle for an implementation, Python or any program."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+from topo_verify.campaigns.parts import plural
+from topo_verify.cli import options
+from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.runs import undeclared
+from topo_verify.errors import InputError
+from topo_verify.oracle import naming
+from topo_verify.oracle.conforming import Books, Standing
+from topo_verify.oracle.conforming import conform as try_all
+from topo_verify.oracle.corpus import Corpus, corpus_from
+from topo_verify.oracle.outcomes import Found, Job
+from topo_verify.robot.events import Policies
+from topo_verify.robot.limits import Limits
+
+SHOWN = 3
+"""So many findings of a level, and so many worlds with costs, are shown; JSON has more."""
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What the options ask for, beside the job."""
+
+    corpus: Corpus
+    workers: int
+    batch: bool
+
+
+@click.command(
+    short_help="An implementation, any program too, against the reference.",
+    epilog=options.epilog(
+        "conform my_mapper.py:explore",
+        "conform --cmd './mapper --fast' --like enhancement-ii",
+        "conform --cmd ./mapper --worlds 'edges<=5' --worlds nyc --transcript DIR",
+        "conform --cmd ./simulator --batch --worlds generated:10000",
+    ),
+)
+@click.argument("target", required=False, metavar="[TARGET]")
+@options.program
+@click.option(
+    "--worlds",
+    "texts",
+    multiple=True,
+    metavar="WORLDS",
+    help="corpus, edges<=N, generated:N[:STRATEGY], a folder, any WORLD; may be repeated."
+    "  [default: corpus]",
+)
+@click.option("--like", metavar="ALGORITHM", help="Event for event as this one of the catalogue.")
+@options.policies
+@click.option("--batch", is_flag=True, help="The program reads worlds and writes runs.")
+@click.option(
+    "--workers",
+    type=click.IntRange(min=0),
+    metavar="N",
+    help="So many processes; 0: this one alone.  [default: one a processor]",
+)
+@click.option("--validate", is_flag=True, help="Refuse fields that no schema lists.")
+@click.option("--transcript", metavar="DIR", help="Keep what was said in failing worlds in DIR.")
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="Draws the generated worlds.",
+)
+@options.limits
+@output_options
+def conform(  # noqa: PLR0913  an argument an option
+    output: Output,
+    *,
+    target: str | None,
+    command: str | None,
+    texts: tuple[str, ...],
+    like: str | None,
+    pick: str | None,
+    order: str | None,
+    batch: bool,
+    workers: int | None,
+    validate: bool,
+    transcript: str | None,
+    seed: int,
+    limits: Limits,
+) -> int:
+    """Try an implementation in many worlds; how it stands on four levels, each reported apart.
+
+    result: the map, the cost. claims: the decisions that it declares, the proof. decisions: event
+    for event as --like ALGORITHM. cost: beside that algorithm (or basic). TARGET is a catalogue
+    name, module:attribute or file.py:attribute; --cmd names a program of protocol 1.
+    """
+
+    def standings() -> Iterator[Result[Standing]]:
+        text = naming.target_text(target, command)
+        policies = Policies(pick or "nearest", order or "shortest")
+        asked = _Asked(corpus_from(texts, seed=seed), _processes(workers), batch)
+        if transcript is not None:
+            _make_folder(transcript)
+        output.note(f"seed {seed}")
+        for one in [text] if command else [found.text for found in naming.targets(text)]:
+            job = Job(
+                target=one,
+                like=like,
+                policies=policies,
+                limits=limits,
+                validate=validate,
+                transcript=transcript,
+                again=_again(one, like, pick, order, limits, batch=batch, validate=validate),
+            )
+            yield from _tried(output, job, asked)
+
+    return output.run("conform", standings, _show, seed=seed, corpus=list(texts) or ["corpus"])
+
+
+def _tried(output: Output, job: Job, asked: _Asked) -> Iterator[Result[Standing]]:
+    """One implementation, also where it is interrupted."""
+    books = Books(job, asked.corpus)
+    try:
+        try_all(
+            job,
+            asked.corpus,
+            books,
+            workers=asked.workers,
+            batch=asked.batch,
+            tell=output.progress,
+        )
+    except KeyboardInterrupt:
+        yield from map(_result, books.standings())
+        raise
+    yield from map(_result, books.standings())
+
+
+def _result(standing: Standing) -> Result[Standing]:
+    verdict = standing.verdict
+    return Result(standing, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
+
+
+def _again(
+    target: str,
+    like: str | None,
+    pick: str | None,
+    order: str | None,
+    limits: Limits,
+    *,
+    batch: bool,
+    validate: bool,
+) -> tuple[str, ...]:
+    """The words that ask for the same again; the world comes behind them."""
+    words = ["topo-verify", "conform", *naming.words(target)]
+    for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
+        words += [name, value] if value is not None else []
+    words += ["--batch"] if batch else []
+    words += ["--validate"] if validate else []
+    return (*words, *limits.options)
+
+
+def _processes(workers: int | None) -> int:
+    if workers is not None:
+        return workers
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
+
+
+def _make_folder(name: str) -> None:
+    try:
+        Path(name).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"--transcript {name}: cannot make it: {error.strerror}") from error
+
+
+# ---------------------------------------------------------------- for people
+
+
+def _show(entries: Sequence[Standing]) -> Iterator[Block]:
+    for target in dict.fromkeys(entry.target for entry in entries):
+        yield from _shown([entry for entry in entries if entry.target == target])
+
+
+_COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")
+
+
+def _shown(levels: Sequence[Standing]) -> Iterator[Block]:
+    rows = [(one.level, one.verdict, *_numbers(one)) for one in levels]
+    yield Table(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
+    first = levels[0]
+    gone = {
+        "skipped": first.skipped,
+        "given up": first.errored,
+        "out of time": first.undecided,
+        "not tried": first.not_tried,
+    }
+    if any(gone.values()):
+        yield Text("")
+        words = ", ".join(f"{number} {what}" for what, number in gone.items() if number)
+        yield Text(f"Not decided: {words}.")
+        yield Bullets(first.why[:SHOWN])
+    for level in levels:
+        yield from _findings(level)
+    yield from _costs(levels[-1])
+    silent = [
+        claim
+        for level in levels
+        for claim, seen in level.claims.items()
+        if seen.get("not-declared") and not seen.get("ok") and not seen.get("failed")
+    ]
+    if silent and first.passed:
+        yield Text("")
+        yield Text(undeclared(first.target, silent))
+
+
+def _numbers(one: Standing) -> tuple[str, ...]:
+    rest = one.worlds - one.passed - one.failed
+    return (str(one.passed), str(one.failed), str(rest), str(one.worlds))
+
+
+def _findings(level: Standing) -> Iterator[Block]:
+    """The first world of each kind of finding."""
+    for kind, worlds in level.kinds.items():
+        found = next(one for one in level.findings if one.kind == kind)
+        yield Text("")
+        what = f"{level.level}: {kind}" if kind != level.level else kind
+        yield Text(f"{what} in {plural(worlds, 'world')}, first {found.world}:")
+        yield from _difference(found, level)
+        yield Command(found.replay, "again: ")
+
+
+def _difference(found: Found, level: Standing) -> Iterator[Block]:
+    """A finding; two runs that part, side by side with what was known then."""
+    parted = found.difference
+    if parted is None:
+        where = "" if found.event is None else f"event {found.event}: "
+        yield Bullets((f"{where}{found.message}",))
+        return
+    state = parted.state
+    rows = [(line, "(the same)") for line in parted.before]
+    rows.append((parted.expected or "nothing more", parted.seen or "nothing more"))
+    yield Table((level.like, level.target), rows)
+    edges = " ".join(f"{a}-{b}" for a, b in state.explored) or "none"
+    known = f"known then: degrees {' '.join(map(str, state.vertices))}; explored edges {edges}"
+    here = f"; at dart {state.edge}, hypotheses left {list(state.left)}"
+    here = here if state.edge is not None else ""
+    yield Bullets((f"{known}{here}; {plural(state.moves, 'move')} so far",))
+
+
+def _costs(level: Standing) -> Iterator[Block]:
+    """In all, and where it differs most."""
+    if level.level != "cost" or level.cost.ratio is None:
+        return
+    cost = level.cost
+    yield Text("")
+    yield Text(
+        f"Cost over {plural(level.passed, 'world')}: {cost.mapper} edge traversals,"
+        f" {level.like} {cost.reference}: {cost.ratio:.3f} of it."
+    )
+    other = [one for one in level.priced if one.ratio not in (1.0, None)]
+    if not other:
+        return
+    ranked = sorted(other, key=lambda one: -(one.ratio or 0))
+    chosen = list(dict.fromkeys([*ranked[:SHOWN], *ranked[-SHOWN:]]))
+    rows = [(o.world, str(o.mapper), str(o.reference), f"{o.ratio:.3f}") for o in chosen]
+    yield Table(("world", ">cost", f">{level.like}", ">ratio"), rows)

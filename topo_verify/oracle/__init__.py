@@ -1,0 +1,1 @@
+"""Anyone's implementation, in any language, checked against the reference."""

@@ -1,0 +1,172 @@
+"""Two runs in one world, event for event: the first event in which they differ.
+
+What is compared: the doors and percepts of moves, and every declared decision with its evidence.
+What is not: what a move is said to be for; the sentence of a contradiction, whose words are no
+promise; the map at the end, whose darts a mapper may number as it likes (its own claim judges it).
+
+A mapper that declares nothing has its moves compared with the reference's moves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import zip_longest
+from typing import assert_never
+
+import msgspec
+
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Finish,
+    Move,
+    Pose,
+    Reject,
+    Start,
+    Trace,
+)
+
+SHOWN = 4
+"""So many events before the first difference are shown."""
+
+
+class State(msgspec.Struct, frozen=True):
+    """What was known when two runs parted.
+
+    Attributes:
+        moves: edge traversals so far.
+        vertices: the degree of each vertex of S.
+        explored: the explored edges of S, lesser dart first.
+        edge: the dart whose other end is being asked for, or None.
+        left: of its hypotheses, those that were neither rejected nor confirmed.
+        doors: the doors taken since S last grew.
+    """
+
+    moves: int
+    vertices: tuple[int, ...]
+    explored: tuple[tuple[int, int], ...]
+    edge: int | None
+    left: tuple[int, ...]
+    doors: tuple[int, ...]
+
+
+class Difference(msgspec.Struct, frozen=True):
+    """The first event in which a mapper does not do as the reference does.
+
+    Attributes:
+        event: its index in the mapper's trace.
+        expected, seen: the reference's event and the mapper's, in words; None: its run had ended.
+        before: the events just before, in which they agree.
+        state: what was known then.
+    """
+
+    event: int
+    expected: str | None
+    seen: str | None
+    before: tuple[str, ...]
+    state: State
+
+
+def declares(trace: Iterable[Event]) -> bool:
+    """Does the mapper say anything of its decisions?"""
+    return any(isinstance(event, Pose | Reject | Confirm | Augment) for event in trace)
+
+
+def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
+    """Where the mapper's run parts from the reference's; None if nowhere.
+
+    If the mapper declares nothing, only the moves are compared.
+    """
+    silent = not declares(mapper)
+    ours = _events(reference, silent=silent)
+    theirs = _events(mapper, silent=silent)
+    for place, (one, other) in enumerate(zip_longest(ours, theirs)):
+        expected = None if one is None else _bare(one[1])
+        seen = None if other is None else _bare(other[1])
+        if expected != seen:
+            upto = len(reference) if one is None else one[0]
+            return Difference(
+                event=len(mapper) if other is None else other[0],
+                expected=None if expected is None else told(expected),
+                seen=None if seen is None else told(seen),
+                before=tuple(told(event) for _, event in ours[max(0, place - SHOWN) : place]),
+                state=_state(reference[:upto]),
+            )
+    return None
+
+
+def _events(trace: Trace, *, silent: bool) -> list[tuple[int, Event]]:
+    """What is compared of a run, each event with its index."""
+    kinds = (Move,) if silent else (Move, Pose, Reject, Confirm, Augment)
+    return [(when, event) for when, event in enumerate(trace) if isinstance(event, kinds)]
+
+
+def _bare(event: Event) -> Event:
+    """The event without what is not compared."""
+    if isinstance(event, Move):
+        return Move(event.door, event.percept)
+    if isinstance(event, Reject) and event.evidence.contradiction is not None:
+        evidence = msgspec.structs.replace(event.evidence, contradiction=None)
+        return msgspec.structs.replace(event, evidence=evidence)
+    return event
+
+
+def told(event: Event) -> str:
+    """An event in words."""
+    match event:
+        case Start(percept=percept):
+            words = f"start at {percept}"
+        case Move(door, percept):
+            words = f"move by door {door} to {percept}"
+        case Pose(edge, hypotheses):
+            words = f"pose for dart {edge}: {list(hypotheses)}"
+        case Reject():
+            words = f"reject {event.hypothesis} for dart {event.edge} {_why(event)}"
+        case Confirm(edge, hypothesis, rule):
+            words = f"confirm {hypothesis} for dart {edge} by {rule}"
+        case Augment(edge, kind, dart, degree):
+            words = f"augment dart {edge} by {kind} dart {dart}, degree {degree}"
+        case Finish():
+            words = f"finish at cost {event.cost}"
+        case _:
+            assert_never(event)
+    return words
+
+
+def _why(event: Reject) -> str:
+    """The rule and the evidence of a rejection in words."""
+    cited = event.evidence
+    words = f"by {event.rule}: step {cited.step}, expected {cited.expected}, saw {cited.observed}"
+    words += "" if cited.sequence is None else f", sequence {cited.sequence}"
+    words += "" if cited.at is None else f" at dart {cited.at}"
+    if cited.record is not None:
+        words += f", record behind {cited.record.dart} {list(cited.record.doors)}"
+    return words
+
+
+def _state(trace: Sequence[Event]) -> State:
+    """What is known when the reference has come so far."""
+    vertices: list[int] = []
+    explored: list[tuple[int, int]] = []
+    edge: int | None = None
+    left: list[int] = []
+    doors: list[int] = []
+    for event in trace:
+        match event:
+            case Start(percept=percept):
+                vertices.append(percept.degree)
+            case Move(door):
+                doors.append(door)
+            case Pose():
+                edge, left = event.edge, list(event.hypotheses)
+            case Reject(hypothesis=h) | Confirm(hypothesis=h) if h in left:
+                left.remove(h)
+            case Augment(end, kind, dart, degree):
+                explored.append((min(end, dart), max(end, dart)))
+                vertices += [degree] if kind == "new" else []
+                edge, left, doors = None, [], []
+            case _:
+                pass
+    moves = sum(isinstance(event, Move) for event in trace)
+    return State(moves, tuple(vertices), tuple(explored), edge, tuple(left), tuple(doors))

@@ -1,0 +1,374 @@
+"""The pytest plugin: a mapper becomes tests, one for each claim.
+
+    @pytest.mark.topo(target="my_mapper:explore")     each claim is a test of this function's
+    def test_my_mapper() -> None: ...
+
+    pytest --topo-target my_mapper.py:explore         the same without a file of tests
+
+The mapper is run once in every world of 1 to N edges (`--topo-edges`), and all claims are judged on
+that run: the first test that asks pays for it, the others read what came out (a process each with
+pytest-xdist). A test passes if its claim held in every world. It fails if the claim fails in one,
+with the first such world and the line that shows it again, and also if a run was out of time, for
+then nobody knows. It is skipped if the mapper did not declare, in every world, the decisions that
+the claim speaks of: that is no success.
+
+What the tests say travels in `user_properties` of their reports, so the summary at the end is the
+same with pytest-xdist, and JUnit files have it, too.
+
+Pytest loads this file in every session of the environment, long before anybody asks for it. So it
+imports nothing of topo_verify, and no library, until a mapper is there to be tested.
+
+What this does not show: anything about worlds with more edges. docs/pytest.md says how to ask.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+from collections.abc import Callable, Generator, Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from topo_verify.campaigns.by_claim import Outcome
+    from topo_verify.robot.simulator import SimulatedRobot
+    from topo_verify.targets import Mapper, Target
+    from topo_verify.trial import Report
+    from topo_verify.world.rooted_map import World
+
+EDGES = 4
+"""Worlds have 1 to so many edges unless more are asked for: 792 worlds, about a second."""
+
+_CASE = "_topo_case"
+"""The parameter by which a marked function becomes one test a claim."""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """What one test asks: does this claim hold of the mapper in every world of 1 … edges edges?"""
+
+    target: Target
+    edges: int
+    claim: str
+
+
+@dataclass
+class _Session:
+    """What is kept from configuration to summary, in one process."""
+
+    targets: dict[str, tuple[Target, ...]] = field(default_factory=dict[str, Any])
+    outcomes: dict[tuple[int, int], Outcome] = field(default_factory=dict[Any, Any])
+    """By the mapper's identity (the cases keep it alive) and the number of edges."""
+
+
+_SESSION = pytest.StashKey[_Session]()
+
+
+# ---------------------------------------------------------------- options
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """The options, in a group of their own."""
+    group = parser.getgroup("topo-verify", "topo-verify (mappers with one robot and one marker)")
+    group.addoption(
+        "--topo-target",
+        metavar="TARGET",
+        help="Test this mapper: package.module:attribute, path/file.py:attribute or the name of"
+        " an algorithm; also what marks without a target mean.",
+    )
+    group.addoption(
+        "--topo-edges",
+        metavar="N",
+        type=_number,
+        default=EDGES,
+        help=f"In every world of 1 to N edges.  [default: {EDGES}]",
+    )
+    for name, what, seconds in (("move", "Between two moves", 5), ("world", "In a world", 60)):
+        group.addoption(
+            f"--topo-{name}-timeout",
+            metavar="SECONDS",
+            type=_seconds,
+            default=float(seconds),
+            help=f"{what} a mapper has so long.  [default: {seconds}]",
+        )
+
+
+def _number(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number of edges: give 1 or more")
+    return int(text)
+
+
+def _seconds(text: str) -> float:
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = 0.0
+    if not 0 < seconds <= 10**6:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number of seconds above 0")
+    return seconds
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Make the mark known."""
+    config.stash[_SESSION] = _Session()
+    config.addinivalue_line(
+        "markers",
+        "topo(target=--topo-target, edges=--topo-edges): one test a claim of the mapper `target`"
+        " (a text as for --topo-target, or the callable) in every world of 1 to `edges` edges;"
+        " then the body runs.",
+    )
+
+
+# ---------------------------------------------------------------- collecting
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """A marked function becomes one test a claim."""
+    mark = metafunc.definition.get_closest_marker("topo")
+    if mark is not None:
+        cases = _cases(metafunc.config, mark)
+        several = len({case.target.text for case in cases}) > 1
+        names = [f"{case.target.text}-{case.claim}" if several else case.claim for case in cases]
+        metafunc.fixturenames.append(_CASE)
+        metafunc.parametrize(_CASE, cases, ids=names)
+
+
+def _cases(config: pytest.Config, mark: pytest.Mark) -> list[Case]:
+    """The tests that a mark asks for.
+
+    Raises:
+        CollectError: no such mapper, or other arguments than a mark takes.
+    """
+    wanted = dict(mark.kwargs)
+    target = wanted.pop("target", config.option.topo_target)
+    edges = wanted.pop("edges", config.option.topo_edges)
+    usage = '@pytest.mark.topo(target="package.module:attribute", edges=4)'
+    if mark.args or wanted:
+        strange = [repr(one) for one in mark.args] + [f"{name}=…" for name in wanted]
+        raise pytest.Collector.CollectError(
+            f"the mark topo does not take {', '.join(strange)}: write {usage}"
+        )
+    if target is None:
+        raise pytest.Collector.CollectError(
+            f"the mark topo names no mapper: write {usage}, or call pytest with --topo-target"
+        )
+    if not isinstance(edges, int) or isinstance(edges, bool) or edges < 1:
+        raise pytest.Collector.CollectError(
+            f"the mark topo has edges={edges!r}: that is a number of edges, 1 or more"
+        )
+    return list(_of_targets(config, target, edges))
+
+
+def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Iterator[Case]:
+    """One test a mapper and claim.
+
+    Raises:
+        CollectError: no such mapper.
+    """
+    from topo_verify.checkers import CLAIMS
+    from topo_verify.errors import InputError
+    from topo_verify.oracle.corpus import MOST_ENUMERATED
+    from topo_verify.targets import one_target, targets
+
+    if edges > MOST_ENUMERATED:
+        raise pytest.Collector.CollectError(
+            f"every world of 1 to {edges} edges: that takes too long; ask for {MOST_ENUMERATED} or"
+            " fewer"
+        )
+    known = config.stash[_SESSION].targets
+    try:
+        if not isinstance(named, str):
+            found: tuple[Target, ...] = (one_target(named),)
+        elif named in known:
+            found = known[named]
+        else:
+            found = known[named] = targets(named)
+    except InputError as error:
+        raise pytest.Collector.CollectError(str(error)) from error
+    for target in found:
+        for claim in CLAIMS:
+            yield Case(target, edges, claim)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(
+    collector: pytest.Collector,
+) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    """The session collects what --topo-target names, whatever files it collects from."""
+    report = yield
+    text = collector.config.option.topo_target
+    if isinstance(collector, pytest.Session) and text is not None:
+        made = MapperCollector.from_parent(collector, name=text, nodeid=text)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
+        report.result.append(made)
+    return report
+
+
+class MapperCollector(pytest.Collector):
+    """The tests of --topo-target; its name is the option's text."""
+
+    def collect(self) -> Iterable[ClaimItem]:
+        """One test a mapper and claim."""
+        cases = list(_of_targets(self.config, self.name, self.config.option.topo_edges))
+        several = len({case.target.text for case in cases}) > 1
+        for case in cases:
+            name = f"{case.target.text}::{case.claim}" if several else case.claim
+            yield ClaimItem.from_parent(self, name=name, case=case)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
+
+
+class ClaimItem(pytest.Item):
+    """One claim of one mapper, with no function behind it."""
+
+    def __init__(self, *, case: Case, **kwargs: Any) -> None:
+        super().__init__(**kwargs)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
+        self.case = case
+        self.add_marker(pytest.mark.topo)
+
+    def runtest(self) -> None:
+        """Judge it."""
+        _judge(self, self.case)
+
+    def reportinfo(self) -> tuple[Any, int | None, str]:
+        """Where it stands: nowhere in a file."""
+        return self.path, None, self.nodeid
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """A mark that would do nothing is an error."""
+    for item in items:
+        if item.get_closest_marker("topo") and not isinstance(item, ClaimItem) and not _case(item):
+            raise pytest.UsageError(
+                f"{item.nodeid}: the mark topo is for functions and for methods of plain classes,"
+                " not for those of unittest.TestCase: move it"
+            )
+
+
+def _case(item: pytest.Item) -> Case | None:
+    """What a marked function is to judge in this test."""
+    callspec = getattr(item, "callspec", None)
+    return None if callspec is None else callspec.params.get(_CASE)
+
+
+# ---------------------------------------------------------------- running
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Generator[None, object, object]:
+    """A marked function: first the claim, then the body."""
+    case = _case(pyfuncitem)
+    if case is not None:
+        _judge(pyfuncitem, case)
+    return (yield)
+
+
+def _judge(item: pytest.Item, case: Case) -> None:
+    """Pass, fail or skip: what became of the claim."""
+    from topo_verify.campaigns.by_claim import by_claim
+    from topo_verify.robot.limits import Limits
+
+    known = item.config.stash[_SESSION].outcomes
+    key = (id(case.target.mapper), case.edges)
+    if key not in known:
+        options: argparse.Namespace = item.config.option
+        limits = Limits(None, options.topo_move_timeout, options.topo_world_timeout)
+        known[key] = by_claim(case.target, case.edges, limits)
+    item.user_properties += _properties(case, known[key])
+    match known[key].status(case.claim):
+        case "fails" | "undecided":
+            pytest.fail(known[key].told(case.claim), pytrace=False)
+        case "not-declared":
+            pytest.skip(known[key].told(case.claim))
+        case "holds":
+            pass
+
+
+# ---------------------------------------------------------------- what is reported
+
+
+def _properties(case: Case, outcome: Outcome) -> list[tuple[str, object]]:
+    """What the report of a test carries, also to another process and to a JUnit file."""
+    part = outcome.part
+    facts: dict[str, object] = {
+        "target": case.target.text,
+        "edges": case.edges,
+        "verdict": part.verdict,
+        "checked": part.checked,
+        "total": part.total,
+        "failing": part.failing,
+    }
+    if part.findings:
+        facts |= {"world": part.findings[0].world, "replay": part.findings[0].replay}
+    elif not part.ok:
+        facts["why"] = part.summary
+    return [(f"topo_{name}", fact) for name, fact in facts.items()]
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """A line for each mapper: in how many worlds it was, and in how many a claim fails."""
+    said: dict[tuple[object, ...], dict[str, Any]] = {}
+    for report in itertools.chain(*terminalreporter.stats.values()):
+        facts: dict[str, Any] = dict(getattr(report, "user_properties", ()))
+        if "topo_target" in facts:
+            said.setdefault((facts["topo_target"], facts["topo_edges"]), facts)
+    if said:
+        terminalreporter.write_sep("=", "topo-verify")
+    for facts in said.values():
+        terminalreporter.write_line(_line(facts))
+
+
+def _line(facts: dict[str, Any]) -> str:
+    checked, total, failing = (facts[f"topo_{name}"] for name in ("checked", "total", "failing"))
+    line = f"{facts['topo_target']}: {checked:,} of {total:,} worlds of 1 to {facts['topo_edges']}"
+    line += f" edges, {failing:,} counterexample{'' if failing == 1 else 's'}"
+    if "topo_replay" in facts:
+        return f"{line}, first {facts['topo_world']}\n  again: {facts['topo_replay']}"
+    return line + (f"; not decided: {facts['topo_why']}" if "topo_why" in facts else "")
+
+
+# ---------------------------------------------------------------- fixtures
+# For the whole session, so that Hypothesis has nothing against them.
+
+
+@pytest.fixture(scope="session")
+def topo_robot() -> Callable[..., SimulatedRobot]:
+    """`topo_robot(world, budget=None)`: a robot at the marker of a world.
+
+    The world is a `World` or what a command line calls it ("m5/17", "nyc"); the budget, in moves,
+    is the bound of claim 7. The robot has `percept`, `move`, `declare`, and knows its `cost` and
+    `events`.
+    """
+
+    def robot(world: World | str, *, budget: int | None = None) -> SimulatedRobot:
+        from topo_verify.robot.simulator import SimulatedRobot
+
+        there = _world(world)
+        return SimulatedRobot(there, there.cost_bound if budget is None else budget)
+
+    return robot
+
+
+@pytest.fixture(scope="session")
+def topo_examine() -> Callable[..., Report]:
+    """`topo_examine(mapper, world)`: the report on a run, every claim judged.
+
+    As `topo_verify.examine`, but the world may also be what a command line calls it. A report has
+    `ok`, `cost`, `claims`, `findings`; its text says what is wrong, where, and how to see it again:
+    `assert report.ok, str(report)`.
+    """
+
+    def examine(mapper: Mapper | str, world: World | str, **options: Any) -> Report:
+        from topo_verify.trial import examine
+
+        if isinstance(world, str):
+            options.setdefault("where", world)
+        return examine(mapper, _world(world), **options)
+
+    return examine
+
+
+def _world(world: World | str) -> World:
+    from topo_verify.world.naming import world_from
+
+    return world_from(world) if isinstance(world, str) else world
