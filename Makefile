@@ -2,6 +2,7 @@
 #
 #   make verify                     the main job: one report, under a minute
 #   make test                       the whole suite and the branch coverage of the trusted rooms
+#   make coq                        the proofs in Coq: compiled, checked again, mutants refused
 #   make lint types                 ruff; mypy and pyright, both strict
 #   make bench                      the speeds that the README quotes
 #
@@ -24,18 +25,23 @@ CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help verify test lint types bench constraints oldest clean
+.PHONY: help verify test coq lint types bench constraints oldest clean
 
 help:
-	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 9
+	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 10
 
 verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
 
 test: $(VENV)/.dev
-	$(BIN)/coverage run -m pytest
+	$(BIN)/python -m pytest --numprocesses=auto --dist=loadfile --cov --cov-report=
 	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
 	$(BIN)/coverage report --include='$(ROOMS)' --fail-under=100
+
+# Coq itself comes from the distribution: apt install coq
+coq: $(VENV)/.dev
+	$(BIN)/topo-verify prove --kind mechanised
+	$(BIN)/python -m pytest -m 'slow or not slow' tests/proofs/coq tests/cli/test_certify_kernel.py
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .

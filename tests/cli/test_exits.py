@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 
 from topo_verify.cli import main, runs
+from topo_verify.oracle import naming
 
 Call = Callable[..., Any]
 COMMANDS = (
@@ -309,8 +310,7 @@ def test_ctrl_c_before_any_work_exits_3(call: Call, monkeypatch: pytest.MonkeyPa
     def interrupt(_text: str) -> object:
         raise KeyboardInterrupt
 
-    # By its name in full: in the package, `verify` is the command.
-    monkeypatch.setattr(sys.modules["topo_verify.cli.verify"], "targets", interrupt)
+    monkeypatch.setattr(naming, "targets", interrupt)
     done = call("verify")
     assert done.exit_code == 3
     assert done.stderr == "topo-verify: interrupted; nothing came out before\n"

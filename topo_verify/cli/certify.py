@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 import msgspec
@@ -19,11 +22,17 @@ from topo_verify.cli.layout import Block, Bullets, Table, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
-from topo_verify.errors import InputError
-from topo_verify.robot.events import read_trace
+from topo_verify.errors import InputError, InternalError
+from topo_verify.robot.events import Trace, read_trace
 from topo_verify.world.counting import MAX_ID_EDGES
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
+
+if TYPE_CHECKING:
+    from topo_verify.proofs.coqfile import Certificate as Stated
+    from topo_verify.proofs.kernel import Checked
+
+    Check = Callable[[str, Stated], Checked]
 
 
 class Tally(msgspec.Struct, frozen=True):
@@ -33,6 +42,25 @@ class Tally(msgspec.Struct, frozen=True):
     total: int
 
 
+class Kernel(msgspec.Struct, frozen=True):
+    """What the proofs in Coq make of the log.
+
+    Attributes:
+        statement: map, undetermined or impossible; the file says it in full.
+        file: the certificate.
+        accepted: by whom it was checked; null if it was not.
+        by, why: the checker; why it was not checked.
+        command: what checks it by hand, in a folder with the certificate.
+    """
+
+    statement: str
+    file: str
+    accepted: bool | None
+    by: str
+    why: str
+    command: str
+
+
 class Certified(msgspec.Struct, frozen=True):
     """One log: an entry of `results`; docs/commands.md.
 
@@ -40,6 +68,7 @@ class Certified(msgspec.Struct, frozen=True):
         verdict: PROVED, or REFUTED: more than one world shows the log, or none.
         vertices, edges: of the proved map; of the smaller witness if there is none.
         witnesses: the two worlds that tell: the file if one was written, else the id.
+        kernel: the certificate for Coq; null without --kernel.
     """
 
     trace: str
@@ -50,37 +79,61 @@ class Certified(msgspec.Struct, frozen=True):
     decisions: Tally
     witnesses: tuple[str, ...]
     findings: tuple[Finding, ...]
+    kernel: Kernel | None
 
 
 @click.command(
     short_help="Judge a log with no world: is its map proved?",
     epilog=options.epilog(
-        "certify log.jsonl", "certify log.jsonl -o map.json", "certify log.jsonl --witness worlds"
+        "certify log.jsonl",
+        "certify log.jsonl -o map.json",
+        "certify log.jsonl --witness worlds",
+        "certify log.jsonl --kernel",
     ),
 )
 @click.argument("traces", nargs=-1, required=True, metavar="TRACE...")
 @click.option("-o", "map_file", metavar="MAP", help="Write the proved map of the one log.")
 @click.option("--witness", "folder", metavar="DIR", help="Write the worlds that tell there.")
+@click.option("--kernel", "proving", is_flag=True, help="Write a certificate for Coq; check it.")
+@click.option(
+    "--timeout",
+    type=click.IntRange(1, options.MOST_SECONDS),
+    default=600,
+    show_default=True,
+    metavar="SECONDS",
+    help="For each program that checks it.",
+)
 @output_options
 def certify(
-    output: Output, *, traces: tuple[str, ...], map_file: str | None, folder: str | None
+    output: Output,
+    *,
+    traces: tuple[str, ...],
+    map_file: str | None,
+    folder: str | None,
+    proving: bool,
+    timeout: int,
 ) -> int:
     """Judge logs of percepts and doors, with no world at all.
 
     TRACE is a file in JSON Lines, or - for standard input: a `start` with the first percept, then a
     `move` with door and percept for each edge that was crossed. PROVED: one world alone shows this
-    log, and it is the map. REFUTED: two different worlds show it, or none does.
+    log, and it is the map. REFUTED: two different worlds show it, or none does. With --kernel the
+    same is stated in Coq for that very log, in a file certificate_LOG.v, and proved by computation;
+    where it cannot be checked the exit code is 3.
     """
 
     def certified() -> Iterator[Result[Certified]]:
         if map_file is not None and len(traces) != 1:
             raise InputError(f"-o {map_file}: a map is of one log, these are {len(traces)}")
-        for number, trace in enumerate(traces):
-            output.progress(f"folding {trace}", number, len(traces))
-            certificate = judge(read_trace(_bytes(trace), name=_name(trace)))
-            if map_file is not None and certificate.map is not None:
-                files.write(map_file, certificate.map.to_json() + "\n")
-            yield _result(trace, certificate, folder)
+        with _checking(output, timeout) as check:
+            for number, trace in enumerate(traces):
+                output.progress(f"folding {trace}", number, len(traces))
+                log = read_trace(_bytes(trace), name=_name(trace))
+                certificate = judge(log)
+                if map_file is not None and certificate.map is not None:
+                    files.write(map_file, certificate.map.to_json() + "\n")
+                proof = _proof(traces, number, log, certificate, check) if proving else None
+                yield _result(trace, certificate, folder, proof)
 
     return output.run("certify", certified, _show)
 
@@ -95,7 +148,48 @@ def _bytes(trace: str) -> bytes:
     return files.read(trace)
 
 
-def _result(trace: str, certificate: Certificate, folder: str | None) -> Result[Certified]:
+def _checking(output: Output, timeout: int) -> AbstractContextManager[Check]:
+    from topo_verify.proofs import kernel
+
+    return kernel.checking(timeout=timeout, tell=lambda doing: output.progress(doing, 0, 1))
+
+
+def _proof(
+    traces: Sequence[str],
+    number: int,
+    log: Trace,
+    certificate: Certificate,
+    check: Check,
+) -> Kernel:
+    """The log's certificate for Coq, written and checked.
+
+    Raises:
+        InternalError: it is refused, or says something else than the fold.
+    """
+    from topo_verify.proofs import coqfile, kernel
+
+    stated = kernel.state(log)
+    shown = "undetermined" if certificate.witnesses else "impossible"
+    if stated.statement != ("map" if certificate.map is not None else shown):
+        raise InternalError(f"{traces[number]}: two folds of one log differ: {stated.statement}")
+    name = _identifier(traces, number)
+    files.write(f"{name}.v", coqfile.coq_file(stated))
+    checked = check(name, stated)
+    if checked.accepted is False:
+        raise InternalError(f"{checked.by} refuses {name}.v: {checked.why}")
+    by_hand = kernel.command(name)
+    return Kernel(stated.statement, f"{name}.v", checked.accepted, checked.by, checked.why, by_hand)
+
+
+def _identifier(traces: Sequence[str], number: int) -> str:
+    """The name of a log's certificate: one that Coq takes, and no other log's."""
+    stem = re.sub(r"\W", "_", Path(_name(traces[number])).stem, flags=re.ASCII)
+    return f"certificate_{stem}" + (f"_{number + 1}" if len(traces) > 1 else "")
+
+
+def _result(
+    trace: str, certificate: Certificate, folder: str | None, proof: Kernel | None
+) -> Result[Certified]:
     worlds = certificate.witnesses
     names = tuple(
         _written(folder, f"{Path(trace).stem}-witness-{number}.json", world)
@@ -117,8 +211,10 @@ def _result(trace: str, certificate: Certificate, folder: str | None) -> Result[
         decisions=Tally(certificate.entailed, certificate.decisions),
         witnesses=names,
         findings=findings,
+        kernel=proof,
     )
-    return Result(entry, failed=bool(findings))
+    unchecked = proof is not None and proof.accepted is None
+    return Result(entry, failed=bool(findings), incomplete=unchecked)
 
 
 def _written(folder: str, name: str, world: World) -> str:
@@ -154,6 +250,22 @@ def _show(entries: Sequence[Certified]) -> Iterator[Block]:
         if entry.witnesses:
             yield Text(f"{plural(len(entry.witnesses), 'world')} that show this log and differ:")
             yield Bullets(entry.witnesses)
+        if entry.kernel is not None:
+            yield from _show_proof(entry.kernel)
+
+
+_STATED = {
+    "map": "every world that shows this log is isomorphic to this map",
+    "undetermined": "two worlds that differ show this log",
+    "impossible": "no world shows this log",
+}
+
+
+def _show_proof(proof: Kernel) -> Iterator[Block]:
+    told = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
+    yield Text("")
+    yield Text(f"{proof.file}: {_STATED[proof.statement]}; {told}. By hand, in a folder with it:")
+    yield Bullets((proof.command,))
 
 
 def _decisions(entry: Certified) -> str:

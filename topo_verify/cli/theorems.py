@@ -14,7 +14,7 @@ from topo_verify.cli.layout import Block, Bullets, Table, Text
 if TYPE_CHECKING:
     from topo_verify.proofs.theorems import Budget, Outcome, Theorem
 
-KINDS = ("inductive", "bounded", "negative", "mutant")
+KINDS = ("inductive", "mechanised", "bounded", "negative", "mutant")
 
 
 class Replayed(msgspec.Struct, frozen=True):
@@ -230,7 +230,7 @@ def end(entries: Sequence[Proved]) -> Iterator[Block]:
     if wrong:
         yield Text("Not as it must be:")
         yield Bullets(tuple(wrong))
-    yield Text("What is argued in words, what is assumed, what is not shown: docs/proofs.md.")
+    yield Text("What is argued, assumed and not shown: docs/proofs.md and docs/mechanised.md.")
 
 
 def show_list(entries: Sequence[Listed]) -> Iterator[Block]:

@@ -1,6 +1,7 @@
 """Every theorem there is, in one order; choosing among them.
 
-Inductive ones first, then bounded, negatives, mutants. Names are unique; scripts may use them.
+Inductive ones first, then mechanised, bounded, negatives, mutants. Names are unique; scripts may
+use them.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.proofs import counterexamples, mutants
 from topo_verify.proofs.bounded import MOST_EDGES, bounded
 from topo_verify.proofs.inductive import AXIOM_MUTANTS, INDUCTIVE
+from topo_verify.proofs.mechanised import MECHANISED
 from topo_verify.proofs.theorems import Kind, Theorem
 
 QUICK: tuple[Kind, ...] = ("inductive", "negative", "mutant")
@@ -30,6 +32,7 @@ def catalogue(edges: int | None = None) -> tuple[Theorem, ...]:
     """
     theorems = (
         *INDUCTIVE,
+        *MECHANISED,
         *bounded(MOST_EDGES if edges is None else edges),
         *counterexamples.negative(),
         mutants.PLANAR,
@@ -54,7 +57,8 @@ def choose(
 
     Args:
         edges: bounded theorems up to this size; of negatives and mutants those within it.
-        deep: also the long ones. A theorem that is named is chosen, long or not.
+        deep: also the long ones. A theorem that is named is chosen, long or not; the mechanised
+            ones, which need Coq, also where their kind is asked for.
     Raises:
         InputError: no such theorem, no theorem of these kinds with that name, too many edges.
     """
@@ -66,7 +70,9 @@ def choose(
             mend = f"do you mean {' or '.join(close)}? " if close else ""
             raise InputError(f"no theorem {name!r}: {mend}topo-verify prove --list lists them")
     chosen = tuple(known[name] for name in dict.fromkeys(names)) or tuple(
-        theorem for theorem in everything if deep or not theorem.deep
+        theorem
+        for theorem in everything
+        if deep or not theorem.deep or (theorem.kind == "mechanised" and "mechanised" in kinds)
     )
     found = tuple(
         theorem

@@ -7,6 +7,7 @@ other.
 
     kind        about                                          verdict if all is well
     inductive   worlds of any size                             PROVED
+    mechanised  worlds of any size, proved in Coq              PROVED
     bounded     every world with m edges, every reachable map  EXHAUSTED
     negative    a claim that is false, at its smallest size    REFUTED, with a world
     mutant      a theorem with one thing changed               REFUTED, with what breaks
@@ -21,7 +22,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-Kind = Literal["inductive", "bounded", "negative", "mutant"]
+Kind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
 
 Verdict = Literal["PROVED", "EXHAUSTED", "UNKNOWN", "REFUTED"]
 

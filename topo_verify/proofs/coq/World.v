@@ -1,0 +1,89 @@
+(** Worlds, what the robot senses, and what it means that a map is the world.
+
+    THIS FILE IS WHAT A SCEPTIC READS. It defines and proves nothing. Letters and names are those
+    of docs/semantics.md: darts are the numbers 0, 1, ..., darts M - 1; an edge is two darts, a
+    vertex is a cycle of [sigma]. A map that is not wholly explored is a map, too: its [alpha] is
+    known on the explored darts only. Worlds have any number of darts but 0: the world without an
+    edge (m = 0) is left out. *)
+From Coq Require Import Arith List.
+Import ListNotations.
+
+(** A map: so many darts, the next dart clockwise, the other dart of the edge (None: unexplored),
+    the dart that the marker points at. Functions mean nothing beyond the darts. *)
+Record Map := { darts : nat; sigma : nat -> nat; alpha : nat -> option nat; root : nat }.
+
+(** sigma is a permutation of the darts; alpha is an involution without fixed point where it is
+    known; the root is a dart. *)
+Record is_map (M : Map) : Prop := {
+  sigma_lt : forall d, d < darts M -> sigma M d < darts M;
+  sigma_inj : forall d e, d < darts M -> e < darts M -> sigma M d = sigma M e -> d = e;
+  alpha_ok : forall d e, d < darts M -> alpha M d = Some e ->
+             e < darts M /\ e <> d /\ alpha M e = Some d;
+  root_lt : root M < darts M }.
+
+(** Dart d can be reached from p by turning at vertices and crossing explored edges. *)
+Inductive reach (M : Map) (p : nat) : nat -> Prop :=
+| reach_here : reach M p p
+| reach_sigma d : reach M p d -> reach M p (sigma M d)
+| reach_alpha d e : reach M p d -> alpha M d = Some e -> reach M p e.
+
+(** Every dart can be reached from the root. *)
+Definition connected M := forall d, d < darts M -> reach M (root M) d.
+
+(** A world is a connected map with nothing unexplored. *)
+Record world (W : Map) : Prop := {
+  world_is_map : is_map W;
+  world_total : forall d, d < darts W -> alpha W d <> None;
+  world_connected : connected W }.
+
+(** sigma^k(a): the k-th dart clockwise from a at its vertex. *)
+Fixpoint turn (M : Map) (k a : nat) : nat :=
+  match k with 0 => a | S k => sigma M (turn M k a) end.
+
+(** The degree of the vertex of a: the least k > 0 with sigma^k(a) = a. *)
+Definition degree M a :=
+  match find (fun k => turn M k a =? a) (seq 1 (darts M)) with Some k => k | None => 0 end.
+
+(** The marker's direction seen from reference dart a: the least j < degree with
+    sigma^j(a) = root; None where the marker is not. *)
+Definition marker M a := find (fun j => turn M j a =? root M) (seq 0 (degree M a)).
+
+(** What is sensed: the degree, and the marker's direction if it is here. *)
+Definition Percept : Type := nat * option nat.
+
+(** What the robot with reference dart a senses. *)
+Definition percept M a : Percept := (degree M a, marker M a).
+
+(** Leave by door k of reference dart a: the new reference dart, if there is such a door and the
+    map knows where it leads. *)
+Definition move M a k := if k <? degree M a then alpha M (turn M k a) else None.
+
+(** The reference dart after the doors w, one after the other. *)
+Fixpoint walk M a (w : list nat) : option nat :=
+  match w with
+  | [] => Some a
+  | k :: w => match move M a k with Some b => walk M b w | None => None end
+  end.
+
+(** What is sensed after each of the doors w. *)
+Fixpoint percepts M a (w : list nat) : option (list Percept) :=
+  match w with
+  | [] => Some []
+  | k :: w => match move M a k with
+              | Some b => option_map (cons (percept M b)) (percepts M b w)
+              | None => None end
+  end.
+
+(** phi carries the map M into W dart by dart: different darts to different darts, root to root,
+    rotation to rotation, explored edges to edges. *)
+Record embedded (M W : Map) (phi : nat -> nat) : Prop := {
+  phi_lt : forall d, d < darts M -> phi d < darts W;
+  phi_inj : forall d e, d < darts M -> e < darts M -> phi d = phi e -> d = e;
+  phi_sigma : forall d, d < darts M -> phi (sigma M d) = sigma W (phi d);
+  phi_alpha : forall d e, d < darts M -> alpha M d = Some e -> alpha W (phi d) = Some (phi e);
+  phi_root : phi (root M) = root W }.
+
+(** M is W but for the numbers of the darts: a bijection that keeps root, sigma and alpha. *)
+Definition isomorphic M W := darts M = darts W /\ exists phi, embedded M W phi /\
+  (forall b, b < darts W -> exists d, d < darts M /\ phi d = b) /\
+  (forall d, d < darts M -> alpha W (phi d) = option_map phi (alpha M d)).

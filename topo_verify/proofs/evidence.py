@@ -1,0 +1,233 @@
+"""Evidence for the checkers in Coq: a log folded, with every merge written down.
+
+The fold of a log (docs/semantics.md, section 11) by union-find, the way the checker in
+coq/Checker.v runs it again: visits are counted from 1; an **arc** is a move taken forwards or
+backwards; it leaves by one place (visit, dart) and arrives at another. Two arcs that leave by one
+dart **meet**: they arrive at one dart. Evidence is the list of meetings, in an order in which each
+is seen to be one when its turn comes. The checker repeats the merges and believes nothing else, so
+nothing in this file is trusted: a mistake here makes a certificate that is refused.
+
+The smaller of two classes is hung under the larger, so no chain of parents is longer than the
+logarithm of the number of visits; the checker follows 40.
+
+    fold = fold_log(percepts, doors)
+    fold.meetings     # the evidence
+    fold.table        # the map: for each dart the next, the previous and the other dart
+    fold.conflict     # why no world shows the log, or None
+
+Complexity: nearly linear in the number of moves, times the logarithm for the chains.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from topo_verify.robot.percept import Door, Percept
+
+
+class Arc(NamedTuple):
+    """The move from this visit on, forwards or backwards."""
+
+    forwards: bool
+    visit: int
+
+
+Meeting = tuple[Arc, Arc]
+Place = tuple[int, int]
+"""A visit, counted from 1, and a dart of its vertex, counted from the reference dart."""
+
+
+@dataclass(frozen=True, slots=True)
+class Arrive:
+    """Two arcs that leave by one dart arrive at places that cannot be one."""
+
+    meeting: Meeting
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """A visit that saw the marker cannot be at its place."""
+
+    visit: int
+
+
+@dataclass(frozen=True, slots=True)
+class Alone:
+    """The two darts of the move from this visit on are one."""
+
+    visit: int
+
+
+@dataclass(frozen=True, slots=True)
+class Illegal:
+    """A door that is not there, a marker at no door, a start elsewhere than at the marker."""
+
+
+Conflict = Arrive | Marked | Alone | Illegal
+
+
+class Row(NamedTuple):
+    """A dart of a map: the next and the previous one clockwise, the other dart of its edge."""
+
+    following: int
+    previous: int
+    other: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Folded:
+    """A log, folded.
+
+    Attributes:
+        meetings: the evidence.
+        conflict: why no world shows the log; None if some world does.
+        table: the fold as a map, its root dart 0; empty if there is a conflict.
+    """
+
+    meetings: tuple[Meeting, ...]
+    conflict: Conflict | None
+    table: tuple[Row, ...]
+
+    @property
+    def closed(self) -> bool:
+        """Is no dart open?"""
+        return all(row.other is not None for row in self.table)
+
+
+def fold_log(percepts: Sequence[Percept], doors: Sequence[Door]) -> Folded:
+    """Fold the log of these percepts; door i leads from percept i to percept i + 1."""
+    if not _legal(percepts, doors):
+        return Folded((), Illegal(), ())
+    fold = _Fold(percepts, doors)
+    conflict = fold.run()
+    return Folded(tuple(fold.meetings), conflict, () if conflict else fold.table())
+
+
+def _legal(percepts: Sequence[Percept], doors: Sequence[Door]) -> bool:
+    starts = percepts[0].marker == 0
+    shown = all(p.degree > (p.marker or 0) >= 0 for p in percepts)
+    return (
+        starts and shown and all(0 <= k < p.degree for k, p in zip(doors, percepts, strict=False))
+    )
+
+
+class _Fold:
+    """The union-find while it runs; index 0 of its lists is not used."""
+
+    def __init__(self, percepts: Sequence[Percept], doors: Sequence[Door]) -> None:
+        self.seen = [percepts[0], *percepts]
+        self.doors = [0, *doors]
+        self.parent = list(range(len(self.seen)))
+        self.offset = [0] * len(self.seen)
+        self.size = [1] * len(self.seen)
+        self.leaving: list[dict[int, Arc]] = [{} for _ in self.seen]  # of roots: dart -> arc
+        self.meetings: list[Meeting] = []
+
+    def run(self) -> Conflict | None:
+        """Fold everything; the first conflict."""
+        for visit, percept in enumerate(self.seen[1:], 1):
+            if percept.marker is not None:
+                one, other = self.find((1, 0)), self.find((visit, percept.marker))
+                if self.apart(one, other):
+                    return Marked(visit)
+                self.hang(one, other)
+        for visit in range(1, len(self.doors)):
+            for forwards in (True, False):
+                if conflict := self.note(Arc(forwards, visit)):
+                    return conflict
+        alone = (v for v in range(1, len(self.doors)) if self.leaves(v) == self.arrives(v))
+        return next(map(Alone, alone), None)
+
+    def leaves(self, visit: int) -> Place:
+        """Where the move from this visit on leaves."""
+        return self.find((visit, self.doors[visit]))
+
+    def arrives(self, visit: int) -> Place:
+        """Where it arrives."""
+        return self.find((visit + 1, 0))
+
+    def end(self, arc: Arc) -> Place:
+        """Where an arc arrives."""
+        return self.arrives(arc.visit) if arc.forwards else self.leaves(arc.visit)
+
+    def find(self, place: Place) -> Place:
+        """The place that stands for all that are the same dart."""
+        visit, dart = place
+        while self.parent[visit] != visit:
+            dart += self.offset[visit]
+            visit = self.parent[visit]
+        return visit, dart % self.seen[visit].degree
+
+    def apart(self, one: Place, other: Place) -> bool:
+        """Can they not be one dart?"""
+        if one[0] == other[0]:
+            return one != other
+        return self.seen[one[0]].signature != self.seen[other[0]].signature
+
+    def note(self, arc: Arc) -> Conflict | None:
+        """The arc leaves by its dart; merge all that follows."""
+        visit, dart = self.leaves(arc.visit) if arc.forwards else self.arrives(arc.visit)
+        first = self.leaving[visit].setdefault(dart, arc)
+        todo: list[Meeting] = [] if first is arc else [(first, arc)]
+        while todo:
+            meeting = todo.pop()
+            one, other = map(self.end, meeting)
+            if self.apart(one, other):
+                return Arrive(meeting)
+            if one != other:
+                if self.size[one[0]] < self.size[other[0]]:
+                    meeting, one, other = (meeting[1], meeting[0]), other, one
+                self.meetings.append(meeting)
+                todo += self.hang(one, other)
+        return None
+
+    def hang(self, one: Place, other: Place) -> list[Meeting]:
+        """Hang the class of the second under that of the first; the arcs that then meet."""
+        (kept, i), (lost, j) = one, other
+        if kept == lost:
+            return []
+        degree = self.seen[kept].degree
+        self.parent[lost], self.offset[lost] = kept, (i - j) % degree
+        self.size[kept] += self.size[lost]
+        found: list[Meeting] = []
+        for dart, arc in self.leaving[lost].items():
+            first = self.leaving[kept].setdefault((dart + i - j) % degree, arc)
+            if first is not arc:
+                found.append((first, arc))
+        return found
+
+    def table(self) -> tuple[Row, ...]:
+        """The fold as a map: vertices in the order of discovery, from the entry dart on."""
+        first: dict[int, Place] = {}  # of each vertex: its entry dart, and that dart's number
+        order: list[Place] = []  # all darts, by number
+        self.discover(self.find((1, 0)), first, order)
+        rows: list[Row] = []
+        for number, (visit, dart) in enumerate(order):
+            arc = self.leaving[visit].get(dart)
+            other = None if arc is None else self.number(self.end(arc), first)
+            low = first[visit][1]
+            degree = self.seen[visit].degree
+            after, before = ((number - low + step) % degree + low for step in (1, -1))
+            rows.append(Row(after, before, other))
+        return tuple(rows)
+
+    def discover(self, root: Place, first: dict[int, Place], order: list[Place]) -> None:
+        """Number the darts: each vertex by its entry dart, breadth first."""
+        todo = [root]
+        for visit, entry in todo:
+            if visit in first:
+                continue
+            first[visit] = entry, len(order)
+            degree = self.seen[visit].degree
+            darts = [(visit, (entry + step) % degree) for step in range(degree)]
+            order += darts
+            arcs = (self.leaving[visit].get(dart) for _, dart in darts)
+            todo += [self.end(arc) for arc in arcs if arc is not None]
+
+    def number(self, place: Place, first: dict[int, Place]) -> int:
+        """The number of a dart."""
+        visit, dart = place
+        entry, low = first[visit]
+        return low + (dart - entry) % self.seen[visit].degree
