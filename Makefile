@@ -3,6 +3,7 @@
 #   make verify                     the main job: one report, under a minute
 #   make test                       the whole suite and the branch coverage of the trusted rooms
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
+#   make mutants                    the checkers with one thing changed: each must fail a test
 #   make lint types                 ruff; mypy and pyright, both strict
 #   make bench                      the speeds that the README quotes
 #
@@ -25,10 +26,10 @@ CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help verify test coq lint types bench constraints oldest clean
+.PHONY: help verify test coq lint types bench mutants constraints oldest clean
 
 help:
-	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 10
+	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 11
 
 verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
@@ -53,6 +54,10 @@ types: $(VENV)/.dev
 
 bench: $(VENV)/.bench
 	$(BIN)/python benchmarks/run.py
+
+# Every change that the operators know, in every file of checkers/; some minutes.
+mutants: $(VENV)/.dev
+	$(BIN)/python benchmarks/mutants.py
 
 # --- set-up: an environment, then what is pinned, then this tree in editable form --------------
 

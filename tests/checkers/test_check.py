@@ -76,6 +76,14 @@ def test_a_finding_names_the_claim_the_event_and_what_should_be_there() -> None:
     )  # fmt: skip
 
 
+def test_what_was_found_is_not_changed_afterwards() -> None:
+    judgement = check(WORLD, edited(TRACE, 1, percept=Percept(6, None)))[0]
+    with pytest.raises(AttributeError, match="immutable"):
+        judgement.status = "ok"  # type: ignore[misc]  # pyright: ignore[reportAttributeAccessIssue]
+    with pytest.raises(AttributeError, match="immutable"):
+        judgement.findings[0].claim = ""  # type: ignore[misc]  # pyright: ignore[reportAttributeAccessIssue]
+
+
 @pytest.mark.parametrize(
     "trace",
     [

@@ -91,6 +91,12 @@ def test_false_evidence_from_a_record_is_caught(changes: dict[str, Any]) -> None
     assert wrong(with_evidence(TRACE, BY_RECORD, **changes)) == {"rejection-justified"}
 
 
+def test_a_record_that_is_not_cited_is_named_by_where_tracing_left_s() -> None:
+    lie = with_evidence(TRACE, BY_RECORD, record=None)
+    (message,) = said(lie, "rejection-justified")
+    assert message.endswith("tracing leaves S at dart 3 with the doors [] to go")
+
+
 @pytest.mark.parametrize(
     "changes",
     [

@@ -83,6 +83,8 @@ def test_the_world_without_edges_is_proved_by_standing_in_it() -> None:
         ([(1, 0), (2, None), (1, None)], [0, 0], "the marker seen and not seen"),
         ([(1, 0), (2, None), (2, 0)], [0, 0], "degree 1 and degree 2"),
         ([(2, 0), (2, 0)], [0], "its own partner"),  # door 0 of v0 would lead to itself
+        # The second and the third vertex are one, for the same dart of v0 leads to both.
+        ([(2, 0), (2, None), (2, None), (2, 1)], [1, 1, 1], "its own partner"),
         ([(3, 0), (3, 1), (3, 2)], [0, 0], "turned"),
         ([(1, 0), (1, None)], [1], "cannot be crossed"),
         ([(1, 0), (0, None)], [0], "cannot be crossed"),
@@ -113,3 +115,17 @@ def test_an_assumption_leaves_no_trace() -> None:
                 except Contradiction:
                     pass
             assert (fold.open_darts(), fold.world(1).code, fold.world(2).code) == before
+
+
+def test_what_is_possible_is_what_some_world_has() -> None:
+    fold = Fold(Percept(3, 0))
+    fold.move(1, Percept(2, None))
+    assert fold.possible((0, 0), (0, 2)) is True
+    assert fold.possible((0, 0), (0, 1)) is False
+    assert fold.open_darts() == 3
+
+
+def test_a_leaf_is_what_hangs_on_an_open_dart_unless_more_is_asked_for() -> None:
+    fold = Fold(Percept(1, 0))
+    assert fold.world() == fold.world(1)
+    assert [len(fold.world(hang).edges) for hang in (1, 2, 3)] == [1, 2, 3]

@@ -5,18 +5,24 @@ folded, and each conclusion must hold in EVERY world that shows this history; wh
 answer carries a **witness**: a world with the same history in which the conclusion is false. For a
 mapper that declares the planar prior (it rejects by rule `planar`), only planar witnesses count.
 
+What this does not show: under the planar prior the only witness that is tried is the fold itself,
+leaves hung. Where that is not planar, a planar world that folds it further may still exist, and the
+decision passes. Never the other way: what fails here is refuted by a world that is there to see.
+
 Source: docs/semantics.md, sections 9 and 11.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from functools import lru_cache
 from typing import NamedTuple
 
 from topo_verify.checkers.folding import Contradiction, Fold, Place
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, MapData, Move, Reject, Start
+from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import Code, World
 
 
@@ -33,12 +39,23 @@ def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
     assert isinstance(trace[0], Start)
     fold = Fold(trace[0].percept)
     for when, event in enumerate(trace):
-        if isinstance(event, Move):
-            try:
-                fold.move(event.door, event.percept)
-            except Contradiction as contradiction:
-                return fold, (when, str(contradiction))
+        if why := _followed(fold, event):
+            return fold, (when, why)
     return fold, None
+
+
+def _followed(fold: Fold, event: Event) -> str:
+    """Let the fold grow by an event; why no world shows the history any more, or ""."""
+    if isinstance(event, Start):
+        seen = event.percept
+        if not seen.marker == 0 < seen.degree and seen != Percept(0, None):
+            return f"the robot starts on the marked dart and cannot see {seen}"
+    if isinstance(event, Move):
+        try:
+            fold.move(event.door, event.percept)
+        except Contradiction as contradiction:
+            return str(contradiction)
+    return ""
 
 
 @lru_cache(maxsize=16)
@@ -75,12 +92,9 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
     opened = set(range(len(seats)))
     prior = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     for when, event in enumerate(trace):
-        if isinstance(event, Move):
-            try:
-                fold.move(event.door, event.percept)
-            except Contradiction as contradiction:
-                yield Conclusion(when, f"no world shows this history: {contradiction}")
-                return
+        if why := _followed(fold, event):
+            yield Conclusion(when, f"no world shows this history: {why}")
+            return
         if not isinstance(event, Reject | Confirm | Augment):
             continue
         new = isinstance(event, Augment) and event.kind == "new"
@@ -97,17 +111,20 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
             conclusion = _new(fold, when, e, event.degree, seats)
             if not conclusion.why:
                 conclusion = _leads_to_none(fold, when, e, rest, prior=prior)
-        elif fold.partner(e) == fold.find(seats[other]):
-            conclusion = Conclusion(when, "")
-        else:
+        elif fold.partner(e) != fold.find(seats[other]):
             why = f"darts {event.edge} and {other} may well belong to different edges"
             conclusion = Conclusion(when, why, fold.world())
+        elif isinstance(event, Augment) and event.degree != fold.degree(seats[other][0]):
+            conclusion = Conclusion(when, "the vertex there has another degree", fold.world())
+        else:
+            conclusion = Conclusion(when, "")
         yield conclusion
         if isinstance(event, Augment):
-            entry = fold.partner(e)
-            if conclusion.why or entry is None:
+            if conclusion.why:
                 return
             if new:
+                entry = fold.partner(e)
+                assert entry is not None, "a crossed edge has two ends"
                 opened |= set(range(len(seats), len(seats) + event.degree))
                 seats += [(entry[0], entry[1] + door) for door in range(event.degree)]
             opened -= {event.edge, other}
@@ -128,11 +145,8 @@ def _leads_to_none(
 ) -> Conclusion:
     """Does a contradiction follow from each of these being the other end of e?"""
     for end in ends:
-        try:
-            with fold.assuming(e, end):
-                witness = fold.world()
-                if witness.is_planar or not prior:
-                    return Conclusion(when, "the edge may well lead there", witness)
-        except Contradiction:
-            pass
+        with suppress(Contradiction), fold.assuming(e, end):
+            witness = fold.world()
+            if witness.is_planar or not prior:
+                return Conclusion(when, "the edge may well lead there", witness)
     return Conclusion(when, "")

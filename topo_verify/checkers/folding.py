@@ -11,8 +11,8 @@ that shows this history; so the result maps into all of them, dart by dart.
 - A dart left open: a leaf hung on every open dart, or a path of two, makes two different worlds
   with this same history. Nothing is proved; these are its **witness worlds**.
 - A **contradiction** (two degrees at one place, the marker seen at one and not at the other, a
-  vertex turned against itself, a dart its own partner) says that no world shows this history; and
-  under an assumption, that the assumption is false in every world that does.
+  vertex turned against itself, a dart its own partner, a door that is not there) says that no world
+  shows this history; and under an assumption, that it is false in every world that does.
 
 What this does not show: that the percepts are true (claim 1 does), or anything for a mapper that
 may assume more than "some connected embedded graph", as that it is planar.
@@ -38,7 +38,7 @@ class Contradiction(Exception):
 
 
 class Fold:
-    """The fold of a history. Grows by `visit` and `move`; `assuming` looks ahead and returns."""
+    """The fold of a history. Grows by `move`; `assuming` looks ahead and returns."""
 
     def __init__(self, percept: Percept) -> None:
         self._seen: list[Percept] = []
@@ -47,26 +47,28 @@ class Fold:
         self._size: list[int] = []
         self._partner: list[dict[int, Place]] = []
         self._undo: list[tuple[int, int | None]] = []
-        self.visit(percept)
+        self._visit(percept)
 
-    def visit(self, percept: Percept) -> int:
-        """A new node; v0 if the marker is seen there."""
+    def _visit(self, percept: Percept) -> int:
         node = len(self._seen)
         self._seen.append(percept)
         self._parent.append(node)
         self._offset.append(0)
         self._size.append(1)
         self._partner.append({})
-        if percept.marker is not None and node:
-            self._identify((node, percept.marker), (0, self._seen[0].marker or 0))
         return node
 
     def move(self, door: Door, percept: Percept) -> None:
         """The robot left its last visit by a door; what it sensed behind it."""
-        if not 0 <= door < self._seen[-1].degree or percept.degree < 1:
-            raise Contradiction(f"door {door} of {self._seen[-1].degree} cannot be crossed")
-        here = len(self._seen) - 1
-        self.join((here, door), (self.visit(percept), 0))
+        here, marker = len(self._seen) - 1, percept.marker
+        if not 0 <= door < self._seen[here].degree or percept.degree < 1:
+            raise Contradiction(f"door {door} of {self._seen[here].degree} cannot be crossed")
+        if marker is not None and not 0 <= marker < percept.degree:
+            raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
+        there = self._visit(percept)
+        if marker is not None:
+            self._identify((there, marker), (0, 0))
+        self.join((here, door), (there, 0))
 
     def find(self, place: Place) -> Place:
         """The one place that stands for all that are the same dart."""
@@ -105,11 +107,9 @@ class Fold:
                 (a, i), (b, j) = (b, j), (a, i)
             lost, kept = self._seen[a], self._seen[b]
             if lost.degree != kept.degree:
-                raise Contradiction(
-                    f"degree {kept.degree} and degree {lost.degree} at the same place"
-                )
+                raise Contradiction(f"degree {kept.degree} and degree {lost.degree} at one place")
             if (lost.marker is None) != (kept.marker is None):
-                raise Contradiction("the marker seen and not seen at the same place")
+                raise Contradiction("the marker seen and not seen at one place")
             self._parent[a], self._offset[a] = b, j - i
             self._size[b] += self._size[a]
             self._undo.append((a, None))

@@ -1,0 +1,298 @@
+"""Mutation test of the trusted core: every small change of the checkers must turn a test red.
+
+A **mutant** is a file with one small change (mutations.py). The tests of the checkers are run on it
+until one fails; if none does, it has **survived**: the tests have a hole, unless the change is no
+change. Those that are none are listed in `SAME`, each with the reason, and the list is tested, too:
+who is in it and is killed after all is an error.
+
+Each mutant has a process of its own, forked when everything that takes long is imported, and its
+source stands in for the file at the import. The tests that are fast or have killed before run
+first. A test that takes over twenty times its time (and five seconds) of the processor comes to no
+end, and has killed.
+
+    .venv/bin/python benchmarks/mutants.py                       every mutant of the checkers
+    .venv/bin/python benchmarks/mutants.py --only entailment.py  those of one file
+    .venv/bin/python benchmarks/mutants.py --list                only say which there are
+
+Exit code 1 if a mutant survives that is not in `SAME`, or one that is there was killed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import multiprocessing
+import os
+import sys
+from collections import Counter
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass, field
+from importlib.abc import MetaPathFinder, SourceLoader
+from importlib.machinery import ModuleSpec
+from importlib.util import spec_from_file_location
+from multiprocessing.connection import Connection, wait
+from multiprocessing.context import ForkProcess
+from pathlib import Path
+from resource import RLIMIT_AS, setrlimit
+from signal import ITIMER_VIRTUAL, SIGVTALRM, setitimer
+from time import monotonic, process_time
+
+os.environ |= {"HYPOTHESIS_NO_PLUGINS": "1", "HYPOTHESIS_PROFILE": "mutants"}
+
+import hypothesis.strategies  # noqa: F401  only so that it is there
+import pytest
+from hypothesis import HealthCheck, Phase, settings
+from mutations import Mutant, mutants
+
+ROOT = Path(__file__).resolve().parent.parent
+MUTATED = ROOT / "topo_verify" / "checkers"
+OPTIONS = ("-x", "-q", "--tb=no", "--assert=plain", "-p", "no:cacheprovider")
+TESTS = ("tests/checkers", "tests/test_certificate.py", "tests/test_gap.py")
+
+settings.register_profile(
+    "mutants",  # the examples of profile ci; but who has failed is not asked for a smaller one
+    derandomize=True,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
+    phases=(Phase.explicit, Phase.generate),
+    report_multiple_bugs=False,
+)
+
+SECONDS = 30
+"""Of the processor, until the first test begins."""
+
+MEMORY = 4 << 30
+"""Bytes: a mutant that asks for more gets a MemoryError, and a test fails."""
+
+ENDLESS = "nobody, it comes to no end"
+
+BY_SIZE = "whichever of two vertices stands for both, the classes are the same; sizes save time"
+AT_A_ROOT = "the offset of a node is read only while it has a parent, and is set when it gets one"
+AS_LONG = "both are as long by the way they were made; `strict` would tell if they were not"
+EITHER_END = "an edge is met at both its ends, which are two darts, and is noted at one of them"
+FIRST = "who sees the marker joins the first visit at once, which so stands for v0; its dart is 0"
+NO_DART = "a world without a dart has no marker, and these numbers are not read"
+
+SAME = {
+    "folding.py Fold._visit: 0 -> 1": AT_A_ROOT,
+    "folding.py Fold._visit: 1 -> 2": BY_SIZE,
+    "folding.py Fold._identify: self._size[b] += self._size[a] -> pass": BY_SIZE,
+    "folding.py Fold.assuming: self._size[self._parent[node]] -= self._size[node] -> pass": BY_SIZE,
+    "folding.py Fold.assuming: 0 -> 1": AT_A_ROOT,
+    "folding.py Fold.world: True -> False": AS_LONG,
+    "folding.py Fold.world: True -> False (2)": AS_LONG,
+    "folding.py Fold.world: if here < first[end[0]] + end[1]: "
+    "-> if not here < first[end[0]] + end[1]:": EITHER_END,
+    "folding.py Fold.world: here < first[end[0]] + end[1] "
+    "-> here <= first[end[0]] + end[1]": EITHER_END,
+    "folding.py Fold.world: first[node] + dart -> first[node] - dart": FIRST,
+    "folding.py Fold.world: 0 -> 1 (8)": NO_DART,
+    "folding.py Fold.world: 0 -> 1 (9)": NO_DART,
+}
+"""Mutants that change nothing that anybody can see, by their text; and why."""
+
+
+# ---------------------------------------------------------------- who survives
+
+
+class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's own
+    """Imports one module from a changed source."""
+
+    def __init__(self, mutant: Mutant) -> None:
+        self.name = f"topo_verify.checkers.{Path(mutant.file).stem}"
+        self.path = str(MUTATED / mutant.file)
+        self.source = mutant.source
+
+    def find_spec(self, fullname: str, *_: object) -> ModuleSpec | None:
+        """Where it is, if it is the one."""
+        if fullname != self.name:
+            return None
+        return spec_from_file_location(fullname, self.path, loader=self)
+
+    def get_filename(self, fullname: str) -> str:  # noqa: ARG002  as importlib asks
+        """The file that it replaces."""
+        return self.path
+
+    def get_data(self, path: str) -> bytes:  # noqa: ARG002  as importlib asks
+        """The changed source."""
+        return self.source.encode()
+
+
+@dataclass(slots=True)
+class Tests:
+    """What is known of the tests: seconds (of the processor) and mutants killed, of each.
+
+    They run in the order of seconds a kill: who is fast, or has killed before, comes first.
+    """
+
+    seconds: dict[str, float] = field(default_factory=dict[str, float])
+    kills: Counter[str] = field(default_factory=Counter[str])
+
+    def cost(self, test: str) -> float:
+        """What a kill by this test may be expected to take."""
+        return max(self.seconds.get(test, 0.0), 0.001) / (self.kills[test] + 0.1)
+
+    def limit(self, test: str) -> float:
+        """Seconds after which it is said to come to no end; as long as it likes the first time."""
+        return 5 + 20 * self.seconds[test] if test in self.seconds else 0.0
+
+
+class Watch:
+    """Plugin of pytest: orders the tests, stops the endless ones, notes what they do."""
+
+    def __init__(self, tests: Tests) -> None:
+        self.tests, self.failed = tests, ""
+        self.seconds: dict[str, float] = {}
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Those first that may kill soonest."""
+        items.sort(key=lambda item: self.tests.cost(item.nodeid))
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> Generator[None, object, object]:
+        """Wind the alarm, and note the time."""
+        setitimer(ITIMER_VIRTUAL, self.tests.limit(item.nodeid))
+        begin = process_time()
+        done = yield
+        self.seconds[item.nodeid] = process_time() - begin
+        return done
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note the first that fails."""
+        if report.failed:
+            self.failed = self.failed or report.nodeid
+
+
+Outcome = tuple[int, str, dict[str, float]]
+"""Pytest's exit code, the test that failed, and seconds by test."""
+
+
+def run_tests(mutant: Mutant | None, tests: Tests, pipe: Connection) -> None:
+    """In a forked process: run the tests until one fails, and send what came out."""
+    setrlimit(RLIMIT_AS, (MEMORY, MEMORY))
+    setitimer(ITIMER_VIRTUAL, SECONDS)
+    watch = Watch(tests)
+    if mutant is not None:
+        sys.meta_path.insert(0, Planted(mutant))
+    try:
+        checkers = importlib.import_module("topo_verify.checkers")
+    except Exception:  # noqa: BLE001  whatever a mutant raises
+        pipe.send((pytest.ExitCode.TESTS_FAILED, "the import", {}))
+        return
+    if mutant is not None:
+        module = sys.modules[f"{checkers.__name__}.{Path(mutant.file).stem}"]
+        assert isinstance(module.__loader__, Planted), "the mutant was not imported"
+    with Path(os.devnull).open("w") as sink, redirect_stdout(sink), redirect_stderr(sink):
+        code = pytest.main([*OPTIONS, *TESTS], [watch])
+    pipe.send((int(code), watch.failed, watch.seconds))
+
+
+Judged = tuple[Mutant | None, str, dict[str, float]]
+"""A mutant, who killed it ("": nobody), and the seconds of the tests."""
+
+
+def outcomes(wanted: Sequence[Mutant | None], tests: Tests, workers: int) -> Iterator[Judged]:
+    """Run the tests on each mutant, a few at a time, each in a process of its own.
+
+    What takes long to import is imported before the processes fork; the project itself is not.
+    """
+    fork = multiprocessing.get_context("fork")
+    waiting, running = list(reversed(wanted)), dict[Connection, tuple[Mutant | None, ForkProcess]]()
+    while waiting or running:
+        while waiting and len(running) < workers:
+            mutant = waiting.pop()
+            here, there = fork.Pipe(duplex=False)
+            process = fork.Process(target=run_tests, args=(mutant, tests, there), daemon=True)
+            process.start()
+            there.close()
+            running[here] = mutant, process
+        for pipe in wait(list(running)):
+            assert isinstance(pipe, Connection)
+            mutant, process = running.pop(pipe)
+            yield mutant, *_outcome(pipe, process)
+
+
+def _outcome(pipe: Connection, process: ForkProcess) -> tuple[str, dict[str, float]]:
+    """Who killed a mutant ("": nobody), and the seconds of the tests."""
+    try:
+        code, failed, seconds = pipe.recv()
+    except EOFError:
+        process.join()
+        if process.exitcode != -SIGVTALRM:
+            raise SystemExit(f"a test run ended with exit code {process.exitcode}") from None
+        return ENDLESS, {}
+    process.join()
+    if code == pytest.ExitCode.OK:
+        return "", seconds
+    if code == pytest.ExitCode.TESTS_FAILED:
+        return failed, seconds
+    if code == pytest.ExitCode.INTERRUPTED:
+        return "the collection of the tests", seconds
+    raise SystemExit(f"pytest ended with exit code {code}")
+
+
+def judged(wanted: Sequence[Mutant], workers: int) -> Iterator[tuple[Mutant, str]]:
+    """Each mutant, and who killed it. A run on the source as it is tells the times before."""
+    tests = Tests()
+    ((_, killer, tests.seconds),) = outcomes([None], tests, 1)
+    if killer:
+        raise SystemExit(f"on the source as it is: killed by {killer}")
+    begin = monotonic()
+    for done, (mutant, killer, _) in enumerate(outcomes(wanted, tests, workers), 1):
+        assert mutant is not None
+        tests.kills[killer] += 1
+        yield mutant, killer
+        if done % 20 == 0:
+            took = monotonic() - begin
+            print(f"{done} of {len(wanted)}, {took:.0f} s", file=sys.stderr, flush=True)
+
+
+def report(verdicts: Iterable[tuple[Mutant, str]]) -> int:
+    """Print who survives; the exit code."""
+    killed = same = holes = endless = 0
+    wrong: list[str] = []
+    for mutant, killer in verdicts:
+        reason = SAME.get(str(mutant))
+        killed += killer != ""
+        endless += killer == ENDLESS
+        if killer and reason:
+            wrong.append(f"{mutant}\n    is said to change nothing, but was killed by {killer}")
+        if not killer:
+            same += reason is not None
+            holes += reason is None
+            print(f"{mutant} (line {mutant.line})\n    {reason or 'SURVIVES'}", flush=True)
+    for text in wrong:
+        print(text)
+    print(f"{killed} of {killed + same + holes} mutants killed ({endless} of them endless),")
+    print(f"{same} change nothing, {holes} survive")
+    return 1 if holes or wrong else 0
+
+
+def main() -> int:
+    """Run it."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--only", default="", help="mutants whose file or text has this in it")
+    parser.add_argument("--list", action="store_true", help="list them, and do no more")
+    parser.add_argument("--workers", type=int, default=2)
+    options = parser.parse_args()
+    everyone = [mutant for path in sorted(MUTATED.glob("*.py")) for mutant in mutants(path)]
+    wanted = [mutant for mutant in everyone if options.only in str(mutant)]
+    if unknown := SAME.keys() - {str(mutant) for mutant in everyone}:
+        raise SystemExit(f"in SAME, but there are no such mutants: {unknown}")
+    if options.list:
+        for mutant in wanted:
+            print(f"{mutant} (line {mutant.line})")
+        print(f"{len(wanted)} mutants")
+        return 0
+    os.chdir(ROOT)
+    sys.path.insert(0, str(ROOT))
+    for name in ("algorithms", "robot.replay", "world"):
+        importlib.import_module(f"topo_verify.{name}")
+    assert not any(name.startswith("topo_verify.checkers") for name in sys.modules)
+    return report(judged(wanted, options.workers))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
