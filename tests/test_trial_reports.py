@@ -25,6 +25,7 @@ from topo_verify import (
     families,
 )
 from topo_verify.algorithms import Policies
+from topo_verify.faults import FAULTS
 from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.targets import one_target
 from topo_verify.trial import Report, judge, judge_trace, replay_line, world_argument
@@ -149,3 +150,18 @@ def test_assert_maps_shows_the_mappers_own_exception_as_the_cause() -> None:
 def test_assert_maps_refuses_what_is_no_mapper() -> None:
     with pytest.raises(InputError, match="no algorithm 'nobody'"):
         assert_maps("nobody", WORLD)
+
+
+def test_the_witness_is_run_with_the_limits_of_the_run() -> None:
+    runs = iter([FAULTS["confirms-what-is-alone"]])
+
+    def mapper(robot: SimulatedRobot) -> object:
+        lucky = next(runs, None)
+        if lucky is not None:
+            return lucky(robot)
+        while True:
+            robot.move(0)
+
+    report = examine(mapper, World.from_id("m2/1"), limits=Limits(budget=7))
+    (told,) = [f.message for f in report.findings if f.claim == "map-entailed"]
+    assert told.endswith("run there, the mapper asked for more than 7 moves")

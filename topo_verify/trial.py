@@ -57,6 +57,7 @@ class Exploration:
         error: the exception that it raised, if it did.
         limit: which limit ended it, if one did.
         mapper: what was run.
+        limits: what it was allowed.
     """
 
     world: World
@@ -69,6 +70,7 @@ class Exploration:
     cost: int = 0
     limit: Limit | None = None
     mapper: Mapper | None = field(default=None, repr=False)
+    limits: Limits = field(default_factory=Limits)
 
     @property
     def rejected_free(self) -> int:
@@ -171,6 +173,7 @@ def explore(
         robot.cost,
         limit,
         target.mapper,
+        limits,
     )
 
 
@@ -229,7 +232,8 @@ def judge(
 ) -> Report:
     """Judge a run that took place; see `examine`.
 
-    A map that was not proved is put to the test: the mapper is run in the witness world, too.
+    A map that was not proved is put to the test: the mapper is run in the witness world, too, with
+    the same limits. (The witness has the same history: there a mapper makes the same moves again.)
 
     Args:
         options: what the command line that shows the run again needs besides world and target.
@@ -260,10 +264,11 @@ def _put_to_the_test(finding: Finding, run: Exploration) -> Finding:
     if finding.claim != "map-entailed" or finding.witness is None or run.mapper is None:
         return finding
     witness = World.from_text(finding.witness)
-    there = explore(witness, Target(run.algorithm, run.mapper))
+    there = explore(witness, Target(run.algorithm, run.mapper), limits=run.limits)
     failed = {j.claim for j in check(witness, there.trace, there.stopped) if j.status == "failed"}
     wrong = "map-isomorphic" in failed
     told = "run there, the mapper is wrong" if wrong else "run there, the mapper was lucky again"
+    told = f"run there, {there.stopped}" if there.limit is not None else told
     message = f"{finding.message}; witness {_short(finding.witness)}: {told}"
     return msgspec.structs.replace(finding, message=message)
 

@@ -25,6 +25,7 @@ COMMANDS = (
     "world",
     "search",
     "prove",
+    "faults",
     "conform",
     "record",
     "compare",

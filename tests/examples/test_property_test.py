@@ -12,6 +12,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "property_test"
+PYTEST = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+PYTEST += ["--hypothesis-profile=topo-ci"]  # no deadline: a busy machine is no finding
 PAGE = (ROOT / "docs" / "property-tests.md").read_text()
 
 
@@ -28,7 +30,7 @@ def test_it_fails_with_the_world_that_the_page_says(
     test = tmp_path / "test_my_mapper.py"
     test.write_text(test.read_text().replace("max_edges=30", f"max_edges=30{arguments}"))
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", test],
+        [*PYTEST, test],
         cwd=tmp_path,
         capture_output=True,
         text=True,

@@ -1,7 +1,7 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
-verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py), conform.py, record.py, compare.py,
-replay.py, certify.py     the commands
+verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py), faults.py,
+conform.py, record.py, compare.py, replay.py, certify.py     the commands
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown
@@ -26,6 +26,7 @@ from topo_verify.cli.compare import compare
 from topo_verify.cli.conform import conform
 from topo_verify.cli.explore import explore
 from topo_verify.cli.failures import ExitCode, explain, say, version
+from topo_verify.cli.faults import faults
 from topo_verify.cli.prove import prove
 from topo_verify.cli.record import record
 from topo_verify.cli.replay import replay
@@ -95,6 +96,7 @@ for command in (
     world,
     search,
     prove,
+    faults,
     conform,
     record,
     compare,

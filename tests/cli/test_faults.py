@@ -1,0 +1,99 @@
+"""`faults` on the command line: what it prints, and with which exit code it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from topo_verify.campaigns import faults as campaign
+from topo_verify.campaigns.fault_checks import STRATEGIES, Examples, Proof
+from topo_verify.faults import FAULTS, Fault
+
+Call = Callable[..., Any]
+NAME = "restores-with-the-wrong-sign"
+
+
+def test_a_fault_that_is_caught(results: Call) -> None:
+    (entry,) = results(f"faults {NAME} --workers 0")["results"]
+    assert (entry["name"], entry["part"], entry["claim"]) == (NAME, "motion", "map-isomorphic")
+    assert entry["search"].items() >= {"edges": 3, "failing": 2, "total": 74}.items()
+    assert entry["properties"]["median_examples"] <= 100
+    assert (entry["harmless"], entry["proofs"], entry["ok"]) == (False, None, True)
+
+
+def test_only_what_is_asked_for_is_tried(results: Call) -> None:
+    (entry,) = results(f"faults {NAME} --by properties")["results"]
+    assert entry["search"] is None
+    assert entry["properties"] is not None
+
+
+def test_the_table_says_how_many_of_how_many(call: Call) -> None:
+    done = call(f"faults {NAME} counts-no-ways-back --by search --workers 0")
+    lines = done.stdout.splitlines()
+    assert max(map(len, lines)) <= 80
+    assert "motion:" in lines
+    assert f"{NAME}   map-isomorphic         3: 2 of 74         -  ok" in lines
+    text = " ".join(done.stdout.split())
+    assert "2 of 2 faults caught, 0 of 0 harmless differences flagged" in text
+    assert "1 of the faults are convicted by one run" in text
+
+
+def test_markdown_has_the_part_in_the_table(call: Call) -> None:
+    text = call(f"faults {NAME} --by search --workers 0 --format markdown").stdout
+    assert f"| {NAME} | motion | map-isomorphic | 3: 2 of 74 | - | - | ok |" in text
+
+
+def test_the_theorem_with_the_same_mistake_is_named(call: Call) -> None:
+    text = call("faults assumes-a-plane-world --by proofs --format markdown").stdout
+    assert "| - | - | planar-keeps: REFUTED | ok |" in text
+    assert "1 of 1 theorem with the same mistake refuted" in text
+
+
+def test_what_is_out_of_time_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+
+    def proof(_fault: Fault) -> Proof:
+        return Proof("planar-keeps", "UNKNOWN")
+
+    monkeypatch.setattr(campaign, "proof", proof)
+    done = call("faults assumes-a-plane-world --by proofs")
+    assert done.exit_code == 3
+    assert "?: a time limit ended" in done.stdout
+
+
+def test_the_second_strategy_is_told_by_an_asterisk(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+
+    def examples(_fault: Fault) -> Examples:
+        return Examples(9, STRATEGIES[1], {STRATEGIES[1]: (9,)}, 100)
+
+    monkeypatch.setattr(campaign, "examples", examples)
+    done = call(f"faults {NAME} --by properties")
+    assert " 9*  ok" in done.stdout
+
+
+@pytest.mark.parametrize("claim", [None, "cost-honest"])
+def test_what_is_not_as_it_must_be_exits_1(
+    call: Call, monkeypatch: pytest.MonkeyPatch, claim: str | None
+) -> None:
+    monkeypatch.setitem(FAULTS, NAME, replace(FAULTS[NAME], claim=claim))
+    done = call(f"faults {NAME} --by search --workers 0")
+    assert done.exit_code == 1
+    assert f"{NAME}: back at a place" in done.stdout
+    assert ("again: topo-verify replay m3/8" in done.stdout) is (claim is None)
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("faults no-such", "no fault 'no-such': there are leaves-out-the-darts-of-vk"),
+        (f"faults {NAME} --by guess", "no check 'guess'; there are search, properties, proofs"),
+    ],
+)
+def test_what_is_not_there_is_named(call: Call, line: str, told: str) -> None:
+    done = call(line)
+    assert done.exit_code == 2
+    assert told in done.stderr

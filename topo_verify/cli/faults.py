@@ -1,0 +1,200 @@
+"""`topo-verify faults`: mappers with one mistake each, and which check finds which."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import click
+
+from topo_verify.campaigns.fault_checks import EXAMPLES, LARGEST, STRATEGIES
+from topo_verify.campaigns.faults import (
+    CHECKS,
+    LARGEST_HARMLESS,
+    LARGEST_THOROUGH,
+    Caught,
+    Check,
+    try_faults,
+)
+from topo_verify.campaigns.parts import plural
+from topo_verify.cli import options
+from topo_verify.cli.failures import version
+from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.output import Live, Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.errors import InputError
+from topo_verify.faults import FAULTS, Fault
+from topo_verify.search.workers import processors
+
+COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")
+WIDTHS = (29, 21, 13, 5, 3)
+"""Eighty columns have no room for the part: it stands above the first fault of each."""
+
+
+@click.command(
+    short_help="Mappers with one mistake each: which check finds which?",
+    epilog=options.epilog(
+        "faults",
+        "faults restores-with-the-wrong-sign",
+        "faults --by properties --format markdown",
+    ),
+)
+@click.argument("names", nargs=-1, metavar="[NAME...]")
+@click.option(
+    "--by",
+    "checks",
+    default=",".join(CHECKS),
+    show_default=True,
+    metavar="CHECKS",
+    help="Which checks, with commas.",
+)
+@click.option(
+    "--workers",
+    type=click.IntRange(min=0),
+    metavar="N",
+    help="So many processes; 0: none but this.  [default: one a processor]",
+)
+@click.option(
+    "--thorough",
+    is_flag=True,
+    help="Count the failing worlds of 6 and 7 edges, too, and try the harmless differences in all"
+    f" worlds of {LARGEST_THOROUGH} edges: an hour.",
+)
+@output_options
+def faults(
+    output: Output, *, names: tuple[str, ...], checks: str, workers: int | None, thorough: bool
+) -> int:
+    """Try the checks on mappers with one mistake each, and on some that differ harmlessly.
+
+    A fault must be caught by every check, in all worlds up to the first size in which one fails,
+    and within Hypothesis's usual number of examples. A harmless difference must be caught by none.
+    Where a theorem has the same mistake in it, the solver must refute that. NAME is a fault;
+    without any, all are tried.
+    """
+
+    def tried() -> Iterator[Result[Caught]]:
+        crew = processors() if workers is None else workers
+        chosen = _named(names)
+        output.progress(chosen[0].name, 0, len(chosen))
+        entries = try_faults(
+            chosen, by=_checks(checks), workers=crew, thorough=thorough, tell=output.progress
+        )
+        for done, entry in enumerate(entries, 1):
+            yield Result(entry, failed=not (entry.ok or entry.undecided), incomplete=not entry.ok)
+            output.progress(entry.name, done, len(chosen))
+
+    seen: set[str] = set()
+
+    def live(entry: Caught) -> Iterator[Block]:
+        """One fault, as soon as it is done; the first of a part below the part's name."""
+        part = _part(entry)
+        if part not in seen:
+            seen.add(part)
+            yield Text(f"{part}:")
+        yield Table(COLUMNS, [_row(entry)], widths=WIDTHS, headed=False)
+
+    head = (Text(_head(names, thorough=thorough)), Table(COLUMNS, [], widths=WIDTHS))
+    return output.run("faults", tried, _show, live=Live(head, live, _end), by=checks)
+
+
+def _part(entry: Caught) -> str:
+    return "harmless" if entry.harmless else entry.part
+
+
+def _named(names: Sequence[str]) -> list[Fault]:
+    unknown = [name for name in names if name not in FAULTS]
+    if unknown:
+        raise InputError(f"no fault {unknown[0]!r}: there are {', '.join(FAULTS)}")
+    return [FAULTS[name] for name in names] or list(FAULTS.values())
+
+
+def _checks(text: str) -> list[Check]:
+    asked = [word.strip() for word in text.split(",")]
+    unknown = [word for word in asked if word not in CHECKS]
+    if unknown:
+        raise InputError(f"--by {text}: no check {unknown[0]!r}; there are {', '.join(CHECKS)}")
+    return [check for check in CHECKS if check in asked]
+
+
+# ---------------------------------------------------------------- for people
+
+
+def _head(names: Sequence[str], *, thorough: bool) -> str:
+    harmless = LARGEST_THOROUGH if thorough else LARGEST_HARMLESS
+    return (
+        f"topo-verify {version()}: {plural(len(_named(names)), 'mapper')};"
+        f" every world up to {LARGEST} edges ({harmless} for the harmless ones),"
+        f" {EXAMPLES} examples of {' and of '.join(STRATEGIES)}"
+    )
+
+
+def _show(entries: Sequence[Caught]) -> Iterator[Block]:
+    """Everything at once."""
+    rows = [
+        (entry.name, entry.part, *_row(entry)[1:-1], _theorem(entry), _ok(entry))
+        for entry in entries
+    ]
+    yield Table(("fault", "part", *COLUMNS[1:-1], "theorem", "ok"), rows)
+    yield from _end(entries)
+
+
+def _row(entry: Caught) -> tuple[str, ...]:
+    return entry.name, entry.claim or "-", _worlds(entry), _examples(entry), _ok(entry)
+
+
+def _ok(entry: Caught) -> str:
+    if entry.ok:
+        return "ok"
+    return "?" if entry.undecided else "no"
+
+
+def _worlds(entry: Caught) -> str:
+    """`3: 4 of 74`, edges, failing worlds and all; where not all were tried, the first's rank."""
+    found = entry.search
+    if found is None:
+        return "-"
+    if found.world is None:
+        return f"{found.edges}: none"
+    if found.checked < found.total and not found.undecided:
+        return f"{found.edges}: rank {found.world.split('/')[1]}"
+    return f"{found.edges}: {found.failing} of {found.total}"
+
+
+def _examples(entry: Caught) -> str:
+    """The median; with an asterisk if only the second strategy found it with every seed."""
+    drawn = entry.properties
+    if drawn is None:
+        return "-"
+    if drawn.median_examples is None:
+        return "none"
+    return f"{drawn.median_examples}{'*' * (drawn.strategy != STRATEGIES[0])}"
+
+
+def _theorem(entry: Caught) -> str:
+    return f"{entry.proofs.theorem}: {entry.proofs.verdict}" if entry.proofs else "-"
+
+
+def _end(entries: Sequence[Caught]) -> Iterator[Block]:
+    """How many of how many; what was not found, and how to see it."""
+    yield Text("")
+    wrong = [entry for entry in entries if not entry.ok]
+    for entry in wrong:
+        yield Text(f"{entry.name}: {entry.why}.")
+        if entry.harmless and entry.search and entry.search.failing:
+            yield Bullets((entry.search.message,))
+            yield Command(entry.search.replay, "again: ")
+    faults = [entry for entry in entries if not entry.harmless]
+    harmless = [entry for entry in entries if entry.harmless]
+    caught = sum(entry.ok for entry in faults)
+    flagged = sum(not (entry.ok or entry.undecided) for entry in harmless)
+    alone = sum(entry.search is not None and bool(entry.search.convicting) for entry in faults)
+    words = f"{caught} of {plural(len(faults), 'fault')} caught"
+    words += f", {flagged} of {plural(len(harmless), 'harmless difference')} flagged"
+    if any(entry.search for entry in faults):
+        words += f". {alone} of the faults are convicted by one run, judged without its world"
+    proofs = [entry.proofs for entry in entries if entry.proofs]
+    if proofs:
+        refuted = sum(proof.verdict == "REFUTED" for proof in proofs)
+        words += f". {refuted} of {plural(len(proofs), 'theorem')} with the same mistake refuted"
+    yield Text(words + ".")
+    if any(entry.undecided for entry in entries):
+        yield Text("?: a time limit ended a run or a proof, so this is not decided.")

@@ -1,0 +1,71 @@
+"""Mistakes in drawing S: how its darts are numbered, turned and joined."""
+
+from __future__ import annotations
+
+from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.faults.planting import Fault, mapper
+from topo_verify.robot.percept import Door
+
+
+class _NextDart(Chart):
+    def join(self, e: Dart, other: Dart) -> None:
+        new = self.first[-1] == other > 0 and e < other
+        super().join(e, self.turn(other, 1) if new else other)
+
+
+joins_by_the_second_dart = Fault(
+    name="joins-by-the-second-dart",
+    part="chart",
+    why="a new vertex is joined one dart clockwise of the one by which it was entered",
+    claim="map-isomorphic",
+    mapper=mapper("basic", Chart=_NextDart),
+)
+
+
+class _OneWay(Chart):
+    def join(self, e: Dart, other: Dart) -> None:
+        older = self.vertex[other] < len(self.first) - 1
+        super().join(e, other)
+        if older:
+            self.alpha[other] = None
+
+
+joins_a_loop_one_way = Fault(
+    name="joins-a-loop-one-way",
+    part="chart",
+    why="an edge to an older vertex leads there on S, and not back",
+    claim="map-isomorphic",
+    mapper=mapper("basic", Chart=_OneWay),
+)
+
+
+class _Anticlockwise(Chart):
+    def door(self, dart: Dart, exit_dart: Dart) -> Door:
+        return super().door(exit_dart, dart)
+
+
+counts_doors_anticlockwise = Fault(
+    name="counts-doors-anticlockwise",
+    part="chart",
+    why="the door from one dart to another is counted the wrong way round",
+    claim="map-isomorphic",
+    mapper=mapper("basic", Chart=_Anticlockwise),
+)
+
+
+class _Unreduced(Chart):
+    def turn(self, dart: Dart, door: Door) -> Dart:
+        first = self.first[self.vertex[dart]]
+        return first + min(dart - first + door % self.degree[self.vertex[dart]], self._last(dart))
+
+    def _last(self, dart: Dart) -> int:
+        return self.degree[self.vertex[dart]] - 1
+
+
+stops_at_the_last_dart = Fault(
+    name="stops-at-the-last-dart",
+    part="chart",
+    why="turning on past the last dart of a vertex ends there, it does not come round to the first",
+    claim="map-isomorphic",
+    mapper=mapper("enhancement-ii", Chart=_Unreduced),
+)

@@ -1,0 +1,116 @@
+"""Mistakes in the complete rule: what is identified, and what is taken back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.folding import FoldingRule, Place, Sketch
+from topo_verify.algorithms.motion import Hypothesis
+from topo_verify.faults.planting import Fault, mapper
+from topo_verify.robot.percept import Door, Percept
+
+
+def _folding(sketch: type[Sketch]) -> Callable[[], FoldingRule]:
+    """The complete rule with another sketch."""
+
+    def rule() -> FoldingRule:
+        made = FoldingRule()
+        made.sketch = sketch()
+        return made
+
+    return rule
+
+
+class _StaysKnown(Sketch):
+    def roll_back(self, mark: int) -> None:
+        known = {self.leader[node] for node, door, _ in self.done[mark:] if door is None}
+        still = {node for node in known if self.known[node]}
+        super().roll_back(mark)
+        for node in still:
+            self.known[node] = True
+
+
+keeps_an_assumption_for_good = Fault(
+    name="keeps-an-assumption-for-good",
+    part="folding",
+    why="a place that an assumption made a vertex of S stays one when that is taken back",
+    claim="true-hypothesis-kept",
+    mapper=mapper("folding", rule=_folding(_StaysKnown)),
+)
+
+
+class _AllKnown(Sketch):
+    def add(self, percept: Percept, *, known: bool = True) -> int:
+        return super().add(percept, known=known)
+
+
+takes_each_place_for_known = Fault(
+    name="takes-each-place-for-known",
+    part="folding",
+    why="a place that was only seen counts as a vertex of S, which no other may turn out to be",
+    claim="true-hypothesis-kept",
+    theorem="fold-ghost-known",
+    mapper=mapper("folding", rule=_folding(_AllKnown)),
+)
+
+
+class _Unturned(Sketch):
+    def _merge(self, small: int, large: int, turned: Door) -> None:
+        super()._merge(small, large, 0 * turned)
+
+
+identifies_without_turning = Fault(
+    name="identifies-without-turning",
+    part="folding",
+    why="two places that are one vertex are laid on each other door 0 on door 0",
+    claim="true-hypothesis-kept",
+    theorem="fold-without-offset",
+    mapper=mapper("folding", rule=_folding(_Unturned)),
+)
+
+
+class _FromDoor0(FoldingRule):
+    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+        super().arrive(chart, e, percept)
+        self.vu = self.vu[0], 0
+
+
+enters_old_places_by_door_0 = Fault(
+    name="enters-old-places-by-door-0",
+    part="folding",
+    why="where e leads to a place seen before, the robot is taken to come in there by its door 0",
+    claim="true-hypothesis-kept",
+    mapper=mapper("folding", rule=_FromDoor0),
+)
+
+
+class _MarkerMirrored(FoldingRule):
+    def _cross(self, exit_place: Place, percept: Percept) -> Place:
+        if percept.marker is not None:
+            percept = Percept(percept.degree, -percept.marker % percept.degree)
+        return super()._cross(exit_place, percept)
+
+
+lays_the_marker_on_mirrored = Fault(
+    name="lays-the-marker-on-mirrored",
+    part="folding",
+    why="a place that shows the marker is identified with v0, turned the wrong way",
+    claim="true-hypothesis-kept",
+    mapper=mapper("folding", rule=_MarkerMirrored),
+)
+
+
+class _Hasty(FoldingRule):
+    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
+        return remaining[0] if len(remaining) == 1 else None
+
+
+forgets_that_vu_may_be_new = Fault(
+    name="forgets-that-vu-may-be-new",
+    part="folding",
+    why="the last hypothesis is concluded though vu is not known to be a vertex of S",
+    claim="map-entailed",
+    theorem="conclude-the-last",
+    mapper=mapper("folding", rule=_Hasty),
+)

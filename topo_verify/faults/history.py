@@ -1,0 +1,111 @@
+"""Mistakes in Enhancement II: sequences traced on S from a hypothesis."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.enhancement_ii import HistoryRule
+from topo_verify.algorithms.exploration import Refutation
+from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.faults.planting import Fault, mapper, one_late
+from topo_verify.robot.events import Evidence
+
+
+class _ThroughTheUnexplored(HistoryRule):
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Refutation | None:
+        at, number = hypothesis.dart, len(sequences) - 1
+        for last in sequences[-1:]:
+            for step, door in enumerate(last.doors, 1):
+                exit_dart = chart.turn(at, door)
+                arrival = chart.alpha[exit_dart]
+                at = exit_dart if arrival is None else arrival
+                expected, observed = chart.percepts[at], last.percepts[step]
+                if expected != observed:
+                    return Refutation("history", Evidence(step, expected, observed, number, at))
+        return None
+
+
+traces_through_the_unexplored = Fault(
+    name="traces-through-the-unexplored",
+    part="history",
+    why="where a door is unexplored, tracing goes on as if it led back to the same vertex",
+    claim="rejection-justified",
+    theorem="history-through-unexplored",
+    mapper=mapper("enhancement-ii", rule=_ThroughTheUnexplored),
+)
+
+
+class _FromTheFirstDart(HistoryRule):
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Refutation | None:
+        first = chart.first[chart.vertex[hypothesis.dart]]
+        return super().refute(chart, Hypothesis(first, chart, chart.tree(0)), sequences)
+
+
+traces_from_the_first_dart = Fault(
+    name="traces-from-the-first-dart",
+    part="history",
+    why="a sequence is traced from the first dart of h's vertex, not from h",
+    claim="rejection-justified",
+    mapper=mapper("enhancement-ii", rule=_FromTheFirstDart),
+)
+
+
+class _NothingThere(HistoryRule):
+    def beyond(
+        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+    ) -> Refutation | None:
+        seen = sequence.percepts[step]
+        return Refutation("history", Evidence(step, seen, seen, number, exit_dart))
+
+
+takes_unknown_for_a_mismatch = Fault(
+    name="takes-unknown-for-a-mismatch",
+    part="history",
+    why="a hypothesis is rejected where tracing leaves S, for nothing is expected there",
+    claim="rejection-justified",
+    mapper=mapper("enhancement-ii", rule=_NothingThere),
+)
+
+
+class _OfTheEdgeBefore(HistoryRule):
+    def __init__(self) -> None:
+        self.before: list[Executed] = []
+
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Refutation | None:
+        return super().refute(chart, hypothesis, [*self.before, *sequences])
+
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        self.before = list(sequences)
+
+
+keeps_sequences_of_last_edge = Fault(
+    name="keeps-sequences-of-last-edge",
+    part="history",
+    why="the list of sequences is not emptied when the next edge is crossed",
+    claim="rejection-justified",
+    mapper=mapper("enhancement-ii", rule=_OfTheEdgeBefore),
+)
+
+
+class _OneStepLate(HistoryRule):
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Refutation | None:
+        return super().refute(chart, hypothesis, one_late(sequences))
+
+
+compares_a_step_earlier = Fault(
+    name="compares-a-step-earlier",
+    part="history",
+    why="what was seen before a door is compared with what S shows behind it",
+    claim="rejection-justified",
+    theorem="history-shifted-by-one",
+    mapper=mapper("enhancement-ii", rule=_OneStepLate),
+)

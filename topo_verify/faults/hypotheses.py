@@ -1,0 +1,182 @@
+"""Mistakes in what is put to the test: hypotheses left out, or decided without a test."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Chart, Dart, Tree
+from topo_verify.algorithms.exploration import hypotheses
+from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.algorithms.planar import PlanarRule
+from topo_verify.algorithms.policies import Order, shortest
+from topo_verify.faults.planting import Fault, Told, crossed, mapper
+from topo_verify.robot.percept import Percept, Robot
+
+
+def _not_its_own(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+    vk = chart.vertex[crossed(chart)]
+    return [h for h in hypotheses(chart, percept, order) if chart.vertex[h.dart] != vk]
+
+
+leaves_out_the_darts_of_vk = Fault(
+    name="leaves-out-the-darts-of-vk",
+    part="hypotheses",
+    why="no edge is expected to lead back to the vertex that it leaves",
+    claim="true-hypothesis-posed",
+    theorem="posed-not-at-vk",
+    mapper=mapper("basic", hypotheses=_not_its_own),
+)
+
+
+def _no_parallels(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+    vk = chart.vertex[crossed(chart)]
+    ends = [chart.alpha[d] for d in chart.darts(vk)]
+    near = {chart.vertex[d] for d in ends if d is not None} - {vk}
+    return [h for h in hypotheses(chart, percept, order) if chart.vertex[h.dart] not in near]
+
+
+leaves_out_parallel_edges = Fault(
+    name="leaves-out-parallel-edges",
+    part="hypotheses",
+    why="no second edge is expected between two vertices that are joined already",
+    claim="true-hypothesis-posed",
+    mapper=mapper("basic", hypotheses=_no_parallels),
+)
+
+
+def _not_v0(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+    return [h for h in hypotheses(chart, percept, order) if chart.vertex[h.dart] != 0]
+
+
+leaves_out_the_darts_of_v0 = Fault(
+    name="leaves-out-the-darts-of-v0",
+    part="hypotheses",
+    why="the vertex of the marker is taken to be known, so none of its darts is posed",
+    claim="true-hypothesis-posed",
+    mapper=mapper("basic", hypotheses=_not_v0),
+)
+
+
+class _StaysOpen(Chart):
+    def join(self, e: Dart, other: Dart) -> None:
+        super().join(e, other)
+        if self.vertex[other] < len(self.first) - 1:
+            self.unexplored[other] = None
+
+
+leaves_h_in_u = Fault(
+    name="leaves-h-in-u",
+    part="hypotheses",
+    why="the other end of an edge that led to an older vertex stays unexplored",
+    claim="true-hypothesis-posed",
+    mapper=mapper("basic", Chart=_StaysOpen),
+)
+
+
+class _Coarse(Percept, frozen=True, gc=False):
+    """Two degrees are equal if they are so modulo 3."""
+
+    @property
+    def signature(self) -> tuple[int, bool]:
+        return self.degree % 3, self.marker is not None
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Percept):
+            return False
+        return (self.degree % 3, self.marker) == (other.degree % 3, other.marker)
+
+    def __ne__(self, other: object) -> bool:  # a Struct has one of its own
+        return not self == other
+
+    __hash__ = Percept.__hash__
+
+
+class _CoarseSight(Told):
+    def seen(self, percept: Percept) -> Percept:
+        return _Coarse(percept.degree, percept.marker)
+
+
+class _CoarseChart(Chart):
+    def add_vertex(self, percept: Percept) -> Dart:
+        first = super().add_vertex(percept)
+        self.percepts[first:] = [_Coarse(p.degree, p.marker) for p in self.percepts[first:]]
+        return first
+
+
+def _coarse(robot: Robot) -> object:
+    return mapper("basic", Chart=_CoarseChart)(_CoarseSight(robot))
+
+
+compares_degrees_modulo_3 = Fault(
+    name="compares-degrees-modulo-3",
+    part="hypotheses",
+    why="degrees are compared modulo 3, in H and in every comparison",
+    claim="rejection-justified",
+    mapper=_coarse,
+)
+
+
+def _nearest_two(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
+    return shortest(darts, chart, tree)[:2]
+
+
+tries_only_the_nearest_two = Fault(
+    name="tries-only-the-nearest-two",
+    part="hypotheses",
+    why="only the two hypotheses with the shortest ways home are posed",
+    claim="true-hypothesis-posed",
+    mapper=mapper("basic", order=_nearest_two),
+)
+
+
+class _ByElimination(NoRule):
+    def __init__(self) -> None:
+        self.rejected = 0
+
+    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+        self.rejected = 0
+
+    def observe(self, sequence: Executed) -> None:
+        self.rejected += 1
+
+    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
+        return remaining[0] if self.rejected and len(remaining) == 1 else None
+
+
+concludes_by_elimination = Fault(
+    name="concludes-by-elimination",
+    part="hypotheses",
+    why="when all hypotheses but one are rejected, that one is confirmed: vu may be new",
+    claim="map-entailed",
+    mapper=mapper("basic", rule=_ByElimination),
+)
+
+
+class _OnlyOne(NoRule):
+    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
+        return remaining[0] if len(remaining) == 1 else None
+
+
+confirms_what_is_alone = Fault(
+    name="confirms-what-is-alone",
+    part="hypotheses",
+    why="a hypothesis that has no rival is confirmed without a walk",
+    claim="map-entailed",
+    theorem="conclude-the-last",
+    mapper=mapper("basic", rule=_OnlyOne),
+)
+
+
+def _planar() -> PlanarRule:
+    return PlanarRule(NoRule())
+
+
+assumes_a_plane_world = Fault(
+    name="assumes-a-plane-world",
+    part="hypotheses",
+    why="only darts on the face of e are walked, also where the world has handles",
+    claim="true-hypothesis-kept",
+    theorem="planar-keeps",
+    mapper=mapper("basic", rule=_planar),
+)

@@ -1,0 +1,74 @@
+"""Mistakes in reading the marker: which way it points, and whether it is there at all."""
+
+from __future__ import annotations
+
+from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.exploration import execute
+from topo_verify.algorithms.motion import Hypothesis, Pilot, overlap
+from topo_verify.faults.planting import Fault, mapper
+from topo_verify.robot.percept import Percept
+
+
+class _Mirrored(Chart):
+    def add_vertex(self, percept: Percept) -> Dart:
+        first = super().add_vertex(percept)
+        if percept.marker is not None:
+            turned = (Percept(percept.degree, d % percept.degree) for d in self.darts(0))
+            self.percepts[first:] = turned
+        return first
+
+
+mirrors_the_direction = Fault(
+    name="mirrors-the-direction",
+    part="marker",
+    why="turned clockwise by k, the robot is expected to see the marker k doors further clockwise",
+    claim="true-hypothesis-kept",
+    mapper=mapper("basic", Chart=_Mirrored),
+)
+
+
+def _alike(pilot: Pilot, h: Hypothesis, step: int) -> bool:
+    return pilot.percepts[step].signature == h.expected[step].signature
+
+
+def _any_direction_at_the_end(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
+    step = execute(pilot, h, shared)
+    return None if step and step == len(h.doors) and _alike(pilot, h, step) else step
+
+
+ignores_direction_at_the_end = Fault(
+    name="ignores-direction-at-the-end",
+    part="marker",
+    why="at the end of a way home it is enough that the marker is there",
+    claim="no-false-confirm",
+    theorem="words-confirm-undirected",
+    mapper=mapper("basic", execute=_any_direction_at_the_end),
+)
+
+
+def _any_direction_at_once(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
+    step = execute(pilot, h, shared)
+    return None if step == 0 and not h.doors and _alike(pilot, h, 0) else step
+
+
+ignores_direction_behind_e = Fault(
+    name="ignores-direction-behind-e",
+    part="marker",
+    why="where vu itself shows the marker, the first of v0's darts is confirmed",
+    claim="no-false-confirm",
+    theorem="confirm-undirected",
+    mapper=mapper("basic", execute=_any_direction_at_once),
+)
+
+
+def _nothing_left_to_walk(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
+    return None if 0 < shared == len(h.doors) else execute(pilot, h, shared)
+
+
+ignores_direction_if_walked = Fault(
+    name="ignores-direction-if-walked",
+    part="marker",
+    why="a hypothesis whose whole way was executed before is confirmed without a look",
+    claim="no-false-confirm",
+    mapper=mapper("basic", motion=overlap, execute=_nothing_left_to_walk),
+)

@@ -1,0 +1,147 @@
+"""How a mistake is planted: one part of a reference algorithm stands for something else.
+
+A part is the rule, the motion, a policy, or a name that the exploration loop looks up: `Chart`,
+`Pilot`, `Hypothesis`, `validate` and so on. What replaces it is, wherever that can be done, a
+subclass with one method in which one thing is wrong. The loop itself is the reference's own code;
+its functions are bound anew to names of which some are replaced, and the reference stays as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from types import FunctionType
+from typing import Any, Literal
+
+from topo_verify.algorithms import CATALOGUE, Rule, exploration
+from topo_verify.algorithms.chart import Chart, Dart, Survey
+from topo_verify.algorithms.motion import Executed, Motion
+from topo_verify.algorithms.policies import Order, Pick, order_policy, pick_policy
+from topo_verify.robot.events import Decision
+from topo_verify.robot.percept import Door, Percept, Purpose, Robot
+
+PartName = Literal[
+    "motion", "marker", "hypotheses", "prefix", "history", "records", "chart", "folding", "report"
+]
+"""The part of a mapper that a mistake is in: also the file in which it stands."""
+
+Mapper = Callable[[Robot], object]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fault:
+    """A reference algorithm with one mistake in it; call it with a robot, as any mapper.
+
+    Attributes:
+        name: what the command line calls it.
+        part: where the mistake is.
+        why: the mistake, in one sentence.
+        claim: the claim that must catch it, or None: it is harmless.
+        mapper: the algorithm with the mistake.
+        theorem: the theorem of `topo-verify prove` that has the same mistake in its rule.
+    """
+
+    name: str
+    part: PartName
+    why: str
+    claim: str | None
+    mapper: Mapper
+    theorem: str | None = None
+
+    def __call__(self, robot: Robot) -> object:
+        """Explore the robot's world, with the mistake."""
+        return self.mapper(robot)
+
+    @property
+    def harmless(self) -> bool:
+        """Does the difference change the cost, or nothing, so that no claim may fail?"""
+        return self.claim is None
+
+    @property
+    def target(self) -> str:
+        """How the command line finds the mapper."""
+        room = "harmless" if self.harmless else self.part
+        return f"topo_verify.faults.{room}:{self.name.replace('-', '_')}"
+
+
+def mapper(
+    name: str,
+    *,
+    rule: Callable[[], Rule] | None = None,
+    motion: Motion | None = None,
+    pick: Pick | None = None,
+    order: Order | None = None,
+    **names: object,
+) -> Callable[[Robot], Survey]:
+    """The algorithm of this name with some of its parts replaced.
+
+    Args:
+        names: what is meant in `algorithms/exploration.py` by each of these names.
+    """
+    base = CATALOGUE[name]
+    loop = rebound(**names)["explore"]
+
+    def explore(robot: Robot) -> Survey:
+        survey: Survey = loop(
+            robot,
+            rule=(rule or base.rule)(),
+            motion=motion or base.motion,
+            pick=pick or pick_policy(base.policies.pick),
+            order=order or order_policy(base.policies.order),
+        )
+        return survey
+
+    return explore
+
+
+def rebound(**names: object) -> dict[str, Any]:
+    """The names of `algorithms/exploration.py`, some of which stand for something else.
+
+    Its functions are bound to these names: they call each other, and what was replaced.
+    """
+    reference = vars(exploration)
+    assert names.keys() <= reference.keys(), f"the loop knows no {names.keys() - reference.keys()}"
+    space = dict(reference)
+    for name, value in reference.items():
+        if isinstance(value, FunctionType) and value.__module__ == exploration.__name__:
+            space[name] = FunctionType(value.__code__, space, name, value.__defaults__)
+            space[name].__kwdefaults__ = value.__kwdefaults__
+    space.update(names)
+    return space
+
+
+# ---------------------------------------------------------------- what several mistakes need
+
+
+class Told:
+    """A robot that passes everything on; what inherits from it bends one thing."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+
+    @property
+    def percept(self) -> Percept:
+        """What the mapper is told that the robot senses."""
+        return self.seen(self.robot.percept)
+
+    def seen(self, percept: Percept) -> Percept:
+        """What the mapper makes of a percept."""
+        return percept
+
+    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
+        """Leave by a door."""
+        return self.seen(self.robot.move(door, purpose))
+
+    def declare(self, event: Decision) -> None:
+        """Put a decision on record."""
+        self.robot.declare(event)
+
+
+def crossed(chart: Chart) -> Dart:
+    """The dart e behind which the robot stands: not explored, and not in U any more."""
+    return next(d for d, o in enumerate(chart.alpha) if o is None and d not in chart.unexplored)
+
+
+def one_late(sequences: Sequence[Executed]) -> list[Executed]:
+    """The same sequences, with each percept behind the door after its own."""
+    return [Executed(s.doors, (s.percepts[0], *s.percepts[:-1])) for s in sequences]

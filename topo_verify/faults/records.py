@@ -1,0 +1,108 @@
+"""Mistakes in Enhancement III: what is kept of the places behind unexplored darts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.enhancement_iii import RecordsRule
+from topo_verify.algorithms.exploration import Refutation
+from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.faults.planting import Fault, mapper, one_late
+
+
+class _LoopsFromDart0(RecordsRule):
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        super().learn(chart, e, entry, ())
+        super().learn(chart, e, chart.first[chart.vertex[entry]], sequences)
+
+
+records_a_loop_from_dart_0 = Fault(
+    name="records-a-loop-from-dart-0",
+    part="records",
+    why="after a confirmation sequences are traced from dart 0 of h's vertex, not from h",
+    claim="rejection-justified",
+    theorem="records-stale-root",
+    mapper=mapper("enhancement-iii-all", rule=_LoopsFromDart0),
+)
+
+
+class _FromTheOtherEnd(RecordsRule):
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        super().learn(chart, entry, e, sequences)
+
+
+records_from_the_near_end = Fault(
+    name="records-from-the-near-end",
+    part="records",
+    why="sequences are traced from e, by which the robot left, not from where it came in",
+    claim="rejection-justified",
+    mapper=mapper("enhancement-iii-all", rule=_FromTheOtherEnd),
+)
+
+
+class _ByDoor(RecordsRule):
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Refutation | None:
+        self.chart = chart
+        return super().refute(chart, hypothesis, sequences)
+
+    def beyond(
+        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+    ) -> Refutation | None:
+        return super().beyond(self._door(exit_dart), sequence, step, number)
+
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        self.chart = chart
+        super().learn(chart, e, entry, sequences)
+
+    def _record(self, exit_dart: Dart, sequence: Executed, step: int) -> None:
+        super()._record(self._door(exit_dart), sequence, step)
+
+    def _door(self, dart: Dart) -> int:
+        return dart - self.chart.first[self.chart.vertex[dart]]
+
+
+files_records_by_the_door = Fault(
+    name="files-records-by-the-door",
+    part="records",
+    why="records are kept under the number of a door at its vertex, the same for all vertices",
+    claim="rejection-justified",
+    mapper=mapper("enhancement-iii-all", rule=_ByDoor),
+)
+
+
+class _OnSuspicion(RecordsRule):
+    def refute(
+        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
+    ) -> Refutation | None:
+        found = super().refute(chart, hypothesis, sequences)
+        if found is None:
+            self.learn(chart, hypothesis.dart, hypothesis.dart, sequences[-1:])
+        return found
+
+
+keeps_records_of_the_rejected = Fault(
+    name="keeps-records-of-the-rejected",
+    part="records",
+    why="a sequence is recorded as each hypothesis would have it, and stays when that is rejected",
+    claim="rejection-justified",
+    mapper=mapper("enhancement-iii-all", rule=_OnSuspicion),
+)
+
+
+class _OneStepLate(RecordsRule):
+    def beyond(
+        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+    ) -> Refutation | None:
+        return super().beyond(exit_dart, one_late([sequence])[0], step, number)
+
+
+compares_records_a_door_late = Fault(
+    name="compares-records-a-door-late",
+    part="records",
+    why="a record is compared with what was seen one door before",
+    claim="rejection-justified",
+    mapper=mapper("enhancement-iii-one", rule=lambda: _OneStepLate(levels=1)),
+)

@@ -1,0 +1,131 @@
+"""Mistakes in what is delivered: the map, the marker in it, the cost; and when."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from topo_verify.algorithms import CATALOGUE
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Chart, Dart, Survey
+from topo_verify.algorithms.motion import Executed, Pilot
+from topo_verify.faults.planting import Fault, mapper
+from topo_verify.robot.percept import Robot
+
+basic = CATALOGUE["basic"]
+
+
+def _no_loops(robot: Robot) -> Survey:
+    survey = basic(robot)
+    vertex = {dart: v for v, row in enumerate(survey.vertices) for dart in row}
+    return survey._replace(edges=tuple(e for e in survey.edges if vertex[e[0]] != vertex[e[1]]))
+
+
+delivers_no_loops = Fault(
+    name="delivers-no-loops",
+    part="report",
+    why="an edge from a vertex to itself is missing in the map",
+    claim="map-isomorphic",
+    mapper=_no_loops,
+)
+
+
+def _one_too_few(robot: Robot) -> Survey:
+    survey = basic(robot)
+    return survey._replace(edges=survey.edges[:-1])
+
+
+delivers_one_edge_too_few = Fault(
+    name="delivers-one-edge-too-few",
+    part="report",
+    why="the edge that was found last is missing in the map",
+    claim="map-isomorphic",
+    mapper=_one_too_few,
+)
+
+
+def _every_dart(robot: Robot) -> Survey:
+    survey = basic(robot)
+    return survey._replace(edges=(*survey.edges, *((b, a) for a, b in survey.edges)))
+
+
+delivers_every_edge_twice = Fault(
+    name="delivers-every-edge-twice",
+    part="report",
+    why="the map has an edge for every dart, not for every pair of darts",
+    claim="map-isomorphic",
+    mapper=_every_dart,
+)
+
+
+def _mirrored(robot: Robot) -> Survey:
+    survey = basic(robot)
+    return survey._replace(vertices=tuple(row[::-1] for row in survey.vertices))
+
+
+delivers_the_mirror_image = Fault(
+    name="delivers-the-mirror-image",
+    part="report",
+    why="the exits of each vertex are listed anticlockwise",
+    claim="map-isomorphic",
+    mapper=_mirrored,
+)
+
+
+class _MarkerWhereItStands(Chart):
+    def survey(self, cost: int) -> Survey:
+        last = len(self.alpha) - 1
+        return super().survey(cost)._replace(marker=last if self.alpha else None)
+
+
+marks_the_last_dart = Fault(
+    name="marks-the-last-dart",
+    part="report",
+    why="the marker is drawn at the dart that was found last",
+    claim="map-isomorphic",
+    mapper=mapper("basic", Chart=_MarkerWhereItStands),
+)
+
+
+class _WaysBackAreFree(Pilot):
+    def back(self, steps: int) -> None:
+        before = self.cost
+        super().back(steps)
+        self.cost = before
+
+
+counts_no_ways_back = Fault(
+    name="counts-no-ways-back",
+    part="report",
+    why="retracing is not counted in the cost",
+    claim="cost-honest",
+    mapper=mapper("basic", Pilot=_WaysBackAreFree),
+)
+
+
+def _over(robot: Robot) -> Survey:
+    survey = basic(robot)
+    return survey._replace(cost=survey.cost + 1)
+
+
+counts_the_start_as_a_move = Fault(
+    name="counts-the-start-as-a-move",
+    part="report",
+    why="the cost is the number of percepts, one more than there are moves",
+    claim="cost-honest",
+    mapper=_over,
+)
+
+
+class _TwoDartsLeft(NoRule):
+    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        if len(chart.unexplored) == 2:
+            chart.join(*chart.unexplored)
+
+
+joins_the_last_two_unseen = Fault(
+    name="joins-the-last-two-unseen",
+    part="report",
+    why="when two darts are left they are taken for the ends of one edge, and the robot stops",
+    claim="map-entailed",
+    mapper=mapper("basic", rule=_TwoDartsLeft),
+)
