@@ -12,8 +12,10 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "property_test"
-PYTEST = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
-PYTEST += ["--hypothesis-profile=topo-ci"]  # no deadline: a busy machine is no finding
+PYTEST = [
+    *(sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"),
+    "--hypothesis-profile=topo-ci",  # no deadline: a busy machine is no finding
+]
 PAGE = (ROOT / "docs" / "property-tests.md").read_text()
 
 
