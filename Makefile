@@ -73,7 +73,9 @@ $(VENV)/.core: pyproject.toml constraints.txt $(VENV)/.created
 	$(INSTALL) -c constraints.txt --no-build-isolation -e .
 	@touch $@
 
+# setuptools: drup has no wheel, and later Pythons bring no setuptools of their own.
 $(VENV)/.dev: $(VENV)/.core
+	$(INSTALL) -c constraints.txt setuptools
 	$(INSTALL) -c constraints.txt --no-build-isolation -e '.[dev]'
 	@touch $@
 
