@@ -47,7 +47,7 @@ def test_arguments_are_numbers_words_and_truth_values(text: str, simplest: str) 
         ("worlds(simple=yes)", "'simple=yes' is no literal and no name=literal"),
         ("worlds(simple='yes')", "worlds: simple='yes', expected True or False"),
         ("worlds(loopless=1)", "worlds: loopless=1, expected True or False"),
-        ("uniform_worlds", "missing a required argument: 'edges'"),
+        ("uniform_worlds", "argument: 'edges'; the strategy is uniform_worlds(edges)"),
         ("worlds(marker='here')", "worlds: marker='here', expected one of"),
         ("worlds(max_degree='x')", "worlds: max_degree='x', expected an integer"),
     ],

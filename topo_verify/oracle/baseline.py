@@ -29,6 +29,7 @@ from typing import Any, Literal, TypeVar
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.oracle.messages import dialect
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.world.formats import files
@@ -279,9 +280,5 @@ def schema() -> dict[str, Any]:
         components[name]["properties"]["sum"] = {"type": "string", "pattern": "^[0-9a-f]{16}$"}
         components[name]["required"].append("sum")
     components["Header"]["required"] += ["format", "version"]
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "a line of a topo-verify baseline: first the header, then an entry a world",
-        "anyOf": list(made),
-        "$defs": components,
-    }
+    title = "a line of a topo-verify baseline: first the header, then an entry a world"
+    return dialect({"title": title, "anyOf": list(made), "$defs": components})

@@ -17,6 +17,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator
+from inspect import cleandoc
 from typing import Any, Literal, cast
 
 import msgspec
@@ -142,8 +143,29 @@ SCHEMAS: dict[str, Any] = {
 
 def schema(name: str) -> dict[str, Any]:
     """The JSON Schema of one kind of line."""
-    made = msgspec.json.schema(SCHEMAS[name])
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made}
+    return dialect(msgspec.json.schema(SCHEMAS[name]))
+
+
+def dialect(made: dict[str, Any]) -> dict[str, Any]:
+    """The schema with its dialect named, the same under every Python.
+
+    Descriptions are docstrings, and whether these keep their indentation depends on the Python.
+    """
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **_unindented(made)}
+
+
+def _unindented(part: Any) -> Any:
+    if isinstance(part, list):
+        return [_unindented(one) for one in cast("list[object]", part)]
+    if isinstance(part, dict):
+        items = cast("dict[str, object]", part).items()
+        return {
+            key: cleandoc(value)
+            if key == "description" and isinstance(value, str)
+            else _unindented(value)
+            for key, value in items
+        }
+    return part
 
 
 def strangers(data: Any, message: object, place: str = "$") -> Iterator[str]:
