@@ -45,6 +45,9 @@ CHUNK = 2**16
 AHEAD = 4 * LIMIT
 """So many bytes may a program write while it does not read."""
 
+LOOKS = 30
+"""So often it is looked for an answer before sleeping: most come sooner than one is woken."""
+
 
 class Ended(Exception):
     """The program's output has ended."""
@@ -197,7 +200,10 @@ class Child:
 
     def _listen(self, seconds: float = TICK) -> bool:
         """Take what is there, wait a tick for it; was there anything?"""
-        ready = self._poll.poll(int(1000 * seconds))
+        ready, looks = self._poll.poll(0), LOOKS if seconds else 0
+        while not ready and looks:
+            ready, looks = self._poll.poll(0), looks - 1
+        ready = ready or self._poll.poll(int(1000 * seconds))
         for stream, _ in ready:
             if stream == self._out:
                 self._take()
