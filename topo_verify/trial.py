@@ -34,7 +34,7 @@ from topo_verify.robot.events import (
     Start,
     Trace,
 )
-from topo_verify.robot.limits import Limit, Limits, MapperStopped, time_limits
+from topo_verify.robot.limits import Limit, Limits, MapperStopped, within
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.targets import Mapper, Target, one_target
 from topo_verify.world import counting
@@ -336,15 +336,18 @@ def _run(
     finish: Finish | None = None
     why: str | None = None
     error: BaseException | None = None
+
+    def survey() -> tuple[Finish | None, str | None, Exception | None]:
+        result = mapper(robot)
+        try:
+            return _finish(result), None, None  # within the limits: a result may run code
+        except InputError as nonsense:
+            return None, str(nonsense), None
+        except Exception as raised:  # noqa: BLE001  an object that does not let itself be read
+            return None, f"what was delivered cannot be read: {_told(raised)}", raised
+
     try:
-        with time_limits(limits, lambda: robot.cost):
-            result = mapper(robot)
-            try:
-                finish = _finish(result)  # within the limits: what it delivered may run code
-            except InputError as nonsense:
-                why = str(nonsense)
-            except Exception as raised:  # noqa: BLE001  an object that does not let itself be read
-                why, error = f"what was delivered cannot be read: {_told(raised)}", raised
+        finish, why, error = within(limits, lambda: robot.cost, survey)
     except MapperStopped as stop:
         stop = robot.stopped or stop
         return None, str(stop), None, stop.limit

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import gc
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager, suppress
 from itertools import count
+from typing import Any
 
 import pytest
 
@@ -19,7 +22,7 @@ from topo_verify.robot.limits import (
     MoveTimeout,
     TimeLimitExceeded,
     WorldTimeout,
-    time_limits,
+    within,
 )
 
 SHORT = Limits(move_timeout=0.15, world_timeout=600)
@@ -73,8 +76,7 @@ def elsewhere(work: Callable[[], None]) -> None:
 
 def guarded(mapper: Callable[[], None], bounds: Limits = SHORT) -> None:
     """Run a mapper that never moves under these limits."""
-    with time_limits(bounds, still):
-        mapper()
+    within(bounds, still, mapper)
 
 
 @pytest.mark.parametrize("mapper", [loop, sleep])
@@ -97,8 +99,7 @@ def test_a_mapper_that_moves_all_the_time_is_stopped_by_the_other_limit(
     moves = count()
 
     def work() -> None:
-        with time_limits(Limits(move_timeout=600, world_timeout=0.2), lambda: next(moves)):
-            loop()
+        within(Limits(move_timeout=600, world_timeout=0.2), lambda: next(moves), loop)
 
     with in_time(), pytest.raises(WorldTimeout, match=r"after 0\.2 s in this world"):
         where(work)
@@ -106,15 +107,13 @@ def test_a_mapper_that_moves_all_the_time_is_stopped_by_the_other_limit(
 
 @pytest.mark.parametrize("where", [here, elsewhere])
 def test_a_mapper_in_time_notices_nothing(where: Callable[[Callable[[], None]], None]) -> None:
-    done: list[bool] = []
+    def work() -> str:
+        time.sleep(0.6)  # a tick or two pass
+        return "a map"
 
-    def work() -> None:
-        with time_limits(Limits(move_timeout=1, world_timeout=2), still):
-            time.sleep(0.6)  # a tick or two pass
-            done.append(True)
-
-    where(work)
-    assert done == [True]
+    delivered: list[str] = []
+    where(lambda: delivered.append(within(Limits(move_timeout=1, world_timeout=2), still, work)))
+    assert delivered == ["a map"]
 
 
 @pytest.mark.parametrize("where", [here, elsewhere])
@@ -163,30 +162,114 @@ def test_the_callers_own_alarm_and_handler_are_restored() -> None:
 
 
 def test_limits_within_limits_stop_the_inner_mapper_and_leave_the_outer_running() -> None:
-    with time_limits(Limits(move_timeout=600, world_timeout=600), still):
+    def outer() -> None:
         with pytest.raises(TimeLimitExceeded, match=r"0\.15 s"):
             guarded(loop)
         assert signal.getitimer(signal.ITIMER_REAL)[0] > 0
 
+    guarded(outer, Limits(move_timeout=600, world_timeout=600))
 
-def test_a_last_tick_while_the_limits_are_lifted_does_not_keep_the_handler(
-    monkeypatch: pytest.MonkeyPatch,
+
+@pytest.mark.parametrize("call", [1, 2, 3])
+def test_a_tick_before_or_after_the_mapper_raises_nothing_and_leaves_no_clock(
+    monkeypatch: pytest.MonkeyPatch, call: int
 ) -> None:
     before = signal.getsignal(signal.SIGALRM)
     real, calls = signal.setitimer, list[float]()
 
     def late(which: int, seconds: float, interval: float = 0.0) -> tuple[float, float]:
         calls.append(seconds)
-        if len(calls) == 2:  # the first call sets the clock, the second one stops it
+        if len(calls) == call:  # the clock is set, stopped, and given back to the caller
             time.sleep(0.1)
             signal.raise_signal(signal.SIGALRM)
         return real(which, seconds, interval)
 
-    monkeypatch.setattr(signal, "setitimer", late)
-    with pytest.raises(TimeLimitExceeded):
+    def rings(_signal: int, _frame: object) -> None:
+        """The caller's own alarm: from the third call on the handler is the caller's again."""
+
+    signal.signal(signal.SIGALRM, rings)
+    try:
+        monkeypatch.setattr(signal, "setitimer", late)
         guarded(lambda: None, Limits(move_timeout=0.05, world_timeout=600))
+        assert signal.getsignal(signal.SIGALRM) is rings
+        assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    assert len(calls) == 3
+
+
+def test_a_mapper_whose_clean_up_is_slow_is_struck_again_and_leaves_no_clock() -> None:
+    strikes = 0
+
+    def slow_to_end() -> None:
+        nonlocal strikes
+        while strikes < 3:
+            try:
+                loop()
+            except TimeLimitExceeded:
+                strikes += 1
+
+    before = signal.getsignal(signal.SIGALRM)
+    with in_time(), pytest.raises(MoveTimeout):
+        guarded(slow_to_end)
+    assert strikes == 3
     assert signal.getsignal(signal.SIGALRM) == before
     assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+
+
+def test_no_tick_strikes_in_a_callback_of_the_garbage_collector(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    swallowed: list[object] = []
+    monkeypatch.setattr(sys, "unraisablehook", swallowed.append)
+    rounds = count()
+
+    def late(_phase: str, _info: dict[str, int]) -> None:
+        """Take so long that the first ticks that are overdue come here."""
+        start = time.monotonic()
+        while time.monotonic() - start < 0.5:
+            pass
+        next(rounds)
+
+    def collect() -> None:
+        gc.collect()
+        assert next(rounds) == 2  # before and after the collection
+        loop()
+
+    gc.disable()
+    gc.callbacks.append(late)
+    try:
+        with in_time(), pytest.raises(MoveTimeout):
+            guarded(collect)
+    finally:
+        gc.callbacks.remove(late)
+        gc.enable()
+    assert swallowed == []
+
+
+def test_no_tick_strikes_in_the_tracer_of_coverage() -> None:
+    """It holds a lock, and torn out of there would never give it back."""
+    source = """
+def trace(rings):
+    for _ in range(2):
+        rings()
+    return True
+"""
+    traced: list[bool] = []
+    tracer: dict[str, Any] = {"__name__": "coverage.collector"}
+    exec(source, tracer)  # noqa: S102  a function of that module
+
+    def work() -> None:
+        traced.append(tracer["trace"](rings))
+        loop()
+
+    def rings() -> None:
+        time.sleep(0.1)
+        signal.raise_signal(signal.SIGALRM)
+
+    with in_time(), pytest.raises(MoveTimeout):
+        guarded(work, Limits(move_timeout=0.05, world_timeout=600))
+    assert traced == [True]
 
 
 @pytest.mark.parametrize("where", [here, elsewhere])

@@ -7,21 +7,25 @@ What this does not do: a mapper that catches BaseException in a loop, or that si
 never returns, cannot be stopped from inside its own process.
 
 How: a clock ticks while the mapper runs and asks the robot for its cost. In the main thread the
-tick is SIGALRM, which also interrupts a sleep; in other threads (and on systems without SIGALRM) a
-second thread raises the exception asynchronously, which a pure Python loop notices at once.
+tick is SIGALRM, which also interrupts a sleep, and it raises in the mapper and in what that called,
+never in what comes before or after. In other threads (and on systems without SIGALRM) a second
+thread raises the exception asynchronously, which a pure Python loop notices at once.
 """
 
 from __future__ import annotations
 
 import ctypes
+import gc
 import signal
 import threading
-from collections.abc import Callable, Generator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
+from inspect import currentframe
 from time import monotonic
 from types import FrameType
-from typing import Literal
+from typing import Literal, TypeVar
+
+T = TypeVar("T")
 
 Limit = Literal["budget", "move-timeout", "world-timeout"]
 """What may be used up: the names of the options of the command line."""
@@ -87,23 +91,25 @@ TICK = 0.05
 """Least seconds between two looks at the clock."""
 
 
-@contextmanager
-def time_limits(limits: Limits, cost: Callable[[], int]) -> Generator[None]:
-    """Raise TimeLimitExceeded inside the block once a time limit is passed.
+def within(limits: Limits, cost: Callable[[], int], work: Callable[[], T]) -> T:
+    """What `work()` returns; what it raises passes through.
 
     Args:
         cost: the number of moves so far; while it grows, the mapper counts as moving.
+
+    Raises:
+        TimeLimitExceeded: a time limit was passed before `work` was done, even if it swallowed
+            the exception that was to stop it.
     """
     watch = _Watch(limits, cost)
     tick = max(TICK, min(limits.move_timeout, limits.world_timeout) / 4)
     if threading.current_thread() is threading.main_thread() and hasattr(signal, "setitimer"):
-        ticking = _alarm(watch, tick)
+        result = _by_alarm(watch, tick, work)
     else:
-        ticking = _thread(watch, tick)
-    with ticking:
-        yield
-    if watch.struck is not None:  # the mapper swallowed the exception and went on
+        result = _by_thread(watch, tick, work)
+    if watch.struck is not None:
         raise watch.struck
+    return result
 
 
 class _Watch:
@@ -129,27 +135,48 @@ class _Watch:
         return self.struck
 
 
-@contextmanager
-def _alarm(watch: _Watch, tick: float) -> Generator[None]:
-    def look(_signal: int, _frame: FrameType | None) -> None:
-        if (why := watch.overdue()) is not None:
+def _by_alarm(watch: _Watch, tick: float, work: Callable[[], T]) -> T:
+    working: FrameType | None = None
+
+    def at_work() -> T:
+        nonlocal working
+        working = currentframe()
+        return work()
+
+    def look(_signal: int, struck: FrameType | None) -> None:
+        if _called_by(struck, working) and (why := watch.overdue()) is not None:
             raise why
 
     handler = signal.signal(signal.SIGALRM, look)
     timer = signal.setitimer(signal.ITIMER_REAL, tick, tick)
     try:
-        try:
-            yield
-        finally:  # a last tick may strike here, and what it raises must not skip what is below
-            signal.setitimer(signal.ITIMER_REAL, 0)
-    finally:
+        return at_work()
+    finally:  # a tick that strikes from here on, or before `at_work`, raises nothing
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, handler or signal.SIG_DFL)
         signal.setitimer(signal.ITIMER_REAL, *timer)  # a timer of the caller's runs on
+        working = None  # frame and closure hold each other
 
 
-@contextmanager
-def _thread(watch: _Watch, tick: float) -> Generator[None]:
+def _called_by(frame: FrameType | None, caller: FrameType | None) -> bool:
+    """Is the frame the caller's or of something that it called, where an exception does no harm?"""
+    while frame is not None and frame is not caller and not _is_a_hook(frame):
+        frame = frame.f_back
+    return frame is not None and frame is caller
+
+
+def _is_a_hook(frame: FrameType) -> bool:
+    """Does the interpreter call this in the middle of other code?
+
+    It swallows what a callback of the garbage collector raises (Hypothesis has one), and a tracer
+    of coverage.py that is torn out never gives back its lock.
+    """
+    callbacks = [getattr(callback, "__code__", None) for callback in gc.callbacks]
+    package = str(frame.f_globals.get("__name__")).partition(".")[0]
+    return frame.f_code in callbacks or package == "coverage"
+
+
+def _by_thread(watch: _Watch, tick: float, work: Callable[[], T]) -> T:
     mapper = threading.get_ident()
     done = threading.Event()
 
@@ -162,7 +189,7 @@ def _thread(watch: _Watch, tick: float) -> Generator[None]:
     watcher = threading.Thread(target=look, name="topo-verify time limit", daemon=True)
     watcher.start()
     try:
-        yield
+        return work()
     except TimeLimitExceeded as bare:
         raise watch.struck or bare from None
     finally:
