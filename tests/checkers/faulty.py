@@ -23,31 +23,12 @@ from topo_verify.algorithms.motion import (
     retrace,
 )
 from topo_verify.algorithms.policies import Order, nearest, shortest
+from topo_verify.faults.planting import Told
 from topo_verify.robot.events import Decision, Evidence
-from topo_verify.robot.percept import Door, Percept, Purpose, Robot
+from topo_verify.robot.percept import Door, Percept, Purpose
 from topo_verify.robot.simulator import SimulatedRobot
 
 basic = CATALOGUE["basic"]
-
-
-class Misled:
-    """A robot that passes everything on; what inherits from it bends one thing."""
-
-    def __init__(self, robot: Robot) -> None:
-        self.robot = robot
-
-    @property
-    def percept(self) -> Percept:
-        return self.seen(self.robot.percept)
-
-    def seen(self, percept: Percept) -> Percept:
-        return percept
-
-    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        return self.seen(self.robot.move(door, purpose))
-
-    def declare(self, event: Decision) -> None:
-        self.robot.declare(event)
 
 
 class Vague(Percept, frozen=True, gc=False):
@@ -62,21 +43,21 @@ class Vague(Percept, frozen=True, gc=False):
     __hash__ = Percept.__hash__
 
 
-class Undirected(Misled):
+class Undirected(Told):
     """Sees the marker, does not compare where it points."""
 
     def seen(self, percept: Percept) -> Percept:
         return Vague(percept.degree, percept.marker)
 
 
-class Blind(Misled):
+class Blind(Told):
     """Does not see the marker."""
 
     def seen(self, percept: Percept) -> Percept:
         return Percept(percept.degree, None)
 
 
-class Wandering(Misled):
+class Wandering(Told):
     """Walks every edge two hundred times more."""
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
@@ -86,7 +67,7 @@ class Wandering(Misled):
         return percept
 
 
-class Silent(Misled):
+class Silent(Told):
     """Declares nothing."""
 
     def declare(self, event: Decision) -> None:

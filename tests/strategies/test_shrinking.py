@@ -9,6 +9,7 @@ import pytest
 from hypothesis import find, settings
 from hypothesis.strategies import SearchStrategy
 
+from tests.checkers.faulty import Vague
 from tests.strategies import features
 from tests.strategies.features import Condition
 from topo_verify import World, examine
@@ -99,20 +100,7 @@ def test_what_worlds_shrink_to(condition: Condition, simplest: str) -> None:
 # ---------------------------------------------------------------- planted faults
 
 
-class AnyDirection(Percept, frozen=True, eq=False):
-    """A percept that takes another for equal if only the direction of the marker differs."""
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Percept) and self.signature == other.signature
-
-    def __ne__(self, other: object) -> bool:
-        return not self == other
-
-    def __hash__(self) -> int:
-        return hash(self.signature)
-
-
-class NoMarker(AnyDirection, frozen=True, eq=False):
+class NoMarker(Vague, frozen=True, eq=False):
     """A percept that takes another for equal if the degree is."""
 
     def __eq__(self, other: object) -> bool:
@@ -141,9 +129,9 @@ def errs(mapper: Algorithm) -> Callable[[World], bool]:
 
 
 SMALLEST = [
-    (AnyDirection, worlds(max_edges=30), 2),
-    (AnyDirection, worlds(max_edges=30, loopless=True), 3),
-    (AnyDirection, worlds(max_edges=30, simple=True), 4),
+    (Vague, worlds(max_edges=30), 2),
+    (Vague, worlds(max_edges=30, loopless=True), 3),
+    (Vague, worlds(max_edges=30, simple=True), 4),
     (NoMarker, worlds(max_edges=30), 2),
     (NoMarker, worlds(max_edges=30, loopless=True), 3),
     (NoMarker, worlds(max_edges=30, simple=True), 4),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +22,7 @@ from topo_verify.oracle.corpus import Corpus, corpus_from
 from topo_verify.oracle.outcomes import Found, Job
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.search.workers import processors
 
 SHOWN = 3
 """So many findings of a level, and so many worlds with costs, are shown; JSON has more."""
@@ -103,7 +103,9 @@ def conform(  # noqa: PLR0913  an argument an option
     def standings() -> Iterator[Result[Standing]]:
         text = naming.target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
-        asked = _Asked(corpus_from(texts, seed=seed), _processes(workers), batch)
+        asked = _Asked(
+            corpus_from(texts, seed=seed), processors() if workers is None else workers, batch
+        )
         if transcript is not None:
             _make_folder(transcript)
         output.note(f"seed {seed}")
@@ -162,13 +164,6 @@ def _again(
     words += ["--batch"] if batch else []
     words += ["--validate"] if validate else []
     return (*words, *limits.options)
-
-
-def _processes(workers: int | None) -> int:
-    if workers is not None:
-        return workers
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
 def _make_folder(name: str) -> None:
