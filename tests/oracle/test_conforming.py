@@ -163,7 +163,7 @@ def test_of_a_python_mapper_the_trace_is_kept(tmp_path: Path) -> None:
 # ---------------------------------------------------------------- the examples
 
 
-@pytest.mark.parametrize("language", ["c", "js", "python"])
+@pytest.mark.parametrize("language", ["c", "js", "python", "short python"])
 def test_the_examples_decide_as_the_reference_event_for_event(
     language: str, tmp_path: Path
 ) -> None:
@@ -171,6 +171,7 @@ def test_the_examples_decide_as_the_reference_event_for_event(
         "c": lambda: compiled(EXAMPLES / "mapper_c" / "mapper.c", tmp_path),
         "js": lambda: javascript(EXAMPLES / "mapper_js" / "mapper.js"),
         "python": lambda: f"{EXAMPLES / 'mapper_python' / 'mapper.py'}:explore",
+        "short python": lambda: f"{EXAMPLES / 'mapper_python' / 'short.py'}:explore",
     }[language]()
     found = standings(Job(target=target, like="basic", validate=True), "corpus")
     assert verdicts(found) == ["SAMPLED"] * 4, found["decisions"].findings[:1]

@@ -190,7 +190,7 @@ def _end(entries: Sequence[Caught]) -> Iterator[Block]:
     words = f"{caught} of {plural(len(faults), 'fault')} caught"
     words += f", {flagged} of {plural(len(harmless), 'harmless difference')} flagged"
     if any(entry.search for entry in faults):
-        words += f". {alone} of the faults are convicted by one run, judged without its world"
+        words += f". Convicted by one run, judged without its world: {alone} of the faults"
     proofs = [entry.proofs for entry in entries if entry.proofs]
     if proofs:
         refuted = sum(proof.verdict == "REFUTED" for proof in proofs)
