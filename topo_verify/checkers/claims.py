@@ -72,7 +72,7 @@ def percepts_true(case: Case) -> Iterator[Wrong]:
     """1. Every percept in the trace is what the world shows after these doors."""
     for when, at in enumerate(case.positions):
         event, seen = case.trace[when], case.seen_at(at)
-        if isinstance(event, ev.Start | ev.Move) and event.percept != seen:
+        if isinstance(event, (ev.Start, ev.Move)) and event.percept != seen:
             told = f"the trace says {event.percept} where the world shows {seen}"
             yield when, seen, event.percept, told, None
     if case.illegal is not None:

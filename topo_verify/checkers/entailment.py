@@ -46,15 +46,15 @@ def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
 
 def _followed(fold: Fold, event: Event) -> str:
     """Let the fold grow by an event; why no world shows the history any more, or ""."""
-    if isinstance(event, Start):
-        seen = event.percept
-        if not seen.marker == 0 < seen.degree and seen != Percept(0, None):
-            return f"the robot starts on the marked dart and cannot see {seen}"
     if isinstance(event, Move):
         try:
             fold.move(event.door, event.percept)
         except Contradiction as contradiction:
             return str(contradiction)
+    elif isinstance(event, Start):
+        seen = event.percept
+        if not seen.marker == 0 < seen.degree and seen != Percept(0, None):
+            return f"the robot starts on the marked dart and cannot see {seen}"
     return ""
 
 
@@ -95,7 +95,7 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
         if why := _followed(fold, event):
             yield Conclusion(when, f"no world shows this history: {why}")
             return
-        if not isinstance(event, Reject | Confirm | Augment):
+        if not isinstance(event, (Reject, Confirm, Augment)):
             continue
         new = isinstance(event, Augment) and event.kind == "new"
         other = event.dart if isinstance(event, Augment) else event.hypothesis
