@@ -15,6 +15,7 @@ from topo_verify.algorithms.exploration import Rule
 from topo_verify.algorithms.motion import Motion, retrace
 from topo_verify.checkers import Status, check
 from topo_verify.robot.events import Event, Move, Trace
+from topo_verify.targets import Mapper
 from topo_verify.trial import explore
 from topo_verify.world import counting
 
@@ -73,8 +74,8 @@ def path(vertices: int, *, marker: int) -> World:
 # ---------------------------------------------------------------- traces
 
 
-def trace_of(world: World | str, mapper: Algorithm | str = "basic") -> Trace:
-    """What happens when an algorithm maps a world (or the world of this id)."""
+def trace_of(world: World | str, mapper: Mapper | str = "basic") -> Trace:
+    """What happens when a mapper maps a world (or the world of this id)."""
     return explore(World.from_id(world) if isinstance(world, str) else world, mapper).trace
 
 

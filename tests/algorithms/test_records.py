@@ -6,16 +6,17 @@ from collections.abc import Sequence
 
 import pytest
 
-from tests.checkers.faulty import LoopsFromFirst
 from tests.helpers import failing, of_type, trace_of, variant
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.enhancement_iii import RecordsRule, Seen
 from topo_verify.algorithms.motion import Executed, overlap
+from topo_verify.faults import FAULTS
 from topo_verify.robot.events import Evidence, Record, Reject, Trace
 from topo_verify.robot.percept import Percept
 
 ONE, ALL = "enhancement-iii-one", "enhancement-iii-all"
+FROM_DART_0 = FAULTS["records-a-loop-from-dart-0"]
 
 
 def recorded(trace: Trace) -> list[Reject]:
@@ -73,13 +74,13 @@ def test_a_loop_is_traced_from_its_dart_h_and_not_from_the_first_of_the_vertex()
     # dart is 1. Traced from 5, its door 5 is dart 3; traced from 1, it would be dart 6.
     (reject,) = recorded(trace_of("m5/434", ALL))
     assert reject.evidence.record == Record(3, ())
-    assert recorded(trace_of("m5/434", variant(LoopsFromFirst))) == []
+    assert recorded(trace_of("m5/434", FROM_DART_0)) == []
 
 
 def test_tracing_loops_from_the_first_dart_would_reject_what_is_true() -> None:
     world = World.from_id("m5/446")
     assert failing(world, trace_of(world, ALL)) == set()
-    assert "true-hypothesis-kept" in failing(world, trace_of(world, variant(LoopsFromFirst)))
+    assert "true-hypothesis-kept" in failing(world, trace_of(world, FROM_DART_0))
 
 
 @pytest.mark.parametrize("world_id", ["m5/434", "m6/23746", "m7/20231", "m7/41544"])

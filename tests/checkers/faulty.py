@@ -11,8 +11,6 @@ from collections.abc import Callable, Iterable, Sequence
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Dart, Survey, Tree
-from topo_verify.algorithms.enhancement_ii import HistoryRule
-from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation, Rule, explore
 from topo_verify.algorithms.motion import (
     Executed,
@@ -24,7 +22,7 @@ from topo_verify.algorithms.motion import (
 )
 from topo_verify.algorithms.policies import Order, nearest, shortest
 from topo_verify.faults.planting import Told
-from topo_verify.robot.events import Decision, Evidence
+from topo_verify.robot.events import Evidence
 from topo_verify.robot.percept import Door, Percept, Purpose
 from topo_verify.robot.simulator import SimulatedRobot
 
@@ -67,13 +65,6 @@ class Wandering(Told):
         return percept
 
 
-class Silent(Told):
-    """Declares nothing."""
-
-    def declare(self, event: Decision) -> None:
-        pass
-
-
 def ignores_the_direction_of_the_marker(robot: SimulatedRobot) -> Survey:
     return basic(Undirected(robot))
 
@@ -86,10 +77,6 @@ def wanders(robot: SimulatedRobot) -> Survey:
     return basic(Wandering(robot))._replace(cost=robot.cost)
 
 
-def declares_nothing(robot: SimulatedRobot) -> Survey:
-    return basic(Silent(robot))
-
-
 def does_not_count_its_first_move(robot: SimulatedRobot) -> Survey:
     survey = basic(robot)
     return survey._replace(cost=survey.cost - 1)
@@ -98,11 +85,6 @@ def does_not_count_its_first_move(robot: SimulatedRobot) -> Survey:
 def knows_it_beforehand(_robot: SimulatedRobot) -> Survey:
     """A single edge, it says, whatever the world."""
     return Survey(((0,), (1,)), ((0, 1),), 0, 0)
-
-
-def draws_its_map_anticlockwise(robot: SimulatedRobot) -> Survey:
-    survey = basic(robot)
-    return survey._replace(vertices=tuple(row[::-1] for row in survey.vertices))
 
 
 def with_rule(
@@ -136,33 +118,5 @@ class OffByOne(NoRule):
         return None
 
 
-class LoopsFromFirst(RecordsRule):
-    """Rule `records` that traces what led to a loop from the first dart of its vertex."""
-
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
-        super().learn(chart, e, entry, ())
-        super().learn(chart, e, chart.first[chart.vertex[entry]], sequences)
-
-
-class ThroughWalls(HistoryRule):
-    """Rule `history` that traces on where S ends, as if the edge led back to where it began."""
-
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
-        at, number = hypothesis.dart, len(sequences) - 1
-        for last in sequences[-1:]:
-            for step, door in enumerate(last.doors, 1):
-                exit_dart = chart.turn(at, door)
-                arrival = chart.alpha[exit_dart]
-                at = exit_dart if arrival is None else arrival
-                expected, observed = chart.percepts[at], last.percepts[step]
-                if expected != observed:
-                    return Refutation("history", Evidence(step, expected, observed, number))
-        return None
-
-
-traces_loops_from_the_first_dart = with_rule(LoopsFromFirst)
 forgets_a_hypothesis = with_rule(NoRule, order=all_but_the_last)
 compares_off_by_one = with_rule(OffByOne, motion=overlap)
-traces_through_unexplored_darts = with_rule(ThroughWalls)

@@ -9,10 +9,8 @@ import pytest
 from tests.checkers import faulty
 from tests.helpers import EIGHT, worlds
 from topo_verify import Limits, World, examine
-from topo_verify.algorithms.chart import Survey
-from topo_verify.robot.simulator import SimulatedRobot
-
-Mapper = Callable[[SimulatedRobot], Survey]
+from topo_verify.faults import FAULTS as SEEDED
+from topo_verify.targets import Mapper
 
 
 def failing(mapper: Mapper, world: World, *, budget: int | None = None) -> set[str]:
@@ -29,11 +27,11 @@ FAULTS: list[tuple[Mapper, str, set[str]]] = [
         "m2/5",
         {"true-hypothesis-posed", "true-hypothesis-kept", "map-isomorphic"},
     ),
-    (faulty.traces_through_unexplored_darts, "m4/36", REJECTS_THE_TRUTH),
+    (SEEDED["traces-through-the-unexplored"], "m4/36", REJECTS_THE_TRUTH),
     (faulty.compares_off_by_one, "m5/85", REJECTS_THE_TRUTH),
-    (faulty.traces_loops_from_the_first_dart, "m5/446", REJECTS_THE_TRUTH),
+    (SEEDED["records-a-loop-from-dart-0"], "m5/446", REJECTS_THE_TRUTH),
     (faulty.ignores_the_direction_of_the_marker, "m2/5", {"no-false-confirm", "map-isomorphic"}),
-    (faulty.draws_its_map_anticlockwise, "m2/4", {"map-isomorphic"}),
+    (SEEDED["delivers-the-mirror-image"], "m2/4", {"map-isomorphic"}),
     (faulty.does_not_count_its_first_move, "m1/0", {"cost-honest"}),
     (faulty.knows_it_beforehand, "m1/0", {"cost-within-bound"}),
 ]
@@ -46,7 +44,7 @@ def test_a_faulty_mapper_is_caught(mapper: Mapper, world: str, claims: set[str])
 
 def test_a_rejection_with_false_evidence_is_caught_where_it_does_no_harm() -> None:
     world = World.from_id("m4/42")
-    assert failing(faulty.traces_through_unexplored_darts, world) == {"rejection-justified"}
+    assert failing(SEEDED["traces-through-the-unexplored"], world) == {"rejection-justified"}
 
 
 def test_every_claim_but_percepts_true_is_caught_by_a_faulty_mapper() -> None:
@@ -61,7 +59,7 @@ def test_a_mapper_that_wanders_is_caught_by_the_bound_if_not_by_its_budget() -> 
 
 
 def test_a_fault_that_does_not_matter_in_a_world_is_not_held_against_the_mapper() -> None:
-    assert failing(faulty.draws_its_map_anticlockwise, World.from_id("m1/0")) == set()
+    assert failing(SEEDED["delivers-the-mirror-image"], World.from_id("m1/0")) == set()
 
 
 def test_a_mapper_that_declares_nothing_is_judged_on_percepts_map_and_cost() -> None:
@@ -72,7 +70,7 @@ def test_a_mapper_that_declares_nothing_is_judged_on_percepts_map_and_cost() -> 
         "rejection-justified",
     }
     for world in worlds(range(1, 4)):
-        report = examine(faulty.declares_nothing, world)
+        report = examine(SEEDED["declares-nothing"], world)
         assert report.ok
         claims = {claim: report.claims[claim] for claim in EIGHT}
         assert {c for c, status in claims.items() if status == "not-declared"} == silent
