@@ -1,0 +1,70 @@
+(** Who is right in every world has proved it in each (claims 7 and 9; section 11).
+
+    This is about every mapper, whatever it does. If it ends with a dart open there are two worlds
+    in which it does the same and delivers the same map: it is wrong in one of them. So whoever is
+    right everywhere pays what a closed log costs, which is at least a move for each edge.
+    SCEPTICS READ [Strategy], [cut], [ends] and [sound]. *)
+From Coq Require Import Arith Lia List.
+Import ListNotations.
+From Topo Require Import World Rotation Log Determined Undetermined Entailed.
+
+(** A deterministic mapper: what it has seen so far decides the next door, or the map. *)
+Definition Strategy := Log -> nat + Map.
+
+(** The log as it was after i moves. *)
+Definition cut L i := {| start := start L; moves := firstn i (moves L) |}.
+
+(** The mapper takes the doors of the log, one after the other, and then delivers M. *)
+Definition ends (f : Strategy) L M :=
+  (forall i k, door L i = Some k -> f (cut L i) = inl k) /\ f L = inr M.
+
+(** Right in every world in which it ends. *)
+Definition sound f := forall W L M, world W -> replays W L -> ends f L M -> isomorphic M W.
+
+(** Claim 9: who is right in every world leaves no dart open in any. *)
+Theorem sound_closed f : sound f ->
+  forall W L M, world W -> replays W L -> ends f L M -> closed L.
+Proof.
+  intros S W L M HW R E.
+  destruct (closed_or_undetermined W L HW R) as [C|(W1 & W2 & H1 & H2 & R1 & R2 & N)]; auto.
+  destruct N. rewrite <- (proj1 (S W1 L M H1 R1 E)). apply (S W2 L M H2 R2 E).
+Qed.
+
+(** And who goes on until no dart is open, and then delivers a world that shows what was seen, is
+    right in every world. *)
+Theorem closed_sound f :
+  (forall L M, ends f L M -> closed L /\ world M /\ replays M L) -> sound f.
+Proof.
+  intros H W L M HW R E. destruct (H L M E) as (C & HM & RM). apply (closed_determines L); auto.
+Qed.
+
+(** In a closed log every dart of the world is an end of an edge that was crossed. *)
+Lemma closed_crossed W L v b : world W -> visits W L v -> closed L -> b < darts W ->
+  exists i k, door L i = Some k /\ (b = turn W k (v i) \/ b = v (S i)).
+Proof.
+  intros HW V C Hb. destruct (met W L v HW V C b Hb) as (p & P & <-).
+  destruct (C p P) as (q & r & K & S).
+  apply (same_sound W L v nothing HW V (fits_nothing W v)) in S. rewrite S. clear S.
+  destruct K as [i k K|i k K|x y []|x y []]; exists i, k; auto.
+Qed.
+
+(** Claim 7, its lower half, for every mapper that is right in every world: m moves at least; the
+    world has 2 m darts. *)
+Theorem sound_cost f : sound f -> forall W L M, world W -> replays W L -> ends f L M ->
+  darts W <= 2 * length (moves L).
+Proof.
+  intros S W L M HW R E. assert (C := sound_closed f S W L M HW R E).
+  apply replays_visits in R as [v V]; [|apply HW]. set (n := length (moves L)).
+  set (met_at := map (fun i => v (Datatypes.S i)) (seq 0 n) ++
+    map (fun i => turn W (nth i (map fst (moves L)) 0) (v i)) (seq 0 n)).
+  replace (2 * n) with (length met_at)
+    by (unfold met_at; rewrite app_length, !map_length, seq_length; lia).
+  rewrite <- (seq_length (darts W) 0). apply NoDup_incl_length; [apply seq_NoDup|].
+  intros b Hb. apply in_seq in Hb.
+  destruct (closed_crossed W L v b HW V C) as (i & k & D & B); [lia|].
+  assert (I : i < n).
+  { unfold n. rewrite <- (map_length fst). apply nth_error_Some. unfold door in D. congruence. }
+  apply in_or_app. destruct B as [-> | ->]; [right|left]; apply in_map_iff; exists i.
+  - rewrite (nth_error_nth _ _ _ D). split; auto. apply in_seq. lia.
+  - split; auto. apply in_seq. lia.
+Qed.
