@@ -99,7 +99,7 @@ oldest: $(VENV)/.created
 	$(INSTALL) uv
 	$(BIN)/uv venv --quiet --allow-existing --python $(BIN)/python .venv-oldest
 	$(BIN)/uv pip install --quiet --python .venv-oldest/bin/python --resolution lowest-direct -e '.[dev]'
-	.venv-oldest/bin/python -m pytest -W default
+	.venv-oldest/bin/python -m pytest -W default --numprocesses=auto --dist=loadfile
 
 clean:
 	rm -rf $(VENV) .venv-oldest .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage build dist
