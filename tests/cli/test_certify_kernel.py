@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests.cli.conftest import Call, Results
+from tests.helpers import place, trace_of
 from tests.proofs.coq.conftest import nowhere
 from topo_verify.proofs import coqtools, kernel
+from topo_verify.robot.events import Confirm, Reject, write_trace
 
 RING = """\
 {"type": "start", "percept": {"degree": 2, "marker": 0}}
@@ -86,6 +89,120 @@ def test_a_certificate_that_is_refused_is_a_bug_of_ours(
     done = call("certify ring.jsonl --kernel")
     assert done.exit_code == 70
     assert "coqc 0 refuses certificate_ring.v: no" in done.stderr
+
+
+def told(path: str, mapper: str = "basic", world: str = "m3/50") -> None:
+    """Write the trace of a run with its decisions."""
+    Path(path).write_bytes(write_trace(trace_of(world, mapper)))
+
+
+def judging(monkeypatch: pytest.MonkeyPatch, checked: kernel.Checked) -> None:
+    def check(*_: object) -> kernel.Checked:
+        return checked
+
+    monkeypatch.setattr("topo_verify.proofs.kernel._Checker.check", check)
+
+
+COQC = kernel.Checked(accepted=True, by="coqc 0")
+
+
+def test_decisions_that_follow_are_certified(
+    call: Call, results: Results, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told("run.jsonl")
+    judging(monkeypatch, COQC)
+    (entry,) = results("certify run.jsonl --kernel")["results"]
+    follow = entry["decisions"]["entailed"]
+    assert follow == entry["decisions"]["total"] > 5
+    assert entry["kernel"]["decisions"] == {
+        "certified": follow, "entailed": follow, "by": "coqc 0", "why": ""
+    }  # fmt: skip
+    assert "Theorem decisions_follow" in Path("certificate_run.v").read_text()
+    text = " ".join(call("certify run.jsonl --kernel").stdout.split())
+    assert f"Of the decisions that follow, {follow} of {follow} are certified by coqc 0." in text
+
+
+def test_a_log_without_decisions_says_nothing_of_them(
+    call: Call, results: Results, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    judging(monkeypatch, COQC)
+    (entry,) = results("certify ring.jsonl --kernel")["results"]
+    assert entry["kernel"]["decisions"] == {"certified": 0, "entailed": 0, "by": "", "why": ""}
+    assert "decisions that follow," not in call("certify ring.jsonl --kernel").stdout
+    assert "Decisions" not in Path("certificate_ring.v").read_text()
+
+
+def test_a_decision_that_does_not_follow_is_not_certified(
+    results: Results, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trace = trace_of("m3/50")
+    wrong = place(trace, Reject)
+    rejected = trace[wrong]
+    assert isinstance(rejected, Reject)
+    elsewhere = Confirm(rejected.edge, rejected.hypothesis, "motion")
+    Path("run.jsonl").write_bytes(write_trace((*trace[:wrong], elsewhere, *trace[wrong + 1 :])))
+    judging(monkeypatch, COQC)
+    (entry,) = results("certify run.jsonl --kernel", code=1)["results"]
+    assert entry["decisions"]["entailed"] == entry["decisions"]["total"] - 1
+    assert entry["kernel"]["decisions"]["certified"] == entry["decisions"]["entailed"]
+    assert f"event {wrong}," not in Path("certificate_run.v").read_text()
+
+
+def test_what_follows_in_planar_worlds_only_is_told(
+    results: Results, call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told("run.jsonl", "folding+planar", "m4/50")
+    judging(monkeypatch, COQC)
+    (entry,) = results("certify run.jsonl --kernel")["results"]
+    found = entry["kernel"]["decisions"]
+    assert (found["certified"], found["entailed"]) == (8, 9)
+    assert "planar worlds only" in found["why"]
+    assert "8 of 9 are certified" in " ".join(call("certify run.jsonl --kernel").stdout.split())
+
+
+def test_decisions_that_are_not_checked_make_the_run_incomplete(
+    results: Results, call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told("run.jsonl")
+    apart = kernel.Checked(accepted=None, by="", why="the evidence is long")
+    judging(monkeypatch, replace(COQC, decisions=apart))
+    (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
+    assert entry["kernel"]["accepted"]
+    assert entry["kernel"]["decisions"]["certified"] == 0
+    text = " ".join(call("certify run.jsonl --kernel").stdout.split())
+    assert "are certified: the evidence is long." in text
+
+
+def test_decisions_are_not_certified_by_a_certificate_that_is_not_checked(
+    results: Results, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told("run.jsonl")
+    judging(monkeypatch, kernel.Checked(accepted=None, by="", why="no Coq"))
+    (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
+    found = entry["kernel"]["decisions"]
+    assert (found["certified"], found["by"]) == (0, "")
+    assert found["why"] == "the certificate is not checked"
+
+
+def test_decisions_that_are_refused_are_a_bug_of_ours(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told("run.jsonl")
+    apart = kernel.Checked(accepted=False, by="the program", why="refused")
+    judging(monkeypatch, replace(COQC, decisions=apart))
+    done = call("certify run.jsonl --kernel")
+    assert done.exit_code == 70
+    assert "the program refuses certificate_run.v: refused" in done.stderr
+
+
+@needs_coq
+@pytest.mark.slow
+def test_the_decisions_of_a_run_are_accepted_by_coqc(results: Results) -> None:
+    told("run.jsonl", "enhancement-iii-all")
+    (entry,) = results("certify run.jsonl --kernel")["results"]
+    found = entry["kernel"]["decisions"]
+    assert found["certified"] == found["entailed"] == entry["decisions"]["total"] > 0
+    assert found["by"] == coqtools.version()
 
 
 def test_without_the_option_there_is_no_certificate(results: Results, folder: Path) -> None:

@@ -42,6 +42,20 @@ class Tally(msgspec.Struct, frozen=True):
     total: int
 
 
+class Proved(msgspec.Struct, frozen=True):
+    """How many of the decisions that follow are certified.
+
+    Attributes:
+        by: the checker; "" if there was none.
+        why: why some that follow are not certified.
+    """
+
+    certified: int
+    entailed: int
+    by: str
+    why: str
+
+
 class Kernel(msgspec.Struct, frozen=True):
     """What the proofs in Coq make of the log.
 
@@ -51,6 +65,7 @@ class Kernel(msgspec.Struct, frozen=True):
         accepted: by whom it was checked; null if it was not.
         by, why: the checker; why it was not checked.
         command: what checks it by hand, in a folder with the certificate.
+        decisions: those of the log that follow, certified.
     """
 
     statement: str
@@ -59,6 +74,12 @@ class Kernel(msgspec.Struct, frozen=True):
     by: str
     why: str
     command: str
+    decisions: Proved
+
+    @property
+    def incomplete(self) -> bool:
+        """Is something not checked that could have been?"""
+        return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
 
 
 class Certified(msgspec.Struct, frozen=True):
@@ -118,8 +139,9 @@ def certify(
     TRACE is a file in JSON Lines, or - for standard input: a `start` with the first percept, then a
     `move` with door and percept for each edge that was crossed. PROVED: one world alone shows this
     log, and it is the map. REFUTED: two different worlds show it, or none does. With --kernel the
-    same is stated in Coq for that very log, in a file certificate_LOG.v, and proved by computation;
-    where it cannot be checked the exit code is 3.
+    same is stated in Coq for that very log, in a file certificate_LOG.v, and proved by computation.
+    So is each declared decision that follows from the log before it. Where something cannot be
+    checked the exit code is 3.
     """
 
     def certified() -> Iterator[Result[Certified]]:
@@ -175,10 +197,32 @@ def _proof(
     name = _identifier(traces, number)
     files.write(f"{name}.v", coqfile.coq_file(stated))
     checked = check(name, stated)
-    if checked.accepted is False:
-        raise InternalError(f"{checked.by} refuses {name}.v: {checked.why}")
+    for one in (checked, checked.decisions):
+        if one is not None and one.accepted is False:
+            raise InternalError(f"{one.by} refuses {name}.v: {one.why}")
+    decisions = _proved(len(stated.decisions.stated), certificate.entailed, checked)
     by_hand = kernel.command(name)
-    return Kernel(stated.statement, f"{name}.v", checked.accepted, checked.by, checked.why, by_hand)
+    return Kernel(
+        statement=stated.statement,
+        file=f"{name}.v",
+        accepted=checked.accepted,
+        by=checked.by,
+        why=checked.why,
+        command=by_hand,
+        decisions=decisions,
+    )
+
+
+def _proved(stated: int, entailed: int, checked: Checked) -> Proved:
+    """How many of the decisions that follow are certified; `stated` have evidence."""
+    if not entailed:
+        return Proved(0, 0, "", "")
+    found = checked.decisions or checked
+    if not found.accepted:
+        apart = checked.decisions is not None
+        return Proved(0, entailed, "", found.why if apart else "the certificate is not checked")
+    why = "the others follow in planar worlds only, and Coq is not told what planar means"
+    return Proved(stated, entailed, found.by, why if stated < entailed else "")
 
 
 def _identifier(traces: Sequence[str], number: int) -> str:
@@ -213,7 +257,7 @@ def _result(
         findings=findings,
         kernel=proof,
     )
-    unchecked = proof is not None and proof.accepted is None
+    unchecked = proof is not None and proof.incomplete
     return Result(entry, failed=bool(findings), incomplete=unchecked)
 
 
@@ -264,8 +308,18 @@ _STATED = {
 def _show_proof(proof: Kernel) -> Iterator[Block]:
     told = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
     yield Text("")
-    yield Text(f"{proof.file}: {_STATED[proof.statement]}; {told}. By hand, in a folder with it:")
+    told += f".{_certified(proof.decisions)} By hand, in a folder with it:"
+    yield Text(f"{proof.file}: {_STATED[proof.statement]}; {told}")
     yield Bullets((proof.command,))
+
+
+def _certified(proved: Proved) -> str:
+    if not proved.entailed:
+        return ""
+    by = f" by {proved.by}" if proved.by else ""
+    why = f": {proved.why}" if proved.why else ""
+    of = f"{proved.certified} of {proved.entailed}"
+    return f" Of the decisions that follow, {of} are certified{by}{why}."
 
 
 def _decisions(entry: Certified) -> str:

@@ -5,14 +5,28 @@ Source: docs/mechanised.md; coq/Checker.v; coq/driver.ml.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from topo_verify.proofs.evidence import Alone, Arc, Arrive, Folded, Illegal, Marked, Meeting
+from topo_verify.proofs.decided import Decided, Decisions, Fact
+from topo_verify.proofs.evidence import (
+    Alone,
+    Arc,
+    Arrive,
+    Conflict,
+    Folded,
+    Illegal,
+    Marked,
+    Meeting,
+    Place,
+)
 from topo_verify.robot.percept import Door, Percept
 
 Statement = Literal["map", "undetermined", "impossible"]
+
+MANY = 50_000
+"""Decisions whose evidence has more steps are not written for Coq: its kernel takes minutes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,12 +37,19 @@ class Certificate:
         statement: which of the three.
         percepts, doors: the log.
         fold: map, evidence and conflict; not trusted.
+        decisions: those of the trace that follow, with evidence that is not trusted either.
     """
 
     statement: Statement
     percepts: tuple[Percept, ...]
     doors: tuple[Door, ...]
     fold: Folded
+    decisions: Decisions
+
+    @property
+    def writes_decisions(self) -> bool:
+        """Are there decisions, with evidence that is short enough for Coq's kernel?"""
+        return bool(self.decisions.stated) and self.decisions.steps <= MANY
 
 
 # ---------------------------------------------------------------- as a file of Coq
@@ -51,8 +72,21 @@ Proof. apply (impossible_correct log evidence conflict). vm_cast_no_check (eq_re
 }
 
 
+_TOO_LONG = """
+(* The decisions of the log are not stated here: too much evidence for Coq's kernel. *)
+"""
+
+_DECISIONS_FOLLOW = """\
+(* Each decision holds in every world that shows the log up to its visit. *)
+Theorem decisions_follow : forall d, In d decisions -> follows log d.
+Proof. apply (decided_correct log merges decisions reasons). vm_cast_no_check (eq_refl true). Qed.
+
+Print Assumptions decisions_follow.
+"""
+
+
 def coq_file(certificate: Certificate) -> str:
-    """The certificate as a source of Coq: log, map, evidence, statement and proof."""
+    """The certificate as a source of Coq: log, map, evidence, statements and proofs."""
     fold, percepts = certificate.fold, certificate.percepts
     moves = [
         f"({door}, {_percept(percept)})"
@@ -60,12 +94,19 @@ def coq_file(certificate: Certificate) -> str:
     ]
     rows = [f"({r.following}, {r.previous}, {_option(r.other)})" for r in fold.table]
     conflict = fold.conflict or Illegal()
+    decisions = certificate.decisions
+    files, imports, told = "World.v and Log.v", "CheckerCorrect", ""
+    if certificate.writes_decisions:
+        files, imports = "World.v, Log.v and Decisions.v", f"{imports} Decisions"
+        told = _decisions(decisions)
+    elif decisions.steps > MANY:
+        told = _TOO_LONG
     return f"""\
 (* A certificate by topo-verify: {len(moves)} moves, {len(rows)} darts, {len(fold.meetings)} merges.
-   It says what World.v and Log.v define and nothing else; map and evidence are not trusted. *)
+   It says what {files} define and nothing else; map and evidence are not trusted. *)
 From Coq Require Import List PArith.
 Import ListNotations.
-From Topo Require Import World Log Table TableCorrect Checker CheckerCorrect.
+From Topo Require Import World Log Table TableCorrect Checker {imports}.
 
 (* The percept at the start, then each door with the percept behind it: degree, marker. *)
 Definition log := {{| start := {_percept(percepts[0])}; moves := {_lines(moves)} |}}.
@@ -82,7 +123,44 @@ Definition conflict := {_conflict(conflict)}.
 {_THEOREM[certificate.statement]}
 
 Print Assumptions proved.
-"""
+{told}"""
+
+
+def _decisions(decisions: Decisions) -> str:
+    facts = [fact for one in decisions.stated for fact in one.facts]
+    return f"""
+(* What was decided, and at which visit: an edge leads from a place to another, or none does.
+   A place is a visit and a door there. Visits are counted from 1, events of the trace from 0. *)
+Definition decisions : list decision := {_lines(_declared(decisions.stated))}.
+
+(* Arcs that leave by one dart, up to the last decision. *)
+Definition merges : Checker.evidence := {_lines(map(_meeting, decisions.merges))}.
+
+(* Why: the arc that joins the two; or what an edge between them makes one, and what contradicts. *)
+Definition reasons : list reason := {_lines(map(_reason, facts))}.
+
+{_DECISIONS_FOLLOW}"""
+
+
+def _declared(stated: Iterable[Decided]) -> Iterator[str]:
+    for one in stated:
+        for number, fact in enumerate(one.facts):
+            comment = "" if number else f"(* event {one.when}, {one.words} *)\n  "
+            verb = "Leads" if isinstance(fact.reason, Arc) else "LeadsNot"
+            yield f"{comment}{verb} {fact.visit} {_place(fact.one)} {_place(fact.other)}"
+
+
+def _place(place: Place) -> str:
+    return f"({place[0]}%positive, {place[1]})"
+
+
+def _reason(fact: Fact) -> str:
+    match fact.reason:
+        case Arc() as arc:
+            return f"Joined {_arc(arc)}"
+        case why:
+            meetings = "; ".join(map(_meeting, why.meetings))
+            return f"Refuted [{meetings}] ({_conflict(why.conflict)})"
 
 
 def _percept(percept: Percept) -> str:
@@ -101,7 +179,7 @@ def _meeting(meeting: Meeting) -> str:
     return f"({_arc(meeting[0])}, {_arc(meeting[1])})"
 
 
-def _conflict(conflict: Arrive | Marked | Alone | Illegal) -> str:
+def _conflict(conflict: Conflict) -> str:
     match conflict:
         case Arrive(meeting):
             return f"Arrive {_meeting(meeting)}"
@@ -136,6 +214,35 @@ def numbers(certificate: Certificate) -> str:
     return "\n".join(parts) + "\n"
 
 
+def numbers_of_decisions(certificate: Certificate) -> str:
+    """The decisions of a certificate as the extracted program reads them."""
+    moves = zip(certificate.doors, certificate.percepts[1:], strict=True)
+    decisions = certificate.decisions
+    parts = [
+        "decisions",
+        _seen(certificate.percepts[0]),
+        _counted([f"{door} {_seen(percept)}" for door, percept in moves]),
+        _counted([_pair(meeting) for meeting in decisions.merges]),
+        _counted([_fact(fact) for one in decisions.stated for fact in one.facts]),
+    ]
+    return "\n".join(parts) + "\n"
+
+
+def _fact(fact: Fact) -> str:
+    leads = isinstance(fact.reason, Arc)
+    places = (fact.visit, *fact.one, *fact.other)
+    return f"{int(leads)} {' '.join(map(str, places))} {_because(fact)}"
+
+
+def _because(fact: Fact) -> str:
+    match fact.reason:
+        case Arc(forwards, visit):
+            return f"j {int(forwards)} {visit}"
+        case why:
+            meetings = " ".join([str(len(why.meetings)), *map(_pair, why.meetings)])
+            return f"r {meetings} {_pointed(why.conflict)}"
+
+
 def _counted(entries: Sequence[str]) -> str:
     return "\n".join([str(len(entries)), *entries])
 
@@ -152,7 +259,7 @@ def _pair(meeting: Meeting) -> str:
     return " ".join(f"{int(arc.forwards)} {arc.visit}" for arc in meeting)
 
 
-def _pointed(conflict: Arrive | Marked | Alone | Illegal) -> str:
+def _pointed(conflict: Conflict) -> str:
     match conflict:
         case Arrive(meeting):
             return f"a {_pair(meeting)}"

@@ -100,8 +100,8 @@ def fold_log(percepts: Sequence[Percept], doors: Sequence[Door]) -> Folded:
     """Fold the log of these percepts; door i leads from percept i to percept i + 1."""
     if not _legal(percepts, doors):
         return Folded((), Illegal(), ())
-    fold = _Fold(percepts, doors)
-    conflict = fold.run()
+    fold = Fold()
+    conflict = fold.extend(percepts, doors) or fold.alone()
     return Folded(tuple(fold.meetings), conflict, () if conflict else fold.table())
 
 
@@ -113,40 +113,79 @@ def _legal(percepts: Sequence[Percept], doors: Sequence[Door]) -> bool:
     )
 
 
-class _Fold:
-    """The union-find while it runs; index 0 of its lists is not used."""
+class Fold:
+    """The union-find while it runs; grows by `extend`. Index 0 of its lists is not used."""
 
-    def __init__(self, percepts: Sequence[Percept], doors: Sequence[Door]) -> None:
-        self.seen = [percepts[0], *percepts]
-        self.doors = [0, *doors]
-        self.parent = list(range(len(self.seen)))
-        self.offset = [0] * len(self.seen)
-        self.size = [1] * len(self.seen)
-        self.leaving: list[dict[int, Arc]] = [{} for _ in self.seen]  # of roots: dart -> arc
+    def __init__(self) -> None:
+        self.seen = [Percept(0, None)]
+        self.edges: list[tuple[Place, Place]] = [((0, 0), (0, 0))]
+        self.parent = [0]
+        self.offset = [0]
+        self.size = [1]
+        self.leaving: list[dict[int, Arc]] = [{}]  # of roots: dart -> arc
         self.meetings: list[Meeting] = []
+        self.done: list[tuple[int, int | None]] = []  # a dart that got its arc, or a visit hung
 
-    def run(self) -> Conflict | None:
-        """Fold everything; the first conflict."""
-        for visit, percept in enumerate(self.seen[1:], 1):
+    def extend(self, percepts: Sequence[Percept], doors: Sequence[Door]) -> Conflict | None:
+        """Fold more visits, and the moves that lead there; the first conflict."""
+        visits = range(len(self.seen), len(self.seen) + len(percepts))
+        moves = range(len(self.edges), len(self.edges) + len(doors))
+        self.seen += percepts
+        self.parent += visits
+        self.offset += [0] * len(visits)
+        self.size += [1] * len(visits)
+        self.leaving += [{} for _ in visits]
+        self.edges += [((v, door), (v + 1, 0)) for v, door in zip(moves, doors, strict=True)]
+        for visit, percept in zip(visits, percepts, strict=True):
             if percept.marker is not None:
                 one, other = self.find((1, 0)), self.find((visit, percept.marker))
                 if self.apart(one, other):
                     return Marked(visit)
                 self.hang(one, other)
-        for visit in range(1, len(self.doors)):
-            for forwards in (True, False):
-                if conflict := self.note(Arc(forwards, visit)):
-                    return conflict
-        alone = (v for v in range(1, len(self.doors)) if self.leaves(v) == self.arrives(v))
-        return next(map(Alone, alone), None)
+        for move in moves:
+            if conflict := self.cross(move):
+                return conflict
+        return None
 
-    def leaves(self, visit: int) -> Place:
-        """Where the move from this visit on leaves."""
-        return self.find((visit, self.doors[visit]))
+    def alone(self) -> Alone | None:
+        """The first edge whose two darts are one."""
+        edges = range(1, len(self.edges))
+        return next((Alone(e) for e in edges if self.leaves(e) == self.arrives(e)), None)
 
-    def arrives(self, visit: int) -> Place:
+    def joining(self, place: Place) -> Arc | None:
+        """An arc that leaves by this dart; None if it is open."""
+        visit, dart = self.find(place)
+        return self.leaving[visit].get(dart)
+
+    def refute(self, one: Place, other: Place) -> tuple[tuple[Meeting, ...], Conflict | None]:
+        """What follows from an edge between the two: meetings up to a conflict, if there is one.
+
+        The fold is the same afterwards.
+        """
+        met, done, number = len(self.meetings), len(self.done), len(self.edges)
+        self.edges.append((one, other))
+        conflict = self.cross(number) or self.alone()
+        found = tuple(self.meetings[met:])
+        self._undo(done)
+        del self.meetings[met:], self.edges[number:]
+        return found, conflict
+
+    def _undo(self, done: int) -> None:
+        while len(self.done) > done:
+            visit, dart = self.done.pop()
+            if dart is not None:
+                del self.leaving[visit][dart]
+            else:
+                self.size[self.parent[visit]] -= self.size[visit]
+                self.parent[visit], self.offset[visit] = visit, 0
+
+    def leaves(self, edge: int) -> Place:
+        """Where an edge leaves: a move, or one that is assumed."""
+        return self.find(self.edges[edge][0])
+
+    def arrives(self, edge: int) -> Place:
         """Where it arrives."""
-        return self.find((visit + 1, 0))
+        return self.find(self.edges[edge][1])
 
     def end(self, arc: Arc) -> Place:
         """Where an arc arrives."""
@@ -166,10 +205,16 @@ class _Fold:
             return one != other
         return self.seen[one[0]].signature != self.seen[other[0]].signature
 
+    def cross(self, edge: int) -> Conflict | None:
+        """Note an edge, forwards and backwards."""
+        return self.note(Arc(forwards=True, visit=edge)) or self.note(
+            Arc(forwards=False, visit=edge)
+        )
+
     def note(self, arc: Arc) -> Conflict | None:
         """The arc leaves by its dart; merge all that follows."""
         visit, dart = self.leaves(arc.visit) if arc.forwards else self.arrives(arc.visit)
-        first = self.leaving[visit].setdefault(dart, arc)
+        first = self.first(visit, dart, arc)
         todo: list[Meeting] = [] if first is arc else [(first, arc)]
         while todo:
             meeting = todo.pop()
@@ -191,12 +236,20 @@ class _Fold:
         degree = self.seen[kept].degree
         self.parent[lost], self.offset[lost] = kept, (i - j) % degree
         self.size[kept] += self.size[lost]
+        self.done.append((lost, None))
         found: list[Meeting] = []
         for dart, arc in self.leaving[lost].items():
-            first = self.leaving[kept].setdefault((dart + i - j) % degree, arc)
+            first = self.first(kept, (dart + i - j) % degree, arc)
             if first is not arc:
                 found.append((first, arc))
         return found
+
+    def first(self, visit: int, dart: int, arc: Arc) -> Arc:
+        """The arc that left first by a dart of a class: this one, if there was none."""
+        first = self.leaving[visit].setdefault(dart, arc)
+        if first is arc:
+            self.done.append((visit, dart))
+        return first
 
     def table(self) -> tuple[Row, ...]:
         """The fold as a map: vertices in the order of discovery, from the entry dart on."""

@@ -8,6 +8,9 @@ done outside (`evidence`) and is not trusted: the kernel follows the evidence. T
     undetermined   two worlds that differ show them
     impossible     no world shows them
 
+The decisions that the log declares and that follow (claim 10) are a second statement: each holds in
+every world that shows the log up to that moment (`decided`).
+
 The file that is written says all of it in its first lines and stands alone beside the sources of
 the library. Long logs take the kernel minutes; `extracted` runs the same checker as a program in
 OCaml, which trusts, besides the kernel, Coq's extraction and the OCaml compiler.
@@ -22,19 +25,27 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from topo_verify.errors import InputError
 from topo_verify.proofs import coqtools
-from topo_verify.proofs.coqfile import Certificate, Statement, coq_file, numbers
+from topo_verify.proofs.coqfile import (
+    MANY,
+    Certificate,
+    Statement,
+    coq_file,
+    numbers,
+    numbers_of_decisions,
+)
+from topo_verify.proofs.decided import MOST, decided
 from topo_verify.proofs.evidence import fold_log
 from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.replay import require_order
 
-LIBRARY = "CheckerCorrect"
+LIBRARY = "Decisions"
 """The file of the library that a certificate builds on."""
 
 LONG = 10_000
@@ -51,11 +62,13 @@ class Checked:
         accepted: True, False, or None where it was not checked.
         by: the checker, with its version; "" if there was none.
         why: why it was refused or not checked.
+        decisions: the same of the decisions, where the file for Coq does not settle them.
     """
 
     accepted: bool | None
     by: str
     why: str = ""
+    decisions: Checked | None = None
 
 
 def state(trace: Sequence[Event]) -> Certificate:
@@ -80,7 +93,8 @@ def state(trace: Sequence[Event]) -> Certificate:
         )
     fold = fold_log(percepts, doors)
     shown: Statement = "map" if fold.closed else "undetermined"
-    return Certificate("impossible" if fold.conflict else shown, percepts, doors, fold)
+    statement = "impossible" if fold.conflict else shown
+    return Certificate(statement, percepts, doors, fold, decided(trace))
 
 
 @contextmanager
@@ -110,14 +124,35 @@ class _Checker:
         """What becomes of it."""
         if why := coqtools.missing():
             return Checked(None, "", why)
+        compiler = shutil.which("ocamlfind") is not None
+        by_program = compiler and len(certificate.doors) > LONG
         try:
             if not (self.folder / f"{LIBRARY}.vo").exists():
                 self.tell("compiling the proofs")
                 build(self.folder, timeout=self.timeout)
             self.tell(f"checking {name}.v")
-            if len(certificate.doors) > LONG and shutil.which("ocamlfind"):
-                return extracted(self.folder, certificate, timeout=self.timeout)
-            return by_kernel(self.folder, name, coq_file(certificate), timeout=self.timeout)
+            if by_program:
+                found = extracted(self.folder, certificate, timeout=self.timeout)
+            else:
+                found = by_kernel(self.folder, name, coq_file(certificate), timeout=self.timeout)
+        except coqtools.TimeOut as error:
+            return Checked(None, coqtools.version(), str(error))
+        if by_program or not certificate.writes_decisions:
+            return replace(found, decisions=self.decisions(certificate, compiler=compiler))
+        return found
+
+    def decisions(self, certificate: Certificate, *, compiler: bool) -> Checked | None:
+        """What becomes of decisions that coqc is not asked about; None if there are none."""
+        if certificate.decisions.too_long:
+            return Checked(None, "", f"their evidence has more than {MOST:,} steps")
+        if not certificate.decisions.stated:
+            return None
+        if not compiler:
+            why = f"their evidence has more than {MANY:,} steps, and ocamlfind is not installed"
+            return Checked(None, "", why)
+        self.tell("checking the decisions")
+        try:
+            return extracted_decisions(self.folder, certificate, timeout=self.timeout)
         except coqtools.TimeOut as error:
             return Checked(None, coqtools.version(), str(error))
 
@@ -143,12 +178,23 @@ def by_kernel(folder: Path, name: str, text: str, *, timeout: float) -> Checked:
     """Have coqc check a certificate, beside the compiled library."""
     (folder / f"{name}.v").write_text(text, encoding="utf-8")
     ran = coqtools.compile_one(folder, name, timeout=timeout)
-    accepted = ran.accepted and coqtools.NO_AXIOMS in ran.said
+    asked = text.count("\nPrint Assumptions ")
+    accepted = ran.accepted and asked == ran.said.count(coqtools.NO_AXIOMS) > 0
     return Checked(accepted, coqtools.version(), "" if accepted else ran.said[-300:])
 
 
 def extracted(folder: Path, certificate: Certificate, *, timeout: float) -> Checked:
-    """Have the extracted program check a certificate; it is compiled where it is not yet there."""
+    """Have the extracted program check what a log proves of the map."""
+    return _extracted(folder, numbers(certificate), timeout=timeout)
+
+
+def extracted_decisions(folder: Path, certificate: Certificate, *, timeout: float) -> Checked:
+    """Have the extracted program check the decisions."""
+    return _extracted(folder, numbers_of_decisions(certificate), timeout=timeout)
+
+
+def _extracted(folder: Path, stdin: str, *, timeout: float) -> Checked:
+    """Have the extracted program check; it is compiled where it is not yet there."""
     program = folder / "certifier"
     by = f"the checker extracted by {coqtools.version()}"
     if not program.exists():
@@ -162,7 +208,7 @@ def extracted(folder: Path, certificate: Certificate, *, timeout: float) -> Chec
             ran = coqtools.run(step, folder, timeout=timeout)
             if not ran.accepted:
                 return Checked(None, by, f"{step[0]} fails: {ran.said[-300:]}")
-    ran = coqtools.run([str(program)], folder, timeout=timeout, stdin=numbers(certificate))
+    ran = coqtools.run([str(program)], folder, timeout=timeout, stdin=stdin)
     accepted = ran.accepted and ran.said == "accepted"
     return Checked(accepted, by, "" if accepted else ran.said[-300:] or "refused")
 

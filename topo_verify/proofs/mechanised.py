@@ -116,6 +116,8 @@ STATEMENTS: tuple[Mechanised, ...] = (
         "A contradiction that the checker accepts: the rejection follows from the log."),
     _one("coq-confirm-certified", "CheckerCorrect.confirmed_correct", "decisions-entailed",
         "Partners that the checker accepts: the confirmation follows from the log."),
+    _one("coq-decisions-certified", "Decisions.decided_correct", "decisions-entailed",
+        "Decisions that the checker accepts follow, each from the log as far as it went."),
 )  # fmt: skip
 
 

@@ -110,11 +110,19 @@ MUTANTS = (
         "percept_eqb (percept (map_of t) 0) (start L)", "TableCorrect"),
     Mutant("last-door-illegal", "Checker", "(k <? d) && legal_percept p",
         "(S k <? d) && legal_percept p", "CheckerCorrect"),
+    Mutant("decided-with-hindsight", "Decisions",
+        "if Pos.eqb (here m) x then", "if Pos.leb x (here m) then", "Decisions"),
+    Mutant("log-cut-too-early", "Decisions",
+        "| Leads x p q => forall W v, world W -> visits W (cut L (num x)) v ->",
+        "| Leads x p q => forall W v, world W -> visits W (cut L (num x - 1)) v ->", "Decisions"),
+    Mutant("reason-of-the-other-kind", "Decisions",
+        "ev (unified m)) c\n  | _, _ => false", "ev (unified m)) c\n  | _, _ => true", "Decisions"),
 )  # fmt: skip
 
 QUICK = {
     "undirected-comparison", "absolute-doors", "skipped-hypothesis", "unexplored-refutes",
     "equal-degrees-contradict", "marker-not-turned", "a-door-for-free", "evidence-believed",
+    "decided-with-hindsight",
 }  # fmt: skip
 """Those of the everyday suite: one for each way to be wrong."""
 

@@ -171,12 +171,13 @@ Proof.
   destruct m as [j|]; auto. apply unite_sound; auto. apply marked_sound with d. apply Hl; auto.
 Qed.
 
+(** It stays true, merge by merge. *)
+Lemma glues_sound ev : forall U, true_uf U -> true_uf (fold_left (glue T D) ev U).
+Proof. induction ev as [|s ev IH]; simpl; auto using glue_sound. Qed.
+
 (** It is true at the end. *)
 Theorem folded_sound ev : true_uf (folded L extra ev).
-Proof.
-  unfold folded. fold T D. assert (H := markers_sound). revert H. generalize (markers T (sights L)).
-  induction ev as [|s ev IH]; simpl; auto using glue_sound.
-Qed.
+Proof. apply glues_sound, markers_sound. Qed.
 
 (** What is noted as crossed is the same as a dart crossed. *)
 Definition true_cover U (C : PositiveMap.t (list nat)) := true_uf U -> forall x k,
@@ -338,21 +339,31 @@ Proof.
   - exists W, v. split; auto. split; auto. intros x y [].
 Qed.
 
+(** A conflict under an assumed edge: in no world that shows the log does that edge exist. *)
+Lemma refuted_correct L p q U ev c : let T := table_of (sights L) in
+  let D := table_of (edges L [(p, q)]) in
+  PositiveMap.mem (fst p) T = true -> PositiveMap.mem (fst q) T = true -> true_uf L [(p, q)] U ->
+  check_conflict T D (fold_left (glue T D) ev U) c = true ->
+  forall W v, world W -> visits W L v -> alpha W (dart W v (abs p)) <> Some (dart W v (abs q)).
+Proof.
+  intros T D P Q HU C.
+  assert (K : forall x, PositiveMap.mem (fst x) T = true -> valid L (abs x)).
+  { intros (x, i). rewrite PositiveMap.mem_find. unfold valid. simpl.
+    destruct (PositiveMap.find x T) as [s|] eqn:E; [|discriminate].
+    apply table_of_spec in E. unfold seen, sights in *. congruence. }
+  assert (Known : forall a b, In (a, b) [(p, q)] -> valid L (abs a) /\ valid L (abs b)).
+  { intros a b [I|[]]. injection I as <- <-. auto. }
+  intros W v HW V E. apply check_conflict_sound in C; auto; [|apply glues_sound; auto].
+  apply C. exists W, v. split; auto. split; auto. intros a b [I|[]]. injection I as <- <-. auto.
+Qed.
+
 (** Claim 10, reject: in no world that shows the log does an edge lead from p to q. *)
 Theorem rejected_correct L p q ev c : rejected L p q ev c = true ->
   forall W v, world W -> visits W L v -> alpha W (dart W v (abs p)) <> Some (dart W v (abs q)).
 Proof.
   unfold rejected. intros H. apply andb_true_iff in H as [H C]. apply andb_true_iff in H as [P Q].
-  assert (K : forall x, PositiveMap.mem (fst x) (table_of (sights L)) = true -> valid L (abs x)).
-  { intros (x, i). rewrite PositiveMap.mem_find. unfold valid. simpl.
-    destruct (PositiveMap.find x (table_of (sights L))) as [s|] eqn:E; [|discriminate].
-    apply table_of_spec in E. unfold seen, sights in *. congruence. }
-  assert (Known : forall a b, In (a, b) [(p, q)] -> valid L (abs a) /\ valid L (abs b)).
-  { intros a b [I|[]]. injection I as <- <-. auto. }
-  intros W v HW V E.
-  apply (check_conflict_sound L [(p, q)] Known (folded L [(p, q)] ev) c); auto.
-  - apply folded_sound; auto.
-  - exists W, v. split; auto. split; auto. intros a b [I|[]]. injection I as <- <-. auto.
+  apply (refuted_correct L p q (markers (table_of (sights L)) (sights L)) ev c); auto.
+  apply markers_sound.
 Qed.
 
 (** Claim 10, confirm: in every world that shows the log an edge leads from p to q. *)

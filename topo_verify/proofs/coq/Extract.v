@@ -2,6 +2,6 @@
 
     Natural numbers become OCaml's integers, which is right below 2^62 and is trusted. *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
-From Topo Require Import World Log Table Checker.
+From Topo Require Import World Log Table Checker Decisions.
 
-Extraction "certifier.ml" certified refute impossible.
+Extraction "certifier.ml" certified refute impossible decided.

@@ -17,6 +17,9 @@ Definition seen L i := nth_error (start L :: map snd (moves L)) i.
 (** The door taken from visit i. *)
 Definition door L i := nth_error (map fst (moves L)) i.
 
+(** The log as it was after i moves. *)
+Definition cut L i := {| start := start L; moves := firstn i (moves L) |}.
+
 (** Claims 1 and 9: the world shows this log. The robot that starts at the root and takes these
     doors senses these percepts. *)
 Definition replays W L := percept W (root W) = start L /\

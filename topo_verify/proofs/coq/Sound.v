@@ -3,16 +3,13 @@
     This is about every mapper, whatever it does. If it ends with a dart open there are two worlds
     in which it does the same and delivers the same map: it is wrong in one of them. So whoever is
     right everywhere pays what a closed log costs, which is at least a move for each edge.
-    SCEPTICS READ [Strategy], [cut], [ends] and [sound]. *)
+    SCEPTICS READ [Strategy], [ends] and [sound]. *)
 From Coq Require Import Arith Lia List.
 Import ListNotations.
 From Topo Require Import World Rotation Log Determined Undetermined Entailed.
 
 (** A deterministic mapper: what it has seen so far decides the next door, or the map. *)
 Definition Strategy := Log -> nat + Map.
-
-(** The log as it was after i moves. *)
-Definition cut L i := {| start := start L; moves := firstn i (moves L) |}.
 
 (** The mapper takes the doors of the log, one after the other, and then delivers M. *)
 Definition ends (f : Strategy) L M :=

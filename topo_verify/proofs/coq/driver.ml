@@ -8,6 +8,11 @@
      e, then e times: forwards visit forwards visit      the evidence; forwards is 0 or 1
      conflict                       a and four numbers as in the evidence; m visit; e edge
 
+   The statement may also be decisions. After the moves then come the merges, as the evidence above, and
+
+     d, then d times: leads visit place place reason        leads is 0 or 1; a place: visit offset
+     reason                         j forwards visit; r, then evidence and conflict as above
+
    Anything else is refused: a negative number is never read as a natural one. *)
 open Certifier
 
@@ -42,17 +47,38 @@ let conflict () = Scanf.scanf " %c" (function
   | 'e' -> Alone (visit ())
   | _ -> failwith "no conflict")
 
+let place () = let visit = visit () in let offset = number () in (visit, offset)
+
+let decision () =
+  let leads = number () = 1 in let at = visit () in
+  let one = place () in let other = place () in
+  if leads then Leads (at, one, other) else LeadsNot (at, one, other)
+
+let reason () = Scanf.scanf " %c" (function
+  | 'j' -> Joined (arc ())
+  | 'r' -> let evidence = many meeting in Refuted (evidence, conflict ())
+  | _ -> failwith "no reason")
+
+let decided_of log =
+  let merges = many meeting in
+  let decisions, reasons =
+    List.split (many (fun () -> let one = decision () in (one, reason ()))) in
+  decided log merges decisions reasons
+
+let stated_of log statement =
+  let table = many row in
+  let evidence = many meeting in
+  let conflict = conflict () in
+  match statement with
+    | "map" -> certified log table evidence
+    | "undetermined" -> refute log table
+    | "impossible" -> impossible log evidence conflict
+    | _ -> failwith "no statement"
+
 let () =
   let statement = Scanf.scanf " %s" Fun.id in
   let start = percept () in
   let moves = many move in
   let log = { start; moves } in
-  let table = many row in
-  let evidence = many meeting in
-  let conflict = conflict () in
-  let accepted = match statement with
-    | "map" -> certified log table evidence
-    | "undetermined" -> refute log table
-    | "impossible" -> impossible log evidence conflict
-    | _ -> failwith "no statement" in
+  let accepted = if statement = "decisions" then decided_of log else stated_of log statement in
   print_endline (if accepted then "accepted" else "refused")
