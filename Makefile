@@ -98,7 +98,7 @@ constraints: $(VENV)/.created
 oldest: $(VENV)/.created
 	$(INSTALL) uv
 	$(BIN)/uv venv --quiet --allow-existing --python $(BIN)/python .venv-oldest
-	$(BIN)/uv pip install --quiet --python .venv-oldest/bin/python --resolution lowest-direct -e '.[dev]'
+	$(BIN)/uv pip install --quiet --python .venv-oldest/bin/python --upgrade --resolution lowest-direct -e '.[dev]'
 	.venv-oldest/bin/python -m pytest -W default --numprocesses=auto --dist=loadfile
 
 clean:

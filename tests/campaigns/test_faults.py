@@ -211,8 +211,11 @@ def test_every_theorem_of_a_fault_is_one_that_must_be_refuted() -> None:
 
 def test_workers_find_the_same_in_the_same_order() -> None:
     few = [FAULTS[name] for name in ("delivers-no-loops", "restores-with-the-wrong-sign")]
-    alone = list(try_faults(few, by=["search", "properties"]))
-    assert list(try_faults(few, by=["search", "properties"], workers=2)) == alone
+    alone = list(try_faults(few, by=["search"]))
+    assert list(try_faults(few, by=["search"], workers=2)) == alone
+    # In this process more modules are loaded than in a worker: Hypothesis may draw other examples.
+    one = list(try_faults(few, by=["properties"], workers=1))
+    assert list(try_faults(few, by=["properties"], workers=2)) == one
 
 
 def test_a_fault_that_another_claim_catches_is_not_ok() -> None:

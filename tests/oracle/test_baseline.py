@@ -11,6 +11,7 @@ import jsonschema
 import msgspec
 import pytest
 
+from tests.versions import older
 from topo_verify.errors import InputError
 from topo_verify.oracle import baseline as file
 from topo_verify.oracle.baseline import Baseline, Entry
@@ -86,6 +87,10 @@ def test_every_line_keeps_to_the_schema(made: Baseline) -> None:
         jsonschema.validate({"world": "m1/0", "cost": 1}, schema)
 
 
+@pytest.mark.skipif(
+    older("msgspec", 0, 22),
+    reason="msgspec before 0.22 names null first in anyOf: as good, but other bytes",
+)
 def test_the_schema_in_the_package_is_the_one_that_is_made() -> None:
     stored = Path(file.__file__).parent / "schemas" / "baseline.schema.json"
     assert stored.read_text() == json.dumps(file.schema(), indent=2) + "\n"

@@ -11,12 +11,15 @@ import msgspec
 import pytest
 
 from tests.oracle.programs import served
+from tests.versions import older
 from topo_verify import World, explore
 from topo_verify.oracle import messages as ms
 from topo_verify.oracle.program import Program
 from topo_verify.world.formats import world_json
 
 SHELF = Path(ms.__file__).with_name("schemas")
+WITH_NULL = {"from-program", "batch-run"}
+"""The schemas in which something is an object or null."""
 
 
 def validate(name: str, message: object) -> None:
@@ -25,9 +28,11 @@ def validate(name: str, message: object) -> None:
 
 @pytest.mark.parametrize("name", ms.SCHEMAS)
 def test_the_schemas_in_the_package_are_those_that_are_made(name: str) -> None:
+    jsonschema.Draft202012Validator.check_schema(ms.schema(name))
+    if name in WITH_NULL and older("msgspec", 0, 22):
+        pytest.skip("msgspec before 0.22 names null first in anyOf: as good, but other bytes")
     made = json.dumps(ms.schema(name), indent=2) + "\n"
     assert (SHELF / f"{name}.schema.json").read_text() == made, "make them anew from the types"
-    jsonschema.Draft202012Validator.check_schema(ms.schema(name))
 
 
 def test_there_is_no_schema_of_nothing() -> None:

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import find, given
 from hypothesis import strategies as st
 
+from tests.versions import older
 from topo_verify import CATALOGUE, Algorithm, World, assert_maps
 from topo_verify.robot.events import Policies
 from topo_verify.robot.simulator import SimulatedRobot
@@ -33,6 +34,10 @@ def drawn_names(strategy: st.SearchStrategy[Algorithm]) -> set[str]:
     return names
 
 
+@pytest.mark.skipif(
+    older("hypothesis", 6, 140, 1),
+    reason="Hypothesis before 6.140.1: with one seed in 40, a hundred draws leave an algorithm out",
+)
 def test_all_of_the_catalogue_is_drawn_and_what_assumes_a_plane_only_if_asked_for() -> None:
     sure = {name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None}
     assert drawn_names(mappers()) == sure

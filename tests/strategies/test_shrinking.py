@@ -12,6 +12,7 @@ from hypothesis.strategies import SearchStrategy
 from tests.checkers.faulty import Vague
 from tests.strategies import features
 from tests.strategies.features import Condition
+from tests.versions import older
 from topo_verify import World, examine
 from topo_verify.algorithms import Algorithm
 from topo_verify.algorithms.basic import NoRule
@@ -90,8 +91,14 @@ SHRINKS: list[tuple[Condition, str]] = [
 ]
 
 
+SINCE_6_152_9 = {"m11/134485045224", "m2/7"}
+"""Pinned with Hypothesis 6.152.9 and later; with those before, the ends are m5/842 and m4/602."""
+
+
 @pytest.mark.parametrize(("condition", "simplest"), SHRINKS)
 def test_what_worlds_shrink_to(condition: Condition, simplest: str) -> None:
+    if simplest in SINCE_6_152_9 and older("hypothesis", 6, 152, 9):
+        pytest.skip("Hypothesis before 6.152.9 draws other worlds and ends in another minimum")
     world, calls = minimal(worlds(), condition)
     assert world.id == simplest
     assert calls <= CALLS
