@@ -151,7 +151,9 @@ def _rows(name: str, value: object) -> list[list[int]]:
 
 def _items(value: object) -> list[Any] | None:
     """What is in a list or its like; None where it is no list or may have no end."""
-    if isinstance(value, str | bytes | Mapping) or not isinstance(value, Sized):
+    if isinstance(value, (tuple, list)):  # nearly always
+        return list(cast("Iterable[Any]", value))
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Sized):
         return None
     with suppress(TypeError):  # an array without a dimension looks like a list and is none
         return list(cast("Iterable[Any]", value))
@@ -160,6 +162,8 @@ def _items(value: object) -> list[Any] | None:
 
 def _integer(value: object) -> int | None:
     """The value as an int; None where it is none, or longer than a message could show."""
+    if type(value) is int:  # nearly always, and no bool
+        return value if value.bit_length() <= 64 else None
     if isinstance(value, bool) or not hasattr(value, "__index__"):  # quick, unlike SupportsIndex
         return None
     with suppress(TypeError):  # an array of one number looks like an integer and may be none
