@@ -13,7 +13,7 @@ from itertools import combinations
 
 from topo_verify import CATALOGUE, World
 from topo_verify.robot.simulator import SimulatedRobot
-from topo_verify.world import counting
+from topo_verify.world.enumeration import rank_order
 
 NAMES = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
 """From the weakest to the strongest."""
@@ -34,7 +34,7 @@ def main(largest: int) -> None:
     worlds: dict[tuple[str, str], list[tuple[str, int]]] = {}
     total = 0
     for edges in range(1, largest + 1):
-        for rank, table in enumerate(counting.tables(edges)):
+        for rank, table in enumerate(rank_order.tables(edges)):
             cost = costs(World.from_code(table))
             total += 1
             for weaker, stronger in combinations(NAMES, 2):

@@ -15,9 +15,9 @@ from pathlib import Path
 from time import perf_counter, process_time
 
 from topo_verify import explore, families
-from topo_verify.oracle.batch import Replay
-from topo_verify.oracle.messages import Run
-from topo_verify.oracle.program import Program
+from topo_verify.harness.conform.batch import Replay
+from topo_verify.programs.program import Program
+from topo_verify.programs.protocol import Run
 from topo_verify.robot.events import Move
 from topo_verify.robot.simulator import SimulatedRobot
 

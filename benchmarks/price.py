@@ -11,7 +11,7 @@ from collections.abc import Callable
 from statistics import mean
 
 from topo_verify import World, explore, families
-from topo_verify.gap import gap
+from topo_verify.harness.gap import gap
 
 ALGORITHMS = ("basic", "enhancement-i", "enhancement-ii", "enhancement-iii-all+i", "folding")
 SEEDS = range(30)

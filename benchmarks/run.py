@@ -19,7 +19,7 @@ import search
 from topo_verify import CATALOGUE, World, examine, families
 from topo_verify.checkers import CLAIMS
 from topo_verify.robot.simulator import SimulatedRobot
-from topo_verify.world import counting
+from topo_verify.world.enumeration import rank_order
 
 EDGES = range(1, 6)
 
@@ -36,16 +36,16 @@ def seconds(work: Callable[[], object]) -> float:
 
 def enumeration(edges: int) -> float:
     """Worlds a second, as bare tables; the completions that are tabulated once are made before."""
-    for _ in counting.tables(edges - 1):
+    for _ in rank_order.tables(edges - 1):
         pass
-    took = seconds(lambda: sum(1 for _ in counting.tables(edges)))
-    return counting.count(edges) / took
+    took = seconds(lambda: sum(1 for _ in rank_order.tables(edges)))
+    return rank_order.count(edges) / took
 
 
 def small_worlds() -> Iterator[World]:
     """Every world with 1-5 edges."""
     for edges in EDGES:
-        yield from map(World.from_code, counting.tables(edges))
+        yield from map(World.from_code, rank_order.tables(edges))
 
 
 def explore_all() -> None:
@@ -74,11 +74,11 @@ def main() -> None:
     print(f"{platform.python_implementation()} {platform.python_version()}, one core\n")
     row("", "measured", "required")
     row(
-        f"worlds listed, {counting.count(6):,} with 6 edges",
+        f"worlds listed, {rank_order.count(6):,} with 6 edges",
         f"{enumeration(6):,.0f} /s",
         ">= 500,000 /s",
     )
-    worlds = sum(map(counting.count, EDGES))
+    worlds = sum(map(rank_order.count, EDGES))
     what = f"{worlds:,} worlds with 1-5 edges x {len(PAPER)} algorithms"
     row(what, f"{seconds(explore_all):.1f} s")
     with patch.dict(CLAIMS, {name: CLAIMS[name] for name in tuple(CLAIMS)[:8]}, clear=True):

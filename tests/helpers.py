@@ -14,10 +14,10 @@ from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.algorithms.exploration import Rule
 from topo_verify.algorithms.motion import Motion, retrace
 from topo_verify.checkers import Status, check
+from topo_verify.harness.run import explore
+from topo_verify.programs.loading import Mapper
 from topo_verify.robot.events import Event, Move, Trace
-from topo_verify.targets import Mapper
-from topo_verify.trial import explore
-from topo_verify.world import counting
+from topo_verify.world.enumeration import rank_order
 
 E = TypeVar("E", bound=Event)
 
@@ -49,15 +49,15 @@ def worlds(edges: Iterable[int]) -> Iterator[World]:
 
 @cache
 def _worlds(edges: int) -> tuple[World, ...]:
-    return tuple(map(World.from_code, counting.tables(edges)))
+    return tuple(map(World.from_code, rank_order.tables(edges)))
 
 
 def any_world(*, max_edges: int = 8) -> st.SearchStrategy[World]:
     """Any world with 1 … max_edges edges, each as likely as another of its size."""
 
     def of_size(edges: int) -> st.SearchStrategy[World]:
-        ranks = st.integers(0, counting.count(edges) - 1)
-        return ranks.map(lambda rank: World.from_code(counting.unrank(edges, rank)))
+        ranks = st.integers(0, rank_order.count(edges) - 1)
+        return ranks.map(lambda rank: World.from_code(rank_order.unrank(edges, rank)))
 
     return st.integers(1, max_edges).flatmap(of_size)
 

@@ -310,7 +310,7 @@ def test_nothing_heavy_is_imported_until_a_mapper_is_tested(tmp_path: Path) -> N
         "import sys, pytest\n"
         "pytest.main(['-q', '-p', 'no:hypothesispytest', '-p', 'no:cacheprovider'])\n"
         f"print('loaded', [name for name in {heavy!r} if name in sys.modules],\n"
-        "      'topo_verify.campaigns' in sys.modules, 'topo_verify.pytest_plugin' in sys.modules)"
+        "      'topo_verify.harness' in sys.modules, 'topo_verify.pytest_plugin' in sys.modules)"
     )
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False

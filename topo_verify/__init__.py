@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from topo_verify import strategies
     from topo_verify.algorithms import CATALOGUE, Algorithm
-    from topo_verify.certificate import Certificate, certify
+    from topo_verify.checkers.certificate import Certificate, certify
     from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
+    from topo_verify.harness.run import Exploration, Report, assert_maps, examine, explore
     from topo_verify.robot.limits import Limits
     from topo_verify.robot.percept import Percept, Robot
-    from topo_verify.trial import Exploration, Report, assert_maps, examine, explore
     from topo_verify.world import families
     from topo_verify.world.rooted_map import World
 
@@ -50,11 +50,11 @@ __all__ = [
 
 _MODULES = {
     "algorithms": ("CATALOGUE", "Algorithm"),
-    "certificate": ("Certificate", "certify"),
+    "checkers.certificate": ("Certificate", "certify"),
     "errors": ("ClaimFailed", "InputError", "InternalError", "TopoVerifyError"),
     "robot.limits": ("Limits",),
     "robot.percept": ("Percept", "Robot"),
-    "trial": ("Exploration", "Report", "assert_maps", "examine", "explore"),
+    "harness.run": ("Exploration", "Report", "assert_maps", "examine", "explore"),
     "world": ("families",),
     "world.rooted_map": ("World",),
 }

@@ -32,10 +32,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
-    from topo_verify.campaigns.by_claim import Outcome
+    from topo_verify.harness.run import Report
+    from topo_verify.harness.verify.by_claim import Outcome
+    from topo_verify.programs.loading import Mapper, Target
     from topo_verify.robot.simulator import SimulatedRobot
-    from topo_verify.targets import Mapper, Target
-    from topo_verify.trial import Report
     from topo_verify.world.rooted_map import World
 
 EDGES = 4
@@ -170,8 +170,8 @@ def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Itera
     """
     from topo_verify.checkers import CLAIMS
     from topo_verify.errors import InputError
-    from topo_verify.oracle.corpus import MOST_ENUMERATED
-    from topo_verify.targets import one_target, targets
+    from topo_verify.harness.corpus import MOST_ENUMERATED
+    from topo_verify.harness.targets import one_target, targets
 
     if edges > MOST_ENUMERATED:
         raise pytest.Collector.CollectError(
@@ -265,7 +265,7 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Generator[None, object, o
 
 def _judge(item: pytest.Item, case: Case) -> None:
     """Pass, fail or skip: what became of the claim."""
-    from topo_verify.campaigns.by_claim import by_claim
+    from topo_verify.harness.verify.by_claim import by_claim
     from topo_verify.robot.limits import Limits
 
     known = item.config.stash[_SESSION].outcomes
@@ -359,7 +359,7 @@ def topo_examine() -> Callable[..., Report]:
     """
 
     def examine(mapper: Mapper | str, world: World | str, **options: Any) -> Report:
-        from topo_verify.trial import examine
+        from topo_verify.harness.run import examine
 
         if isinstance(world, str):
             options.setdefault("where", world)
@@ -369,6 +369,6 @@ def topo_examine() -> Callable[..., Report]:
 
 
 def _world(world: World | str) -> World:
-    from topo_verify.world.naming import world_from
+    from topo_verify.world.resolve import world_from
 
     return world_from(world) if isinstance(world, str) else world

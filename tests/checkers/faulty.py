@@ -21,7 +21,7 @@ from topo_verify.algorithms.motion import (
     retrace,
 )
 from topo_verify.algorithms.policies import Order, nearest, shortest
-from topo_verify.faults.planting import Told
+from topo_verify.faults.fault import Told
 from topo_verify.robot.events import Evidence
 from topo_verify.robot.percept import Door, Percept, Purpose
 from topo_verify.robot.simulator import SimulatedRobot

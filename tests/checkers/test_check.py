@@ -8,6 +8,7 @@ from tests.checkers.example import LOOP, TRACE, WORLD, inserted
 from tests.helpers import EIGHT, EMPTY, PAPER, edited, failing, fits, statuses, trace_of, worlds
 from topo_verify import CATALOGUE, InputError, World
 from topo_verify.checkers import CLAIMS, Finding, check
+from topo_verify.checkers.replayed_trace import Case
 from topo_verify.robot.events import (
     Augment,
     Confirm,
@@ -21,7 +22,6 @@ from topo_verify.robot.events import (
     Trace,
 )
 from topo_verify.robot.percept import Percept
-from topo_verify.robot.replay import Case
 
 
 @pytest.mark.parametrize("edges", range(1, 5))

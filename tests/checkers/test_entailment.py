@@ -16,6 +16,7 @@ from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.checkers import check, decision_conclusions, map_conclusion
+from topo_verify.harness.run import Report
 from topo_verify.robot.events import (
     Augment,
     Confirm,
@@ -29,7 +30,6 @@ from topo_verify.robot.events import (
 )
 from topo_verify.robot.percept import Percept, Robot
 from topo_verify.robot.simulator import first_percept
-from topo_verify.trial import Report
 
 
 class ByElimination(NoRule):

@@ -10,7 +10,7 @@ from tests.checkers import faulty
 from tests.helpers import EIGHT, worlds
 from topo_verify import Limits, World, examine
 from topo_verify.faults import FAULTS as SEEDED
-from topo_verify.targets import Mapper
+from topo_verify.programs.loading import Mapper
 
 
 def failing(mapper: Mapper, world: World, *, budget: int | None = None) -> set[str]:

@@ -12,6 +12,7 @@ from tests.helpers import edited, of_type, place, statuses, trace_of, worlds
 from topo_verify import World, certify
 from topo_verify.checkers import check, decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.entailment import Conclusion
+from topo_verify.checkers.replayed_trace import Case
 from topo_verify.robot.events import (
     Augment,
     Confirm,
@@ -27,7 +28,6 @@ from topo_verify.robot.events import (
     Trace,
 )
 from topo_verify.robot.percept import Percept
-from topo_verify.robot.replay import Case
 from topo_verify.robot.simulator import first_percept
 
 

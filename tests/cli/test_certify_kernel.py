@@ -11,8 +11,8 @@ import pytest
 
 from tests.cli.conftest import Call, Results
 from tests.helpers import place, trace_of
-from tests.proofs.coq.conftest import nowhere
-from topo_verify.proofs import coqtools, kernel
+from tests.proofs.mechanised.conftest import nowhere
+from topo_verify.proofs.mechanised import certificates, toolchain
 from topo_verify.robot.events import Confirm, Reject, write_trace
 
 RING = """\
@@ -21,7 +21,7 @@ RING = """\
 {"type": "move", "door": 1, "percept": {"degree": 2, "marker": 1}}
 """
 
-needs_coq = pytest.mark.skipif(bool(coqtools.missing()), reason=coqtools.missing())
+needs_coq = pytest.mark.skipif(bool(toolchain.missing()), reason=toolchain.missing())
 
 
 @pytest.fixture(autouse=True)
@@ -38,10 +38,10 @@ THREE = "certify ring.jsonl 'short log.jsonl' none.jsonl --kernel"
 def test_each_verdict_is_stated_in_a_file_of_its_own(
     results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def accepted(*_: object) -> kernel.Checked:
-        return kernel.Checked(accepted=True, by="coqc 0")
+    def accepted(*_: object) -> certificates.Checked:
+        return certificates.Checked(accepted=True, by="coqc 0")
 
-    monkeypatch.setattr("topo_verify.proofs.kernel._Checker.check", accepted)
+    monkeypatch.setattr("topo_verify.proofs.mechanised.certificates._Checker.check", accepted)
     found = [entry["kernel"] for entry in results(THREE, code=1)["results"]]
     assert [one["statement"] for one in found] == ["map", "undetermined", "impossible"]
     assert {(one["accepted"], one["by"]) for one in found} == {(True, "coqc 0")}
@@ -53,7 +53,7 @@ def test_each_verdict_is_stated_in_a_file_of_its_own(
 @pytest.mark.slow
 def test_each_verdict_is_accepted_by_coqc(results: Results) -> None:
     found = [entry["kernel"] for entry in results(THREE, code=1)["results"]]
-    assert [(one["accepted"], one["by"]) for one in found] == [(True, coqtools.version())] * 3
+    assert [(one["accepted"], one["by"]) for one in found] == [(True, toolchain.version())] * 3
 
 
 @needs_coq
@@ -62,10 +62,10 @@ def test_the_command_that_is_printed_checks_the_certificate(call: Call, folder: 
     text = call("certify ring.jsonl --kernel").stdout
     assert "every world that shows this log is isomorphic to this map" in " ".join(text.split())
     done = subprocess.run(
-        ["/bin/sh", "-c", kernel.command("certificate_ring")],
+        ["/bin/sh", "-c", certificates.command("certificate_ring")],
         cwd=folder, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    assert done.stdout.strip() == coqtools.NO_AXIOMS
+    assert done.stdout.strip() == toolchain.NO_AXIOMS
 
 
 def test_without_coq_the_file_is_written_and_the_exit_says_incomplete(
@@ -82,10 +82,10 @@ def test_without_coq_the_file_is_written_and_the_exit_says_incomplete(
 def test_a_certificate_that_is_refused_is_a_bug_of_ours(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refused(*_: object) -> kernel.Checked:
-        return kernel.Checked(accepted=False, by="coqc 0", why="no")
+    def refused(*_: object) -> certificates.Checked:
+        return certificates.Checked(accepted=False, by="coqc 0", why="no")
 
-    monkeypatch.setattr("topo_verify.proofs.kernel._Checker.check", refused)
+    monkeypatch.setattr("topo_verify.proofs.mechanised.certificates._Checker.check", refused)
     done = call("certify ring.jsonl --kernel")
     assert done.exit_code == 70
     assert "coqc 0 refuses certificate_ring.v: no" in done.stderr
@@ -96,14 +96,14 @@ def told(path: str, mapper: str = "basic", world: str = "m3/50") -> None:
     Path(path).write_bytes(write_trace(trace_of(world, mapper)))
 
 
-def judging(monkeypatch: pytest.MonkeyPatch, checked: kernel.Checked) -> None:
-    def check(*_: object) -> kernel.Checked:
+def judging(monkeypatch: pytest.MonkeyPatch, checked: certificates.Checked) -> None:
+    def check(*_: object) -> certificates.Checked:
         return checked
 
-    monkeypatch.setattr("topo_verify.proofs.kernel._Checker.check", check)
+    monkeypatch.setattr("topo_verify.proofs.mechanised.certificates._Checker.check", check)
 
 
-COQC = kernel.Checked(accepted=True, by="coqc 0")
+COQC = certificates.Checked(accepted=True, by="coqc 0")
 
 
 def test_decisions_that_follow_are_certified(
@@ -164,7 +164,7 @@ def test_decisions_that_are_not_checked_make_the_run_incomplete(
     results: Results, call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told("run.jsonl")
-    apart = kernel.Checked(accepted=None, by="", why="the evidence is long")
+    apart = certificates.Checked(accepted=None, by="", why="the evidence is long")
     judging(monkeypatch, replace(COQC, decisions=apart))
     (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
     assert entry["kernel"]["accepted"]
@@ -177,7 +177,7 @@ def test_decisions_are_not_certified_by_a_certificate_that_is_not_checked(
     results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told("run.jsonl")
-    judging(monkeypatch, kernel.Checked(accepted=None, by="", why="no Coq"))
+    judging(monkeypatch, certificates.Checked(accepted=None, by="", why="no Coq"))
     (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
     found = entry["kernel"]["decisions"]
     assert (found["certified"], found["by"]) == (0, "")
@@ -188,7 +188,7 @@ def test_decisions_that_are_refused_are_a_bug_of_ours(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told("run.jsonl")
-    apart = kernel.Checked(accepted=False, by="the program", why="refused")
+    apart = certificates.Checked(accepted=False, by="the program", why="refused")
     judging(monkeypatch, replace(COQC, decisions=apart))
     done = call("certify run.jsonl --kernel")
     assert done.exit_code == 70
@@ -202,7 +202,7 @@ def test_the_decisions_of_a_run_are_accepted_by_coqc(results: Results) -> None:
     (entry,) = results("certify run.jsonl --kernel")["results"]
     found = entry["kernel"]["decisions"]
     assert found["certified"] == found["entailed"] == entry["decisions"]["total"] > 0
-    assert found["by"] == coqtools.version()
+    assert found["by"] == toolchain.version()
 
 
 def test_without_the_option_there_is_no_certificate(results: Results, folder: Path) -> None:

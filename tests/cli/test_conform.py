@@ -11,9 +11,9 @@ import pytest
 
 from tests.cli.conftest import Call, Program, Results
 
-ROOM = Path(__file__).parents[1] / "oracle"
+ROOM = Path(__file__).parents[1] / "programs"
 
-BASIC = f"--cmd '{sys.executable} -m topo_verify.oracle.serve basic'"
+BASIC = f"--cmd '{sys.executable} -m topo_verify.programs.serve basic'"
 SKIPS = f"--cmd '{sys.executable} {ROOM / 'misbehaving.py'} skips'"
 BATCH = f"--cmd '{sys.executable} {ROOM / 'batch_program.py'} right'"
 

@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from topo_verify.cli import main, runs
-from topo_verify.oracle import naming
+from topo_verify.harness import target_texts
 
 Call = Callable[..., Any]
 COMMANDS = (
@@ -311,7 +311,7 @@ def test_ctrl_c_before_any_work_exits_3(call: Call, monkeypatch: pytest.MonkeyPa
     def interrupt(_text: str) -> object:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(naming, "targets", interrupt)
+    monkeypatch.setattr(target_texts, "targets", interrupt)
     done = call("verify")
     assert done.exit_code == 3
     assert done.stderr == "topo-verify: interrupted; nothing came out before\n"

@@ -12,8 +12,8 @@ import pytest
 
 Call = Callable[..., Any]
 
-RIGHT = f"{shlex.quote(sys.executable)} -m topo_verify.oracle.serve basic"
-WRONG = f"{shlex.quote(sys.executable)} -m topo_verify.oracle.serve mappers.py:guesses"
+RIGHT = f"{shlex.quote(sys.executable)} -m topo_verify.programs.serve basic"
+WRONG = f"{shlex.quote(sys.executable)} -m topo_verify.programs.serve mappers.py:guesses"
 
 
 @pytest.mark.parametrize("workers", [0, 2])

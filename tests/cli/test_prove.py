@@ -8,11 +8,11 @@ import pytest
 
 from tests.cli.conftest import Call, Program, Results
 from topo_verify.proofs import catalogue as proofs_catalogue
-from topo_verify.proofs import mutants
-from topo_verify.proofs.inductive import theorem
-from topo_verify.proofs.obligations.obligation import A, B, Obligation
-from topo_verify.proofs.terms import eq, neg
-from topo_verify.proofs.theorems import Outcome, Theorem
+from topo_verify.proofs.first_order import mutants
+from topo_verify.proofs.first_order.obligations.obligation import A, B, Obligation
+from topo_verify.proofs.first_order.terms import eq, neg
+from topo_verify.proofs.first_order.theorems import theorem
+from topo_verify.proofs.theorem import Outcome, Theorem
 
 FIELDS = {
     "name", "kind", "claim", "verdict", "expected", "ok", "premises_satisfiable", "replayed",

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Call, Results
-from topo_verify.oracle import baseline
+from topo_verify.harness.baseline import file
 
 FIELDS = {"target", "worlds", "equal", "wrong", "dearer", "cheaper", "other_decisions"}
 PROGRAM = """
@@ -27,7 +27,7 @@ def test_the_default_corpus_is_recorded(results: Results, folder: Path) -> None:
     assert entry.keys() >= FIELDS
     assert (entry["worlds"], entry["equal"], entry["wrong"]) == (953, 953, 0)
     assert entry["corpus"] == "edges<=4 (792), generated:160 (160), nyc (1)"
-    written = baseline.load(folder / "b.jsonl.gz")
+    written = file.load(folder / "b.jsonl.gz")
     assert written.header.worlds == ("corpus",)
     assert written.header.digest == entry["digest"]
     assert sum(one.cost for one in written.entries) == entry["cost"]
@@ -45,7 +45,7 @@ def test_limits_worlds_seed_and_policies_are_in_the_file(call: Call, folder: Pat
         "record basic --pick last --worlds generated:8 --worlds nyc --seed 5 --budget 9999"
         " --move-timeout 2 --out b"
     )
-    header = baseline.load(folder / "b").header
+    header = file.load(folder / "b").header
     assert (header.worlds, header.seed, header.total) == (("generated:8", "nyc"), 5, 9)
     assert header.policies is not None
     assert (header.policies.pick, header.policies.order) == ("last", "shortest")

@@ -12,7 +12,7 @@ import pytest
 from topo_verify.checkers import CLAIMS
 from topo_verify.errors import InputError
 from topo_verify.proofs.catalogue import catalogue, choose
-from topo_verify.proofs.inductive import INDUCTIVE
+from topo_verify.proofs.first_order.theorems import INDUCTIVE
 
 ROOT = Path(__file__).resolve().parents[2]
 

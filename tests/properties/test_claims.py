@@ -18,6 +18,7 @@ from tests.properties.statements import STATEMENTS
 from tests.properties.worlds import STRATEGIES, runs
 from topo_verify import CATALOGUE, Exploration, World, explore
 from topo_verify.checkers import CLAIMS
+from topo_verify.harness.run import judge
 from topo_verify.robot.events import (
     Augment,
     Confirm,
@@ -31,7 +32,6 @@ from topo_verify.robot.events import (
 )
 from topo_verify.robot.percept import Percept
 from topo_verify.strategies import observe, policies
-from topo_verify.trial import judge
 
 every_strategy = pytest.mark.parametrize("strategy", STRATEGIES)
 

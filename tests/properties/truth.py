@@ -1,7 +1,7 @@
 """Where a run really was: its trace beside its world, with every dart of S as a dart of the world.
 
-Written apart from `topo_verify.robot.replay` and the checkers, for statements about runs that can
-be read without them. It trusts the augmentations as long as they are right; that is asked for.
+Written apart from the checkers and their replay of traces, for statements about runs that can be
+read without them. It trusts the augmentations as long as they are right; that is asked for.
 """
 
 from __future__ import annotations

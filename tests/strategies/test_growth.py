@@ -15,7 +15,7 @@ from topo_verify import World
 from topo_verify.strategies import growth, worlds
 from topo_verify.strategies.growth import BALANCED, CROWDED, grow
 from topo_verify.strategies.shapes import MANY, Shape
-from topo_verify.world import counting
+from topo_verify.world.enumeration import rank_order
 
 SHAPES = [
     Shape(),
@@ -48,7 +48,7 @@ SHAPES = [
 
 @cache
 def all_worlds(edges: int) -> list[World]:
-    return [World.from_code(table) for table in counting.tables(edges)]
+    return [World.from_code(table) for table in rank_order.tables(edges)]
 
 
 def keeps(world: World, shape: Shape) -> bool:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from topo_verify import World
 from topo_verify.strategies import uniform_worlds
 from topo_verify.strategies.uniform import rank
-from topo_verify.world import counting
+from topo_verify.world.enumeration import rank_order
 
 
 @pytest.mark.parametrize("total", [1, 2, 10, 74, 255, 256, 706])
@@ -45,6 +45,6 @@ def test_a_thousand_draws_of_74_worlds_are_spread_evenly() -> None:
 def test_they_have_the_edges_that_were_asked_for_and_shrink_towards_rank_0() -> None:
     assert find(uniform_worlds(edges=30), lambda _: True).id == "m30/0"
     world = find(uniform_worlds(edges=4), lambda w: w.genus == 2)
-    first = next(t for t in counting.tables(4) if World.from_code(t).genus == 2)
-    assert counting.rank(first) <= counting.rank(world.code) < 706
+    first = next(t for t in rank_order.tables(4) if World.from_code(t).genus == 2)
+    assert rank_order.rank(first) <= rank_order.rank(world.code) < 706
     assert len(world.edges) == 4

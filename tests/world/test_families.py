@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
-from topo_verify.world.naming import world_from
+from topo_verify.world.resolve import world_from
 
 EXAMPLES = [
     "lattice(1,1)",

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from topo_verify.errors import InputError
-from topo_verify.world import World, counting, families
+from topo_verify.world import World, families
+from topo_verify.world.enumeration import rank_order
 
 EMPTY = World((), (), None)
 LOOP = World((1, 0), (1, 0), 0)
@@ -18,14 +19,14 @@ PATH = World.from_rotations([[0], [1, 2], [3]], [[0, 1], [2, 3]], 0)
 """Three vertices in a row, the marker at an end."""
 
 ranks = st.integers(0, 12).flatmap(
-    lambda edges: st.tuples(st.just(edges), st.integers(0, counting.count(edges) - 1))
+    lambda edges: st.tuples(st.just(edges), st.integers(0, rank_order.count(edges) - 1))
 )
-worlds = ranks.map(lambda pair: World.from_code(counting.unrank(*pair)))
+worlds = ranks.map(lambda pair: World.from_code(rank_order.unrank(*pair)))
 
 
 def all_worlds(most_edges: int) -> list[World]:
     """Every world with at most this many edges."""
-    tables = (table for edges in range(most_edges + 1) for table in counting.tables(edges))
+    tables = (table for edges in range(most_edges + 1) for table in rank_order.tables(edges))
     return [World.from_code(table) for table in tables]
 
 
@@ -199,7 +200,7 @@ def test_an_id_beyond_the_last_rank_is_refused() -> None:
 
 
 def test_ids_work_up_to_200_edges_and_are_refused_beyond() -> None:
-    last = counting.count(200) - 1
+    last = rank_order.count(200) - 1
     assert World.from_id(f"m200/{last}").id == f"m200/{last}"
     with pytest.raises(InputError, match="201 edges has no id"):
         World.from_id("m201/0")

@@ -11,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from topo_verify.errors import InputError
-from topo_verify.world import World, counting, families
+from topo_verify.world import World, families
+from topo_verify.world.enumeration import rank_order
 from topo_verify.world.families import MAX_DARTS, random_maps
-from topo_verify.world.naming import world_from
+from topo_verify.world.resolve import world_from
 
 # ---------------------------------------------------------------- what each one is
 
@@ -110,7 +111,7 @@ def test_every_planar_map_comes_from_equally_many_trees_with_steps(edges: int) -
         for coin in (0, 1)
         for sigma, root in [random_maps.planar_map(word, steps, coin=coin)]
     )
-    planar = {w.code for w in map(World.from_code, counting.tables(edges)) if w.is_planar}
+    planar = {w.code for w in map(World.from_code, rank_order.tables(edges)) if w.is_planar}
     assert made.keys() == planar
     assert set(made.values()) == {edges + 2}
 

@@ -18,10 +18,10 @@ from topo_verify.checkers.entailment import (
     map_conclusion,
 )
 from topo_verify.checkers.findings import Finding, Judgement
+from topo_verify.checkers.replayed_trace import Case, Word
 from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Door, Percept
-from topo_verify.robot.replay import Case, Word
 from topo_verify.world.rooted_map import Dart, World
 
 Wrong = tuple[int | None, Any, Any, str, World | None]

@@ -13,24 +13,24 @@ from typing import TYPE_CHECKING
 import click
 import msgspec
 
-from topo_verify.campaigns.parts import plural
-from topo_verify.certificate import Certificate
-from topo_verify.certificate import certify as judge
 from topo_verify.checkers import Finding
+from topo_verify.checkers.certificate import Certificate
+from topo_verify.checkers.certificate import certify as judge
 from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Table, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, InternalError
+from topo_verify.harness.verify.parts import plural
 from topo_verify.robot.events import Trace, read_trace
-from topo_verify.world.counting import MAX_ID_EDGES
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
-    from topo_verify.proofs.coqfile import Certificate as Stated
-    from topo_verify.proofs.kernel import Checked
+    from topo_verify.proofs.mechanised.certificates import Checked
+    from topo_verify.proofs.mechanised.vernacular import Certificate as Stated
 
     Check = Callable[[str, Stated], Checked]
 
@@ -171,9 +171,9 @@ def _bytes(trace: str) -> bytes:
 
 
 def _checking(output: Output, timeout: int) -> AbstractContextManager[Check]:
-    from topo_verify.proofs import kernel
+    from topo_verify.proofs.mechanised import certificates
 
-    return kernel.checking(timeout=timeout, tell=lambda doing: output.progress(doing, 0, 1))
+    return certificates.checking(timeout=timeout, tell=lambda doing: output.progress(doing, 0, 1))
 
 
 def _proof(
@@ -188,20 +188,20 @@ def _proof(
     Raises:
         InternalError: it is refused, or says something else than the fold.
     """
-    from topo_verify.proofs import coqfile, kernel
+    from topo_verify.proofs.mechanised import certificates, vernacular
 
-    stated = kernel.state(log)
+    stated = certificates.state(log)
     shown = "undetermined" if certificate.witnesses else "impossible"
     if stated.statement != ("map" if certificate.map is not None else shown):
         raise InternalError(f"{traces[number]}: two folds of one log differ: {stated.statement}")
     name = _identifier(traces, number)
-    files.write(f"{name}.v", coqfile.coq_file(stated))
+    files.write(f"{name}.v", vernacular.coq_file(stated))
     checked = check(name, stated)
     for one in (checked, checked.decisions):
         if one is not None and one.accepted is False:
             raise InternalError(f"{one.by} refuses {name}.v: {one.why}")
     decisions = _proved(len(stated.decisions.stated), certificate.entailed, checked)
-    by_hand = kernel.command(name)
+    by_hand = certificates.command(name)
     return Kernel(
         statement=stated.statement,
         file=f"{name}.v",

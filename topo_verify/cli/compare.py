@@ -9,17 +9,17 @@ from fractions import Fraction
 import click
 import msgspec
 
-from topo_verify.campaigns.parts import plural
 from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.record import Opening, mapper_options
-from topo_verify.oracle import baseline as file
-from topo_verify.oracle.comparing import KINDS, Change, Comparison, Group, Kind
-from topo_verify.oracle.comparing import compare as run_all
+from topo_verify.harness.baseline import file
+from topo_verify.harness.baseline.compare import KINDS, Change, Comparison, Group, Kind
+from topo_verify.harness.baseline.compare import compare as run_all
+from topo_verify.harness.verify.parts import plural
+from topo_verify.programs.loading import Target
 from topo_verify.robot.events import Policies
-from topo_verify.targets import Target
 
 TITLES: dict[Kind, str] = {
     "wrong": "a claim fails",

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 import click
 import msgspec
 
-from topo_verify import trial
-from topo_verify.campaigns.parts import plural
 from topo_verify.checkers import Finding, Status
 from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Table, Text
@@ -25,11 +23,14 @@ from topo_verify.cli.runs import (
     undeclared,
 )
 from topo_verify.errors import InputError
-from topo_verify.gap import gap as measure
-from topo_verify.oracle import naming
+from topo_verify.harness import target_texts
+from topo_verify.harness.gap import gap as measure
+from topo_verify.harness.run import Exploration
+from topo_verify.harness.run import explore as run_mapper
+from topo_verify.harness.verify.parts import plural
+from topo_verify.programs.loading import Target
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
-from topo_verify.targets import Target
 from topo_verify.world.formats import files
 
 
@@ -41,7 +42,7 @@ class Chosen(msgspec.Struct, frozen=True):
 
 
 class Measured(msgspec.Struct, frozen=True):
-    """How far the rule is from the best possible: see `topo_verify.gap`.
+    """How far the rule is from the best possible: see `topo_verify.harness.gap`.
 
     Attributes:
         false: false hypotheses posed.
@@ -142,8 +143,8 @@ def explore(  # noqa: PLR0913  an argument an option
     """
 
     def runs() -> Iterator[Result[Explored]]:
-        text = naming.target_text(algorithm, command, "all")
-        found = naming.targets(text, pick=pick, order=order)
+        text = target_texts.target_text(algorithm, command, "all")
+        found = target_texts.targets(text, pick=pick, order=order)
         where = places(worlds, marker)
         if trace is not None:
             _require_one_run(trace, found, where)
@@ -172,13 +173,13 @@ def _results(
     total = len(where) * len(found)
     for number, (at, target) in enumerate((at, target) for at in where for target in found):
         output.progress(f"{target.text} in {at.name}", number, total)
-        run = trial.explore(at.world, target, limits=asked.limits)
+        run = run_mapper(at.world, target, limits=asked.limits)
         if asked.trace is not None:
             files.write(asked.trace, write_trace(run.trace).decode())
         yield _result(run, at, asked)
 
 
-def _result(run: trial.Exploration, at: Place, asked: _Asked) -> Result[Explored]:
+def _result(run: Exploration, at: Place, asked: _Asked) -> Result[Explored]:
     report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
     measured = None
     if asked.gap and report.ok and "not-declared" not in report.claims.values():

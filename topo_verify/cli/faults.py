@@ -6,16 +6,6 @@ from collections.abc import Iterator, Sequence
 
 import click
 
-from topo_verify.campaigns.fault_checks import EXAMPLES, LARGEST, STRATEGIES
-from topo_verify.campaigns.faults import (
-    CHECKS,
-    LARGEST_HARMLESS,
-    LARGEST_THOROUGH,
-    Caught,
-    Check,
-    try_faults,
-)
-from topo_verify.campaigns.parts import plural
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
 from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
@@ -23,7 +13,17 @@ from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS, Fault
-from topo_verify.search.workers import processors
+from topo_verify.harness.faults.checks import EXAMPLES, LARGEST, STRATEGIES
+from topo_verify.harness.faults.detection import (
+    CHECKS,
+    LARGEST_HARMLESS,
+    LARGEST_THOROUGH,
+    Caught,
+    Check,
+    try_faults,
+)
+from topo_verify.harness.search.workers import processors
+from topo_verify.harness.verify.parts import plural
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")
 WIDTHS = (29, 21, 13, 5, 3)

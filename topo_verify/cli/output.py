@@ -23,12 +23,12 @@ from typing import IO, Any, Concatenate, Generic, ParamSpec, TypeVar
 import click
 import msgspec
 
-from topo_verify.campaigns.parts import plural
 from topo_verify.cli import layout
 from topo_verify.cli.failures import exit_code, say, version
 from topo_verify.cli.layout import Block
 from topo_verify.cli.progress import Progress
 from topo_verify.errors import InputError
+from topo_verify.harness.verify.parts import plural
 
 P = ParamSpec("P")
 E = TypeVar("E", bound=msgspec.Struct)

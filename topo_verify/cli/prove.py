@@ -18,7 +18,7 @@ from topo_verify.cli.output import options as output_options
 from topo_verify.errors import InputError, InternalError
 
 if TYPE_CHECKING:
-    from topo_verify.proofs.theorems import Budget, Theorem
+    from topo_verify.proofs.theorem import Budget, Theorem
 
 
 @click.command(
@@ -83,7 +83,7 @@ def prove(  # noqa: PLR0913  an argument an option
     A theorem that is vacuous or comes back unknown is no pass (exit 3).
     """
     from topo_verify.proofs.catalogue import choose
-    from topo_verify.proofs.theorems import Budget
+    from topo_verify.proofs.theorem import Budget
 
     theorems = choose(names, kinds=kinds, edges=edges, deep=deep)
     if listing:
@@ -114,16 +114,17 @@ def prove(  # noqa: PLR0913  an argument an option
 
 def _require(*, second: bool, certify: bool) -> None:
     """Refuse to begin where a solver or a checker is missing."""
-    from topo_verify.proofs import certificates, second_opinion
+    from topo_verify.proofs.bounded import drup
+    from topo_verify.proofs.solvers import cvc5_solver
 
     if second:
-        second_opinion.require_tools()
+        cvc5_solver.require_tools()
     if certify:
-        certificates.require_tools()
+        drup.require_tools()
 
 
 def _export(theorem: Theorem, folder: Path) -> None:
-    from topo_verify.proofs.second_opinion import export
+    from topo_verify.proofs.solvers.cvc5_solver import export
 
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--smt2 {folder}: it is a file; name a folder")
@@ -148,7 +149,7 @@ def _opinion(theorem: Theorem, budget: Budget) -> shown.Opinions | None:
     Raises:
         InternalError: the two solvers contradict each other.
     """
-    from topo_verify.proofs.second_opinion import ask
+    from topo_verify.proofs.solvers.cvc5_solver import ask
 
     opinions = [ask(query, timeout=budget.timeout) for query in theorem.queries()]
     for opinion in opinions:

@@ -11,22 +11,23 @@ import click
 import msgspec
 
 from topo_verify.algorithms import Algorithm
-from topo_verify.campaigns.parts import plural
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Table, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
-from topo_verify.oracle import baseline
-from topo_verify.oracle.corpus import DEFAULT, Corpus, corpus_from
-from topo_verify.oracle.naming import target_text, targets
-from topo_verify.oracle.program import Program
-from topo_verify.oracle.recording import Recorded
-from topo_verify.oracle.recording import record as run_all
+from topo_verify.harness.baseline import file
+from topo_verify.harness.baseline.record import Recorded
+from topo_verify.harness.baseline.record import record as run_all
+from topo_verify.harness.corpus import DEFAULT, Corpus, corpus_from
+from topo_verify.harness.target_texts import target_text, targets
+from topo_verify.harness.targets import one_target
+from topo_verify.harness.verify.parts import plural
+from topo_verify.programs.loading import Target
+from topo_verify.programs.program import Program
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
-from topo_verify.targets import Target, one_target
 from topo_verify.world.formats import files
 
 Opening = Callable[..., AbstractContextManager[Target]]
@@ -173,7 +174,7 @@ def record(
             )
         whole = len(made.entries) == corpus.total
         if whole:
-            files.write(out, baseline.encode(made))
+            files.write(out, file.encode(made))
         kept = _kept(made, corpus, out if whole else None, failing)
         yield Result(kept, failed=kept.wrong > 0, incomplete=kept.undecided > 0)
 
@@ -181,7 +182,7 @@ def record(
 
 
 def _kept(
-    made: baseline.Baseline, corpus: Corpus, file: str | None, failing: Sequence[Recorded]
+    made: file.Baseline, corpus: Corpus, file: str | None, failing: Sequence[Recorded]
 ) -> Kept:
     right = [entry for entry in made.entries if entry.right]
     wrong = sum(bool(entry.failed) for entry in made.entries)

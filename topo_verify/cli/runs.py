@@ -12,15 +12,14 @@ from pathlib import Path
 
 import msgspec
 
-from topo_verify import trial
-from topo_verify.campaigns.parts import plural
 from topo_verify.checkers import Finding
 from topo_verify.cli.layout import Block, Bullets, Command, Text
 from topo_verify.errors import InputError
+from topo_verify.harness.run import Exploration, Report, judge, replay_line, undecided
+from topo_verify.harness.verify.parts import plural
 from topo_verify.robot.limits import Limits
-from topo_verify.trial import Exploration, Report, undecided
-from topo_verify.world.counting import MAX_ID_EDGES
-from topo_verify.world.naming import world_from
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
+from topo_verify.world.resolve import world_from
 from topo_verify.world.rooted_map import World
 
 
@@ -125,13 +124,13 @@ def judged(
     run: Exploration, at: Place, limits: Limits, *, strict: bool = False
 ) -> tuple[Report, bool]:
     """The report on a run, and whether it is incomplete: out of time, and nothing else wrong."""
-    report = trial.judge(run, where=at.text, strict=strict)
+    report = judge(run, where=at.text, strict=strict)
     if undecided(run, report):
         return msgspec.structs.replace(report, findings=()), True
     if not report.findings:
         return report, False
     words = (*at.options, *limits.options)
-    again = trial.replay_line(at.again, run.algorithm, run.policies, words)
+    again = replay_line(at.again, run.algorithm, run.policies, words)
     findings = tuple(
         msgspec.structs.replace(finding, world=at.again, replay=again)
         for finding in report.findings

@@ -14,8 +14,8 @@ from topo_verify.cli.layout import Block, Raw
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.errors import InputError
-from topo_verify.world.classes import WorldClass
-from topo_verify.world.counting import MAX_ID_EDGES
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
@@ -135,8 +135,8 @@ def _by_strategy(
             f"{given} beside --strategy: a strategy is told by its own arguments which worlds,"
             " as in --strategy 'worlds(min_edges=5, max_edges=9, simple=True)'"
         )
-    from topo_verify.strategies.naming import strategy_from
-    from topo_verify.strategies.sampling import sample as draw
+    from topo_verify.strategies.resolve import strategy_from
+    from topo_verify.strategies.sample import sample as draw
 
     return iter(draw(strategy_from(text), number, start=seed))
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import click
 import msgspec
 
-from topo_verify.campaigns.parts import plural
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
 from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
@@ -17,14 +16,15 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
 from topo_verify.errors import InputError
-from topo_verify.oracle import naming
+from topo_verify.harness import target_texts
+from topo_verify.harness.ledger import Ledger
+from topo_verify.harness.search import Compared, Costs, Failure, Found, Plan, Search, Size
+from topo_verify.harness.search.plan import CHOICES, Choices
+from topo_verify.harness.search.workers import processors
+from topo_verify.harness.verify.parts import plural
+from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
-from topo_verify.search import Compared, Costs, Failure, Found, Plan, Search, Size
-from topo_verify.search.ledger import Ledger
-from topo_verify.search.plan import CHOICES, Choices
-from topo_verify.search.workers import processors
-from topo_verify.targets import Target
-from topo_verify.world.classes import WorldClass
+from topo_verify.world.enumeration.classes import WorldClass
 
 SHOWN = 3
 """Of worlds that have something in common, so many are shown; JSON has more."""
@@ -195,12 +195,12 @@ def _mappers(
     if (target is None and command is None) == (compare is None):
         raise InputError("name a TARGET, or two mappers with --compare A,B: one of the two")
     if compare is not None:
-        pair = naming.targets(compare)
+        pair = target_texts.targets(compare)
         if len(pair) != 2 or pair[0] == pair[1]:
             raise InputError(f"--compare {compare}: name two algorithms of the catalogue, as A,B")
         return [pair]
-    text = naming.target_text(target, command)
-    found: list[tuple[Target, ...]] = [(mapper,) for mapper in naming.targets(text)]
+    text = target_texts.target_text(target, command)
+    found: list[tuple[Target, ...]] = [(mapper,) for mapper in target_texts.targets(text)]
     if ledger is not None and len(found) != 1:
         raise InputError(f"--ledger {ledger}: a ledger is of one TARGET; {text} names {len(found)}")
     return found

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from topo_verify.campaigns.parts import plural
 from topo_verify.cli.layout import Block, Bullets, Table, Text
+from topo_verify.harness.verify.parts import plural
 
 if TYPE_CHECKING:
-    from topo_verify.proofs.theorems import Budget, Outcome, Theorem
+    from topo_verify.proofs.theorem import Budget, Outcome, Theorem
 
 KINDS = ("inductive", "mechanised", "bounded", "negative", "mutant")
 
@@ -146,12 +146,12 @@ FEW = 5
 
 def head(theorems: Sequence[Theorem], budget: Budget) -> str:
     """What is about to be done."""
-    from topo_verify.proofs import z3solver
+    from topo_verify.proofs.solvers import z3_solver
 
     kinds = Counter[str](theorem.kind for theorem in theorems)
     told = ", ".join(f"{kinds[kind]} {kind}" for kind in KINDS if kinds[kind])
     many = plural(len(theorems), "theorem")
-    return f"{z3solver.name()}, seed {budget.seed}: {many} ({told})"
+    return f"{z3_solver.name()}, seed {budget.seed}: {many} ({told})"
 
 
 def _row(entry: Proved) -> tuple[str, ...]:

@@ -6,8 +6,6 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import click
 
-from topo_verify.campaigns import verify as campaign
-from topo_verify.campaigns.parts import Part, plural
 from topo_verify.checkers import CLAIMS
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
@@ -15,9 +13,11 @@ from topo_verify.cli.layout import Block, Table, Text
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks, undeclared
-from topo_verify.oracle import naming
+from topo_verify.harness import target_texts
+from topo_verify.harness.verify import verify as campaign
+from topo_verify.harness.verify.parts import Part, plural
+from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
-from topo_verify.targets import Target
 
 
 @click.command(
@@ -51,8 +51,8 @@ def verify(
     TARGET is `all` (the default), names of the catalogue with commas, package.module:attribute or
     path/file.py:attribute. A mapper takes a robot and returns a map.
     """
-    text = naming.target_text(target, command, "all")
-    mappers = naming.targets(text)
+    text = target_texts.target_text(target, command, "all")
+    mappers = target_texts.targets(text)
 
     def parts() -> Iterator[Result[Part]]:
         tell = output.progress

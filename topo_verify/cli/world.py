@@ -17,8 +17,8 @@ from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import Place, place, places
 from topo_verify.cli.sample import sample
 from topo_verify.errors import InputError
-from topo_verify.world.classes import WorldClass
-from topo_verify.world.counting import MAX_ID_EDGES
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files, planar_code
 from topo_verify.world.rooted_map import World
 

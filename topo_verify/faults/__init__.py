@@ -23,7 +23,7 @@ from topo_verify.faults import (
     records,
     report,
 )
-from topo_verify.faults.planting import Fault
+from topo_verify.faults.fault import Fault
 
 __all__ = ["FAULTS", "Fault"]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from topo_verify.algorithms.chart import Chart, Dart
-from topo_verify.faults.planting import Fault, mapper
+from topo_verify.faults.fault import Fault, mapper
 from topo_verify.robot.percept import Door
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.folding import FoldingRule, Place, Sketch
 from topo_verify.algorithms.motion import Hypothesis
-from topo_verify.faults.planting import Fault, mapper
+from topo_verify.faults.fault import Fault, mapper
 from topo_verify.robot.percept import Door, Percept
 
 

@@ -10,7 +10,7 @@ from topo_verify.algorithms.exploration import hypotheses
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.algorithms.planar import PlanarRule
 from topo_verify.algorithms.policies import Order, shortest
-from topo_verify.faults.planting import Fault, Told, crossed, mapper
+from topo_verify.faults.fault import Fault, Told, crossed, mapper
 from topo_verify.robot.percept import Percept, Robot
 
 

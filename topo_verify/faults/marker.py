@@ -5,7 +5,7 @@ from __future__ import annotations
 from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.exploration import execute
 from topo_verify.algorithms.motion import Hypothesis, Pilot, overlap
-from topo_verify.faults.planting import Fault, mapper
+from topo_verify.faults.fault import Fault, mapper
 from topo_verify.robot.percept import Percept
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 from topo_verify.algorithms.chart import Chart, Dart, Tree
 from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, Pilot, overlap
-from topo_verify.faults.planting import Fault, crossed, mapper
+from topo_verify.faults.fault import Fault, crossed, mapper
 from topo_verify.robot.percept import Door, Percept
 
 

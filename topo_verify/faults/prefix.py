@@ -8,7 +8,7 @@ from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
-from topo_verify.faults.planting import Fault, mapper, one_late
+from topo_verify.faults.fault import Fault, mapper, one_late
 
 
 class _OneDoorBeyond(PrefixRule):

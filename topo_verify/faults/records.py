@@ -8,7 +8,7 @@ from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.faults.planting import Fault, mapper, one_late
+from topo_verify.faults.fault import Fault, mapper, one_late
 
 
 class _LoopsFromDart0(RecordsRule):

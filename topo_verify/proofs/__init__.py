@@ -1,22 +1,11 @@
-"""Z3 proofs about worlds of any size, and about every world of a bounded size. docs/proofs.md.
+"""What holds in all worlds: three engines, a room each, and what they share. docs/proofs.md.
 
-    theorems.py      what a theorem is            catalogue.py    all of them
-
-Worlds of any size:
-    terms.py         formulas                     theory.py       worlds, maps, doors as axioms
-    rules.py         each rule as a term          obligations/    what is proved, by theme
-    inductive.py     obligations as theorems      mutants/        rules with one thing changed
-    finite.py        models over tiny domains     structures.py   formulas evaluated, no solver
-    scenes.py        exact worlds and maps        stage.py        scenes played by the simulator
-    decisions.py     the rules' terms on real runs (sensing.py)   z3solver.py    asking Z3
-
-Every world with m edges:
-    clauses.py, encoding.py, words.py     worlds, maps, words as clauses
-    one_door.py, whole_words.py           what is claimed of them        bounded.py   as theorems
-    negatives.py, counterexamples.py      what must be refuted
-    stories.py, replaying.py              models decoded, and done in the simulator
-    enumeration.py, deciding.py           all worlds; asking Z3
-    second_opinion.py, certificates.py    cvc5; refutations checked without a solver
+theorem.py     what a theorem is: a statement, and how to ask for its verdict
+catalogue.py   all theorems, by name and kind
+first_order/   worlds of any size, by induction over the run, put to Z3
+bounded/       every world with m edges, as clauses
+mechanised/    the Python around Coq; coq/ holds the proofs
+solvers/       Z3 and cvc5 with their limits
 """
 
 from __future__ import annotations

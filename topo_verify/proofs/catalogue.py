@@ -11,11 +11,12 @@ from difflib import get_close_matches
 from functools import cache
 
 from topo_verify.errors import InputError, InternalError
-from topo_verify.proofs import counterexamples, mutants
-from topo_verify.proofs.bounded import MOST_EDGES, bounded
-from topo_verify.proofs.inductive import AXIOM_MUTANTS, INDUCTIVE
-from topo_verify.proofs.mechanised import MECHANISED
-from topo_verify.proofs.theorems import Kind, Theorem
+from topo_verify.proofs.bounded import mutants as bounded_mutants
+from topo_verify.proofs.bounded.theorems import MOST_EDGES, bounded
+from topo_verify.proofs.first_order import mutants
+from topo_verify.proofs.first_order.theorems import AXIOM_MUTANTS, INDUCTIVE
+from topo_verify.proofs.mechanised.theorems import MECHANISED
+from topo_verify.proofs.theorem import Kind, Theorem
 
 QUICK: tuple[Kind, ...] = ("inductive", "negative", "mutant")
 """The kinds that are done in seconds."""
@@ -34,11 +35,11 @@ def catalogue(edges: int | None = None) -> tuple[Theorem, ...]:
         *INDUCTIVE,
         *MECHANISED,
         *bounded(MOST_EDGES if edges is None else edges),
-        *counterexamples.negative(),
+        *bounded_mutants.negative(),
         mutants.PLANAR,
         *AXIOM_MUTANTS,
         *mutants.MUTANTS,
-        *counterexamples.mutants(),
+        *bounded_mutants.mutants(),
     )
     names = [theorem.name for theorem in theorems]
     if doubled := sorted({name for name in names if names.count(name) > 1}):

@@ -22,8 +22,8 @@ from topo_verify.strategies.dense import dense_worlds
 from topo_verify.strategies.doors import door_words
 from topo_verify.strategies.general import nonplanar_worlds, planar_worlds, worlds
 from topo_verify.strategies.grids import lattices
-from topo_verify.strategies.mapping import mappers, policies
-from topo_verify.strategies.observing import observe
+from topo_verify.strategies.mappers import mappers, policies
+from topo_verify.strategies.notes import observe
 from topo_verify.strategies.symmetric import symmetric_worlds
 from topo_verify.strategies.trees import tree_worlds
 from topo_verify.strategies.uniform import uniform_worlds

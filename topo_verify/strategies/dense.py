@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from hypothesis.strategies import SearchStrategy
 
-from topo_verify.strategies.drawing import worlds_of
+from topo_verify.strategies.draws import worlds_of
 from topo_verify.strategies.growth import CROWDED
 from topo_verify.strategies.shapes import WIDEST, Marker, grown_shape
 from topo_verify.world.rooted_map import World

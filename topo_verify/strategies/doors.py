@@ -15,7 +15,7 @@ from hypothesis.strategies import SearchStrategy
 from topo_verify.errors import InputError
 from topo_verify.robot.percept import Door
 from topo_verify.robot.simulator import exit_dart
-from topo_verify.strategies.drawing import draw_bytes
+from topo_verify.strategies.draws import draw_bytes
 from topo_verify.strategies.shapes import LARGEST, integer
 from topo_verify.world.rooted_map import World
 

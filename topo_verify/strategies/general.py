@@ -13,7 +13,7 @@ from __future__ import annotations
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.errors import InputError
-from topo_verify.strategies.drawing import worlds_of
+from topo_verify.strategies.draws import worlds_of
 from topo_verify.strategies.shapes import WIDEST, Marker, grown_shape, integer
 from topo_verify.world.rooted_map import World
 

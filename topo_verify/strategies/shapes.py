@@ -36,7 +36,7 @@ from operator import index
 from typing import Any, Literal, SupportsIndex, get_args
 
 from topo_verify.errors import InputError
-from topo_verify.world.counting import MAX_ID_EDGES
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 
 Marker = Literal["any", "leaf", "hub"]
 

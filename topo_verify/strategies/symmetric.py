@@ -34,7 +34,7 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.errors import InputError
-from topo_verify.strategies.drawing import AT_MOST, at_most, draw_dart, marked_darts, one_of
+from topo_verify.strategies.draws import AT_MOST, at_most, draw_dart, marked_darts, one_of
 from topo_verify.strategies.growth import BALANCED, Grown, grow
 from topo_verify.strategies.shapes import (
     MANY,

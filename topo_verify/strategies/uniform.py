@@ -18,7 +18,7 @@ from hypothesis.strategies import SearchStrategy
 
 from topo_verify.errors import InputError
 from topo_verify.strategies.shapes import WIDEST, integer
-from topo_verify.world import counting
+from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 _SPARE = 8
@@ -36,11 +36,11 @@ def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
     edges = integer("uniform_worlds", "edges", edges)
     if edges > WIDEST:
         raise InputError(f"uniform_worlds: edges={edges}, but ranks go up to {WIDEST} edges")
-    total = counting.count(edges)
+    total = rank_order.count(edges)
     length = (total.bit_length() + 7) // 8 + _SPARE
 
     def world(drawn: bytes) -> World:
-        return World.from_code(counting.unrank(edges, rank(drawn, total)))
+        return World.from_code(rank_order.unrank(edges, rank(drawn, total)))
 
     return st.binary(min_size=length, max_size=length).map(world)
 

@@ -4,17 +4,17 @@ A robot and a mapper never see this package; checkers, searches and commands all
 `World`.
 """
 
-from topo_verify.world import counting, families
+from topo_verify.world import families
+from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 # rooted_map.py         World: rotations and a marker; faces, genus, canonical code, ids
 # validation.py         what is no world, and why
-# counting.py           all rooted maps: how many, which number, which by number, listed, drawn
-# counting_by_genus.py  how many there are on each surface
-# classes.py            CLASS: planar, genus:1, simple, …
+# enumeration/          every world of a size or a class: counted, listed in order, ranked, drawn
 # families/             lattices, tori, solids, shapes, random graphs and maps
-# formats/              world JSON, planar_code, NetworkX, GraphML, SUMO
-# naming.py             WORLD: a path, an id, family:…, nyc, -
+# formats/              world JSON, planar_code, NetworkX, GraphML, SUMO: one file a format
+# io.py                 which format a file has
+# resolve.py            WORLD on a command line: a path, an id, family:…, nyc, -
 # data/                 the street network that comes with the package
 
-__all__ = ["World", "counting", "families"]
+__all__ = ["World", "families", "rank_order"]

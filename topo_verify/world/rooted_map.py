@@ -23,7 +23,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 from topo_verify.errors import InputError
-from topo_verify.world import counting, validation
+from topo_verify.world import validation
+from topo_verify.world.enumeration import rank_order
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -149,7 +150,7 @@ class World:
         Raises:
             InputError: the text is no id, the rank is out of range, or more than 200 edges.
         """
-        return cls.from_code(counting.unrank(*counting.id_parts(text)), name=text)
+        return cls.from_code(rank_order.unrank(*rank_order.id_parts(text)), name=text)
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, graph: int | None = None) -> Self:
@@ -160,9 +161,9 @@ class World:
         Raises:
             InputError: the file cannot be read, or is no world; one sentence says where and why.
         """
-        from topo_verify.world.formats import loading
+        from topo_verify.world import io
 
-        return loading.load(cls, path, graph=graph)
+        return io.load(cls, path, graph=graph)
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Self:
@@ -311,8 +312,8 @@ class World:
         Raises:
             InputError: more than 200 edges: too large for an id; save the world to a file.
         """
-        counting.require_id_edges(len(self.edges))
-        return f"m{len(self.edges)}/{counting.rank(self.code)}"
+        rank_order.require_id_edges(len(self.edges))
+        return f"m{len(self.edges)}/{rank_order.rank(self.code)}"
 
     @classmethod
     def from_text(cls, text: str) -> Self:
@@ -322,7 +323,7 @@ class World:
     @property
     def text(self) -> str:
         """The shortest text that names it: its id; its JSON where it is too large for an id."""
-        small = len(self.edges) <= counting.MAX_ID_EDGES
+        small = len(self.edges) <= rank_order.MAX_ID_EDGES
         return self.id if small else self.to_json()
 
     def is_isomorphic(self, other: World) -> bool:
@@ -372,7 +373,7 @@ class World:
         return hash((self.alpha, self.sigma, self.root))
 
     def __repr__(self) -> str:
-        if len(self.edges) <= counting.MAX_ID_EDGES:
+        if len(self.edges) <= rank_order.MAX_ID_EDGES:
             return f"World.from_id({self.id!r})"
         size = f"{len(self.vertices)} vertices, {len(self.edges)} edges, genus {self.genus}"
         return f"<World {self.name!r}: {size}>"

@@ -12,13 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from topo_verify.errors import InputError
-from topo_verify.world import World, counting, families
+from topo_verify.world import World, families
+from topo_verify.world.enumeration import rank_order
 from topo_verify.world.formats.nx import (
     from_planar_embedding,
     from_positions,
     to_planar_embedding,
 )
-from topo_verify.world.naming import world_from
+from topo_verify.world.resolve import world_from
 
 NX: Any = nx
 """NetworkX where its stubs leave types open."""
@@ -47,7 +48,7 @@ def around(world: World, vertex: int = 0) -> list[str]:
 
 @pytest.mark.parametrize("edges", range(6))
 def test_every_small_simple_planar_world_comes_back(edges: int) -> None:
-    for world in map(World.from_code, counting.tables(edges)):
+    for world in map(World.from_code, rank_order.tables(edges)):
         if world.is_simple and world.is_planar:
             embedding = to_planar_embedding(world)
             embedding.check_structure()

@@ -13,7 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from topo_verify.errors import InputError
-from topo_verify.world import World, counting, families
+from topo_verify.world import World, families
+from topo_verify.world.enumeration import rank_order
 from topo_verify.world.formats import files, world_json
 
 DATA = Path(__file__).parents[2] / "data"
@@ -29,8 +30,8 @@ numbers = st.floats(allow_nan=False, allow_infinity=False)
 def dressed_worlds(draw: st.DrawFn) -> World:
     """Worlds with everything that a file can carry, darts and vertices in any order."""
     edges = draw(st.integers(0, 8))
-    rank = draw(st.integers(0, counting.count(edges) - 1))
-    plain = World.from_code(counting.unrank(edges, rank))
+    rank = draw(st.integers(0, rank_order.count(edges) - 1))
+    plain = World.from_code(rank_order.unrank(edges, rank))
     plain = plain.renumbered(draw(st.permutations(range(2 * edges))))
     vertices = draw(st.permutations(plain.vertices))
     size = len(vertices)

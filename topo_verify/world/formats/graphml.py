@@ -20,8 +20,8 @@ from os import PathLike
 from typing import TypeVar
 
 from topo_verify.errors import InputError
-from topo_verify.world.formats import drawing, files, markup
-from topo_verify.world.formats.drawing import Place, Way
+from topo_verify.world.formats import embedding, files, markup
+from topo_verify.world.formats.embedding import Place, Way
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -53,7 +53,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") 
         raise InputError(f"{name} is no GraphML: its first element is not <graphml>")
     places = list(reader.places.values())
     ways = reader.ways()
-    return drawing.as_world(cls, places, ways, source=name, name=stem)
+    return embedding.as_world(cls, places, ways, source=name, name=stem)
 
 
 class _Reader:
@@ -141,7 +141,7 @@ class _Reader:
                 f"{self._what()} has no '{missing[0]}': the rotation comes from positions, so each"
                 " node has its x and y as data"
             )
-        at = [drawing.number(data[axis], f"{self._what()}, {axis}") for axis in ("x", "y")]
+        at = [embedding.number(data[axis], f"{self._what()}, {axis}") for axis in ("x", "y")]
         self.places[name] = Place(name, (at[0], at[1]))
 
     def _name(self) -> str:
@@ -166,7 +166,7 @@ class _Reader:
                     f"{self._what()} joins what is no node: source and target are ids of nodes"
                 )
             text = data.get("geometry", "").strip()
-            course = drawing.line(text, f"{self._what()}, geometry") if text else ()
+            course = embedding.line(text, f"{self._what()}, geometry") if text else ()
             own = attributes.get("directed")
             directed = bool(self.directed) if own is None else own == "true"
             ways.append(Way(start, end, course, directed, self._name()))

@@ -22,8 +22,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from topo_verify.errors import InputError
-from topo_verify.world.formats import drawing, files
-from topo_verify.world.formats.drawing import End, Place, Point, Way
+from topo_verify.world.formats import embedding, files
+from topo_verify.world.formats.embedding import End, Place, Point, Way
 from topo_verify.world.formats.planar_code import require_simple_and_planar
 from topo_verify.world.rooted_map import World
 
@@ -134,7 +134,7 @@ def from_positions(
         for label in labels
     ]
     end = None if marker is None else _marked(marker, labels)
-    return drawing.as_world(World, places, ways, source="the graph", name=name, marker=end)
+    return embedding.as_world(World, places, ways, source="the graph", name=name, marker=end)
 
 
 def _at(attributes: Mapping[str, Any], node: Any, positions: Mapping[Any, Any] | None) -> Point:
@@ -147,7 +147,7 @@ def _at(attributes: Mapping[str, Any], node: Any, positions: Mapping[Any, Any] |
             f"{what} is missing: the rotation comes from positions; give each node x and y, or pos,"
             " or hand a mapping to `positions`"
         )
-    (point,) = drawing.points([_row(position, what)], what)
+    (point,) = embedding.points([_row(position, what)], what)
     return point
 
 
@@ -157,9 +157,9 @@ def _geometry(graph: Any, label: tuple[Any, ...]) -> Sequence[Point]:
     if value is None:
         return ()
     if isinstance(value, str):
-        return drawing.line(value, what)
+        return embedding.line(value, what)
     rows = _row(getattr(value, "coords", value), what)
-    return drawing.points([_row(row, what) for row in rows], what)
+    return embedding.points([_row(row, what) for row in rows], what)
 
 
 def _row(value: Any, what: str) -> list[Any]:

@@ -22,8 +22,8 @@ from os import PathLike
 from typing import TypeVar
 
 from topo_verify.errors import InputError
-from topo_verify.world.formats import drawing, files, markup
-from topo_verify.world.formats.drawing import Place, Point, Way
+from topo_verify.world.formats import embedding, files, markup
+from topo_verify.world.formats.embedding import Place, Point, Way
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -73,11 +73,11 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
 
     markup.read(data, name=name, start=start, end=end)
     ways = _ways(places, edges, name)
-    return drawing.as_world(cls, list(places.values()), ways, source=name, name=stem)
+    return embedding.as_world(cls, list(places.values()), ways, source=name, name=stem)
 
 
 def _at(attributes: dict[str, str], what: str) -> Point:
-    x, y = (drawing.number(attributes.get(axis, ""), f"{what}, {axis}") for axis in "xy")
+    x, y = (embedding.number(attributes.get(axis, ""), f"{what}, {axis}") for axis in "xy")
     return x, y
 
 
@@ -90,7 +90,7 @@ def _ways(places: dict[str, Place], edges: dict[str, dict[str, str]], name: str)
         if start is None or end is None:
             raise InputError(f"{what} joins what is no junction: 'from' and 'to' are their ids")
         rows = [point.split(",") for point in attributes.get("shape", "").split()]
-        course = drawing.points(rows, f"{what}, shape")
+        course = embedding.points(rows, f"{what}, shape")
         other = ways.get(key[1:] if key.startswith("-") else f"-{key}")
         if other is None or (other.start, other.end) != (end, start):
             ways[key] = Way(start, end, course, directed=True, name=key)

@@ -1,0 +1,217 @@
+"""What a baseline keeps of a run, and what it takes two runs to differ in."""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from topo_verify import CATALOGUE, Robot
+from topo_verify.harness.baseline.record import PATIENCE, Recorded, _decisions, again, record, runs  # pyright: ignore[reportPrivateUsage]
+from topo_verify.harness.corpus import corpus_from
+from topo_verify.harness.targets import one_target
+from topo_verify.programs.loading import Mapper
+from topo_verify.programs.program import Program
+from topo_verify.robot.events import Augment, Confirm, Decision, Evidence, Move, Pose, Reject
+from topo_verify.robot.limits import Limits
+from topo_verify.robot.percept import Door, Percept, Purpose
+from topo_verify.world.rooted_map import World
+
+WORLD = World.from_id("m9/67076232")
+"""A world in which enhancement-i rejects without motion what basic walks for."""
+
+
+class Through:
+    """A robot that passes everything on."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+
+    @property
+    def percept(self) -> Percept:
+        return self.robot.percept
+
+    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
+        del purpose
+        return self.robot.move(door)
+
+    def declare(self, event: Decision) -> None:
+        self.robot.declare(event)
+
+
+class Mute(Through):
+    def declare(self, event: Decision) -> None:
+        pass
+
+
+class Vague(Through):
+    """Rejects for another reason, in words that differ."""
+
+    def declare(self, event: Decision) -> None:
+        if isinstance(event, Reject):
+            evidence = {"step": 0, "expected": [1, None], "observed": [1, None]}
+            told = {"type": "reject", "edge": event.edge, "hypothesis": event.hypothesis}
+            evidence |= {name: {"degree": 1, "marker": None} for name in ("expected", "observed")}
+            self.robot.declare({**told, "rule": event.rule, "evidence": evidence})  # type: ignore[arg-type]  # its JSON  # pyright: ignore[reportArgumentType]
+        else:
+            self.robot.declare(event)
+
+
+def purposeless(robot: Robot) -> object:
+    return CATALOGUE["basic"](Through(robot))
+
+
+def mute(robot: Robot) -> object:
+    return CATALOGUE["basic"](Mute(robot))
+
+
+def vague(robot: Robot) -> object:
+    return CATALOGUE["basic"](Vague(robot))
+
+
+def seen(mapper: Mapper | str, world: World = WORLD) -> Recorded:
+    (one,) = runs(one_target(mapper), [("here", world)], 1, Limits())
+    return one
+
+
+def test_the_cost_and_the_map_are_those_of_the_run() -> None:
+    entry = seen("basic").entry
+    assert (entry.cost, entry.map, entry.failed, entry.undecided) == (64, WORLD.id, (), False)
+    assert (entry.world, entry.name) == (WORLD.id, "here")
+
+
+def test_another_algorithm_has_other_moves_and_other_decisions() -> None:
+    basic, other = seen("basic").entry, seen("enhancement-i").entry
+    assert basic.moves != other.moves
+    assert basic.decisions != other.decisions
+
+
+def test_the_purpose_of_a_move_and_the_evidence_are_no_decisions() -> None:
+    basic = seen("basic").entry
+    assert seen(purposeless).entry == basic
+    other = seen(vague).entry
+    assert (other.moves, other.decisions) == (basic.moves, basic.decisions)
+    assert other.failed == ("rejection-justified",)
+
+
+EVIDENCE = Evidence(1, Percept(2, None), Percept(3, None))
+DECIDED: tuple[tuple[Decision, dict[str, Any]], ...] = (
+    (Pose(4, (5, 6)), {"edge": 3, "hypotheses": (5,)}),
+    (Reject(4, 5, "motion", EVIDENCE), {"edge": 3, "hypothesis": 6, "rule": "prefix"}),
+    (Confirm(4, 6, "motion"), {"edge": 3, "hypothesis": 5, "rule": "folding"}),
+    (Augment(4, "new", 7, 2), {"edge": 3, "kind": "loop", "dart": 8, "degree": 1}),
+)
+"""Decisions, and other values of each field that is a part of one."""
+
+
+@pytest.mark.parametrize(("event", "others"), DECIDED)
+def test_every_field_of_a_decision_counts_and_so_does_its_moment(
+    event: Decision, others: dict[str, Any]
+) -> None:
+    move = Move(0, Percept(2, None))
+    hashes = {_decisions([event]), _decisions([move, event]), _decisions([event, event])}
+    for name, value in others.items():
+        hashes.add(_decisions([msgspec.structs.replace(event, **{name: value})]))
+    assert len(hashes) == 3 + len(others)
+    assert _decisions([event, move]) == _decisions([event])
+    assert {*others} | {"evidence"} >= {*event.__struct_fields__}
+
+
+def test_a_mapper_that_declares_nothing_has_moves_alone() -> None:
+    basic, other = seen("basic").entry, seen(mute).entry
+    assert other.decisions is None
+    assert other.moves == basic.moves
+
+
+def test_a_map_that_is_wrong_is_kept_and_what_is_no_map_is_none() -> None:
+    def guess(_robot: Robot) -> object:
+        return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
+
+    def nonsense(_robot: Robot) -> object:
+        return {"vertices": [[0], [1]], "edges": [[0, 7]], "marker": 0}
+
+    def nothing(_robot: Robot) -> object:
+        raise ValueError
+
+    assert seen(guess).entry.map == "m1/0"
+    assert "map-isomorphic" in seen(guess).entry.failed
+    assert seen(nonsense).entry.map is None
+    assert seen(nothing).entry.map is None
+
+
+def test_a_mapper_that_hangs_is_given_up_after_a_few_time_outs() -> None:
+    def hang(_robot: Robot) -> object:
+        while True:
+            pass
+
+    limits = Limits(move_timeout=0.06)
+    made = record(one_target(hang), corpus_from(["edges<=2"]), limits=limits)
+    assert len(made.entries) == PATIENCE < made.header.total == 12
+    assert {entry.failed for entry in made.entries} == {("map-isomorphic",)}
+
+
+def test_a_run_that_is_out_of_time_though_it_moves_is_undecided() -> None:
+    def stroll(robot: Robot) -> object:
+        while True:
+            time.sleep(0.02)
+            robot.move(0)
+
+    limits = Limits(world_timeout=0.06)
+    (entry,) = record(one_target(stroll), corpus_from(["m3/13"]), limits=limits).entries
+    assert (entry.undecided, entry.failed, entry.right) == (True, (), False)
+
+
+def test_progress_is_told_world_by_world() -> None:
+    told: list[tuple[str, int, int]] = []
+
+    def tell(what: str, done: int, total: int) -> None:
+        told.append((what, done, total))
+
+    record(one_target("basic"), corpus_from(["edges<=1"]), tell=tell)
+    assert told == [("basic", 0, 2), ("basic", 1, 2)]
+
+
+# ---------------------------------------------------------------- programs
+
+PROGRAM = """
+import json, sys
+for line in sys.stdin:
+    message = json.loads(line)
+    if message["type"] == "start" and message["percept"]["degree"] == 1:
+        answer = {"type": "move", "door": 0}
+    elif message["type"] == "start":
+        answer = {"type": "skip", "why": "too hard"}
+    elif message["type"] == "percept":
+        ends = {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
+        answer = {"type": "done", "map": ends}
+    else:
+        break
+    print(json.dumps(answer), flush=True)
+"""
+
+
+def test_a_program_is_recorded_and_a_world_that_it_skips_is_undecided(tmp_path: Path) -> None:
+    path = tmp_path / "mapper.py"
+    path.write_text(PROGRAM)
+    with Program([sys.executable, str(path)]) as program:
+        entries = record(program.target, corpus_from(["edges<=1", "m2/0"])).entries
+    assert [entry.right for entry in entries] == [True, False, False]
+    assert [entry.undecided for entry in entries] == [False, True, False]
+    assert "map-isomorphic" in entries[2].failed
+
+
+def test_a_finding_of_a_program_is_shown_again_by_conform() -> None:
+    with Program("./mapper --fast") as program:
+        line = again(program.target, "m3/13", Limits(budget=9))
+    assert line == "topo-verify conform --cmd './mapper --fast' --worlds m3/13 --budget 9"
+
+
+@pytest.mark.parametrize("policies", [{}, {"pick": "last"}])
+def test_a_finding_of_a_mapper_is_shown_again_by_replay(policies: dict[str, str]) -> None:
+    line = again(one_target("basic", **policies), "m3/13", Limits())
+    words = "".join(f" --{name} {value}" for name, value in policies.items())
+    assert line == f"topo-verify replay m3/13 --target basic{words}"

@@ -1,0 +1,232 @@
+"""The search: what is exhausted, what is the smallest counterexample, and what is counted."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from tests.harness import mappers
+from topo_verify import CATALOGUE, InputError, InternalError, Limits, Robot, World, explore
+from topo_verify.harness.search import Plan, Search, search
+from topo_verify.harness.search import plan as planning
+from topo_verify.harness.tally import KEPT_FINDINGS, KEPT_RUNS, KEPT_WORLDS, Tally
+from topo_verify.programs.loading import Target
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+
+
+def basic(robot: Robot) -> Any:
+    return CATALOGUE["basic"](robot)
+
+
+def of_class(text: str) -> WorldClass:
+    return WorldClass.parse(text)
+
+
+# ---------------------------------------------------------------- exhausted
+
+
+@pytest.mark.parametrize("name", ["basic", "enhancement-iii-all+i", "folding"])
+def test_the_reference_is_right_in_every_world_of_up_to_four_edges(name: str) -> None:
+    found = search(name, edges=4)
+    assert (found.verdict, found.checked, found.total) == ("EXHAUSTED", 792, 792)
+    assert [(size.edges, size.checked, size.total) for size in found.by_edges] == [
+        (1, 2, 2), (2, 10, 10), (3, 74, 74), (4, 706, 706),
+    ]  # fmt: skip
+    assert found.counterexample is None
+    assert found.tally.statuses["map-entailed"] == {"ok": 792}
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [
+        ("planar", [2, 9, 54, 378]),
+        ("genus:1", [0, 1, 20, 307]),
+        ("simple", [1, 2, 6, 23]),
+        ("loopless", [1, 3, 14, 87]),
+        ("simple,planar", [1, 2, 6, 23]),
+        ("max-degree:2", [2, 3, 4, 5]),
+    ],
+)
+def test_a_class_is_exhausted_when_its_number_is_met(text: str, numbers: list[int]) -> None:
+    found = search(basic, edges=4, world_class=of_class(text))
+    assert found.verdict == "EXHAUSTED"
+    assert [size.checked for size in found.by_edges] == numbers
+
+
+def test_the_planar_prior_is_right_in_planar_worlds_and_wrong_in_all_others() -> None:
+    planar = search("folding+planar", edges=4, world_class=of_class("planar"))
+    assert planar.verdict == "EXHAUSTED"
+    torus = search("folding+planar", edges=4, world_class=of_class("genus:1"), keep_going=True)
+    assert [(size.failing, size.total) for size in torus.by_edges] == [
+        (0, 0), (1, 1), (20, 20), (307, 307),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("lie", [-1, 1])
+def test_a_search_that_does_not_meet_its_number_is_our_bug(
+    lie: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def wrong(kind: WorldClass, edges: int) -> int:
+        return kind.count(edges) + lie
+
+    monkeypatch.setattr(planning, "_total", wrong)
+    with pytest.raises(InternalError, match="2 worlds of class any where m = 1, and there are"):
+        search(basic, edges=2)
+
+
+# ---------------------------------------------------------------- counterexamples
+
+
+def test_the_search_stops_at_the_smallest_counterexample() -> None:
+    found = search(mappers.guesses, edges=4)
+    assert (found.verdict, found.checked, found.total) == ("REFUTED", 2, 792)
+    first = found.counterexample
+    assert first is not None
+    assert (first.world, first.edges, first.claim) == ("m1/1", 1, "map-isomorphic")
+    assert first.message.startswith("the map (2 vertices, 1 edges) is not isomorphic")
+    assert first.replay.startswith("topo-verify replay m1/1 --target ")
+    assert len(first.findings) <= KEPT_FINDINGS
+
+
+def test_what_lies_behind_the_counterexample_is_not_counted() -> None:
+    found = search(mappers.forgets, edges=4)
+    assert [(size.checked, size.total, size.failing) for size in found.by_edges] == [
+        (2, 2, 0), (10, 10, 0), (1, 74, 1), (0, 706, 0),
+    ]  # fmt: skip
+
+
+def test_keeping_going_tells_of_each_claim_how_often_it_fails_and_where_first() -> None:
+    found = search(mappers.guesses, edges=3, keep_going=True)
+    assert (found.verdict, found.checked) == ("REFUTED", 86)
+    assert [size.failing for size in found.by_edges] == [1, 10, 74]
+    assert found.claims["map-isomorphic"].worlds == 85
+    assert found.counterexample is not None
+    smallest = {claim: failing.smallest.world for claim, failing in found.claims.items()}
+    assert smallest == {
+        "map-isomorphic": found.counterexample.world,
+        "map-entailed": found.counterexample.world,
+        "cost-within-bound": "m2/0",
+    }
+    assert len(found.tally.failures) == KEPT_RUNS
+
+
+def test_a_mapper_that_loops_without_moving_is_a_finding() -> None:
+    found = search(mappers.loops, edges=3, limits=Limits(move_timeout=0.1))
+    assert found.counterexample is not None
+    assert found.counterexample.world == "m3/21"
+    assert "did not move for 0.1 s" in found.counterexample.message
+    assert found.counterexample.replay.endswith("--move-timeout 0.1")
+
+
+def test_a_mapper_that_is_out_of_time_is_neither_right_nor_wrong() -> None:
+    found = search(mappers.strolls, edges=2, limits=Limits(world_timeout=0.01))
+    assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 0, 12)
+    assert found.tally.undecided == 12
+
+
+def test_patience_ends_a_search_that_would_take_for_ever() -> None:
+    plan = Plan(
+        targets=("mine",), edges=3, keep_going=True, patience=4, limits=Limits(world_timeout=0.01)
+    )
+    work = Search(plan, (Target("mine", mappers.strolls),))
+    work.work()
+    assert work.found().tally.worlds == 2 + 4
+
+
+# ---------------------------------------------------------------- costs
+
+
+def test_the_highest_costs_are_the_known_ones_and_their_worlds_have_them() -> None:
+    found = search("basic", edges=4)
+    assert [found.costs(m, "basic").most for m in range(1, 5)] == [1, 3, 10, 21]
+    for size in found.by_edges:
+        costs = size.tally.costs["basic"]
+        spent = [_cost(world) for world in map(World.from_code, rank_order.tables(size.edges))]
+        assert (costs.most, costs.total, costs.runs) == (max(spent), sum(spent), len(spent))
+        assert costs.attained == spent.count(max(spent))
+        assert all(_cost(World.from_id(world)) == max(spent) for world in costs.worst)
+        assert len(costs.worst) == min(costs.attained, KEPT_WORLDS)
+
+
+def _cost(world: World) -> int:
+    return explore(world, "basic").cost
+
+
+def test_failing_runs_have_no_part_in_the_costs() -> None:
+    found = search(mappers.guesses, edges=1)
+    assert found.costs(1, found.plan.targets[0]).runs == 1
+
+
+def test_two_mappers_in_the_same_worlds_are_compared() -> None:
+    found = search("enhancement-ii,enhancement-i", edges=4, keep_going=True)
+    assert [size.tally.compared.dearer for size in found.by_edges] == [0, 0, 0, 2]
+    compared = found.by_edges[3].tally.compared
+    assert [(pair.world, pair.cost - pair.other) for pair in compared.first] == [
+        ("m4/16", 2),
+        ("m4/97", 2),
+    ]
+    assert (compared.most, compared.cheaper) == (2, 5)
+
+
+# ---------------------------------------------------------------- shards
+
+
+@pytest.mark.parametrize("size", [1, 50, 10_000])
+@pytest.mark.parametrize("text", ["any", "planar"])
+def test_the_size_of_the_shards_makes_no_difference(
+    size: int, text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for mapper, keep_going in ((mappers.forgets, True), (mappers.forgets, False), (basic, False)):
+        usual = search(mapper, edges=3, world_class=of_class(text), keep_going=keep_going)
+        monkeypatch.setitem(planning.SHARD, "reference", size)
+        cut = search(mapper, edges=3, world_class=of_class(text), keep_going=keep_going)
+        monkeypatch.undo()
+        assert cut == usual
+
+
+def test_shards_cover_each_rank_once() -> None:
+    for text in ("any", "planar", "max-degree:2", "simple"):
+        shards = list(Plan(targets=("basic",), edges=6, kind=text).shards())
+        for edges in range(1, 7):
+            ranks = [0, *(s.stop for s in shards if s.edges == edges)]
+            assert [s.start for s in shards if s.edges == edges] == ranks[:-1]
+            assert ranks[-1] == rank_order.count(edges)
+
+
+def test_tallies_add_up_in_any_grouping() -> None:
+    parts = [size.tally for size in search(mappers.guesses, edges=3, keep_going=True).by_edges]
+    a, b, c = parts
+    assert (a + b) + c == a + (b + c)
+    assert Tally() + a == a == a + Tally()
+
+
+# ---------------------------------------------------------------- what cannot be searched
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"edges": 0}, "worlds of 1 edge and more"),
+        ({"edges": 2, "policies": "some"}, "no policies 'some'"),
+        ({"edges": 9, "world_class": of_class("simple,planar")}, "there is no formula"),
+        ({"edges": 17, "world_class": of_class("simple")}, "counted up to 16 edges"),
+        ({"edges": 2, "policies": "all"}, "has no policies"),
+        ({"edges": 2, "workers": 2}, "cannot be handed to workers"),
+    ],
+)
+def test_what_cannot_be_searched_is_refused_with_a_sentence(
+    arguments: dict[str, Any], words: str
+) -> None:
+    class Mine:
+        def __call__(self, robot: Robot) -> object:
+            return basic(robot)
+
+    with pytest.raises(InputError, match=words):
+        search(Mine(), **arguments)
+
+
+def test_every_choice_is_refused_where_there_are_too_many() -> None:
+    with pytest.raises(InputError, match="over a hundred million ways to choose"):
+        search("basic", edges=4, policies="every")

@@ -1,0 +1,278 @@
+"""Shards in other processes: the same results, whatever the mapper does to its process."""
+
+# A test may look inside.
+# pyright: reportPrivateUsage=false
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from topo_verify import InputError, InternalError, Limits
+from topo_verify.harness.search import Found, Plan, search, workers
+from topo_verify.harness.search.plan import SHARD, Shard
+from topo_verify.world.enumeration.classes import WorldClass
+
+SHORT = Limits(move_timeout=0.2, world_timeout=0.5)
+
+
+def json(found: Found) -> bytes:
+    return msgspec.json.encode(found)
+
+
+@pytest.fixture(autouse=True)
+def small_shards(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Several shards a size, so that workers are at different ones."""
+    monkeypatch.setitem(SHARD, "reference", 20)
+    return folder
+
+
+# ---------------------------------------------------------------- the same results
+
+
+@pytest.mark.parametrize(
+    ("target", "kind", "keep_going"),
+    [
+        ("basic", "planar", False),
+        ("enhancement-ii,enhancement-i", "any", True),
+        ("mappers.py:forgets", "any", False),
+        ("mappers.py:guesses", "loopless", True),
+    ],
+)
+def test_results_are_equal_byte_for_byte_however_many_work(
+    target: str, kind: str, *, keep_going: bool
+) -> None:
+    results = {
+        json(
+            search(
+                target,
+                edges=4 if keep_going else 3,
+                world_class=WorldClass.parse(kind),
+                keep_going=keep_going,
+                workers=number,
+            )
+        )
+        for number in (0, 1, 3)
+    }
+    assert len(results) == 1
+
+
+def test_what_a_mapper_prints_and_reads_does_not_disturb_the_pipes(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    assert search("mappers.py:noisy", edges=1, workers=2).verdict == "EXHAUSTED"
+    captured = capfd.readouterr()
+    assert (captured.out, captured.err.count("x")) == ("", 200_000)
+
+
+def test_progress_is_told_while_workers_work() -> None:
+    told: list[tuple[str, int, int]] = []
+
+    def tell(what: str, done: int, total: int) -> None:
+        told.append((what, done, total))
+
+    search("basic", edges=3, workers=2, tell=tell)
+    assert told[0] == ("basic", 0, 86)
+    assert all(done <= total == 86 for _, done, total in told)
+
+
+# ---------------------------------------------------------------- killers
+
+
+@pytest.mark.parametrize(
+    ("name", "how"),
+    [("exits", "exit code 3"), ("kills_itself", "signal 9"), ("segfaults", "signal 11")],
+)
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_world_that_kills_its_worker_twice_is_a_finding(name: str, how: str, number: int) -> None:
+    found = search(f"mappers.py:{name}", edges=3, workers=number)
+    first = found.counterexample
+    assert first is not None
+    assert (first.world, first.claim) == ("m3/21", "map-isomorphic")
+    assert first.message == f"no map was delivered: it ended its process ({how})"
+    assert first.replay == f"topo-verify replay m3/21 --target mappers.py:{name}"
+    assert found.checked == 12 + 22
+
+
+def test_all_worlds_that_kill_their_workers_are_found() -> None:
+    killed = search("mappers.py:exits", edges=3, workers=2, keep_going=True)
+    looped = search("mappers.py:loops", edges=3, limits=SHORT, keep_going=True)
+    assert (killed.verdict, killed.checked) == ("REFUTED", 86)
+    assert [size.failing for size in killed.by_edges] == [0, 0, 5]
+    assert killed.claims["map-isomorphic"].worlds == looped.claims["map-isomorphic"].worlds == 5
+
+
+def test_a_shard_that_a_stranger_kills_once_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    hands = workers._Worker.start
+    started: list[int] = []
+
+    def start(worker: workers._Worker, piece: workers._Piece) -> None:
+        hands(worker, piece)
+        started.append(worker.process.pid)
+        if len(started) == 2:
+            while not worker.ready and not worker.pulse.read()[1]:
+                time.sleep(0.01)
+            worker.ready = True
+            os.kill(worker.process.pid, signal.SIGKILL)
+
+    monkeypatch.setattr(workers._Worker, "start", start)
+    found = search("basic", edges=3, workers=2)
+    assert len(set(started)) == 3
+    assert json(found) == json(search("basic", edges=3))
+
+
+def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_done(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hears = workers.Crew._hear
+    kills: list[Shard] = []
+
+    def hear(crew: workers.Crew, worker: workers._Worker) -> None:
+        piece = worker.piece
+        if piece is not None and worker.ready and piece.shard.stop - piece.shard.start > 1:
+            os.kill(worker.process.pid, signal.SIGKILL)
+            worker.process.wait()
+            kills.append(piece.shard)
+            crew._lost(worker, "")
+        else:
+            hears(crew, worker)
+
+    monkeypatch.setattr(workers.Crew, "_hear", hear)
+    assert json(search("basic", edges=2, workers=1)) == json(search("basic", edges=2))
+    assert kills
+    assert all(kills.count(shard) <= 2 for shard in kills)
+
+
+def test_a_mapper_that_cannot_be_interrupted_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workers, "GRACE", 0.5 - Limits().world_timeout)
+    found = search("mappers.py:holds", edges=3, workers=2, limits=SHORT)
+    first = found.counterexample
+    assert first is not None
+    assert first.world == "m3/21"
+    assert "its process was ended, for it gave no sign of life for" in first.message
+
+
+def test_a_mapper_that_loops_ends_at_its_time_limit() -> None:
+    found = search("mappers.py:loops", edges=3, workers=2, limits=SHORT)
+    assert json(found) == json(search("mappers.py:loops", edges=3, limits=SHORT))
+    assert found.counterexample is not None
+    assert "did not move for 0.2 s" in found.counterexample.message
+
+
+# ---------------------------------------------------------------- loading
+
+
+def test_a_mapper_whose_source_changes_meanwhile_is_refused(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begins = workers._Worker.__init__
+
+    def begin(worker: workers._Worker, plan: Plan) -> None:
+        with (folder / "mappers.py").open("a") as file:
+            file.write("changed = True\n")
+        begins(worker, plan)
+
+    monkeypatch.setattr(workers._Worker, "__init__", begin)
+    with pytest.raises(InputError, match="its source, or topo-verify's, has changed since"):
+        search("mappers.py:right", edges=2, workers=1)
+
+
+def test_a_mapper_that_kills_whoever_loads_it_is_refused(folder: Path) -> None:
+    here = os.getpid()
+    (folder / "deadly.py").write_text(
+        f"import os\nif os.getpid() != {here}: os._exit(7)\ndef explore(robot): ...\n"
+    )
+    with pytest.raises(InputError, match=r"a process that loads it ends \(exit code 7\)"):
+        search("deadly.py:explore", edges=2, workers=2)
+
+
+def test_a_mapper_that_only_a_worker_cannot_load_is_refused(folder: Path) -> None:
+    here = os.getpid()
+    (folder / "shy.py").write_text(
+        f"import os\nif os.getpid() != {here}: raise ValueError('no')\ndef explore(robot): ...\n"
+    )
+    with pytest.raises(InputError, match=r"'shy\.py' fails: ValueError: no"):
+        search("shy.py:explore", edges=2, workers=1)
+
+
+def test_our_bug_in_a_worker_is_told_as_such(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        workers,
+        "_START",
+        workers._START.replace(
+            "main(*",
+            "import topo_verify.harness.search.worker as w; w.examine_shard = None; main(*",
+        ),
+    )
+    with pytest.raises(InternalError, match=r"(?s)in a worker: Traceback.*TypeError"):
+        search("basic", edges=2, workers=1)
+
+
+# ---------------------------------------------------------------- nobody is left behind
+
+
+SEARCHER = """
+from topo_verify.harness.search import search
+search("mappers.py:{name}", edges=4, workers=2)
+"""
+
+
+def gone(pid: int) -> bool:
+    """Is there no such process, or only its remains?"""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc to look for processes")
+@pytest.mark.parametrize("name", ["tells_and_waits", "tells_and_holds"])
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+def test_workers_end_with_their_parent_however_it_ends(
+    folder: Path, name: str, how: signal.Signals
+) -> None:
+    parent = subprocess.Popen(
+        [sys.executable, "-c", SEARCHER.format(name=name)],
+        cwd=folder,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509
+    )
+    pids: list[int] = []
+    wait_for(lambda: len(pids_in(folder)) >= 2)
+    pids = pids_in(folder)
+    assert not any(map(gone, pids))
+    parent.send_signal(how)
+    parent.wait(timeout=30)
+    wait_for(lambda: all(map(gone, pids)))
+
+
+def pids_in(folder: Path) -> list[int]:
+    file = folder / "pids"
+    return [*map(int, file.read_text().split())] if file.exists() else []
+
+
+def wait_for(there: Callable[[], bool]) -> None:
+    for _ in range(3000):
+        if there():
+            return
+        time.sleep(0.01)
+    raise AssertionError("nothing came of it in 30 s")
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc to look for processes")
+def test_no_worker_is_left_when_a_search_is_over() -> None:
+    def children() -> set[str]:
+        tasks = Path(f"/proc/{os.getpid()}/task").glob("*/children")
+        return {pid for task in tasks for pid in task.read_text().split()}
+
+    before = children()
+    search("mappers.py:forgets", edges=4, workers=2)
+    assert children() <= before

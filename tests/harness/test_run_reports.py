@@ -1,0 +1,169 @@
+"""What is said of a run: the report, the line that shows it again, and assert_maps."""
+
+from __future__ import annotations
+
+import json
+import os
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.harness.test_run import WORLD, mistaken, right
+from tests.helpers import EMPTY, path
+from topo_verify import (
+    CATALOGUE,
+    ClaimFailed,
+    InputError,
+    Limits,
+    World,
+    assert_maps,
+    examine,
+    explore,
+    families,
+)
+from topo_verify.algorithms import Policies
+from topo_verify.faults import FAULTS
+from topo_verify.harness.run import Report, judge, judge_trace, replay_line, world_argument
+from topo_verify.harness.targets import one_target
+from topo_verify.robot.simulator import SimulatedRobot
+
+
+def test_a_report_says_how_much_of_what_holds() -> None:
+    report = examine("enhancement-i", WORLD)
+    n = len(report.claims)
+    assert report.ok
+    assert str(report) == f"enhancement-i in m2/5, 2 edge traversals: {n} of {n} claims hold"
+
+
+def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
+    report = examine(mistaken, WORLD)
+    lines = str(report).splitlines()
+    assert lines[0].startswith("tests.harness.test_run:mistaken in m2/5, 0 edge traversals: ")
+    assert " fail, " in lines[0]
+    assert lines[0].endswith(" not declared")
+    assert lines[1] == (
+        "  map-isomorphic (event 1): the map (2 vertices, 1 edges) is not isomorphic to the"
+        " world (2 vertices, 2 edges)"
+    )
+    assert lines[2].startswith("  cost-within-bound: a cost of 0 is outside 2 …")
+    assert lines[-1] == (
+        "  again: topo-verify replay m2/5 --target tests.harness.test_run:mistaken"
+    )
+
+
+def test_a_report_is_one_json_object() -> None:
+    report = examine(mistaken, WORLD, where="corner.json")
+    told = json.loads(report.to_json())
+    assert list(told) == ["world", "target", "ok", "cost", "claims", "findings"]
+    assert set(told["findings"][0]) >= {
+        "claim", "world", "event", "expected", "seen", "message", "replay",
+    }  # fmt: skip
+    assert told["findings"][0]["world"] == told["world"] == "corner.json"
+    assert told["claims"]["no-false-confirm"] == "not-declared"
+
+
+def test_the_replay_line_names_a_target_that_finds_the_mapper_again() -> None:
+    (finding, *_) = examine(mistaken, WORLD).findings
+    words = shlex.split(finding.replay)
+    assert words[:2] == ["topo-verify", "replay"]
+    assert World.from_id(words[2]).code == WORLD.code
+    assert one_target(words[words.index("--target") + 1]).mapper is mistaken
+
+
+def test_the_replay_line_of_a_script_names_its_file(tmp_path: Path) -> None:
+    script = tmp_path / "mine.py"
+    script.write_text(
+        "import topo_verify as tv\n"
+        "def mapper(robot): return 7\n"
+        "if __name__ == '__main__':\n"
+        "    print(tv.examine(mapper, tv.World.from_id('m1/0')).findings[0].replay)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "mine.py"], capture_output=True, text=True, check=True, cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+    )  # fmt: skip
+    target = shlex.split(done.stdout)[-1]
+    assert Path(target.partition(":")[0]).name == "mine.py"
+    found = one_target(f"{tmp_path / target.partition(':')[0]}:mapper")
+    assert found.mapper(SimulatedRobot(WORLD, 0)) == 7
+
+
+def test_the_replay_line_carries_policies_limits_and_odd_names() -> None:
+    assert replay_line("a b.json", "basic", Policies("last", "random(3)")) == (
+        "topo-verify replay 'a b.json' --target basic --pick last --order 'random(3)'"
+    )
+    lazy_limits = Limits(budget=1)
+    (finding, *_) = examine("basic", WORLD, pick="first", limits=lazy_limits).findings
+    assert finding.replay == ("topo-verify replay m2/5 --target basic --pick first --budget 1")
+
+
+def test_a_large_world_is_named_by_a_file() -> None:
+    assert world_argument(path(300, marker=0)) == "world.json"
+    lattice = families.lattice(12, 12)
+    assert world_argument(lattice) == f"{lattice.name}.json"
+    assert world_argument(WORLD) == "m2/5"
+
+
+def test_a_trace_from_elsewhere_is_judged_like_a_run() -> None:
+    run = explore(WORLD, "basic")
+    report = judge_trace(WORLD, run.trace, target="basic")
+    assert report == judge(run) == examine("basic", WORLD)
+    assert isinstance(report, Report)
+    again = judge_trace(WORLD, run.trace[:-1], target="basic", again="look at it")
+    assert {finding.replay for finding in again.findings} == {"look at it"}
+
+
+def test_every_algorithm_maps_the_empty_world() -> None:
+    for name in CATALOGUE:
+        report = examine(name, EMPTY)
+        assert (report.ok, report.cost) == (True, 0)
+
+
+# ---------------------------------------------------------------- assert_maps
+
+
+def test_assert_maps_lets_a_right_mapper_pass() -> None:
+    assert_maps(right, WORLD)
+    assert_maps("enhancement-ii", WORLD, pick="last", order="oldest", limits=Limits(budget=50))
+
+
+def test_assert_maps_fails_like_an_assertion_with_the_report_as_its_text() -> None:
+    with pytest.raises(AssertionError) as failed:
+        assert_maps(mistaken, WORLD)
+    assert isinstance(failed.value, ClaimFailed)
+    assert str(failed.value) == str(examine(mistaken, WORLD))
+    assert failed.value.__cause__ is None
+
+
+def test_assert_maps_shows_the_mappers_own_exception_as_the_cause() -> None:
+    mine = KeyError("dart 7")
+
+    def fail(_robot: SimulatedRobot) -> object:
+        raise mine
+
+    with pytest.raises(ClaimFailed) as failed:
+        assert_maps(fail, WORLD)
+    assert failed.value.__cause__ is mine
+
+
+def test_assert_maps_refuses_what_is_no_mapper() -> None:
+    with pytest.raises(InputError, match="no algorithm 'nobody'"):
+        assert_maps("nobody", WORLD)
+
+
+def test_the_witness_is_run_with_the_limits_of_the_run() -> None:
+    runs = iter([FAULTS["confirms-what-is-alone"]])
+
+    def mapper(robot: SimulatedRobot) -> object:
+        lucky = next(runs, None)
+        if lucky is not None:
+            return lucky(robot)
+        while True:
+            robot.move(0)
+
+    report = examine(mapper, World.from_id("m2/1"), limits=Limits(budget=7))
+    (told,) = [f.message for f in report.findings if f.claim == "map-entailed"]
+    assert told.endswith("run there, the mapper asked for more than 7 moves")

@@ -1,0 +1,308 @@
+"""A program behind protocol 1: one process for many worlds, judged as any mapper."""
+
+from __future__ import annotations
+
+import shlex
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterable
+from itertools import islice
+from pathlib import Path
+
+import pytest
+
+from tests.harness.conform.test_misbehaviour import alive, gone
+from tests.helpers import worlds
+from tests.programs.programs import ROOT, misbehaving, python, served
+from topo_verify import World, examine, explore
+from topo_verify.errors import InputError
+from topo_verify.faults import FAULTS
+from topo_verify.harness.target_texts import fingerprint, target_text, targets, words
+from topo_verify.programs.program import Misbehaved, Program
+from topo_verify.robot.events import Move
+from topo_verify.robot.limits import Limits
+
+TELLS = """
+import json, os, sys
+for line in sys.stdin:
+    message = json.loads(line)
+    if message["type"] == "stop":
+        open("stopped", "w").write(str(os.getpid()))
+        break
+    print(json.dumps({"type": "move", "door": 0}), flush=True)
+    sys.stdin.readline()
+    if os.path.exists("extra"):
+        print(open("extra").read(), flush=True)
+        continue
+    print(json.dumps({"type": "error", "why": str(os.getpid())}), flush=True)
+"""
+"""A program that gives every world up, telling its process; at the end it says that it was told."""
+
+
+EDGE = World.from_id("m1/0")
+
+
+def program(target: str, **more: bool) -> Program:
+    return Program(target.removeprefix("--cmd "), **more)
+
+
+@pytest.fixture
+def tells(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    monkeypatch.chdir(tmp_path)
+    return python("-c", TELLS)
+
+
+def said(player: Program) -> str:
+    """What the program says when it gives the world up."""
+    run = explore(EDGE, player.target)
+    assert run.map is None
+    return str(player.misbehaved)
+
+
+# ---------------------------------------------------------------- as in Python
+
+
+def test_through_the_pipe_every_run_is_the_same_as_in_process() -> None:
+    for name in ("basic", "enhancement-iii-all+i", "folding"):
+        with program(served(name)) as player:
+            for world in worlds(range(1, 4)):
+                inside, outside = explore(world, name), explore(world, player.target)
+                assert outside.map == inside.map
+                assert outside.cost == inside.cost
+                assert _aimless(outside.trace) == _aimless(inside.trace)
+
+
+def _aimless(trace: tuple[object, ...]) -> list[object]:
+    """The trace without what moves are for, which no message says, and without its head."""
+    return [
+        (event.door, event.percept) if isinstance(event, Move) else event for event in trace[1:]
+    ]
+
+
+def test_the_world_without_a_dart_is_played_too() -> None:
+    with program(served("basic")) as player:
+        assert examine(player.target, World((), (), None)).ok
+
+
+def differences(name: str, tried: Iterable[World], limits: Limits) -> list[str]:
+    """The worlds in which a seeded fault is not found through the pipe just as in process."""
+    fault = FAULTS[name]
+    found: list[str] = []
+    with program(served(fault.target)) as player:
+        for world in tried:
+            inside = examine(fault, world, limits=limits)
+            outside = examine(player.target, world, limits=limits)
+            told = [[(f.claim, f.event) for f in one.findings] for one in (inside, outside)]
+            if outside.claims != inside.claims or told[0] != told[1]:
+                found.append(world.id)
+    return found
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_seeded_fault_is_found_through_the_pipe_just_as_in_process(name: str) -> None:
+    limits = Limits(budget=60)
+    wrong = (w for w in worlds(range(1, 4)) if not examine(FAULTS[name], w, limits=limits).ok)
+    tried = [EDGE, *islice(wrong, 2), World.from_id("m3/73")]
+    assert not differences(name, tried, limits)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FAULTS)
+def test_so_it_is_in_every_world_of_three_and_four_edges(name: str) -> None:
+    assert not differences(name, worlds([3, 4]), Limits(budget=200))
+
+
+# ---------------------------------------------------------------- one process, many worlds
+
+
+def test_one_process_plays_many_worlds(tells: str) -> None:
+    with program(tells) as player:
+        assert len({said(player) for _ in range(5)}) == 1
+
+
+def test_a_fresh_process_plays_after_a_failed_world(tells: str) -> None:
+    with program(tells) as player:
+        first = said(player)
+        Path("extra").write_text("garbage")
+        explore(EDGE, player.target)
+        assert player.misbehaved is not None
+        assert player.misbehaved.kind == "not-json"
+        Path("extra").unlink()
+        assert said(player) != first
+
+
+def test_what_was_written_between_two_worlds_is_out_of_turn(tells: str) -> None:
+    with program(tells) as player:
+        Path("extra").write_text('{"type": "error"}\n{"type": "move", "door": 0}')
+        explore(EDGE, player.target)
+        assert player.misbehaved is not None
+        assert player.misbehaved.kind == "out-of-turn"
+
+
+def test_at_the_end_the_program_is_told_to_stop(tells: str) -> None:
+    with program(tells) as player:
+        process = said(player).split()[-1]
+    assert Path("stopped").read_text() == process
+
+
+def test_a_program_that_does_not_stop_is_ended() -> None:
+    loop = 'import sys, time\nfor line in sys.stdin: print(\'{"type": "skip"}\', flush=True)\n'
+    player = program(python("-c", loop + "time.sleep(60)"))
+    explore(EDGE, player.target)
+    player.close()  # or this test takes a minute
+
+
+def test_limits_hold_in_other_threads_too() -> None:
+    stopped: list[str | None] = []
+
+    def play() -> None:
+        with program(misbehaving("hangs")) as player:
+            limits = Limits(move_timeout=0.5)
+            stopped.append(explore(World.from_id("m1/1"), player.target, limits=limits).stopped)
+
+    thread = threading.Thread(target=play)
+    thread.start()
+    thread.join(30)
+    assert stopped == ["the mapper did not move for 0.5 s"]
+
+
+KILLED = """
+import os, signal, sys
+from topo_verify import World, explore
+from topo_verify.programs.program import Program
+player = Program(sys.argv[1])
+explore(World.from_id("m1/0"), player.target)
+print(str(player.misbehaved).split()[-1], flush=True)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc here")
+def test_a_harness_that_is_killed_leaves_no_program_behind(tells: str) -> None:
+    deaf = "import time\n" + TELLS.replace("for line in sys.stdin", "for line in [input()]")
+    command = shlex.join([sys.executable, "-c", deaf + "time.sleep(60)\n"])
+    assert command not in tells
+    done = subprocess.run(
+        [sys.executable, "-c", KILLED, command], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == -signal.SIGKILL, done.stderr
+    assert gone(int(done.stdout))
+
+
+def test_a_program_object_that_is_forgotten_ends_its_program(tells: str) -> None:
+    player = program(tells)
+    process = int(said(player).split()[-1])
+    assert alive(process)
+    del player
+    assert gone(process)
+
+
+# ---------------------------------------------------------------- --validate
+
+
+@pytest.mark.parametrize(
+    ("line", "kind"),
+    [
+        ('{"type": "move", "door": 0, "dor": 1}', "unknown-field"),
+        ('{"type": "move", "door": 5, "door": 0}', "doubled-field"),
+    ],
+)
+def test_validate_refuses_what_the_protocol_passes_over(tells: str, line: str, kind: str) -> None:
+    Path("extra").write_text(line)
+    with program(tells, validate=True) as player:
+        explore(EDGE, player.target, limits=Limits(budget=50))
+        assert player.misbehaved is not None
+        assert player.misbehaved.kind == kind
+        assert line in str(player.misbehaved)
+    with program(tells) as player:
+        assert explore(EDGE, player.target, limits=Limits(budget=50, move_timeout=1)).cost > 1
+
+
+def test_a_right_program_passes_with_validate() -> None:
+    with program(served("enhancement-iii-all"), validate=True) as player:
+        assert examine(player.target, World.from_id("m4/41")).ok
+
+
+# ---------------------------------------------------------------- what it is called
+
+
+def test_a_program_is_named_by_its_command() -> None:
+    (target,) = targets("--cmd './my mapper' --fast")
+    assert isinstance(target.mapper, Program)
+    assert target.mapper.command == ("./my mapper", "--fast")
+    assert target.text == "--cmd './my mapper' --fast"
+    assert words(target.text) == ("--cmd", "'./my mapper' --fast")
+    assert [found.text for found in targets("basic,folding")] == ["basic", "folding"]
+    assert words("basic") == ("basic",)
+
+
+def test_one_target_is_named_and_not_two() -> None:
+    assert target_text("basic", None) == "basic"
+    assert target_text(None, "./mapper  --fast") == "--cmd ./mapper --fast"
+    for target, command in ((None, None), ("basic", "./mapper")):
+        with pytest.raises(InputError, match="one of the two"):
+            target_text(target, command)
+
+
+@pytest.mark.parametrize(("command", "why"), [("", "name a program"), ("a 'b", "quote")])
+def test_a_command_that_is_none_is_refused(command: str, why: str) -> None:
+    with pytest.raises(InputError, match=why):
+        Program(command)
+
+
+def test_a_program_that_cannot_be_started_is_bad_input(tmp_path: Path) -> None:
+    text = tmp_path / "text"
+    text.write_text("no program")
+    for command in (str(tmp_path / "nowhere"), str(text)):
+        player = Program([command])
+        with pytest.raises(InputError, match="cannot start"):
+            player.start()
+
+
+def test_a_program_has_no_policies_of_ours() -> None:
+    with pytest.raises(InputError, match="its own policies"):
+        targets("--cmd ./mapper", pick="last")
+
+
+def test_a_fingerprint_is_of_the_command_and_of_its_files(tmp_path: Path) -> None:
+    file = tmp_path / "mapper.py"
+    file.write_text("1")
+    command = f"--cmd {shlex.join([sys.executable, str(file)])}"
+    one = fingerprint(command)
+    assert one == fingerprint(command)
+    assert one != fingerprint(command + " --fast")
+    file.write_text("2")
+    assert one != fingerprint(command)
+
+
+def test_misbehaviour_is_an_exception_that_a_mapper_cannot_swallow() -> None:
+    assert not issubclass(Misbehaved, Exception)
+
+
+# ---------------------------------------------------------------- serve
+
+
+def test_serve_says_what_is_wrong_with_its_argument() -> None:
+    for arguments, words_ in (([], "usage"), (["no-such"], "no attribute 'CATALOGUE.no-such'")):
+        done = subprocess.run(
+            [sys.executable, "-m", "topo_verify.programs.serve", *arguments],
+            capture_output=True,
+            text=True,
+            check=False,
+            cwd=ROOT,
+        )
+        assert done.returncode == 1
+        assert words_ in done.stderr
+
+
+def test_what_a_served_mapper_prints_is_no_message(tmp_path: Path) -> None:
+    (tmp_path / "chatty.py").write_text(
+        "import topo_verify as tv\n"
+        "def explore(robot):\n"
+        "    print('hello')\n"
+        "    return tv.CATALOGUE['basic'](robot)\n"
+    )
+    with program(served(f"{tmp_path}/chatty.py:explore")) as player:
+        assert examine(player.target, World.from_id("m3/14")).ok

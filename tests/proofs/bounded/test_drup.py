@@ -1,0 +1,117 @@
+"""Certificates: made by a SAT solver, believed only when a checker has followed them."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+
+import pytest
+
+from topo_verify.errors import InputError
+from topo_verify.proofs.bounded import door_steps, drup, word_rules
+from topo_verify.proofs.bounded.cnf import Formula
+from topo_verify.proofs.bounded.drup import Refutation, certify, objection, refute, together
+from topo_verify.proofs.bounded.statements import ONE_DOOR, WORDS, Statement
+from topo_verify.proofs.bounded.theorems import theorem
+from topo_verify.proofs.theorem import Budget, Certificate
+
+pytest.importorskip("pysat", reason="python-sat is not installed: topo-verify[proofs]")
+pytest.importorskip("drup", reason="drup is not installed: topo-verify[proofs]")
+
+
+def named(name: str) -> Statement:
+    (statement,) = (one for one in (*ONE_DOOR, *WORDS) if one.name == name)
+    return statement
+
+
+def refuted(formula: Formula) -> Refutation:
+    refutation = refute(formula)
+    assert isinstance(refutation, Refutation)
+    return refutation
+
+
+@pytest.mark.parametrize("name", [one.name for one in ONE_DOOR])
+def test_one_door_theorems_up_to_two_edges_carry_a_checked_certificate(name: str) -> None:
+    one = theorem(named(name), range(1, 3))
+    outcome = one.prove(Budget(certify=True))
+    assert outcome.certificate is not None
+    assert outcome.certificate.checked
+    assert outcome.certificate.checker.startswith("drup ")
+    assert one.ok(outcome)
+
+
+def test_without_being_asked_for_there_is_none() -> None:
+    assert theorem(named("bounded-closed"), range(1, 3)).prove(Budget()).certificate is None
+
+
+@pytest.mark.parametrize("build", [door_steps.confirm_back, door_steps.record])
+def test_a_tampered_proof_is_refused(build: type) -> None:
+    formula = build(2)
+    refutation = refuted(formula)
+    assert objection(formula, refutation) == ""
+    cut = replace(refutation, steps=refutation.steps[-1:])
+    flipped = replace(
+        refutation, steps=tuple(tuple(-literal for literal in step) for step in refutation.steps)
+    )
+    assert "refuses" in objection(formula, cut)
+    assert "refuses" in objection(formula, flipped)
+
+
+def test_a_proof_that_does_not_end_in_the_empty_clause_is_refused() -> None:
+    formula = door_steps.confirm_back(2)
+    refutation = refuted(formula)
+    short = replace(refutation, steps=refutation.steps[:-1])
+    assert objection(formula, short) == "its last step is not the empty clause"
+    assert objection(formula, replace(refutation, steps=())) != ""
+
+
+def test_a_refutation_of_other_clauses_is_refused() -> None:
+    formula = door_steps.closed(2)
+    other = Refutation(((1,), (-1,)), ((),))
+    assert "not those of the formula" in objection(formula, other)
+
+
+def test_no_proof_makes_satisfiable_clauses_contradict() -> None:
+    premises = door_steps.closed(2).premises()
+    bogus = Refutation(tuple(premises.clauses), ((1,), (-1,), ()))
+    assert "refuses" in objection(premises, bogus)
+    assert certify(premises) == "the SAT solver finds that the clauses can all hold"
+
+
+def test_a_refused_certificate_is_no_pass(monkeypatch: pytest.MonkeyPatch) -> None:
+    def none_at_all(_clauses: object, _name: str) -> tuple[tuple[int, ...], ...]:
+        return ((),)
+
+    monkeypatch.setattr(drup, "_proof", none_at_all)
+    one = theorem(named("bounded-confirm-back"), range(2, 3))
+    outcome = one.prove(Budget(certify=True))
+    assert outcome.verdict == "EXHAUSTED"
+    assert outcome.certificate is not None
+    assert not outcome.certificate.checked
+    assert "refuses" in outcome.certificate.why
+    assert not one.ok(outcome)
+
+
+def test_what_is_too_long_for_the_checker_has_no_certificate_and_says_so() -> None:
+    formula = word_rules.confirm(3, 3).world
+    told = certify(formula, seconds=0.1)
+    assert isinstance(told, str)
+    assert "--timeout" in told
+    one = theorem(named("words-confirm"), range(1, 4))
+    outcome = one.prove(Budget(certify=True, timeout=10))
+    assert outcome.certificate is None
+    assert outcome.note.startswith("certificates checked for 2 of 3 sizes; m = 3: ")
+
+
+def test_several_are_checked_only_if_all_are() -> None:
+    good = Certificate(format="drup", checker="drup", checked=True, clauses=2, steps=3)
+    bad = replace(good, checked=False, why="refused")
+    assert together([good, good]) == replace(good, checker=drup.checker(), clauses=4, steps=6)
+    assert (together([good, bad]).checked, together([good, bad]).why) == (False, "refused")
+
+
+@pytest.mark.parametrize("module", ["drup", "pysat.solvers"])
+def test_a_missing_tool_is_said(module: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(InputError, match=r"does not load here .* install topo-verify\[proofs\]"):
+        theorem(named("bounded-closed"), range(1, 2)).prove(Budget(certify=True))

@@ -1,0 +1,169 @@
+"""The inductive obligations: proved, not vacuous, and each premise that is named is needed."""
+
+from __future__ import annotations
+
+import pytest
+
+from topo_verify.checkers import CLAIMS
+from topo_verify.proofs.first_order import finite_models
+from topo_verify.proofs.first_order.axioms import AXIOMS, LEMMAS, phi
+from topo_verify.proofs.first_order.obligations import OBLIGATIONS, Obligation
+from topo_verify.proofs.first_order.obligations.obligation import A, B, X
+from topo_verify.proofs.first_order.terms import eq, neg
+from topo_verify.proofs.first_order.theorems import AXIOM_MUTANTS, INDUCTIVE, mutant, theorem
+from topo_verify.proofs.solvers import z3_solver
+from topo_verify.proofs.theorem import Budget, Outcome, Theorem
+
+NAMES = [obligation.name for obligation in OBLIGATIONS]
+BY_NAME = {obligation.name: obligation for obligation in OBLIGATIONS}
+BUDGET = Budget(timeout=60)
+
+
+@pytest.mark.parametrize("one", INDUCTIVE, ids=NAMES)
+def test_it_is_proved_and_its_premises_can_hold(one: Theorem) -> None:
+    outcome = one.prove(BUDGET)
+    assert (outcome.verdict, outcome.premises_satisfiable) == ("PROVED", True), outcome.note
+    assert one.ok(outcome)
+
+
+@pytest.mark.parametrize("one", AXIOM_MUTANTS, ids=lambda one: one.name)
+def test_its_mutant_is_refuted_by_a_structure(one: Theorem) -> None:
+    outcome = one.prove(BUDGET)
+    assert outcome.verdict == "REFUTED", outcome.note
+    assert outcome.counterexample
+    assert one.ok(outcome)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("one", OBLIGATIONS, ids=NAMES)
+def test_every_premise_that_is_named_is_needed(one: Obligation) -> None:
+    for lost in one.needs:
+        assert mutant(one, lost).prove(BUDGET).verdict == "REFUTED", lost
+
+
+def test_each_rule_and_each_augmentation_has_its_theorem() -> None:
+    wanted = {
+        "motion-keeps",
+        "prefix-keeps",
+        "history-keeps",
+        "records-one-level-keep",
+        "records-all-levels-keep",
+        "posed",
+        "new-is-new",
+        "loop-edges",
+        "new-edges",
+        "fold-hypothesis",
+        "fold-closed-onto",
+    }
+    assert wanted <= set(NAMES)
+    assert not [name for name in NAMES if "planar" in name], "it must not be provable"
+
+
+def test_inductions_come_as_base_and_step() -> None:
+    for name in NAMES:
+        if name.endswith("-step"):
+            assert name == "trace-step" or name.replace("-step", "-base") in NAMES
+
+
+def test_every_lemma_that_is_used_was_proved_before_it_is_used() -> None:
+    proved: set[str] = set()
+    for obligation in OBLIGATIONS:
+        for name in obligation.theory:
+            if name in LEMMAS:
+                assert f"{LEMMAS[name]}-base" in proved, (obligation.name, name)
+                assert f"{LEMMAS[name]}-step" in proved, (obligation.name, name)
+        proved.add(obligation.name)
+
+
+def test_a_lemma_says_what_its_induction_proves() -> None:
+    """The statement at k0 of each induction over doors is the lemma at k0."""
+    for lemma, name in LEMMAS.items():
+        if name == "word-trace":
+            continue
+        base = BY_NAME[f"{name}-base"]
+        premises = {"lemma": AXIOMS[lemma], "base-fails": neg(base.goal)}
+        assert z3_solver.prove(premises, BUDGET).answer == "unsat", lemma
+        step = BY_NAME[f"{name}-step"]
+        premises = {"lemma": AXIOMS[lemma], "step-fails": neg(step.goal)}
+        if lemma != "turning-adds":
+            assert z3_solver.prove(premises, BUDGET).answer == "unsat", lemma
+
+
+def test_the_claims_that_rest_on_them_are_claims() -> None:
+    for one in INDUCTIVE:
+        assert one.claims
+        assert set(one.claims) <= set(CLAIMS)
+
+
+def test_the_core_names_premises_only() -> None:
+    one = next(one for one in INDUCTIVE if one.name == "confirm-conclude")
+    assert one.prove(BUDGET).core == ("alpha-involution", "behind-e", "same-place")
+
+
+# ---------------------------------------------------------------- checks that can fail
+
+
+def spoiled(**changes: object) -> Theorem:
+    """An obligation with something wrong in it, as a theorem."""
+    fields: dict[str, object] = {
+        "name": "spoiled",
+        "words": "",
+        "claims": ("no-false-confirm",),
+        "theory": ("phi-injective",),
+        "goal": eq(A, B),
+        "needs": (),
+    }
+    return theorem(Obligation(**(fields | changes)))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+
+
+def test_what_does_not_follow_is_unknown_and_no_pass() -> None:
+    one = spoiled()
+    outcome = one.prove(BUDGET)
+    assert outcome.verdict == "UNKNOWN"
+    assert "unknown" in outcome.note or "sat" in outcome.note
+    assert one.standing(outcome) == "open"
+
+
+def test_a_vacuous_theorem_is_proved_and_no_pass() -> None:
+    one = spoiled(given={"absurd": neg(eq(A, A))})
+    outcome = one.prove(BUDGET)
+    assert (outcome.verdict, outcome.premises_satisfiable) == ("PROVED", False)
+    assert "vacuous" in outcome.note
+    assert one.standing(outcome) == "open"
+
+
+def test_a_time_out_is_unknown() -> None:
+    hard = BY_NAME["history-keeps"]
+    outcome = theorem(hard).prove(Budget(timeout=60, rlimit=1))
+    assert outcome.verdict == "UNKNOWN"
+
+
+def test_a_mutant_that_holds_is_not_refuted() -> None:
+    one = mutant(BY_NAME["confirm-final"], "map-v0-sees-root")  # the others imply it
+    outcome = one.prove(BUDGET)
+    assert outcome.verdict != "REFUTED"
+    assert one.standing(outcome) == "failed"
+
+
+@pytest.mark.parametrize(
+    ("outcome", "standing"),
+    [
+        (Outcome(verdict="PROVED", solver="", premises_satisfiable=True), "ok"),
+        (Outcome(verdict="PROVED", solver="", premises_satisfiable=None), "open"),
+        (Outcome(verdict="UNKNOWN", solver=""), "open"),
+        (Outcome(verdict="REFUTED", solver=""), "failed"),
+        (
+            Outcome(verdict="PROVED", solver="", premises_satisfiable=True, replayed=(1, 2)),
+            "open",
+        ),
+    ],
+)
+def test_only_what_is_as_it_must_be_is_ok(outcome: Outcome, standing: str) -> None:
+    assert INDUCTIVE[0].standing(outcome) == standing
+
+
+def test_a_structure_that_is_none_is_a_bug() -> None:
+    found = finite_models.model([eq(phi(X), A), neg(eq(A, B))], {"M": 1, "W": 2}, BUDGET)
+    assert found.structure is not None
+    assert found.structure.holds(neg(eq(A, B)))
+    assert not found.structure.holds(eq(A, B))

@@ -1,0 +1,37 @@
+"""The library in Coq, compiled once a session into a temporary folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from topo_verify.proofs.mechanised import toolchain
+
+LIMIT = 300.0
+"""Seconds for each call of a program, on a machine that has other things to do."""
+
+
+def nowhere(_program: str) -> None:
+    """In place of `shutil.which`: nothing is installed."""
+
+
+@pytest.fixture(scope="session")
+def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with all sources, compiled; skips where Coq is not installed."""
+    if why := toolchain.missing():
+        pytest.skip(why)
+    folder = tmp_path_factory.mktemp("library")
+    toolchain.copy_library(folder, toolchain.files())
+    ran = toolchain.compile_all(folder, toolchain.files(), timeout=LIMIT)
+    assert ran.accepted, ran.said
+    return folder
+
+
+@pytest.fixture
+def place(library: Path, tmp_path: Path) -> Path:
+    """A folder of the test's own in which the compiled library lies."""
+    for path in library.iterdir():
+        if path.suffix in {".v", ".vo"}:
+            (tmp_path / path.name).symlink_to(path)
+    return tmp_path

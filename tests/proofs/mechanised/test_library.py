@@ -1,0 +1,156 @@
+"""The sources in Coq: complete, readable, without gaps; and that each check here can fail."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from tests.proofs.mechanised.conftest import LIMIT, nowhere
+from topo_verify.checkers import CLAIMS
+from topo_verify.proofs.mechanised import toolchain
+from topo_verify.proofs.mechanised.theorems import STATEMENTS
+
+ITEM = re.compile(
+    r"^(?:Theorem|Lemma|Corollary|Definition|Fixpoint|Inductive|Record|Example|Ltac) ([\w']+)",
+    re.MULTILINE,
+)
+"""A definition or a theorem, and its name."""
+
+
+def sources() -> dict[str, str]:
+    """The text of every source, by its name."""
+    return {path.stem: path.read_text() for path in sorted(toolchain.SOURCES.glob("*.v"))}
+
+
+def unused(texts: Mapping[str, str]) -> set[str]:
+    """What is stated and never spoken of again; of an inductive type, its constructors count."""
+    words = re.compile(r"[\w']+")
+    plain = [toolchain.without_comments(text) for text in texts.values()]
+    spoken = Counter(word for text in plain for word in words.findall(text))
+    found: set[str] = set()
+    for text in plain:
+        for item in ITEM.finditer(text):
+            body = text[item.start() : text.find("\n\n", item.start())]
+            names = {item[1], *re.findall(r"[:|]=? *([A-Z]\w*) \(", body)}
+            if max(spoken[name] for name in names) < 2:
+                found.add(item[1])
+    return found
+
+
+def unexplained(text: str) -> list[str]:
+    """The definitions and theorems that do not open with a comment."""
+    lines = text.splitlines()
+    items = [(i, found[1]) for i, line in enumerate(lines) if (found := ITEM.match(line))]
+    return [name for i, name in items if i == 0 or not lines[i - 1].rstrip().endswith("*)")]
+
+
+def readme() -> str:
+    return (toolchain.SOURCES / "README.md").read_text()
+
+
+# ---------------------------------------------------------------- without Coq
+
+
+def test_the_project_file_lists_every_source_but_the_extraction() -> None:
+    assert set(toolchain.files()) == sources().keys() - {"Extract"}
+
+
+def test_each_source_is_listed_after_those_that_it_needs() -> None:
+    for name in toolchain.files():
+        assert toolchain.required(name)[-1] == name
+
+
+def test_nothing_is_claimed_without_proof() -> None:
+    assert {
+        name: words for name, t in sources().items() if (words := toolchain.claims_unproved(t))
+    } == {}
+
+
+@pytest.mark.parametrize(
+    "gap",
+    ["Admitted.", "Axiom a : False.", "Parameter p : nat.", "admit.", "Unset Guard Checking.",
+     "Conjecture c : False.", "Proof. give_up."],
+)  # fmt: skip
+def test_each_way_to_claim_without_proof_is_seen(gap: str) -> None:
+    assert toolchain.claims_unproved(f"(* no Axiom here *)\n{gap}\n")
+    assert not toolchain.claims_unproved(f"(* {gap} *)")
+
+
+def test_every_definition_and_theorem_opens_with_its_meaning() -> None:
+    assert {name: lost for name, text in sources().items() if (lost := unexplained(text))} == {}
+    assert unexplained("Lemma a : True.\n(** Told. *)\nLemma b : True.") == ["a"]
+
+
+def test_no_file_is_too_long_and_no_line_too_wide() -> None:
+    for name, text in sources().items():
+        assert len(text.splitlines()) <= 400, name
+        assert max(map(len, text.splitlines())) <= 105, name
+
+
+def test_no_lemma_is_unused_but_the_theorems_that_the_readme_names() -> None:
+    assert {name for name in unused(sources()) if f"`{name}`" not in readme()} == {
+        "torus_built",
+        "torus_world",
+    }
+    assert unused({"A": "Lemma a : True.\n\nLemma b : True. apply a.\n\n"}) == {"b"}
+
+
+def test_the_readme_maps_every_claim_to_a_theorem_that_is_there() -> None:
+    rows = [line for line in readme().splitlines() if re.match(r"\| \d+ `", line)]
+    assert [row.split("`")[1] for row in rows] == list(CLAIMS)
+    stated = {item[1] for text in sources().values() for item in ITEM.finditer(text)}
+    for row in rows:
+        _, _, theorems, files, _ = row.split("|")
+        assert set(re.findall(r"`(\w+)`", theorems)) <= stated | {"replays", "run"}
+        assert {f.removesuffix(".v") for f in re.findall(r"`(\w+\.v)`", files)} <= sources().keys()
+
+
+def test_every_theorem_of_the_catalogue_is_in_its_file() -> None:
+    texts = sources()
+    for one in STATEMENTS:
+        assert one.theorem in {item[1] for item in ITEM.finditer(texts[one.file])}, one.name
+    assert len({one.name for one in STATEMENTS}) == len(STATEMENTS)
+    assert {claim for one in STATEMENTS for claim in one.claims} == set(CLAIMS)
+
+
+# ---------------------------------------------------------------- with Coq
+
+
+def test_an_axiom_is_named_by_coqchk(place: Path) -> None:
+    (place / "Gap.v").write_text("Axiom gap : False.\n")
+    (place / "Whole.v").write_text("Definition whole := I.\n")
+    assert toolchain.compile_all(place, ["Gap", "Whole"], timeout=LIMIT).accepted
+    refused = toolchain.recheck(place, ["Gap"], timeout=LIMIT)
+    assert not refused.accepted
+    assert "Topo.Gap.gap" in refused.said
+    assert toolchain.recheck(place, ["Whole"], timeout=LIMIT).accepted
+
+
+@pytest.mark.slow
+def test_no_proof_relies_on_a_name_that_coq_chose(library: Path, tmp_path: Path) -> None:
+    del library
+    toolchain.copy_library(tmp_path, toolchain.files())
+    mangled = ["-mangle-names", "_mangled"]
+    ran = toolchain.compile_all(tmp_path, toolchain.files(), timeout=LIMIT, flags=mangled)
+    assert ran.accepted, ran.said
+    (tmp_path / "Chosen.v").write_text(
+        "Lemma chosen : forall n : nat, n = n.\nProof. intros. induction n; reflexivity. Qed.\n"
+    )
+    assert toolchain.compile_one(tmp_path, "Chosen", timeout=LIMIT).accepted
+    assert not toolchain.compile_one(tmp_path, "Chosen", timeout=LIMIT, flags=mangled).accepted
+
+
+def test_a_call_that_takes_too_long_is_no_refusal(place: Path) -> None:
+    (place / "Long.v").write_text("Goal True. do 100000000 idtac. Abort.\n")
+    with pytest.raises(toolchain.TimeOut, match=r"coqc took longer than 0\.5 seconds"):
+        toolchain.compile_one(place, "Long", timeout=0.5)
+
+
+def test_without_coq_the_way_to_get_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shutil, "which", nowhere)
+    assert "apt-get install --no-install-recommends coq" in toolchain.missing()

@@ -1,0 +1,175 @@
+"""Statements and rules with one thing wrong: coqc must refuse each.
+
+A mutant is a patch of one source; the file and those that need it are compiled again, in their
+order, until one is refused. All of them are false, or leave something out that the next proof
+needs; a refusal shows that a proof rests on what was changed, not that its contrary is proved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from tests.proofs.mechanised.conftest import LIMIT
+from topo_verify.proofs.mechanised import toolchain
+
+CARELESS = ("Syntax error", "was not found", "Cannot find a physical path", "Cannot infer")
+"""What Coq says of a patch that is no statement at all."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mutant:
+    """In this file `old` becomes `new`; `refused` is the file whose proof breaks."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+    refused: str
+
+
+MUTANTS = (
+    Mutant("undirected-comparison", "Embedding",
+        "marker M r = Some j -> marker W c = Some j -> a = phi h",
+        "marker M r = Some j -> marker W c <> None -> a = phi h", "Embedding"),
+    Mutant("forgotten-orientation", "World",
+        "phi_sigma : forall d, d < darts M -> phi (sigma M d) = sigma W (phi d)",
+        "phi_sigma : forall d, d < darts M -> phi (sigma M (sigma M d)) = sigma W (phi d)",
+        "Embedding"),
+    Mutant("absolute-doors", "World",
+        "then alpha M (turn M k a) else None", "then alpha M (turn M k (root M)) else None",
+        "Rotation"),
+    Mutant("mirrored-vertex", "Augment",
+        "if x <? n then phi x else turn W (x - n) a",
+        "if x <? n then phi x else turn W (degree W a + n - x) a", "Augment"),
+    Mutant("skipped-hypothesis", "Run",
+        "(forall h, h < darts M -> h <> e ->", "(forall h, 0 < h < darts M -> h <> e ->", "Run"),
+    Mutant("loop-without-marker", "Run",
+        "marker M r = Some j -> marker W c = Some j ->\n    run W",
+        "marker M r = Some j -> marker M r = Some j ->\n    run W", "Run"),
+    Mutant("unexplored-refutes", "Records",
+        "| None => deeper (T (turn M k h)) [] w ps", "| None => false", "Records"),
+    Mutant("record-of-another-dart", "Records",
+        "exists b, alpha W (phi (turn M k x)) = Some b", "exists b, alpha W (phi x) = Some b",
+        "Records"),
+    Mutant("records-moved-to-new-darts", "Records",
+        "(forall x w, darts M <= x -> T x w = None) ->",
+        "(forall x w, darts M < x -> T x w = None) ->", "Records"),
+    Mutant("equal-degrees-contradict", "Folding",
+        "seen q = Some (g', m') -> g <> g' -> absurd A",
+        "seen q = Some (g', m') -> g = g' -> absurd A", "Folding"),
+    Mutant("full-turn-contradicts", "Folding", "i < g -> j < g -> i <> j",
+        "i <= g -> j <= g -> i <> j", "Folding"),
+    Mutant("dart-zero-no-hypothesis", "Mapper",
+        "filter (fun h => negb (h =? e)", "filter (fun h => (0 <? h) && negb (h =? e)",
+        "MapperCorrect"),
+    Mutant("believed-to-be-back", "Mapper",
+        "else option_map (fun v => (false, [q], v)) (go_back v k)", "else Some (false, [q], v)",
+        "MapperCorrect"),
+    Mutant("a-door-for-free", "Cost", "(t, S (snd s))", "(t, snd s)", "Cost"),
+    Mutant("bound-without-way-back", "Cost",
+        "cost v <= cost v' <= (if b then 1 else 2) * length w + cost v",
+        "cost v <= cost v' <= length w + cost v", "Cost"),
+    Mutant("right-where-it-is-small", "Sound",
+        "Definition sound f := forall W L M, world W ->",
+        "Definition sound f := forall W L M, world W -> darts W < length (moves L) ->", "Sound"),
+    Mutant("two-edges-a-move", "Sound",
+        "darts W <= 2 * length (moves L)", "darts W <= length (moves L)", "Sound"),
+    Mutant("chords-one-longer", "Tree",
+        ":= depth b + 1 + depth (opposite W b)", ":= depth b + 2 + depth (opposite W b)", "Loops"),
+    Mutant("nothing-saved", "LeastCost",
+        "2 * length (stalks W depth up) -\n  saved W depth up.",
+        "2 * length (stalks W depth up) - 0.", "LeastCost"),
+    Mutant("pendant-trees-thrice", "LeastCost",
+        "+ 2 * length (stalks W depth up) -", "+ 3 * length (stalks W depth up) -", "LeastCost"),
+    Mutant("marker-not-turned", "Log",
+        "seen L i = Some (d, Some j) -> same A L (i, j) (0, 0)",
+        "seen L i = Some (d, Some j) -> same A L (i, 0) (0, 0)", "Determined"),
+    Mutant("only-entries-need-be-crossed", "Log",
+        "forall p, valid L p -> exists q r, link nothing L q r /\\ same nothing L p q",
+        "forall p, valid L p -> exists q r, link nothing L q r /\\ same nothing L (fst p, 0) q",
+        "Determined"),
+    Mutant("same-leaf-twice", "Undetermined",
+        "replays W1 L /\\ replays W2 L /\\ darts W1 <> darts W2",
+        "replays W1 L /\\ replays W2 L /\\ darts W1 = darts W2 + 1", "Undetermined"),
+    Mutant("half-a-contradiction", "Log",
+        "seen L j = Some (e, n) -> d = e;", "seen L j = Some (e, n) -> d <= e + 1;", "Classes"),
+    Mutant("evidence-believed", "Checker",
+        "(rep fuel U p') then Some (q, q') else None",
+        "(rep fuel U p') then Some (q, q') else Some (q, q')",
+        "CheckerCorrect"),
+    Mutant("no-evidence-asked-for", "Checker",
+        "check_map t L && (total t && proves L ev)",
+        "check_map t L && (total t && (proves L ev || true))", "CheckerCorrect"),
+    Mutant("closed-map-refuted", "Table",
+        "check_map t L && negb (total t)", "check_map t L && total t", "TableCorrect"),
+    Mutant("log-not-replayed", "Table",
+        "(percept_eqb (percept (map_of t) 0) (start L) && check_moves (map_of t) 0 (moves L))",
+        "percept_eqb (percept (map_of t) 0) (start L)", "TableCorrect"),
+    Mutant("last-door-illegal", "Checker", "(k <? d) && legal_percept p",
+        "(S k <? d) && legal_percept p", "CheckerCorrect"),
+    Mutant("decided-with-hindsight", "Decisions",
+        "if Pos.eqb (here m) x then", "if Pos.leb x (here m) then", "Decisions"),
+    Mutant("log-cut-too-early", "Decisions",
+        "| Leads x p q => forall W v, world W -> visits W (cut L (num x)) v ->",
+        "| Leads x p q => forall W v, world W -> visits W (cut L (num x - 1)) v ->", "Decisions"),
+    Mutant("reason-of-the-other-kind", "Decisions",
+        "ev (unified m)) c\n  | _, _ => false", "ev (unified m)) c\n  | _, _ => true", "Decisions"),
+)  # fmt: skip
+
+QUICK = {
+    "undirected-comparison", "absolute-doors", "skipped-hypothesis", "unexplored-refutes",
+    "equal-degrees-contradict", "marker-not-turned", "a-door-for-free", "evidence-believed",
+    "decided-with-hindsight",
+}  # fmt: skip
+"""Those of the everyday suite: one for each way to be wrong."""
+
+
+def patched(mutant: Mutant) -> str:
+    """The mutant's source."""
+    text = (toolchain.SOURCES / f"{mutant.file}.v").read_text()
+    assert text.count(mutant.old) == 1, f"{mutant.name}: {mutant.old!r} is not there once"
+    return text.replace(mutant.old, mutant.new)
+
+
+def refusal(mutant: Mutant, place: Path) -> tuple[str, str]:
+    """The first file that is refused, and why; ("", "") if none is."""
+    needing = [name for name in toolchain.files() if mutant.file in toolchain.required(name)]
+    (place / f"{mutant.file}.v").unlink()
+    (place / f"{mutant.file}.v").write_text(patched(mutant))
+    for name in needing:
+        (place / f"{name}.vo").unlink()
+    for name in needing:
+        ran = toolchain.compile_one(place, name, timeout=LIMIT)
+        if not ran.accepted:
+            return name, ran.said
+    return "", ""
+
+
+@pytest.mark.parametrize(
+    "mutant",
+    [
+        pytest.param(one, id=one.name, marks=() if one.name in QUICK else pytest.mark.slow)
+        for one in MUTANTS
+    ],
+)
+def test_a_mutant_is_refused(mutant: Mutant, place: Path) -> None:
+    name, said = refusal(mutant, place)
+    assert name == mutant.refused
+    assert "Error" in said
+    assert not any(word in said for word in CARELESS), said
+
+
+def test_a_patch_that_changes_nothing_is_accepted(place: Path) -> None:
+    same = Mutant(
+        "swapped", "TableCorrect", "unfold refute. intros H.", "intros H. unfold refute in H.", ""
+    )
+    assert refusal(same, place) == ("", "")
+
+
+def test_mutants_are_many_and_each_is_one_patch() -> None:
+    assert len({mutant.name for mutant in MUTANTS}) == len(MUTANTS) >= 12
+    assert all(patched(mutant) for mutant in MUTANTS)
+    assert {mutant.name for mutant in MUTANTS} > QUICK

@@ -1,0 +1,86 @@
+"""The theorems proved in Coq, as theorems of the catalogue."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.proofs.mechanised.conftest import LIMIT, nowhere
+from topo_verify.proofs.mechanised import theorems, toolchain
+from topo_verify.proofs.mechanised.theorems import MECHANISED, STATEMENTS
+from topo_verify.proofs.theorem import Budget
+
+CHECKED = "Theory: Set is predicative; Axioms: <none>"
+
+
+@pytest.fixture(autouse=True)
+def afresh() -> Iterator[None]:
+    """What was found is kept for the rest of a run; not from one test to the next."""
+    theorems.library.cache_clear()
+    yield
+    theorems.library.cache_clear()
+
+
+def test_each_statement_is_a_theorem_that_is_expected_to_be_proved() -> None:
+    assert [theorem.name for theorem in MECHANISED] == [one.name for one in STATEMENTS]
+    for theorem in MECHANISED:
+        assert (theorem.kind, theorem.expected, theorem.deep) == ("mechanised", "PROVED", True)
+        assert list(theorem.queries()) == []
+
+
+def test_without_coq_nothing_is_known_and_the_way_to_get_it_is_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("shutil.which", nowhere)
+    outcome = MECHANISED[0].prove(Budget())
+    assert outcome.verdict == "UNKNOWN"
+    assert "apt-get install --no-install-recommends coq" in outcome.note
+    assert MECHANISED[0].standing(outcome) == "open"
+
+
+def test_what_takes_too_long_is_unknown(monkeypatch: pytest.MonkeyPatch, library: Path) -> None:
+    del library
+    monkeypatch.setattr(theorems, "LONGER", 1)
+    outcome = MECHANISED[0].prove(Budget(timeout=0.01))
+    assert outcome.verdict == "UNKNOWN"
+    assert "longer than 0.01 seconds" in outcome.note
+
+
+def test_the_theorems_rest_on_no_axiom(place: Path) -> None:
+    assert theorems.asked(place, timeout=LIMIT) == toolchain.NO_AXIOMS
+
+
+def test_theorems_that_rest_on_an_axiom_are_not_proved(
+    monkeypatch: pytest.MonkeyPatch, place: Path
+) -> None:
+    (place / "Gap.v").write_text("Axiom gap : False.\nLemma a : False.\nProof. exact gap. Qed.\n")
+    assert toolchain.compile_one(place, "Gap", timeout=LIMIT).accepted
+    gap = theorems.Mechanised("coq-gap", "Gap", "a", (), "False.")
+    monkeypatch.setattr(theorems, "STATEMENTS", (*STATEMENTS, gap))
+    assert "Gap.gap : False" in theorems.asked(place, timeout=LIMIT)
+
+
+def test_a_library_with_a_gap_is_refused(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, library: Path
+) -> None:
+    del library
+    gap, empty = tmp_path / "gap", tmp_path / "empty"
+    gap.mkdir()
+    empty.mkdir()
+    (gap / "_CoqProject").write_text("A.v\n")
+    (gap / "A.v").write_text("Lemma a : False.\nAdmitted.\n")
+    monkeypatch.setattr(toolchain, "SOURCES", gap)
+    assert theorems.examine(empty, timeout=LIMIT).why == "A.v claims without proof: Admitted"
+    (gap / "A.v").write_text("Lemma a : False.\nProof. auto. Qed.\n")
+    assert "coqc refuses" in theorems.examine(empty, timeout=LIMIT).why
+
+
+@pytest.mark.slow
+def test_the_whole_library_is_compiled_and_checked_again(library: Path) -> None:
+    del library
+    for theorem in MECHANISED:
+        outcome = theorem.prove(Budget(timeout=LIMIT))
+        assert theorem.ok(outcome), outcome.note
+        assert CHECKED in outcome.note

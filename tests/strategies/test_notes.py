@@ -1,0 +1,78 @@
+"""What a failing test prints of its runs, and what observations carry."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+
+from topo_verify import Algorithm, World, explore, families
+from topo_verify.strategies import mappers, observe, worlds
+from topo_verify.strategies.notes import describe, features
+
+
+def test_a_run_is_described_in_one_line_that_can_be_replayed() -> None:
+    run = explore(World.from_id("m4/17"), "enhancement-ii", pick="last", order="newest")
+    assert describe(run) == (
+        f"enhancement-ii (pick last, order newest) in m4/17: {run.cost} edge traversals"
+    )
+
+
+def test_a_world_without_an_id_is_described_by_its_json() -> None:
+    path = families.path(203)
+    line = describe(explore(path, "basic"))
+    text = line.removeprefix("basic (pick nearest, order shortest) in ").rpartition(":")[0]
+    assert World.from_json(text).code == path.code
+
+
+def test_the_failing_example_prints_its_world_and_the_run() -> None:
+    @settings(database=None, derandomize=True)
+    @given(world=worlds(), mapper=mappers())
+    def wrong(world: World, mapper: Algorithm) -> None:
+        run = explore(world, mapper)
+        observe(run)
+        assert world.genus == 0
+
+    with pytest.raises(AssertionError) as failure:
+        wrong()
+    notes = "\n".join(failure.value.__notes__)
+    assert "world=World.from_id('m2/8')" in notes
+    assert "basic (pick nearest, order shortest) in m2/8: " in notes
+
+
+def test_outside_of_a_test_of_hypothesis_nothing_is_said() -> None:
+    observe(explore(World.from_id("m2/0"), "basic"))
+
+
+def test_features_are_those_of_the_run() -> None:
+    run = explore(World.from_id("m2/8"), "basic")
+    assert features(run) == {"edges": 2, "genus": 1, "cost": run.cost, "loop closings": 2}
+
+
+TEST = """
+from hypothesis import given, settings
+from topo_verify import World, explore
+from topo_verify.strategies import observe, worlds
+
+@settings(max_examples=10, derandomize=True)
+@given(world=worlds())
+def test(world: World) -> None:
+    observe(explore(world, "basic"))
+
+test()
+"""
+
+
+def test_with_hypothesiss_own_switch_on_every_run_carries_its_features(tmp_path: Path) -> None:
+    env = {**os.environ, "HYPOTHESIS_EXPERIMENTAL_OBSERVABILITY": "1"}
+    subprocess.run([sys.executable, "-c", TEST], env=env, cwd=tmp_path, check=True)
+    (file,) = (tmp_path / ".hypothesis" / "observed").glob("*_testcases.jsonl")
+    runs = [json.loads(line) for line in file.read_text().splitlines()]
+    carried = [run["features"] for run in runs if run["type"] == "test_case"]
+    assert len(carried) == 10
+    assert all({"edges", "genus", "cost", "loop closings"} <= set(run) for run in carried)

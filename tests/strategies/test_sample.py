@@ -1,0 +1,27 @@
+"""Worlds drawn outside of tests: as many as asked for, and the same ones for the same seed."""
+
+from __future__ import annotations
+
+import pytest
+
+from topo_verify.strategies import tree_worlds, worlds
+from topo_verify.strategies.sample import sample
+
+
+@pytest.mark.parametrize("number", [0, 1, 7, 150])
+def test_as_many_are_drawn_as_are_asked_for(number: int) -> None:
+    assert len(sample(worlds(max_edges=9), number)) == number
+
+
+def test_where_there_are_fewer_they_come_again() -> None:
+    assert {world.id for world in sample(tree_worlds(max_edges=1), 9)} == {"m0/0", "m1/0"}
+
+
+def test_the_same_seed_draws_the_same_worlds_and_another_others() -> None:
+    first, again, other = (sample(worlds(), 20, start=seed) for seed in (3, 3, 4))
+    assert first == again
+    assert first != other
+
+
+def test_nearly_all_are_different() -> None:
+    assert len({world.code for world in sample(worlds(min_edges=5), 100)}) >= 90

@@ -1,0 +1,226 @@
+"""Classes of worlds: how they are written, which worlds are in them, how many, one of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from topo_verify.errors import InputError
+from topo_verify.world import World, families
+from topo_verify.world.enumeration import classes, rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+
+EMPTY = World((), (), None)
+
+
+# ---------------------------------------------------------------- how they are written
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("any", "any"),
+        ("planar", "planar"),
+        ("genus:0", "planar"),
+        ("genus<=0", "planar"),
+        ("planar,genus<=3", "planar"),
+        ("genus:2", "genus:2"),
+        ("genus:2,genus<=2", "genus:2"),
+        ("genus<=4,genus<=2", "genus<=2"),
+        ("simple,loopless", "simple"),
+        ("any,loopless,any", "loopless"),
+        (" max-degree:5 , max-degree:3,simple", "simple,max-degree:3"),
+        ("max-degree:3,genus:1,loopless", "genus:1,loopless,max-degree:3"),
+    ],
+)
+def test_equal_classes_are_equal_and_print_alike(text: str, plain: str) -> None:
+    assert str(WorldClass.parse(text)) == plain
+    assert WorldClass.parse(plain) == WorldClass.parse(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "term"),
+    [
+        ("", "''"),
+        ("planer", "'planer'"),
+        ("planar,", "''"),
+        ("genus:", "'genus:'"),
+        ("genus:-1", "'genus:-1'"),
+        ("genus>=1", "'genus>=1'"),
+        ("genus<1", "'genus<1'"),
+        ("max-degree:1e3", "'max-degree:1e3'"),
+        ("max-degree:" + "9" * 5000, "'max-degree:999"),
+        ("Planar", "'Planar'"),
+        ("planar;simple", "'planar;simple'"),
+    ],
+)
+def test_what_is_no_class_is_refused_with_a_list_of_those_there_are(text: str, term: str) -> None:
+    with pytest.raises(InputError, match="is no class; a class is any, planar, genus:G") as refusal:
+        WorldClass.parse(text)
+    assert term in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    "text", ["planar,genus:1", "genus:1,genus:2", "genus:2,genus<=1", "genus<=0,genus:3"]
+)
+def test_two_genera_contradict_each_other(text: str) -> None:
+    with pytest.raises(InputError, match="contradicts itself: a world has one genus"):
+        WorldClass.parse(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("max-degree:0", "at most 0 exits a vertex there is no world with an edge"),
+        ("max-degree:2,genus:1", "at most 2 exits a vertex there is no world of genus 1"),
+    ],
+)
+def test_a_class_that_must_be_empty_is_refused(text: str, sentence: str) -> None:
+    with pytest.raises(InputError, match=sentence):
+        WorldClass.parse(text)
+
+
+# ---------------------------------------------------------------- which worlds
+
+
+@pytest.mark.parametrize(
+    ("text", "world", "inside"),
+    [
+        ("any", families.king(4, 4), True),
+        ("planar", families.lattice(3, 3), True),
+        ("planar", families.torus(2, 2), False),
+        ("genus:1", families.torus(2, 2), True),
+        ("genus<=1", families.lattice(3, 3), True),
+        ("genus<=1", families.king(4, 4), False),
+        ("loopless", families.torus(2, 2), True),
+        ("loopless", families.torus(1, 2), False),
+        ("simple", families.torus(2, 2), False),
+        ("simple", families.torus(3, 3), True),
+        ("max-degree:4", families.torus(3, 3), True),
+        ("max-degree:3", families.torus(3, 3), False),
+        ("simple,planar,max-degree:1", EMPTY, True),
+        ("genus:1", EMPTY, False),
+    ],
+)
+def test_a_world_is_in_the_class_whose_properties_it_has(
+    text: str, world: World, inside: bool
+) -> None:
+    assert WorldClass.parse(text).contains(world) is inside
+
+
+@given(seed=st.integers(0, 999), edges=st.integers(0, 9))
+def test_tables_are_judged_as_their_worlds_are(seed: int, edges: int) -> None:
+    table = rank_order.sample(edges, Random(seed))
+    world = World.from_code(table)
+    verdicts = {
+        "planar": world.is_planar,
+        "genus:1": world.genus == 1,
+        "genus<=1": world.genus <= 1,
+        "loopless": world.is_loopless,
+        "simple": world.is_simple,
+        "max-degree:3": max(world.degrees) <= 3,
+    }
+    for text, verdict in verdicts.items():
+        assert WorldClass.parse(text).admits(table) is verdict
+    both = WorldClass.parse("loopless,genus<=1")
+    assert both.admits(table) is (world.is_loopless and world.genus <= 1)
+
+
+# ---------------------------------------------------------------- how many
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [
+        ("any", [2, 10, 74, 706, 8162, 110410]),
+        ("planar", [2, 9, 54, 378, 2916, 24057]),
+        ("genus:1", [0, 1, 20, 307, 4280]),
+        ("genus:2", [0, 0, 0, 21, 966]),
+        ("genus<=1", [2, 10, 74, 685, 7196]),
+        ("simple", [1, 2, 6, 23, 108]),
+        ("simple,planar", [1, 2, 6, 23, 103]),
+        ("loopless", [1, 3, 14, 87, 672]),
+    ],
+)
+def test_the_classes_have_their_known_numbers_of_worlds(text: str, numbers: list[int]) -> None:
+    chosen = WorldClass.parse(text)
+    assert [chosen.count(edges) for edges in range(1, len(numbers) + 1)] == numbers
+
+
+@pytest.mark.parametrize("text", ["any", "planar", "genus:1", "genus:2", "genus<=1", "genus<=9"])
+def test_formulas_count_what_a_list_counts(text: str) -> None:
+    chosen = WorldClass.parse(text)
+    for edges in range(6):
+        assert chosen.count(edges) == sum(map(chosen.admits, rank_order.tables(edges)))
+
+
+def test_formulas_count_where_nobody_can_list() -> None:
+    assert WorldClass.parse("any").count(30) == rank_order.count(30)
+    assert WorldClass.parse("planar").count(30) == rank_order.count_planar(30)
+    parts = [WorldClass.parse(f"genus:{genus}").count(30) for genus in range(4)]
+    assert WorldClass.parse("genus<=3").count(30) == sum(parts)
+
+
+def test_a_class_without_a_formula_is_not_counted_where_listing_takes_too_long() -> None:
+    with pytest.raises(InputError, match=r"class planar,simple: there is no .* 7 edges or fewer"):
+        WorldClass.parse("planar,simple").count(8)
+    with pytest.raises(InputError, match="counted up to 16 edges only"):
+        WorldClass.parse("simple").count(17)
+
+
+@pytest.mark.parametrize("text", ["simple", "loopless", "max-degree:3", "loopless,max-degree:4"])
+def test_classes_of_graphs_are_counted_by_degrees_as_by_a_list(text: str) -> None:
+    chosen = WorldClass.parse(text)
+    for edges in range(6):
+        assert chosen.count(edges) == sum(map(chosen.admits, rank_order.tables(edges)))
+
+
+# ---------------------------------------------------------------- one of them
+
+
+@pytest.mark.parametrize("text", ["any", "planar", "genus:1", "simple", "loopless,max-degree:4"])
+def test_a_drawn_world_is_in_the_class(text: str) -> None:
+    chosen = WorldClass.parse(text)
+    random = Random(5)
+    for _ in range(20):
+        world = chosen.sample(6, random)
+        assert chosen.contains(world)
+        assert len(world.edges) == 6
+
+
+def test_drawing_from_a_class_is_drawing_from_all_and_waiting() -> None:
+    """Rejection is exactly uniform: the draw is the first of the plain draws that is inside."""
+    chosen = WorldClass.parse("simple")
+    plain, drawn = Random(3), Random(3)
+    for _ in range(30):
+        first = next(t for t in iter(lambda: rank_order.sample(4, plain), None) if chosen.admits(t))
+        assert chosen.sample(4, drawn).code == first
+
+
+def test_every_world_of_a_class_comes_up() -> None:
+    chosen = WorldClass.parse("simple,planar")
+    random = Random(0)
+    drawn = Counter(chosen.sample(3, random).id for _ in range(200))
+    assert len(drawn) == chosen.count(3)
+
+
+def test_drawing_from_nothing_is_refused() -> None:
+    with pytest.raises(InputError, match="class genus:3: there is no world with 5 edges in it"):
+        WorldClass.parse("genus:3").sample(5, Random(0))
+
+
+def test_drawing_is_refused_at_once_where_it_would_take_ages() -> None:
+    with pytest.raises(InputError, match=r"class planar: too few .* with 30 edges .*3e-14 of all"):
+        WorldClass.parse("planar").sample(30, Random(0))
+
+
+def test_drawing_gives_up_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(classes, "MAX_TRIES", 50)
+    with pytest.raises(
+        InputError, match=r"class simple: too few .* \(none of 50 that were drawn\)"
+    ):
+        WorldClass.parse("simple").sample(25, Random(0))

@@ -1,0 +1,89 @@
+"""Worlds of a class, grown with pruning: the same as filtering all worlds, in their order."""
+
+# A test may look inside.
+# pyright: reportPrivateUsage=false
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from topo_verify.world.enumeration import pruned, rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.enumeration.pruned import ranked_tables
+
+CLASSES = (
+    "any",
+    "planar",
+    "genus:1",
+    "genus:2",
+    "genus<=1",
+    "loopless",
+    "simple",
+    "max-degree:1",
+    "max-degree:3",
+    "simple,planar",
+    "simple,max-degree:3",
+    "planar,loopless,max-degree:4",
+    "genus:1,loopless",
+)
+
+
+def filtered(kind: WorldClass, edges: int) -> list[tuple[int, rank_order.Table]]:
+    return [pair for pair in enumerate(rank_order.tables(edges)) if kind.admits(pair[1])]
+
+
+@pytest.mark.parametrize("text", CLASSES)
+@pytest.mark.parametrize("edges", range(6))
+def test_growing_gives_what_filtering_gives_with_the_ranks_and_in_their_order(
+    text: str, edges: int
+) -> None:
+    kind = WorldClass.parse(text)
+    assert list(ranked_tables(edges, kind)) == filtered(kind, edges)
+
+
+def test_without_a_class_all_worlds_are_listed() -> None:
+    assert list(ranked_tables(3)) == list(enumerate(rank_order.tables(3)))
+
+
+@given(text=st.sampled_from(CLASSES), edges=st.integers(1, 5), data=st.data())
+def test_a_shard_is_the_stretch_of_the_list_with_these_ranks(
+    text: str, edges: int, data: st.DataObject
+) -> None:
+    kind = WorldClass.parse(text)
+    start = data.draw(st.integers(0, rank_order.count(edges)))
+    stop = data.draw(st.integers(start, rank_order.count(edges) + 3))
+    expected = [pair for pair in filtered(kind, edges) if start <= pair[0] < stop]
+    assert list(ranked_tables(edges, kind, start, stop)) == expected
+
+
+def test_a_shard_far_inside_a_list_that_nobody_could_walk_through_starts_at_once() -> None:
+    planar, middle = WorldClass.parse("planar"), rank_order.count(20) // 2
+    (rank, table), *_ = (next(ranked_tables(20, planar, middle)),)
+    assert rank >= middle
+    assert rank_order.rank(table) == rank
+    assert planar.admits(table)
+
+
+@pytest.mark.parametrize("text", ["planar", "genus<=1", "genus<=2", "loopless"])
+@pytest.mark.parametrize("edges", range(1, 6))
+def test_no_branch_ends_without_a_world(
+    text: str, edges: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Every partial map must have a child: so a walk down any branch meets a world.
+    children = pruned._children
+    barren: list[object] = []
+
+    def watched(partial: pruned._Partial, r: int) -> list[pruned._Partial]:
+        found = list(children(partial, r))
+        barren.extend([] if found else [partial])
+        return found
+
+    monkeypatch.setattr(pruned, "_children", watched)
+    assert list(ranked_tables(edges, WorldClass.parse(text)))
+    assert not barren
+    assert all(
+        rank_order.completions(len(root.opened), 2 * edges - len(root.alpha))
+        for root in pruned._roots(edges, WorldClass.parse(text))
+    )

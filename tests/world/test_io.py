@@ -1,0 +1,58 @@
+"""The name of a file says its format, wherever a world is loaded."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from topo_verify.errors import InputError
+from topo_verify.world import World, families
+from topo_verify.world.formats import files, planar_code
+from topo_verify.world.resolve import world_from
+
+NET = (
+    '<net><junction id="a" x="0" y="0"/><junction id="b" x="1" y="0"/>'
+    '<edge id="e" from="a" to="b"/></net>'
+)
+GRAPHML = (
+    '<graphml><key id="x" attr.name="x"/><key id="y" attr.name="y"/><graph>'
+    '<node id="a"><data key="x">0</data><data key="y">0</data></node>'
+    '<node id="b"><data key="x">1</data><data key="y">0</data></node>'
+    '<edge source="a" target="b"/></graph></graphml>'
+)
+FILES = {
+    "w.json": families.path(2).to_json().encode(),
+    "w": families.path(2).to_json().encode(),
+    "w.pc": planar_code.encode(families.path(2)),
+    "w.plc": planar_code.encode(families.path(2)),
+    "W.PC": planar_code.encode(families.path(2)),
+    "w.graphml": GRAPHML.encode(),
+    "w.net.xml": NET.encode(),
+}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_file_is_read_as_its_name_says(name: str, tmp_path: Path) -> None:
+    file = tmp_path / name
+    file.write_bytes(FILES[name])
+    world = World.load(file)
+    assert world == families.path(2) == world_from(str(file))
+    assert world.name in {"w", "W", "path(2)"}
+
+
+@pytest.mark.parametrize("name", ["w.json", "w", "w.graphml", "w.net.xml"])
+def test_a_file_of_one_world_has_no_graphs_to_choose_from(name: str, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"graph=0 is for planar_code \(.pc, .plc\)"):
+        World.load(tmp_path / name, graph=0)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_file_that_is_too_large_is_refused_whatever_its_format(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(files, "LIMIT", 16)
+    file = tmp_path / name
+    file.write_bytes(FILES[name])
+    with pytest.raises(InputError, match="is larger than"):
+        World.load(file)

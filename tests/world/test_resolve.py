@@ -1,0 +1,201 @@
+"""What a WORLD may be called: each way, its precedence, and what hostile text gets."""
+
+from __future__ import annotations
+
+import io
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from topo_verify.errors import InputError
+from topo_verify.world import World, families
+from topo_verify.world.formats import files
+from topo_verify.world.resolve import world_from
+
+TRIANGLE = families.complete(3)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder that commands run in."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+# ---------------------------------------------------------------- every way
+
+
+def test_an_id_names_its_world() -> None:
+    assert world_from("m5/17") == World.from_id("m5/17")
+    assert world_from("m5/17").name == "m5/17"
+
+
+def test_a_family_with_its_arguments_names_a_world() -> None:
+    made = families.lattice(10, 10, holes=0.2, seed=7)
+    assert world_from("family:lattice(10,10,holes=0.2,seed=7)") == made
+    assert world_from("family:lattice( 10, columns = 10, seed=7 , holes=2e-1)") == made
+    assert world_from("family:dense(4,.5)") == families.dense(4, 0.5)
+    assert world_from("family:torus(2,3)") == families.torus(2, 3)
+
+
+def test_nyc_is_the_street_network_of_the_package() -> None:
+    world = world_from("nyc")
+    assert (world.name, world.is_planar) == ("nyc_osmnx", True)
+    assert (len(world.vertices), len(world.edges)) == (46, 73)
+    assert "OpenStreetMap contributors, ODbL" in world.licence
+
+
+def test_a_path_names_the_world_in_the_file(folder: Path) -> None:
+    TRIANGLE.save("triangle.json")
+    assert world_from("triangle.json") == world_from(str(folder / "triangle.json")) == TRIANGLE
+
+
+def test_a_dash_is_world_json_on_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
+    text = TRIANGLE.to_json().encode()
+    assert world_from("-", stdin=io.BytesIO(text)) == TRIANGLE
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(text)))
+    assert world_from("-") == TRIANGLE
+
+
+def test_what_is_wrong_on_standard_input_is_named_so() -> None:
+    with pytest.raises(InputError, match="standard input is empty"):
+        world_from("-", stdin=io.BytesIO())
+
+
+def test_too_much_on_standard_input_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "LIMIT", 2**10)
+    with pytest.raises(InputError, match="standard input is larger than"):
+        world_from("-", stdin=io.BytesIO(bytes(2**10 + 1)))
+
+
+# ---------------------------------------------------------------- precedence
+
+
+@pytest.mark.parametrize("name", ["m2/3", "nyc", "-", "family:torus(1,1)"])
+def test_a_file_with_the_name_of_something_else_is_reached_with_a_dot(
+    folder: Path, name: str
+) -> None:
+    (folder / name).parent.mkdir(exist_ok=True)
+    TRIANGLE.save(name)
+    assert world_from(name, stdin=io.BytesIO(World.from_id("m1/0").to_json().encode())) != TRIANGLE
+    assert world_from(f"./{name}") == TRIANGLE
+
+
+@pytest.mark.parametrize("name", ["m2-3", "m2/3.json", "xm2", "m2/3\n", "NYC"])
+def test_what_only_looks_like_an_id_is_a_path(folder: Path, name: str) -> None:
+    (folder / name).parent.mkdir(exist_ok=True)
+    TRIANGLE.save(name)
+    assert world_from(name) == TRIANGLE
+
+
+# ---------------------------------------------------------------- what is refused
+
+
+@pytest.mark.parametrize(
+    "text", ["", "nope", "m5-17", "lattice(3,3)", "x" * 5000, "a\0b", "\ud800"]
+)
+def test_what_names_no_world_is_told_what_a_world_may_be_called(folder: Path, text: str) -> None:
+    assert folder.exists()
+    with pytest.raises(InputError, match=r"names no world: .* a path, an id \(m5/17\)") as refusal:
+        world_from(text)
+    for way in ("family:lattice(10,10,holes=0.2,seed=7)", "nyc", "-"):
+        assert way in str(refusal.value)
+    assert str(refusal.value).isprintable()
+    assert len(str(refusal.value)) < 500
+
+
+def test_a_folder_is_no_world(folder: Path) -> None:
+    with pytest.raises(InputError, match="Is a directory; name a file"):
+        world_from(str(folder))
+
+
+def test_a_rank_out_of_range_is_refused() -> None:
+    with pytest.raises(InputError, match="run from 0 to 9"):
+        world_from("m2/10")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "family:",
+        "family:lattice",
+        "family:lattice(3,3",
+        "family:lattice(3,3))",
+        "family:lattice((3),3)",
+        "family:sphere(3)",
+        "family:LATTICE(3,3)",
+        "family:FAMILIES()",
+        "family:__import__('os')",
+        "family:lattice(__import__('os').getpid(),3)",
+        "family:lattice(lattice(3,3),3)",
+        "family:lattice.__globals__()",
+        "family:lattice(3,3);torus(1,1)",
+        "family:" + "(" * 100_000,
+        "family:lattice(" + "9" * 100_000 + ",1)",
+    ],
+)
+def test_what_names_no_family_is_told_which_there_are(text: str) -> None:
+    with pytest.raises(InputError, match="names no family of worlds") as refusal:
+        world_from(text)
+    assert all(name in str(refusal.value) for name in families.FAMILIES)
+    assert len(str(refusal.value)) < 500
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ("3", "missing a required argument: 'columns'"),
+        ("", "missing a required argument: 'rows'"),
+        ("3,3,3", "too many positional arguments"),
+        ("3,3,rows=3", "multiple values for argument 'rows'"),
+        ("3,3,depth=3", "unexpected keyword argument 'depth'"),
+        ("3,3,seed=1,seed=2", "seed is given twice"),
+        ("3,holes=0.1,3", "3 stands behind an argument with a name"),
+        ("3,,3", "'' is no number"),
+        ("3,3,", "'' is no number"),
+        ("3,x", "'x' is no number"),
+        ("9**9**9,1", r"'9\*\*9\*\*9' is no number"),
+        ("3_0,3", "'3_0' is no number"),
+        ("0x10,3", "'0x10' is no number"),
+        ("'3',3", "''3'' is no number"),
+        ("\uff13,3", "is no number"),
+        ("3,3,holes=nan", "'holes=nan' is no number"),
+        ("3,3,seed=1\n2", r"'seed=1\\n2' is no number"),
+    ],
+)
+def test_arguments_that_do_not_fit_are_told_which_do(arguments: str, sentence: str) -> None:
+    family = r"; the family is lattice\(rows, columns, holes=0.0, seed=0, marker=None\)$"
+    with pytest.raises(InputError, match=sentence + ".*" + family) as refusal:
+        world_from(f"family:lattice({arguments})")
+    assert str(refusal.value).isprintable()
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("family:lattice(3,3,holes=1)", "lattice: holes is 1"),
+        ("family:lattice(1e9,3)", "lattice: rows is 1000000000.0, expected an integer"),
+        ("family:lattice(1e999,3)", "lattice: rows is inf"),
+        ("family:lattice(-3,3)", "lattice: rows is -3"),
+        ("family:lattice(99999999999999999999,3)", "lattice: so large a world"),
+    ],
+)
+def test_arguments_out_of_range_are_the_familys_to_refuse(text: str, sentence: str) -> None:
+    with pytest.raises(InputError, match=sentence):
+        world_from(text)
+
+
+@given(
+    name=st.sampled_from([*families.FAMILIES, "", "sphere"]),
+    arguments=st.text(alphabet="0123.,-+e=seedholes()*_' \n", max_size=12),
+)
+def test_any_text_behind_family_gives_a_world_or_one_sentence(name: str, arguments: str) -> None:
+    try:
+        world = world_from(f"family:{name}({arguments})")
+    except InputError as refusal:
+        assert str(refusal).isprintable()  # noqa: PT017  a world is as good an outcome
+    else:
+        assert world_from(f"family:{world.name}") == world

@@ -1,0 +1,302 @@
+"""A mapper against a baseline: in which worlds is it wrong, dearer, cheaper, or otherwise minded?
+
+The mapper runs in the baseline's own worlds, under the baseline's own limits, and every claim is
+judged. Each world then falls into one kind, the first of these that fits:
+
+| kind | meaning |
+| --- | --- |
+| `undecided` | the mapper was out of time, or declined, or was not run: nobody knows |
+| `wrong` | a claim fails, whatever the baseline says |
+| `newly_right` | no claim fails, but in the baseline one did, or nobody knew |
+| `dearer`, `cheaper` | right in both, at another cost |
+| `other_decisions` | right in both, at the same cost, by other moves or other decisions |
+| `equal` | right in both, at the same cost, by the same moves and decisions |
+
+A mapper that declares nothing, then or now, is compared by its moves alone.
+
+**Tolerance** is asked of each world by itself: P percent are exceeded where 100·after is more than
+(100 + P)·before, in exact arithmetic. No cheaper world makes up for a dearer one.
+
+What this does not show: anything about worlds that are not in the baseline.
+
+Source: docs/baselines.md.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Literal, NamedTuple, get_args
+
+import msgspec
+
+from topo_verify.harness.baseline.file import Baseline, Entry, world_of
+from topo_verify.harness.baseline.record import PATIENCE, Recorded, Tell, again, runs
+from topo_verify.harness.corpus import NETWORKS
+from topo_verify.programs.loading import Target
+from topo_verify.world.rooted_map import World
+
+Kind = Literal["wrong", "dearer", "cheaper", "other_decisions", "newly_right", "undecided", "equal"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
+
+Property = Literal["edges", "genus", "shape"]
+
+SIZES = (0, 1, 2, 3, 4, 5, 10, 20, 50, 100, 200)
+"""The most edges in each class of worlds by size; beyond there is one more."""
+
+HANDLES = 3
+"""From this genus on worlds are one class."""
+
+EXAMPLES = 5
+"""Of each kind so many worlds are kept."""
+
+
+class Change(msgspec.Struct, frozen=True):
+    """A world in which the mapper is not what it was.
+
+    Attributes:
+        edges, genus: of the world.
+        before, after: costs, in edge traversals; None where the run was not right.
+        percent: how much dearer (cheaper if below 0), to a tenth; None where a cost is missing.
+        beyond: it exceeds the tolerance.
+        message: what is wrong, or otherwise than it was; "" where the costs say it.
+        replay: the command line that shows the run again.
+    """
+
+    world: str
+    kind: Kind
+    edges: int
+    genus: int
+    before: int | None
+    after: int | None
+    percent: float | None
+    beyond: bool
+    message: str
+    replay: str
+
+
+class Group(msgspec.Struct, frozen=True):
+    """The worlds of one class: how many of each kind, and what those that are right cost.
+
+    Attributes:
+        by, value: the property and what it is: edges 6-10, genus 1, shape simple.
+        before, after: the costs where the mapper is right then and now, summed up.
+    """
+
+    by: Property
+    value: str
+    worlds: int
+    before: int
+    after: int
+    kinds: dict[Kind, int]
+
+    @property
+    def changed(self) -> bool:
+        """Is any of its worlds not as it was?"""
+        return self.kinds["equal"] < self.worlds
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """What has changed.
+
+    Attributes:
+        kinds: how many worlds are of each kind; together all of the baseline.
+        beyond: in how many the cost exceeds the tolerance.
+        before, after: the costs where the mapper is right then and now, summed up.
+        groups: the same by class of worlds.
+        examples: of each kind but `equal`: where a cost changed, the largest changes first; else
+            the smallest worlds.
+    """
+
+    kinds: dict[Kind, int]
+    beyond: int
+    before: int
+    after: int
+    groups: tuple[Group, ...]
+    examples: tuple[Change, ...]
+
+
+def compare(
+    baseline: Baseline,
+    target: Target,
+    *,
+    tolerance: Fraction | int = 0,
+    name: str = "baseline",
+    tell: Tell | None = None,
+) -> Comparison:
+    """Run the mapper in the baseline's worlds and say what has changed.
+
+    Args:
+        tolerance: percent by which each world may be dearer.
+        name: what to call the baseline in messages.
+    Raises:
+        InputError: an entry of the baseline names no world.
+    """
+    limits = baseline.header.limits
+
+    def worlds() -> Iterator[tuple[str, World]]:
+        for line, entry in enumerate(baseline.entries, 2):
+            yield _argument(entry), world_of(entry, name=name, line=line)
+
+    for _ in worlds():
+        pass  # each of them can be read: known before the mapper runs for the first time
+    seen = runs(target, worlds(), len(baseline.entries), limits, tell)
+    books = _Books()
+    for entry in baseline.entries:
+        now = next(seen, None)
+        world = World.from_text(entry.world) if now is None else now.world
+        replay = again(target, _argument(entry), limits)
+        books.enter(_change(entry, world, now, Fraction(tolerance), replay), world)
+    return books.comparison()
+
+
+def _argument(entry: Entry) -> str:
+    """How the command line names the world wherever it is called."""
+    known = entry.name in NETWORKS or entry.name.startswith("family:")
+    return entry.name if known or entry.world.startswith("{") else entry.world
+
+
+@dataclass
+class _Tally:
+    """Worlds of one kind beside another."""
+
+    kinds: Counter[Kind] = field(default_factory=Counter[Kind])
+    before: int = 0
+    after: int = 0
+
+    def enter(self, change: Change) -> None:
+        """One more world."""
+        self.kinds[change.kind] += 1
+        if change.before is not None and change.after is not None:
+            self.before += change.before
+            self.after += change.after
+
+    def counts(self) -> dict[Kind, int]:
+        """How many of each kind."""
+        return {kind: self.kinds[kind] for kind in KINDS}
+
+
+@dataclass
+class _Books:
+    """Takes one world after the other; `comparison` is what came of it."""
+
+    beyond: int = 0
+    total: _Tally = field(default_factory=_Tally)
+    classes: dict[_Class, _Tally] = field(default_factory=dict["_Class", _Tally])
+    changes: dict[Kind, list[Change]] = field(default_factory=dict[Kind, list[Change]])
+
+    def enter(self, change: Change, world: World) -> None:
+        """What became of a world."""
+        self.beyond += change.beyond
+        self.total.enter(change)
+        for one in _classes(world):
+            self.classes.setdefault(one, _Tally()).enter(change)
+        kept = self.changes.setdefault(change.kind, [])
+        if change not in kept:  # a corpus may name a world twice
+            kept.append(change)
+            kept.sort(key=_weight)
+            del kept[EXAMPLES:]
+
+    def comparison(self) -> Comparison:
+        """What was entered."""
+        groups = [
+            Group(one.by, one.value, tally.kinds.total(), tally.before, tally.after, tally.counts())
+            for one, tally in sorted(self.classes.items())
+        ]
+        examples = [c for kind in KINDS if kind != "equal" for c in self.changes.get(kind, ())]
+        total = self.total
+        return Comparison(
+            total.counts(), self.beyond, total.before, total.after, tuple(groups), tuple(examples)
+        )
+
+
+# ---------------------------------------------------------------- one world
+
+
+def _change(
+    then: Entry, world: World, now: Recorded | None, tolerance: Fraction, replay: str
+) -> Change:
+    kind = _kind(then, None if now is None else now.entry)
+    before = then.cost if then.right else None
+    after = now.entry.cost if now is not None and now.entry.right else None
+    percent, beyond = None, False
+    if before and after is not None:
+        dearer = Fraction(100 * (after - before), before)
+        percent, beyond = float(round(dearer, 1)), dearer > tolerance
+    return Change(
+        world=then.called,
+        kind=kind,
+        edges=len(world.edges),
+        genus=world.genus,
+        before=before,
+        after=after,
+        percent=percent,
+        beyond=beyond,
+        message=_message(kind, then, now),
+        replay=replay,
+    )
+
+
+def _kind(then: Entry, now: Entry | None) -> Kind:
+    if now is None or now.undecided:
+        return "undecided"
+    if now.failed:
+        return "wrong"
+    if not then.right:
+        return "newly_right"
+    if now.cost != then.cost:
+        return "dearer" if now.cost > then.cost else "cheaper"
+    told = then.decisions is not None and now.decisions is not None
+    if then.moves != now.moves or (told and then.decisions != now.decisions):
+        return "other_decisions"
+    return "equal"
+
+
+def _message(kind: Kind, then: Entry, now: Recorded | None) -> str:
+    if now is None:
+        return f"not run: the mapper was out of time {PATIENCE} times before"
+    if kind == "other_decisions":
+        same = then.moves == now.entry.moves
+        return "the same moves, other decisions" if same else "other moves"
+    return now.report.findings[0].message if now.report.findings else ""
+
+
+def _weight(change: Change) -> tuple[float, int]:
+    """Largest first: by edge traversals; where no cost changed, the smallest world first."""
+    if change.kind in ("dearer", "cheaper"):
+        assert change.before is not None
+        assert change.after is not None
+        return -abs(change.after - change.before), change.edges
+    return change.edges, 0
+
+
+# ---------------------------------------------------------------- classes of worlds
+
+
+class _Class(NamedTuple):
+    """A class of worlds, in the order in which classes are told."""
+
+    by: Property
+    place: int
+    value: str
+
+
+def _classes(world: World) -> Iterator[_Class]:
+    """Those that a world is in, one for each property."""
+    edges = len(world.edges)
+    place = next((place for place, most in enumerate(SIZES) if edges <= most), len(SIZES))
+    least = SIZES[place - 1] + 1 if place else 0
+    most = SIZES[place] if place < len(SIZES) else None
+    sizes = f"{least} or more" if most is None else f"{least}-{most}" if least < most else f"{most}"
+    yield _Class("edges", place, sizes)
+    genus = min(world.genus, HANDLES)
+    yield _Class("genus", genus, f"{genus} or more" if genus == HANDLES else f"{genus}")
+    if world.is_simple:
+        yield _Class("shape", 0, "simple")
+    elif world.is_loopless:
+        yield _Class("shape", 1, "parallel edges, no loop")
+    else:
+        yield _Class("shape", 2, "with loops")

@@ -1,0 +1,284 @@
+"""The file of a baseline: what a mapper paid and decided in each world of a corpus.
+
+    load, decode      a file, or its bytes -> Baseline: a header, an entry a world
+    encode            the other way; the same bytes for the same baseline
+
+**The file** is gzip, without a time of its own; in it JSON Lines, first the header, then a line a
+world. It carries every world, by its id or whole, so that it can be compared where its corpus
+cannot be made again. Each line ends with `sum`, a hash of this line and of all before it, so that
+the first line that was changed, lost or moved can be named. That guards against accidents, not
+against forgers.
+
+recording.py makes baselines, comparing.py compares with them.
+
+Source: docs/semantics.md, section 14; docs/baselines.md.
+"""
+
+from __future__ import annotations
+
+import gzip
+import re
+import zlib
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from hashlib import sha256
+from io import BytesIO
+from os import PathLike
+from typing import Any, Literal, TypeVar
+
+import msgspec
+
+from topo_verify.errors import InputError
+from topo_verify.programs.protocol import dialect
+from topo_verify.robot.events import Policies
+from topo_verify.robot.limits import Limits
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import World
+
+S = TypeVar("S", bound=msgspec.Struct)
+
+FORMAT: Literal["topo-verify/baseline"] = "topo-verify/baseline"
+VERSION: Literal[1] = 1
+"""The newest version that is read, and the one that is written."""
+
+MOST_BYTES = 2**30
+"""Bytes that a baseline may have when it is unpacked: some millions of worlds."""
+
+_SUM = re.compile(rb'(.*),"sum":"([0-9a-f]{16})"\}\n', re.DOTALL)
+
+
+class Header(msgspec.Struct, frozen=True, kw_only=True):
+    """The first line.
+
+    Attributes:
+        tool: the version of topo-verify that recorded it.
+        target, policies: the mapper, and its policies where they are known.
+        worlds, seed: what the corpus was made from.
+        corpus, digest, total: its description, its own hash, and how many worlds are in it.
+        limits: what the mapper was allowed in each world.
+    """
+
+    format: Literal["topo-verify/baseline"] = FORMAT
+    version: Literal[1] = VERSION
+    tool: str
+    target: str
+    policies: Policies | None
+    worlds: tuple[str, ...]
+    seed: int
+    corpus: str
+    digest: str
+    total: int
+    limits: Limits
+
+
+class Entry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """A line: one world, and what the mapper did there.
+
+    Attributes:
+        world: its id; beyond 200 edges, its JSON.
+        name: what the corpus calls it, where that is another name.
+        cost: edge traversals.
+        moves: a hash of the doors, in their order.
+        decisions: a hash of what was declared; None: nothing was.
+        map: the id of the delivered map (beyond 200 edges `sha256:` and the hash of its code); None
+            if none was delivered, or what was is no map.
+        failed: the claims that fail.
+        undecided: the run was out of time in all, though it moved on: nobody knows.
+    """
+
+    world: str
+    name: str = ""
+    cost: int
+    moves: str
+    decisions: str | None
+    map: str | None
+    failed: tuple[str, ...] = ()
+    undecided: bool = False
+
+    @property
+    def right(self) -> bool:
+        """Was every claim judged, and did none fail?"""
+        return not self.failed and not self.undecided
+
+    @property
+    def called(self) -> str:
+        """What people know it by."""
+        return self.name or self.world
+
+
+@dataclass(frozen=True, slots=True)
+class Baseline:
+    """What was recorded: one entry a world, in the order of the corpus."""
+
+    header: Header
+    entries: tuple[Entry, ...]
+
+
+# ---------------------------------------------------------------- writing
+
+
+def encode(baseline: Baseline) -> bytes:
+    """The file: the same bytes for the same baseline (and the same zlib).
+
+    Raises:
+        InputError: entries are missing.
+    """
+    header, entries = baseline.header, baseline.entries
+    if len(entries) != header.total:
+        raise InputError(
+            f"the baseline has {len(entries)} of {header.total} worlds: a mapper that runs out of"
+            " time has no baseline; give it more time or fewer worlds"
+        )
+    packed = BytesIO()
+    with gzip.GzipFile("", "wb", fileobj=packed, mtime=0) as file:
+        file.writelines(_summed([header, *entries]))
+    return packed.getvalue()
+
+
+def _summed(lines: Iterable[msgspec.Struct]) -> Iterator[bytes]:
+    total = ""
+    for line in lines:
+        body = msgspec.json.encode(line)[:-1]
+        total = _next_sum(total, body)
+        yield body + f',"sum":"{total}"}}\n'.encode()
+
+
+def _next_sum(before: str, body: bytes) -> str:
+    return sha256(before.encode() + body).hexdigest()[:16]
+
+
+# ---------------------------------------------------------------- reading
+
+
+def load(path: str | PathLike[str]) -> Baseline:
+    """The baseline in the file.
+
+    Raises:
+        InputError: the file cannot be read; see also `decode`.
+    """
+    return decode(files.read(path), name=files.shown(path))
+
+
+def decode(data: bytes, *, name: str = "baseline") -> Baseline:
+    """The baseline in these bytes.
+
+    Args:
+        name: what to call the input in messages.
+    Raises:
+        InputError: it is no baseline, one of a newer version, or not as it was written; the
+            sentence names the line.
+    """
+    lines = _require_sums(_unpacked(data, name), name)
+    first = next(lines, None)
+    if first is None:
+        raise InputError(f"{name} is empty: name a file that topo-verify record wrote")
+    header = _line(first, Header, f"{name}, line 1")
+    entries = tuple(
+        _line(line, Entry, f"{name}, line {number}") for number, line in enumerate(lines, 2)
+    )
+    if len(entries) != header.total:
+        raise InputError(
+            f"{name}, line {len(entries) + 2}: the file has {len(entries)} worlds, its header"
+            f" promises {header.total}; copy it whole, or record a new one"
+        )
+    return Baseline(header, entries)
+
+
+def world_of(entry: Entry, *, name: str, line: int) -> World:
+    """The world of an entry, called as its corpus called it.
+
+    Raises:
+        InputError: its text names none.
+    """
+    try:
+        return World.from_text(entry.world)
+    except InputError as error:
+        raise InputError(f"{name}, line {line}: {error}; record a new baseline") from error
+
+
+def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
+    """The lines, as long as they come."""
+    number, size = 1, 0
+    try:
+        with gzip.GzipFile(fileobj=BytesIO(data)) as file:
+            while line := file.readline(files.LIMIT):
+                size += len(line)
+                if size > MOST_BYTES:
+                    raise InputError(
+                        f"{name}, line {number}: more than {MOST_BYTES // 2**20} MiB unpacked, the"
+                        " most that is read: record fewer worlds"
+                    )
+                yield line
+                number += 1
+    except gzip.BadGzipFile as error:
+        raise InputError(
+            f"{name}, line {number}: not as gzip wrote it ({error}); name a file that topo-verify"
+            " record wrote, or copy it again"
+        ) from error
+    except (EOFError, zlib.error) as error:
+        raise InputError(
+            f"{name}, line {number}: the file ends or breaks here; copy it whole, or record a new"
+            " one"
+        ) from error
+
+
+def _require_sums(lines: Iterable[bytes], name: str) -> Iterator[bytes]:
+    """The lines without their sums, which are what they should be."""
+    total = ""
+    for number, line in enumerate(lines, 1):
+        if number == 1:
+            _require_version(line, name)
+        found = _SUM.fullmatch(line)
+        body, told = (found[1], found[2].decode()) if found else (line, "")
+        total = _next_sum(total, body)
+        if told != total:
+            raise InputError(
+                f"{name}, line {number}: not as it was written (its sum is"
+                f" {total}, it says {told or 'none'}): take back the change, copy the file"
+                " again, or record a new one"
+            )
+        yield body + b"}"
+
+
+class _Head(msgspec.Struct):
+    """What is read first, and alone: a newer version may have other fields."""
+
+    format: str
+    version: int
+
+
+def _require_version(line: bytes, name: str) -> None:
+    head = _line(line, _Head, f"{name}, line 1")
+    if head.format != FORMAT:
+        raise InputError(
+            f"{name}, line 1: its format is {files.shown(head.format)!r}, not {FORMAT!r}: name a"
+            " file that topo-verify record wrote"
+        )
+    if head.version > VERSION:
+        raise InputError(
+            f"{name}, line 1: baseline version {head.version} is newer than {VERSION}, the newest"
+            " that this topo-verify reads: update it"
+        )
+
+
+def _line(line: bytes, kind: type[S], where: str) -> S:
+    try:
+        return msgspec.json.decode(line, type=kind)
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
+        raise InputError(
+            f"{where}: no line of a baseline: {error}; name a file that topo-verify record wrote"
+        ) from error
+
+
+# ---------------------------------------------------------------- the schema
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of a line; `schemas/baseline.schema.json` holds the same."""
+    made, components = msgspec.json.schema_components([Header, Entry])
+    for name in ("Header", "Entry"):
+        components[name]["properties"]["sum"] = {"type": "string", "pattern": "^[0-9a-f]{16}$"}
+        components[name]["required"].append("sum")
+    components["Header"]["required"] += ["format", "version"]
+    title = "a line of a topo-verify baseline: first the header, then an entry a world"
+    return dialect({"title": title, "anyOf": list(made), "$defs": components})

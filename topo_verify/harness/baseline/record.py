@@ -1,0 +1,184 @@
+"""Making a baseline: a mapper runs in every world of a corpus, and every claim is judged.
+
+Of each run four things are kept: its cost; a hash of the doors it took; a hash of what it declared,
+or nothing if it declared nothing; and its map, by id.
+
+**The hash of the decisions** covers each `pose`, `reject`, `confirm` and `augment` with the number
+of moves before it: edge, hypotheses, rule, kind, dart. The evidence of a rejection and the purpose
+of a move say why, not what, and are left out. So two mappers have the same hashes if they make the
+same moves and take the same decisions at the same time, however they explain them.
+
+What this does not show: two hashes of 64 bits that are equal by chance.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from importlib import metadata
+
+import msgspec
+
+from topo_verify.algorithms import Algorithm
+from topo_verify.errors import InputError
+from topo_verify.harness.baseline.file import Baseline, Entry, Header
+from topo_verify.harness.corpus import Corpus
+from topo_verify.harness.run import Exploration, Report, explore, judge, replay_line
+from topo_verify.harness.run import undecided as is_undecided
+from topo_verify.harness.target_texts import words
+from topo_verify.programs.loading import Target
+from topo_verify.programs.program import Program
+from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject
+from topo_verify.robot.limits import Limits
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.rooted_map import World
+
+PATIENCE = 3
+"""After so many time-outs a mapper is not run in the worlds that are left."""
+
+Tell = Callable[[str, int, int], None]
+"""Called as work goes on: (mapper, worlds done, worlds in all)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """A mapper in one world: the report, and the entry that a baseline keeps."""
+
+    world: World
+    report: Report
+    entry: Entry
+    timed_out: bool
+
+
+def record(
+    target: Target,
+    corpus: Corpus,
+    *,
+    worlds: Sequence[str] = (),
+    seed: int = 0,
+    limits: Limits | None = None,
+    tell: Tell | None = None,
+    note: Callable[[Recorded], None] | None = None,
+) -> Baseline:
+    """Run the mapper in every world of the corpus.
+
+    After `PATIENCE` time-outs it stops: then there are fewer entries than the header says.
+
+    Args:
+        worlds, seed: what the corpus was made from, to be told in the header.
+        note: told of every world.
+    """
+    limits = limits or Limits()
+    entries: list[Entry] = []
+    named = ((at.name, at.world) for at in corpus)
+    for seen in runs(target, named, corpus.total, limits, tell):
+        entries.append(seen.entry)
+        if note is not None:
+            note(seen)
+    header = Header(
+        tool=metadata.version("topo-verify"),
+        target=target.text,
+        policies=target.mapper.policies if isinstance(target.mapper, Algorithm) else None,
+        worlds=tuple(worlds),
+        seed=seed,
+        corpus=corpus.description,
+        digest=corpus.digest,
+        total=corpus.total,
+        limits=limits,
+    )
+    return Baseline(header, tuple(entries))
+
+
+def runs(
+    target: Target,
+    worlds: Iterable[tuple[str, World]],
+    total: int,
+    limits: Limits,
+    tell: Tell | None = None,
+) -> Iterator[Recorded]:
+    """One named world after the other, until they end or time-outs have used up the patience."""
+    timeouts = 0
+    for number, (name, world) in enumerate(worlds):
+        if tell is not None:
+            tell(target.text, number, total)
+        seen = _recorded(target, name, world, limits)
+        yield seen
+        timeouts += seen.timed_out
+        if timeouts == PATIENCE:
+            return
+
+
+def _recorded(target: Target, name: str, world: World, limits: Limits) -> Recorded:
+    run = explore(world, target, limits=limits)
+    declined = isinstance(target.mapper, Program) and _declined(target.mapper)
+    report = judge(run, where=name, options=limits.options)
+    if isinstance(target.mapper, Program):
+        target.mapper.settle()  # it may have been run in a witness world, too
+    replay = again(target, name, limits)
+    findings = tuple(msgspec.structs.replace(f, replay=replay) for f in report.findings)
+    report = msgspec.structs.replace(report, findings=findings)
+    undecided = declined or is_undecided(run, report)
+    entry = Entry(
+        world=world.text,
+        name="" if name == world.text else name,
+        cost=run.cost,
+        moves=_hash([event.door for event in run.trace if isinstance(event, Move)]),
+        decisions=_decisions(run.trace),
+        map=_map(run, report),
+        failed=() if undecided else tuple(c for c, s in report.claims.items() if s == "failed"),
+        undecided=undecided,
+    )
+    return Recorded(world, report, entry, run.limit in ("move-timeout", "world-timeout"))
+
+
+def again(target: Target, where: str, limits: Limits) -> str:
+    """The command line that shows the mapper in this world again."""
+    if isinstance(target.mapper, Program):
+        told = ("conform", *words(target.text), "--worlds", where, *limits.options)
+        return shlex.join(["topo-verify", *told])
+    policies = target.mapper.policies if isinstance(target.mapper, Algorithm) else None
+    return replay_line(where, target.text, policies, limits.options)
+
+
+def _declined(program: Program) -> bool:
+    """Did the program skip the world, or give it up? Also ends a process that misbehaved."""
+    program.settle()
+    return program.misbehaved is not None and program.misbehaved.kind in ("skip", "error")
+
+
+def _decisions(trace: Iterable[Event]) -> str | None:
+    """A hash of what was declared, and when."""
+    moves, declared = 0, list[object]()
+    for event in trace:
+        match event:
+            case Move():
+                moves += 1
+            case Pose():
+                declared.append([moves, "pose", event.edge, event.hypotheses])
+            case Reject() | Confirm():
+                kind = "reject" if isinstance(event, Reject) else "confirm"
+                declared.append([moves, kind, event.edge, event.hypothesis, event.rule])
+            case Augment():
+                grown = (event.edge, event.kind, event.dart, event.degree)
+                declared.append([moves, "augment", *grown])
+            case _:
+                pass
+    return _hash(declared) if declared else None
+
+
+def _map(run: Exploration, report: Report) -> str | None:
+    """The id of the delivered map; of one that is too large for an id, a hash of its code."""
+    if run.map is None:
+        return None
+    try:
+        drawn = run.world if report.ok else World.from_map(run.map)
+    except InputError:
+        return None
+    small = len(drawn.edges) <= rank_order.MAX_ID_EDGES
+    return drawn.id if small else f"sha256:{_hash(drawn.code)}"
+
+
+def _hash(value: object) -> str:
+    return sha256(msgspec.json.encode(value)).hexdigest()[:16]

@@ -1,0 +1,243 @@
+"""Batch mode: for an implementation with its own simulator. It reads worlds and writes runs.
+
+    in     {"id": "m5/17", "world": {…world JSON…}}                                a line a world
+    out    {"id": "m5/17", "doors": [0, 2, …], "declare": […], "map": {…}, "cost": 12}
+
+Nothing in a run is believed: its doors are walked by the simulated robot, its declarations put
+where it says that they were made, and the trace that comes out is judged as any other. Runs may
+come in any order. A process is handed `CHUNK` worlds and then the end of its input.
+
+Who is to blame? If a process fails while worlds are unanswered, their halves go to fresh processes,
+down to the one world that fails alone. A process that is silent for the time limit of a world is
+blamed for the first unanswered one.
+
+What this does not show: that the doors were chosen from percepts alone. A program that is given
+worlds can look at them; claims 9 and 10 ask whether its history would have been proof enough.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
+from types import TracebackType
+from typing import Self
+
+import msgspec
+
+from topo_verify.errors import InputError
+from topo_verify.harness.conform.examiner import keep, reference
+from topo_verify.harness.conform.outcome import Job, Outcome, outcome
+from topo_verify.harness.corpus import Named
+from topo_verify.harness.run import explore, judge
+from topo_verify.programs import protocol as ms
+from topo_verify.programs.child import GRACE, Child, Ended, Silent, TooLong, Warden
+from topo_verify.programs.loading import Target
+from topo_verify.programs.program import (
+    PREFIX,
+    Line,
+    Misbehaved,
+    Survey,
+    decoded,
+    obituary,
+    shown,
+    split,
+)
+from topo_verify.robot.simulator import Misuse, SimulatedRobot
+from topo_verify.world.formats import world_json
+
+CHUNK = 2000
+"""So many worlds is a process handed."""
+
+Answer = ms.Run | Misbehaved
+"""What came back for a world: a run, or what the program did instead."""
+
+_run: msgspec.json.Decoder[ms.Run] = msgspec.json.Decoder(ms.Run)
+
+
+class Replay:
+    """A run as a mapper: it does what was done, and delivers what was delivered.
+
+    Where there is no run, it does nothing, and says why.
+    """
+
+    def __init__(self, answer: Answer) -> None:
+        self.answer = answer
+        self.misbehaved: Misbehaved | None = None
+
+    def __call__(self, robot: SimulatedRobot) -> Survey:
+        """Walk the doors of the run; its decisions are declared where they were made."""
+        try:
+            if isinstance(self.answer, Misbehaved):
+                raise self.answer
+            return _replay(self.answer, robot)
+        except Misbehaved as why:
+            self.misbehaved = why
+            raise
+        except Misuse as why:
+            self.misbehaved = Misbehaved("bad-door", str(why))
+            raise
+
+
+def _replay(run: ms.Run, robot: SimulatedRobot) -> Survey:
+    move, done = robot.move, 0
+    for declared in run.declare:
+        if not done <= declared.after <= len(run.doors):
+            told = f"a decision is declared after {declared.after} moves: they come in order"
+            raise Misbehaved("bad-declaration", f"{told}, here within {done} … {len(run.doors)}")
+        for door in run.doors[done : declared.after]:
+            move(door)
+        done = declared.after
+        robot.declare(declared.event)
+    for door in run.doors[done:]:
+        move(door)
+    if run.map is None:
+        raise _without_a_map(run)
+    return Survey(run.map.vertices, run.map.edges, run.map.marker, run.cost)
+
+
+def _without_a_map(run: ms.Run) -> Misbehaved:
+    if run.skip is not None:
+        return Misbehaved("skip", f"the program skips this world: {run.skip}")
+    if run.error is not None:
+        return Misbehaved("error", f"the program gives this world up: {run.error}")
+    return Misbehaved("malformed", "the run has no map, and says neither 'skip' nor 'error'")
+
+
+class BatchExaminer:
+    """Examines worlds in batches. Life cycle: `with` it, `examine` once.
+
+    Raises:
+        InputError: the target is no program, or there is no such algorithm or policy.
+    """
+
+    def __init__(self, job: Job) -> None:
+        if not job.target.startswith(PREFIX):
+            raise InputError(f"--batch with {job.target}: it is for programs, name one with --cmd")
+        self.job = job
+        self.command = split(job.target.removeprefix(PREFIX))
+        self._reference = reference(job)
+        self._warden = Warden()
+        self._child: Child | None = None
+
+    def examine(self, worlds: Iterable[Named]) -> Iterator[Outcome]:
+        """What becomes of the worlds, in their order."""
+        todo = iter(worlds)
+        while chunk := list(islice(todo, CHUNK)):
+            answers = self.answers(chunk)
+            for place, at in enumerate(chunk):
+                yield self._judged(at, answers.pop(place))
+
+    def answers(self, worlds: Sequence[Named]) -> dict[int, Answer]:
+        """What the program makes of these worlds, by their places."""
+        ids = _ids(worlds)
+        done: dict[int, Answer] = {}
+        todo = [list(range(len(worlds)))]
+        while todo:
+            places = todo.pop()
+            why = self._go({ids[place]: place for place in places}, worlds, done)
+            if why is not None and why.kind == "unknown-world":
+                for place in places:  # which of them are meant by whom?
+                    done.pop(place, None)
+            left = [place for place in places if place not in done]
+            if why is not None and len(left) > 1 and why.kind != "silent":
+                middle = len(left) // 2
+                todo += [left[middle:], left[:middle]]
+            elif left:
+                assert why is not None, "a program that does not fail has answered everything"
+                done[left[0]] = why
+                todo += [left[1:]] if left[1:] else []
+        return done
+
+    # ------------------------------------------------------------ a process
+
+    def _go(
+        self, waiting: dict[str, int], worlds: Sequence[Named], done: dict[int, Answer]
+    ) -> Misbehaved | None:
+        """Hand worlds to a fresh process and take what comes; why that ended early, if it did."""
+        self._child = child = Child(self.command, self._warden)
+        try:
+            for name, place in list(waiting.items()):
+                data = world_json.to_data(worlds[place].world)
+                child.write(msgspec.json.encode(ms.Task(name, data)) + b"\n")
+                while waiting and child.has_line:
+                    self._take(child, waiting, done)
+            child.close_input()
+            while waiting:
+                self._take(child, waiting, done)
+            _require_end(child)
+        except Misbehaved as why:
+            return why
+        except TooLong:
+            return Misbehaved("too-long", f"the program wrote a line of more than {ms.LIMIT} bytes")
+        finally:
+            child.end(politely=0 if waiting else GRACE)
+        return None
+
+    def _take(self, child: Child, waiting: dict[str, int], done: dict[int, Answer]) -> None:
+        """One run from the program."""
+        try:
+            line = child.line(seconds=self.job.limits.world_timeout)
+        except Silent:
+            seconds = self.job.limits.world_timeout
+            raise Misbehaved("silent", f"the program wrote no run for {seconds:g} s") from None
+        except Ended:
+            raise obituary(child, "wrote a run for this world") from None
+        run: ms.Run = decoded(line, _run.decode, validate=self.job.validate)
+        if run.id not in waiting:
+            told = f"no world {run.id!r} waits for a run: {shown(line)}"
+            raise Misbehaved("unknown-world", told)
+        done[waiting.pop(run.id)] = run
+
+    # ------------------------------------------------------------ a run
+
+    def _judged(self, at: Named, answer: Answer) -> Outcome:
+        player = Replay(answer)
+        run = explore(at.world, Target(self.job.target, player), limits=self.job.limits)
+        made = outcome(
+            run,
+            judge(run, where=at.name),
+            at,
+            self.job,
+            reference=explore(at.world, self._reference),
+            misbehaved=player.misbehaved,
+            replay=shlex.join([*self.job.again, *at.again]),
+        )
+        if self.job.transcript is not None and any(made.findings.values()):
+            lines: list[Line] = [(">", msgspec.json.encode(world_json.to_data(at.world)))]
+            if isinstance(answer, ms.Run):
+                lines.append(("<", msgspec.json.encode(answer)))
+            keep(self.job.transcript, at, run, made, lines)
+        return made
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._child is not None:
+            self._child.end()
+        self._warden.close()
+
+
+def _require_end(child: Child) -> None:
+    """Has the program nothing more to say?"""
+    try:
+        line = child.line(seconds=GRACE)
+    except (Silent, Ended):
+        return
+    raise Misbehaved("unknown-world", f"no world waits for a run any more: {shown(line)}")
+
+
+def _ids(worlds: Sequence[Named]) -> list[str]:
+    """A name for each world; one that comes twice has its place behind it."""
+    seen: set[str] = set()
+    ids: list[str] = []
+    for place, at in enumerate(worlds):
+        ids.append(f"{at.name} ({place})" if at.name in seen else at.name)
+        seen.add(at.name)
+    return ids

@@ -1,0 +1,117 @@
+"""One world after the other in this process: an implementation run, judged, and compared."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from hashlib import sha256
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import msgspec
+
+from topo_verify.errors import InputError
+from topo_verify.harness.conform.outcome import Job, Outcome, outcome
+from topo_verify.harness.corpus import Named
+from topo_verify.harness.run import Exploration, explore, judge
+from topo_verify.harness.target_texts import targets
+from topo_verify.harness.targets import one_target
+from topo_verify.programs.loading import Target
+from topo_verify.programs.program import Line, Program
+from topo_verify.robot.events import write_trace
+from topo_verify.world.formats import files
+
+TRANSCRIPT = {"format": "topo-verify/transcript", "version": 1}
+"""The head of a transcript."""
+
+
+class Examiner:
+    """Examines worlds. Life cycle: `with` it; a program runs from the first world to the end.
+
+    Raises:
+        InputError: there is no such mapper, algorithm or policy, or the job names several.
+    """
+
+    def __init__(self, job: Job) -> None:
+        self.reference = reference(job)
+        found = targets(job.target)
+        if len(found) != 1:
+            raise InputError(f"{job.target!r} names {len(found)} mappers: name one")
+        self.job, self.target = job, found[0]
+        self.program = found[0].mapper if isinstance(found[0].mapper, Program) else None
+        if self.program is not None:
+            self.program.validate = job.validate
+            self.program.record = job.transcript is not None
+            self.program.start()
+
+    def examine(self, at: Named) -> Outcome:
+        """What becomes of one world."""
+        job, program = self.job, self.program
+        run = explore(at.world, self.target, limits=job.limits)
+        misbehaved, lines = (program.misbehaved, program.lines) if program else (None, [])
+        if program is not None:
+            program.settle()
+        report = judge(run, where=at.name)
+        if program is not None:
+            program.settle()  # it may have been run in a witness world, too
+        made = outcome(
+            run,
+            report,
+            at,
+            job,
+            reference=explore(at.world, self.reference),
+            misbehaved=misbehaved,
+            replay=shlex.join([*job.again, *at.again]),
+        )
+        if job.transcript is not None and any(made.findings.values()):
+            keep(job.transcript, at, run, made, lines if program else None)
+        return made
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self.program is not None:
+            self.program.close()
+
+
+def reference(job: Job) -> Target:
+    """The algorithm that an implementation is compared with.
+
+    Raises:
+        InputError: there is no such algorithm or policy.
+    """
+    return one_target(job.reference, pick=job.policies.pick, order=job.policies.order)
+
+
+def keep(folder: str, at: Named, run: Exploration, made: Outcome, lines: list[Line] | None) -> Path:
+    """Write down what was said in a world: the messages of a program, the trace of a mapper."""
+    path = Path(folder) / f"{file_name(at.name)}.jsonl"
+    if lines is None:
+        text = write_trace(run.trace)
+    else:
+        head = {**TRANSCRIPT, "world": at.name, "target": run.algorithm, "stopped": run.stopped}
+        rows: list[object] = [head]
+        rows += [{"to" if way == ">" else "from": _text(line)} for way, line in lines]
+        rows += [{"found": message.message} for row in made.findings.values() for message in row]
+        text = msgspec.json.Encoder().encode_lines(rows)
+    files.write(path, text)
+    return path
+
+
+def file_name(world: str) -> str:
+    """A name for files about a world, fit for every file system and different for each world."""
+    name = re.sub(r"[^A-Za-z0-9_.=,()-]", "-", world)
+    plain = re.fullmatch(r"m[0-9]+/[0-9]+", world) or name == world
+    tag = "" if plain and len(name) <= 80 else f"-{sha256(world.encode()).hexdigest()[:8]}"
+    return name[:80] + tag
+
+
+def _text(line: bytes) -> str:
+    return line.decode(errors="backslashreplace")

@@ -1,0 +1,176 @@
+"""The seeded faults: which check finds which, how fast, and in which smallest world.
+
+    search       every world of 1, 2, … edges, until there are some in which a claim fails: how many
+                 of that size, and the smallest in which the one run already convicts the mapper,
+                 by claims 9 and 10 alone
+    properties   property tests on worlds of two strategies: how many examples until one fails, the
+                 median over five seeds; the second is asked where the first leaves a seed without
+    proofs       a theorem of which the solver refutes the version with the same mistake in it; the
+                 pairs are made by hand, and most mistakes in motion and drawing have none
+
+A fault counts as caught if each of the checks asked for finds it, and the claim that must catch it
+fails in worlds of the smallest size. A harmless difference must be found by none. What a time limit
+has ended says nothing: it counts as undecided, never as a fault found. Nothing is printed here:
+entries are yielded in the order of the faults.
+
+What this does not show: that these are all the mistakes there are; or, for the harmless ones,
+anything about larger worlds beyond those that were drawn.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
+from typing import Literal, get_args
+
+import msgspec
+
+from topo_verify.faults import FAULTS, Fault
+from topo_verify.harness.faults.checks import (
+    COUNTED,
+    Examples,
+    Proof,
+    Smallest,
+    examples,
+    proof,
+    smallest,
+)
+from topo_verify.harness.verify.parts import Tell
+
+Check = Literal["search", "properties", "proofs"]
+CHECKS: tuple[Check, ...] = get_args(Check)
+
+LARGEST_HARMLESS, LARGEST_THOROUGH = 4, 5
+"""Up to so many edges every world is tried with a harmless difference; if thorough."""
+
+
+class Caught(msgspec.Struct, frozen=True):
+    """One fault, and what found it; docs/commands.md.
+
+    Attributes:
+        name, part, why, claim, harmless, target: of the fault.
+        search, properties: None where it was not asked.
+        proofs: None also where no theorem has this mistake.
+        undecided: nothing is wrong, but something was out of time, or a question stayed open.
+        ok: a fault is caught by every check that was asked; a harmless difference by none.
+    """
+
+    name: str
+    part: str
+    why: str
+    claim: str | None
+    harmless: bool
+    target: str
+    search: Smallest | None
+    properties: Examples | None
+    proofs: Proof | None
+    undecided: bool
+    ok: bool
+
+
+def try_faults(
+    faults: Iterable[Fault],
+    *,
+    by: Sequence[Check] = CHECKS,
+    workers: int = 0,
+    thorough: bool = False,
+    tell: Tell | None = None,
+) -> Iterator[Caught]:
+    """Put the checks to each of these faults.
+
+    Args:
+        by: which checks.
+        workers: so many processes, each with a fault of its own; 0: this one.
+        thorough: count the failing worlds of every size, and try the harmless differences in all
+            worlds of 5 edges, too.
+        tell: told of progress in the larger worlds.
+    """
+    faults = list(faults)
+    known = all(FAULTS.get(fault.name) is fault for fault in faults)
+    if workers and known and len(faults) > 1:
+        one = partial(_by_name, by=by, thorough=thorough)
+        with multiprocessing.get_context("spawn").Pool(workers, _stay_with_parent) as pool:
+            entries = pool.imap(one, [fault.name for fault in faults])
+            for fault, entry in zip(faults, entries, strict=True):
+                yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
+    else:
+        for fault in faults:
+            entry = _begun(fault, by=by, thorough=thorough)
+            yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
+
+
+def _stay_with_parent() -> None:
+    """A worker leaves Ctrl-C to its parent, and ends when that ends, however it does."""
+    parent = multiprocessing.parent_process()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def watch() -> None:
+        assert parent is not None
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def _by_name(name: str, *, by: Sequence[Check], thorough: bool) -> Caught:
+    return _begun(FAULTS[name], by=by, thorough=thorough)
+
+
+def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool) -> Caught:
+    """Every check, the search up to `COUNTED` edges."""
+    last = (LARGEST_THOROUGH if thorough else LARGEST_HARMLESS) if fault.harmless else COUNTED
+    return entry_of(
+        fault,
+        smallest(fault, largest=last) if "search" in by else None,
+        examples(fault) if "properties" in by else None,
+        proof(fault) if "proofs" in by else None,
+    )
+
+
+def _to_the_end(
+    fault: Fault, entry: Caught, workers: int, *, thorough: bool, tell: Tell | None
+) -> Caught:
+    """The same with the larger sizes, where nothing was found in the smaller."""
+    if fault.harmless or entry.search is None or entry.search.failing:
+        return entry
+    found = smallest(fault, first=COUNTED + 1, workers=workers, thorough=thorough, tell=tell)
+    return entry_of(fault, found, entry.properties, entry.proofs)
+
+
+def entry_of(
+    fault: Fault, found: Smallest | None, drawn: Examples | None, proved: Proof | None
+) -> Caught:
+    """What these checks found, and whether it is as it must be."""
+    asked: list[bool | None] = []
+    if found is not None:
+        caught = bool(found.failing) if fault.harmless else fault.claim in found.claims
+        asked.append(_as_it_must_be(fault, caught, found.undecided))
+    if drawn is not None:
+        caught = drawn.found if fault.harmless else drawn.median_examples is not None
+        asked.append(_as_it_must_be(fault, caught, drawn.undecided))
+    if proved is not None:
+        asked.append(None if proved.verdict == "UNKNOWN" else proved.verdict == "REFUTED")
+    return Caught(
+        name=fault.name,
+        part=fault.part,
+        why=fault.why,
+        claim=fault.claim,
+        harmless=fault.harmless,
+        target=fault.target,
+        search=found,
+        properties=drawn,
+        proofs=proved,
+        undecided=None in asked and False not in asked,
+        ok=all(asked),
+    )
+
+
+def _as_it_must_be(fault: Fault, caught: bool, undecided: int) -> bool | None:  # noqa: FBT001  private
+    """None: that depends on runs that were out of time."""
+    if caught:
+        return not fault.harmless
+    return None if undecided else fault.harmless

@@ -1,0 +1,277 @@
+"""The search: every world of a class, smallest first; the smallest counterexample or EXHAUSTED.
+
+`search` does it in one call. `Search` is the same in the hands of somebody who wants to hear of it
+as it goes, or to keep what was done when it is cut off.
+
+The worlds are cut into shards by rank. Shards may be examined in any order, by anybody; they are
+added up in the order of the ranks, and a search that stops at the first counterexample counts
+nothing behind it. So the result depends on the plan alone, not on who worked how fast.
+
+EXHAUSTED takes two lists that know nothing of each other: the worlds that were gone into, and their
+number (`WorldClass.count`). If the search comes to its end and they differ, that is a bug of ours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import closing
+from typing import Literal
+
+import msgspec
+
+from topo_verify.errors import InputError, InternalError
+from topo_verify.harness import target_texts
+from topo_verify.harness.ledger import Ledger
+from topo_verify.harness.search.choices import require_choices
+from topo_verify.harness.search.pace import Pace, Tell
+from topo_verify.harness.search.plan import Choices, Plan, Shard
+from topo_verify.harness.search.shard import Interrupted, examine_shard
+from topo_verify.harness.search.workers import Crew
+from topo_verify.harness.tally import Costs, Failing, Failure, Tally
+from topo_verify.harness.targets import one_target
+from topo_verify.programs.loading import Mapper, Target
+from topo_verify.programs.program import Program
+from topo_verify.robot.limits import Limits
+from topo_verify.world.enumeration.classes import WorldClass
+
+Verdict = Literal["EXHAUSTED", "UNKNOWN", "REFUTED"]
+
+
+class Size(msgspec.Struct, frozen=True):
+    """What was found in the worlds of one size.
+
+    Attributes:
+        checked, total: worlds.
+        tally: everything else.
+    """
+
+    edges: int
+    checked: int
+    total: int
+    tally: Tally
+
+    @property
+    def failing(self) -> int:
+        """In how many worlds a claim fails."""
+        return self.tally.failing
+
+
+class Found(msgspec.Struct, frozen=True):
+    """The result of a search.
+
+    Attributes:
+        plan: what was searched.
+        verdict: EXHAUSTED if every world of the class was checked and no claim failed.
+        checked, total: worlds.
+        counterexample: the smallest, by (edges, rank).
+        by_edges: by size of the worlds.
+        claims: of each claim that fails, in how many worlds, and the smallest.
+    """
+
+    plan: Plan
+    verdict: Verdict
+    checked: int
+    total: int
+    counterexample: Failure | None
+    by_edges: tuple[Size, ...]
+    claims: dict[str, Failing]
+
+    @property
+    def tally(self) -> Tally:
+        """All sizes together."""
+        return sum((size.tally for size in self.by_edges), Tally())
+
+    def costs(self, edges: int, target: str) -> Costs:
+        """What a mapper spent in the worlds of one size."""
+        return self.by_edges[edges - 1].tally.costs.get(target, Costs())
+
+
+def search(  # noqa: PLR0913  an argument an option
+    target: Mapper | str | Target,
+    *,
+    edges: int,
+    world_class: WorldClass | None = None,
+    keep_going: bool = False,
+    policies: Choices = "reference",
+    limits: Limits | None = None,
+    workers: int = 0,
+    tell: Tell | None = None,
+) -> Found:
+    """Examine a mapper in every world of a class with 1 … `edges` edges, smallest first.
+
+    Args:
+        target: a callable, a name of the catalogue, any other TARGET. A text that names several
+            lets them run in each world together.
+        world_class: default: all worlds.
+        keep_going: do not stop at the first counterexample.
+        policies: which choices an algorithm of the catalogue is tried with; `variants.py`.
+        limits: of each run.
+        workers: so many processes; 0: this one. Other processes are handed the TARGET's text.
+        tell: told of progress.
+    Raises:
+        InputError: no such mapper; nothing knows how many worlds the class has; and the like.
+        InternalError: the worlds gone into are not as many as there are.
+    """
+    mappers = _targets(target)
+    if workers and not isinstance(target, str):
+        _require_texts(mappers)
+    plan = Plan(
+        targets=tuple(mapper.text for mapper in mappers),
+        edges=edges,
+        kind=str(world_class or WorldClass()),
+        choices=policies,
+        keep_going=keep_going,
+        limits=limits or Limits(),
+    )
+    work = Search(plan, mappers, workers=workers)
+    work.work(tell)
+    return work.found()
+
+
+def _targets(target: Mapper | str | Target) -> tuple[Target, ...]:
+    return target_texts.targets(target) if isinstance(target, str) else (one_target(target),)
+
+
+def _require_texts(mappers: Sequence[Target]) -> None:
+    """Can other processes find these mappers by their texts? (`InputError` if not)."""
+    for mapper in mappers:
+        if isinstance(mapper.mapper, Program):
+            continue
+        try:
+            found = one_target(mapper.text).mapper
+        except InputError as error:
+            raise InputError(
+                f"{mapper.text} cannot be handed to workers, which find a mapper by its TARGET"
+                f" ({error}): search in this process (workers=0)"
+            ) from None
+        if found != mapper.mapper and ".py:" not in mapper.text:
+            raise InputError(
+                f"{mapper.text} names another mapper than the one given, and workers find a mapper"
+                " by its TARGET: search in this process (workers=0)"
+            )
+
+
+class Search:
+    """A search at work. Lives from `work` to `found`, which may be asked of work that was cut off.
+
+    Args:
+        mappers: the targets of the plan, as they run in this process.
+        workers: so many processes; 0: this one.
+        ledger: where what is done is looked up, and kept.
+    Raises:
+        InputError: nothing knows how many worlds there are; a mapper has no such policies; workers
+            for a mapper that has no text.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        mappers: Sequence[Target],
+        *,
+        workers: int = 0,
+        ledger: Ledger | None = None,
+    ) -> None:
+        require_choices(mappers, plan)
+        self.plan, self.mappers, self.workers, self.ledger = plan, mappers, workers, ledger
+        self.totals = plan.totals()
+        self.tallies = dict.fromkeys(self.totals, Tally())
+
+    def work(self, tell: Tell | None = None) -> None:
+        """Go through the worlds.
+
+        Raises:
+            KeyboardInterrupt: Ctrl-C; `found` has what was done.
+            InternalError: the worlds gone into are not as many as there are.
+        """
+        pace = Pace(", ".join(self.plan.targets), sum(self.totals.values()), tell)
+        timeouts = 0
+        pace.flying(0)
+        try:
+            with closing(self._in_order(pace)) as tallies:
+                for shard, tally in tallies:
+                    self.tallies[shard.edges] += tally
+                    if tally.failing and not self.plan.keep_going:
+                        return
+                    timeouts += tally.timeouts
+                    if self.plan.patience is not None and timeouts >= self.plan.patience:
+                        return
+        except Interrupted as cut:
+            edges = next(m for m, worlds in self.totals.items() if self.tallies[m].worlds < worlds)
+            self.tallies[edges] += cut.tally
+            raise
+        self._require_all()
+
+    def _in_order(self, pace: Pace) -> Generator[tuple[Shard, Tally]]:
+        """Every shard and what was found there, in the order of their worlds."""
+        ahead: dict[Shard, Tally] = {}
+        enough = False  # nothing behind a counterexample matters
+
+        def todo() -> Iterator[Shard]:
+            for shard in self.plan.shards():
+                if enough:
+                    return
+                if self._known(shard) is None:
+                    yield shard
+
+        with closing(self._executed(todo(), pace)) as executed:
+            for shard in self.plan.shards():
+                tally = ahead.pop(shard, None)
+                if tally is None and (tally := self._known(shard)) is not None:
+                    pace.known(tally.worlds)
+                while tally is None:
+                    done, result = next(executed)
+                    if self.ledger is not None:
+                        self.ledger.put(done, result)
+                    enough = enough or (result.failing > 0 and not self.plan.keep_going)
+                    pace.landed(result.worlds)
+                    ahead[done] = result
+                    tally = ahead.pop(shard, None)
+                yield shard, tally
+
+    def _known(self, shard: Shard) -> Tally | None:
+        """What the ledger says of a shard."""
+        return None if self.ledger is None else self.ledger.get(shard)
+
+    def _executed(self, todo: Iterator[Shard], pace: Pace) -> Generator[tuple[Shard, Tally]]:
+        """The shards examined, here or in other processes, in any order."""
+        if self.workers:
+            with Crew(self.plan, self.mappers, self.workers, pace) as crew:
+                yield from crew.examine(todo)
+        else:
+            for shard in todo:
+                yield shard, examine_shard(self.plan, self.mappers, shard, pace.flying)
+
+    def _require_all(self) -> None:
+        """Was every world gone into?"""
+        for edges, total in self.totals.items():
+            if self.tallies[edges].worlds != total:
+                raise InternalError(
+                    f"the search went into {self.tallies[edges].worlds} worlds of class"
+                    f" {self.plan.kind} where m = {edges}, and there are {total}"
+                )
+
+    def found(self) -> Found:
+        """What was found so far."""
+        sizes = tuple(
+            Size(
+                edges,
+                self.tallies[edges].worlds - self.tallies[edges].undecided,
+                total,
+                self.tallies[edges],
+            )
+            for edges, total in self.totals.items()
+        )
+        tally = sum((size.tally for size in sizes), Tally())
+        checked, total = sum(size.checked for size in sizes), sum(self.totals.values())
+        verdict: Verdict = "REFUTED" if tally.failures else "UNKNOWN"
+        if checked == total and not tally.failures:
+            verdict = "EXHAUSTED"
+        return Found(
+            plan=self.plan,
+            verdict=verdict,
+            checked=checked,
+            total=total,
+            counterexample=tally.failures[0] if tally.failures else None,
+            by_edges=sizes,
+            claims=tally.claims,
+        )

@@ -1,0 +1,88 @@
+"""What a search is about, as plain data that a worker or a ledger can be handed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from typing import Literal, get_args
+
+import msgspec
+
+from topo_verify.errors import InputError
+from topo_verify.robot.limits import Limits
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+
+Choices = Literal["reference", "all", "every"]
+"""Which policies a search goes through; see `variants.py`."""
+
+CHOICES: tuple[Choices, ...] = get_args(Choices)
+
+SHARD: dict[Choices, int] = {"reference": 400, "all": 12, "every": 1}
+"""Worlds of a shard, on average: a fraction of a second of work, except where it cannot be less."""
+
+
+class Shard(msgspec.Struct, frozen=True):
+    """The worlds of the class with so many edges and ranks start … stop-1 (ranks in `any`)."""
+
+    edges: int
+    start: int
+    stop: int
+
+
+class Plan(msgspec.Struct, frozen=True, kw_only=True):
+    """What is searched for what.
+
+    Attributes:
+        targets: mappers by their texts; each runs in every world.
+        edges: worlds of 1 to this many.
+        kind: the class of worlds, as text.
+        choices: which policies.
+        keep_going: do not stop at the first counterexample.
+        patience: stop after about so many time-outs; None: never.
+        limits: of one run.
+    """
+
+    targets: tuple[str, ...]
+    edges: int
+    kind: str = "any"
+    choices: Choices = "reference"
+    keep_going: bool = False
+    patience: int | None = None
+    limits: Limits = Limits()
+
+    def __post_init__(self) -> None:
+        if self.edges < 1:
+            raise InputError(f"edges={self.edges}: a search goes through worlds of 1 edge and more")
+        if self.choices not in CHOICES:
+            raise InputError(
+                f"no policies {self.choices!r}: a search goes through {', '.join(CHOICES)}"
+            )
+
+    @property
+    def world_class(self) -> WorldClass:
+        """The class of worlds."""
+        return WorldClass.parse(self.kind)
+
+    def totals(self) -> dict[int, int]:
+        """How many worlds there are of each size, counted without listing them in this order.
+
+        Raises:
+            InputError: there is no way to count them.
+        """
+        kind = self.world_class
+        _total(kind, self.edges)  # if there is no way, this size says so first
+        return {edges: _total(kind, edges) for edges in range(1, self.edges + 1)}
+
+    def shards(self) -> Iterator[Shard]:
+        """The search in pieces: the same ones, whoever asks and however far the search goes."""
+        for edges, worlds in self.totals().items():
+            ranks = rank_order.count(edges)
+            width = max(1, ranks * SHARD[self.choices] // max(1, worlds))
+            for start in range(0, ranks, width):
+                yield Shard(edges, start, min(start + width, ranks))
+
+
+@cache
+def _total(kind: WorldClass, edges: int) -> int:
+    return kind.count(edges)

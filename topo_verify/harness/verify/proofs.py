@@ -1,0 +1,108 @@
+"""The part `proofs`: what Z3 proves of worlds of any size, and what it must not be able to prove.
+
+The inductive theorems, the negatives and the mutants; the bounded theorems take longer and are left
+to `topo-verify prove`. It says nothing about a mapper of the user's: it is about the rules of the
+catalogue, which the algorithms are compared with decision by decision in the tests.
+
+What this does not show: docs/proofs.md says what is argued in words, what is assumed, and what is
+not established.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from topo_verify.checkers import Finding
+from topo_verify.harness.verify.parts import Part, Tell, Verdict
+
+if TYPE_CHECKING:
+    from topo_verify.proofs.theorem import Outcome, Theorem
+
+TIMEOUT = 20.0
+"""Seconds for each question; each takes a small part of one."""
+
+
+class Proofs:
+    """The theorems that take seconds. A `Job`.
+
+    Args:
+        theorems: which; default: all inductive ones, negatives and mutants.
+        quick: the inductive ones alone, in two seconds.
+    """
+
+    def __init__(self, theorems: Iterable[Theorem] | None = None, *, quick: bool = False) -> None:
+        self._quick = quick
+        self._given = None if theorems is None else tuple(theorems)
+        self.total = 0
+        self.done: list[tuple[Theorem, Outcome]] = []
+
+    def work(self, tell: Tell) -> None:
+        """Prove them all."""
+        from topo_verify.proofs.catalogue import QUICK, choose
+        from topo_verify.proofs.theorem import Budget
+
+        kinds = ("inductive",) if self._quick else QUICK
+        theorems = choose(kinds=kinds) if self._given is None else self._given
+        self.total = len(theorems)
+        for theorem in theorems:
+            tell("proofs", len(self.done), self.total)
+            self.done.append((theorem, theorem.prove(Budget(timeout=TIMEOUT))))
+
+    def part(self, *, interrupted: bool = False) -> Part:
+        """What was found so far."""
+        standings = Counter(theorem.standing(outcome) for theorem, outcome in self.done)
+        whole = len(self.done) == self.total > 0 and not interrupted
+        verdict: Verdict = "UNKNOWN"
+        if standings["failed"]:
+            verdict = "REFUTED"
+        elif whole and not standings["open"]:
+            verdict = "PROVED"
+        return Part(
+            part="proofs",
+            verdict=verdict,
+            ok=verdict == "PROVED",
+            checked=standings["ok"],
+            total=self.total,
+            summary=self._summary(interrupted=interrupted),
+            failing=standings["failed"],
+            findings=tuple(
+                _finding(theorem, outcome)
+                for theorem, outcome in self.done
+                if theorem.standing(outcome) == "failed"
+            ),
+        )
+
+    def _summary(self, *, interrupted: bool) -> str:
+        ok = Counter[str](theorem.kind for theorem, outcome in self.done if theorem.ok(outcome))
+        all_of = Counter[str](theorem.kind for theorem, _ in self.done)
+        replays = [outcome.replayed for _, outcome in self.done if outcome.replayed is not None]
+        came, found = sum(one[0] for one in replays), sum(one[1] for one in replays)
+        said = {
+            "inductive": "{} of {} theorems proved for any size",
+            "bounded": "{} of {} exhausted",
+            "negative": "{} of {} negatives refuted",
+            "mutant": "{} of {} mutants refuted",
+        }
+        words = [told.format(ok[kind], n) for kind, told in said.items() if (n := all_of[kind])]
+        words += [f"{came} of {found} models replayed"] if found else []
+        undecided = [t.name for t, outcome in self.done if t.standing(outcome) == "open"]
+        if undecided:
+            words.append(f"not decided: {', '.join(undecided[:3])}")
+        if interrupted:
+            words.append("interrupted")
+        return "; ".join(words)
+
+
+def _finding(theorem: Theorem, outcome: Outcome) -> Finding:
+    told = f"theorem {theorem.name} is {outcome.verdict}, not {theorem.expected}: {theorem.words}"
+    return Finding(
+        claim=theorem.claims[0] if theorem.claims else "proofs",
+        event=None,
+        expected=theorem.expected,
+        seen=outcome.verdict,
+        message=told,
+        world=outcome.counterexample or "",
+        replay=f"topo-verify prove {theorem.name}",
+    )

@@ -1,0 +1,85 @@
+"""The part `small-worlds`: every mapper in every world up to a size, by exhaustive search.
+
+The catalogue alone is handed to workers: a mapper of the user's runs in this process, so that
+Ctrl-C finds it, and its few thousand runs take seconds.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from topo_verify.algorithms import CATALOGUE
+from topo_verify.checkers import CLAIMS
+from topo_verify.harness.search import Found, Plan, Search
+from topo_verify.harness.search.workers import processors
+from topo_verify.harness.verify.parts import Part, Tell, plural
+from topo_verify.harness.verify.trials import PATIENCE, claims_in_words
+from topo_verify.programs.loading import Target
+from topo_verify.robot.limits import Limits
+
+WORTH = 4
+"""Worlds with fewer edges are examined before a worker has started."""
+
+
+class SmallWorlds:
+    """Every mapper in every world of 1 … `edges` edges, every claim. A `Job`."""
+
+    def __init__(self, edges: int, targets: Sequence[Target], limits: Limits) -> None:
+        ours = all(CATALOGUE.get(target.text) == target.mapper for target in targets)
+        plan = Plan(
+            targets=tuple(target.text for target in targets),
+            edges=edges,
+            keep_going=True,
+            patience=PATIENCE,
+            limits=limits,
+        )
+        workers = processors() if ours and edges >= WORTH else 0
+        self.search = Search(plan, targets, workers=workers)
+
+    def work(self, tell: Tell) -> None:
+        """Go through the worlds."""
+        self.search.work(lambda _what, done, total: tell("small-worlds", done, total))
+
+    def part(self, *, interrupted: bool = False) -> Part:
+        """What was found so far."""
+        found = self.search.found()
+        tally = found.tally
+        claims = {
+            claim: {
+                status: tally.statuses.get(claim, {}).get(status, 0)
+                for status in ("ok", "failed", "not-declared", "not-asked")
+            }
+            for claim in CLAIMS
+        }
+        return Part(
+            part="small-worlds",
+            verdict=found.verdict,
+            ok=found.verdict == "EXHAUSTED" and not interrupted,
+            checked=tally.worlds,
+            total=found.total,
+            summary=_summary(found, claims, interrupted=interrupted),
+            failing=tally.failing,
+            claims=claims,
+            findings=tuple(finding for failure in tally.failures for finding in failure.findings),
+        )
+
+
+def _summary(found: Found, claims: dict[str, dict[str, int]], *, interrupted: bool) -> str:
+    tally, targets = found.tally, found.plan.targets
+    words = f"{tally.worlds} of {plural(found.total, 'world')}"
+    words += f" of 1 to {plural(found.plan.edges, 'edge')}"
+    words += f" × {len(targets)} mappers: " if len(targets) > 1 else ": "
+    if tally.failing:
+        failed = ", ".join(claim for claim, seen in claims.items() if seen["failed"])
+        worlds = plural(tally.failing, "of them refutes", "of them refute")
+        words += f"{worlds} {failed}, first {tally.failures[0].world}"
+    else:
+        words += claims_in_words({claim: Counter(seen) for claim, seen in claims.items()})
+    if tally.undecided:
+        words += f"; {plural(tally.undecided, 'run')} out of time"
+    if interrupted:
+        return words + "; interrupted"
+    if tally.worlds < found.total:
+        words += f"; stopped after {tally.timeouts} time-outs"
+    return words

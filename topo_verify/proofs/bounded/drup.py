@@ -1,0 +1,152 @@
+"""Certificates: that clauses cannot all hold, proved by one program and checked by another.
+
+A SAT solver (python-sat's) looks for a refutation and writes down the clauses that it learns: a
+DRUP proof, each line a consequence of what stands before it by unit propagation, the last line the
+empty clause. `drup`, a checker extracted from a development verified in Why3, follows the proof. It
+calls no solver, and nothing that the solver said is believed.
+
+The checker is slow and the solver is quick. So the solver first says which clauses it used, again
+and again; what is checked is a refutation of those, and that they are clauses of the formula is
+checked here. If some of the clauses contradict, all of them do.
+
+What this does not show: that the clauses say what they should. The encoding is compared with the
+enumeration (`enumeration`), and its rules with the simulator (`replaying`).
+
+Source: M. Heule, W. Hunt, N. Wetzler, "Trimming while checking clausal proofs", FMCAD 2013.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module, metadata
+from typing import Any
+
+from topo_verify.errors import InputError
+from topo_verify.proofs.bounded.cnf import Clause, Formula
+from topo_verify.proofs.theorem import Certificate
+
+FORMAT = "drup"
+SOLVERS = ("glucose4", "lingeling", "cadical153")
+"""The solvers that are asked for a proof; the shortest is checked."""
+
+PER_SECOND = 100_000
+"""Clauses times steps that the checker is trusted to manage in a second, on a slow machine."""
+
+_ROUNDS = 8
+_FEWEST_CLAUSES = 400
+"""No formula that needs a long proof has come down to fewer: limits the search for a proof."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refutation:
+    """Clauses that contradict each other, and the learned clauses that show it, the last empty."""
+
+    clauses: tuple[Clause, ...]
+    steps: tuple[Clause, ...]
+
+
+def require_tools() -> None:
+    """Refuse to begin where python-sat or drup is not to be had (`InputError`)."""
+    for package, module in (("python-sat", "pysat.solvers"), ("drup", "drup")):
+        try:
+            import_module(module)
+        except (ImportError, OSError) as error:
+            raise InputError(
+                f"certificates need the package {package}, which does not load here ({error}):"
+                " install topo-verify[proofs] (drup brings its checker for Linux on x86_64 and for"
+                " nothing else), or leave out --certify"
+            ) from error
+
+
+def checker() -> str:
+    """Name and version of the checker."""
+    return f"drup {metadata.version('drup')}"
+
+
+def certify(formula: Formula, *, seconds: float = 60.0) -> Certificate | str:
+    """A checked certificate that the formula is unsatisfiable; or why there is none.
+
+    A proof that the checker refuses is a `Certificate` that is not `checked`: something is wrong.
+
+    Args:
+        seconds: no proof is looked for that would keep the checker busy longer, as estimated.
+    """
+    largest = round(seconds * PER_SECOND)
+    refutation = refute(formula, most_steps=largest // _FEWEST_CLAUSES)
+    if isinstance(refutation, str):
+        return refutation
+    clauses, steps = len(refutation.clauses), len(refutation.steps)
+    if clauses * steps > largest:
+        return f"too long for the checker: {steps} steps over {clauses} clauses (--timeout)"
+    why = objection(formula, refutation)
+    return Certificate(
+        format=FORMAT,
+        checker=checker(),
+        checked=not why,
+        clauses=clauses,
+        steps=steps,
+        why=why,
+    )
+
+
+def refute(formula: Formula, *, most_steps: int = 1_000_000) -> Refutation | str:
+    """A short refutation; or why there is none: satisfiable, or more steps than that."""
+    clauses = formula.clauses
+    for _ in range(_ROUNDS):
+        used = _used(clauses, len(formula.names), most_steps)
+        if isinstance(used, str):
+            return used
+        if len(used) > 0.97 * len(clauses):
+            break
+        clauses = used
+    proofs = [_proof(clauses, name) for name in SOLVERS]
+    return Refutation(tuple(clauses), min(proofs, key=len))
+
+
+def objection(formula: Formula, refutation: Refutation) -> str:
+    """What the checker has against the refutation; "" if it accepts it. Calls no solver."""
+    drup: Any = import_module("drup")
+    if not set(refutation.clauses) <= set(formula.clauses):
+        return "it refutes clauses that are not those of the formula"
+    if not refutation.steps or refutation.steps[-1]:
+        return "its last step is not the empty clause"
+    outcome = drup.check_proof(refutation.clauses, refutation.steps).outcome
+    return "" if outcome == drup.Outcome.VALID else f"{checker()} refuses it"
+
+
+def together(certificates: list[Certificate]) -> Certificate:
+    """One for several formulas: checked if all of them are; clauses and steps are added up."""
+    return Certificate(
+        format=FORMAT,
+        checker=checker(),
+        checked=all(one.checked for one in certificates),
+        clauses=sum(one.clauses for one in certificates),
+        steps=sum(one.steps for one in certificates),
+        why=next((one.why for one in certificates if one.why), ""),
+    )
+
+
+def _used(clauses: list[Clause], names: int, most_steps: int) -> list[Clause] | str:
+    """The clauses that a solver used to refute all of them; or why it did not."""
+    solvers: Any = import_module("pysat.solvers")
+    chosen = range(names + 1, names + 1 + len(clauses))
+    with solvers.Solver(name=SOLVERS[0]) as solver:
+        for clause, switch in zip(clauses, chosen, strict=True):
+            solver.add_clause([*clause, -switch])
+        solver.conf_budget(most_steps)
+        satisfiable = solver.solve_limited(assumptions=list(chosen))
+        if satisfiable is None:
+            return f"more than {most_steps} steps are needed, too many for the checker (--timeout)"
+        if satisfiable:
+            return "the SAT solver finds that the clauses can all hold"
+        return [clauses[switch - names - 1] for switch in sorted(solver.get_core())]
+
+
+def _proof(clauses: list[Clause], name: str) -> tuple[Clause, ...]:
+    """The clauses that a solver learned on the way to the empty one."""
+    solvers: Any = import_module("pysat.solvers")
+    with solvers.Solver(name=name, bootstrap_with=clauses, with_proof=True) as solver:
+        solver.solve()
+        learned = [line.split() for line in solver.get_proof() if not line.startswith("d")]
+    steps = [tuple(map(int, line[:-1])) for line in learned]
+    return (*(step for step in steps if step), ())

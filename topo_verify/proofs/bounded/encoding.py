@@ -1,0 +1,240 @@
+"""Every world with m edges, and every map S that can be reached in it, as clauses.
+
+**World.** The darts are 0 … 2m-1 and a vertex is an interval of them, clockwise from the dart by
+which it was first entered (docs/semantics.md, section 3; v0 from the marked dart, which is dart 0):
+
+    first[d]        dart d is the first of its vertex
+    joined[a, b]    a and b are the two darts of one edge, a < b
+    vertex[f, n]    the darts f … f+n-1 are a vertex (defined)
+
+**Map.** S is numbered in the order of its discovery, and so is the world: first the darts that S
+knows, then the others. S is thus a part of the world, and what corresponds is equal:
+
+    known[d]        d is a dart of S: a prefix of the numbers, whole vertices
+    explored[d]     so is its other end, and S knows that they are one edge
+
+Every vertex but v0 has its first dart joined with a smaller one (`entry`): the edge by which it
+was found. If S knows the vertex, that edge is explored. So everything is connected, and S is
+*reachable*: walk the entry edges in the order of the numbers, any other edge once its ends are
+known. Conversely every S that an exploration draws has these properties. The vertices that S does
+not know are numbered breadth-first from all darts before them, which leaves one numbering. So each
+pair of a world and a map of it (numbered by its discovery) is one model. With S = v0 alone this is
+the world's breadth-first numbering, and each rooted map is exactly one model: `enumeration` counts
+them.
+
+**Walks.** A position is a one-hot row over darts: the robot's reference dart, or where tracing
+stands on S. Doors are one-hot rows too; turning and crossing are clauses. All rows that are
+determined by others are said to be one-hot again: redundant, and what makes words of four doors
+feasible.
+
+Cost: O(m³) clauses for a world, a step, or a percept. Source: docs/semantics.md, sections 1 to 3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Literal as OneOf
+
+from topo_verify.proofs.bounded.cnf import Formula, Literal, Row
+
+Marker = OneOf["directed", "undirected", "none"]
+"""What of the marker is compared: its direction; whether it is here; nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Map:
+    """A reachable map S of the world: which darts it knows, which of them are explored."""
+
+    known: Row
+    explored: Row
+
+
+@dataclass(frozen=True, slots=True)
+class Sense:
+    """A percept as one-hot rows: the degree less one; is the marker here; its door, if it is."""
+
+    degree: Row
+    here: Literal
+    marker: Row
+
+
+class Worlds(Formula):
+    """The clauses of all worlds with this many edges, to which maps, walks and claims are added.
+
+    Attributes:
+        darts: 2m.
+        first, joined, vertex, entry: see the head of this file; entry[e, f]: the vertex that begins
+            with dart f > 0 was found through dart e < f.
+    """
+
+    def __init__(self, edges: int) -> None:
+        super().__init__()
+        self.edges = edges
+        self.darts = range(2 * edges)
+        self.first = self.booleans("first", 2 * edges)
+        self.joined = {
+            (a, b): self.boolean(f"joined.{a}.{b}") for a, b in combinations(self.darts, 2)
+        }
+        self.vertex: dict[tuple[int, int], Literal] = {}
+        self.entry: dict[tuple[int, int], Literal] = {}
+        self._rotation()
+        self._edges()
+        self.in_v0 = self._first_vertex()
+
+    def edge(self, one: int, other: int) -> Literal:
+        """The two darts are joined."""
+        return self.joined[min(one, other), max(one, other)]
+
+    def _rotation(self) -> None:
+        end = len(self.darts)
+        self.add("rotation", self.first[0])
+        for f in self.darts:
+            for after in range(f + 1, end + 1):
+                inside = [-self.first[d] for d in range(f + 1, after)]
+                closed = [] if after == end else [self.first[after]]
+                self.vertex[f, after - f] = self.define_and(
+                    "rotation", f"vertex.{f}.{after - f}", [self.first[f], *inside, *closed]
+                )
+
+    def _edges(self) -> None:
+        for d in self.darts:
+            self.exactly_one("edges", [self.edge(d, x) for x in self.darts if x != d])
+        for (e, f), joined in self.joined.items():
+            self.entry[e, f] = self.define_and("edges", f"entry.{e}.{f}", [self.first[f], joined])
+        for f in self.darts[1:]:
+            self.imply("connected", [self.first[f]], *(self.entry[e, f] for e in range(f)))
+
+    def _first_vertex(self) -> Row:
+        """Per dart: it is at v0."""
+        degrees = [self.vertex[0, after] for after in range(1, len(self.darts) + 1)]
+        return tuple(self.define_or("rotation", f"in_v0.{d}", degrees[d:]) for d in self.darts)
+
+    # ------------------------------------------------------------ the map S
+
+    def map(self, name: str) -> Map:
+        """A new map of the world, reachable."""
+        known = self.booleans(f"{name}.known", len(self.darts))
+        explored = self.booleans(f"{name}.explored", len(self.darts))
+        group = f"{name}.reachable"
+        self.add(group, known[0])
+        for d in self.darts[1:]:
+            self.imply(group, [known[d]], known[d - 1])
+            self.imply(group, [known[d - 1], -self.first[d]], known[d])
+            self.imply(group, [known[d], self.first[d]], explored[d])
+        for d in self.darts:
+            self.imply(group, [explored[d]], known[d])
+        for (a, b), joined in self.joined.items():
+            self.imply(group, [joined, explored[a]], explored[b])
+            self.imply(group, [joined, explored[b]], explored[a])
+        return Map(known, explored)
+
+    def number_the_rest(self, known: Row | None = None) -> None:
+        """Number the vertices that a map does not know (None: all but v0) breadth-first."""
+        known = self.in_v0 if known is None else known
+        group = "numbering"
+        for (e1, f1), earlier in self.entry.items():
+            for (e2, f2), later in self.entry.items():
+                if f1 < f2 and e1 > e2:
+                    self.imply(group, [earlier, later], known[f1], known[f2])
+        for (f, degree), vertex in self.vertex.items():
+            for g in range(f + 1, f + degree) if f else ():
+                for e in range(f):  # any other dart of the vertex comes after its entry
+                    before = [self.entry[x, f] for x in range(e)]
+                    self.imply(group, [vertex, self.edge(e, g)], *before, known[f])
+
+    def include(self, group: str, smaller: Map, larger: Map) -> None:
+        """The smaller map is a part of the larger."""
+        for d in self.darts:
+            self.imply(group, [smaller.known[d]], larger.known[d])
+            self.imply(group, [smaller.explored[d]], larger.explored[d])
+
+    def restrict(self, world_class: str) -> None:
+        """Only worlds of a class: `any`, `loopless` or `simple`."""
+        if world_class == "any":
+            return
+        group = "class"
+        same: dict[tuple[int, int], Literal] = {}
+        for a, b in combinations(self.darts, 2):
+            literal = self.define_and(
+                group, f"same.{a}.{b}", [-self.first[d] for d in range(a + 1, b + 1)]
+            )
+            same[a, b] = same[b, a] = literal
+        for (a, b), joined in self.joined.items():
+            self.imply(group, [joined], -same[a, b])
+            for c in self.darts if world_class == "simple" else ():
+                for d in self.darts:
+                    if a < min(c, d) and b not in {c, d} and c != d:
+                        self.add(group, -joined, -self.edge(c, d), -same[a, c], -same[b, d])
+
+    # ------------------------------------------------------------ walking
+
+    def position(self, group: str, name: str) -> Row:
+        """A new position: some dart."""
+        return self.row(group, name, len(self.darts))
+
+    def turn(
+        self, group: str, at: Row, door: Row, leave: Row, *guard: Literal, absolute: bool = False
+    ) -> None:
+        """Where the guard holds: `leave` is the dart that the door means at `at`, and exists.
+
+        Args:
+            absolute: count doors from the first dart of the vertex instead (a seeded fault).
+        """
+        for (f, degree), vertex in self.vertex.items():
+            for x in range(f, f + degree):
+                for k in self.darts:
+                    here = (*guard, at[x], vertex)
+                    if k < degree:
+                        place = k if absolute else (x - f + k) % degree
+                        self.imply(group, (*here, door[k]), leave[f + place])
+                    else:
+                        self.imply(group, here, -door[k])
+
+    def cross(self, group: str, leave: Row, arrive: Row, *guard: Literal) -> None:
+        """Where the guard holds: `arrive` is the other dart of the edge of `leave`."""
+        for (a, b), joined in self.joined.items():
+            self.imply(group, [*guard, leave[a], joined], arrive[b])
+            self.imply(group, [*guard, leave[b], joined], arrive[a])
+
+    def at_one_of(self, group: str, at: Row, darts: Row, name: str) -> Literal:
+        """A new Boolean: the dart of the position is one of these."""
+        found = self.boolean(name)
+        for place, member in zip(at, darts, strict=True):
+            self.imply(group, [place, member], found)
+            self.imply(group, [place, -member], -found)
+        return found
+
+    # ------------------------------------------------------------ sensing
+
+    def sense(self, group: str, at: Row, name: str) -> Sense:
+        """What is sensed with the position as reference dart."""
+        degree = self.row(group, f"{name}.degree", len(self.darts))
+        marker = self.booleans(f"{name}.marker", len(self.darts))
+        here = self.at_one_of(group, at, self.in_v0, f"{name}.here")
+        for (f, doors), vertex in self.vertex.items():
+            for x in range(f, f + doors):
+                self.imply(group, [at[x], vertex], degree[doors - 1])
+                if f == 0:
+                    self.imply(group, [at[x], vertex], marker[-x % doors])
+        for one, other in combinations(marker, 2):
+            self.add(group, -one, -other)
+        for door in marker:
+            self.imply(group, [door], here)
+        return Sense(degree, here, marker)
+
+    def alike(
+        self, group: str, one: Sense, other: Sense, name: str, marker: Marker = "directed"
+    ) -> Literal:
+        """A new Boolean: two percepts are equal, as far as the marker is looked at."""
+        parts = [self.define_equal(group, f"{name}.degree", one.degree, other.degree)]
+        if marker != "none":
+            parts.append(
+                self.define_equal(
+                    group, f"{name}.here", (one.here, -one.here), (other.here, -other.here)
+                )
+            )
+        if marker == "directed":
+            away = (-one.here, *one.marker), (-other.here, *other.marker)
+            parts.append(self.define_equal(group, f"{name}.marker", *away))
+        return self.define_and(group, f"{name}.alike", parts)

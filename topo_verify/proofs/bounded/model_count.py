@@ -1,0 +1,92 @@
+"""The worlds that the encoding speaks of, listed by the solver and compared with the enumeration.
+
+With S = v0 alone a model of the encoding is a world in its breadth-first numbering. So asking for
+all models (each one found is forbidden before the next is asked for) must give each rooted map
+once, and the pairs (degrees, alpha) must be the canonical codes that `world.counting` lists, no
+more and no less: 2, 10, 74, 706, 8162 of them with 1 … 5 edges. That is what makes "every world" in
+the bounded theorems mean every world.
+
+Source: docs/semantics.md, section 12.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from itertools import accumulate
+
+from topo_verify.proofs.bounded.cnf import REFUTED
+from topo_verify.proofs.bounded.decode import decode_table
+from topo_verify.proofs.bounded.encoding import Worlds
+from topo_verify.proofs.bounded.solve import Undecided, models
+from topo_verify.proofs.theorem import Budget
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.enumeration.rank_order import Table
+
+LISTED_EDGES = 4
+"""Up to here the worlds of a theorem are counted in its own encoding; beyond, by the formulas."""
+
+
+def every_world(edges: int, world_class: str = "any") -> Worlds:
+    """The encoding of the worlds of a class, each in its breadth-first numbering."""
+    world = Worlds(edges)
+    world.restrict(world_class)
+    world.number_the_rest()
+    return world
+
+
+def codes(edges: int, world_class: str = "any", budget: Budget | None = None) -> Iterator[Table]:
+    """The pair (degrees, alpha) of each model, in the order in which the solver finds them.
+
+    Raises:
+        Undecided: the solver gave up before it had said that there are no more.
+    """
+    world = every_world(edges, world_class)
+    over = (*world.first, *world.joined.values())
+    for model in models(world, over, budget or Budget()):
+        yield decode_table(world, model)
+
+
+def missing_and_spurious(
+    edges: int, world_class: str = "any", budget: Budget | None = None
+) -> tuple[int, list[Table], list[Table]]:
+    """How many models there are; codes without a model; models that are no code, or come again."""
+    kind = WorldClass.parse(world_class)
+    wanted = {table for table in rank_order.tables(edges) if kind.admits(table)}
+    spurious: list[Table] = []
+    found = 0
+    for code in codes(edges, world_class, budget):
+        found += 1
+        if code in wanted:
+            wanted.remove(code)
+        else:
+            spurious.append(code)
+    return found, sorted(wanted), spurious
+
+
+def another_world(edges: int) -> Worlds:
+    """A model that is none of the canonical codes: there must be none."""
+    world = every_world(edges)
+    for degrees, alpha in rank_order.tables(edges):
+        firsts = {0, *accumulate(degrees[:-1])}
+        numbers = [-world.first[d] if d in firsts else world.first[d] for d in world.darts]
+        joined = [-world.edge(d, other) for d, other in enumerate(alpha) if d < other]
+        world.add(REFUTED, *numbers, *joined)
+    return world
+
+
+@cache
+def worlds_encoded(edges: int, world_class: str = "any") -> int | None:
+    """How many worlds of the class the encoding has; None if the solver does not say.
+
+    Counted in the encoding itself up to `LISTED_EDGES`, and only codes that the enumeration has
+    too; beyond, what the formulas or the enumeration say.
+    """
+    if edges > LISTED_EDGES:
+        return WorldClass.parse(world_class).count(edges)
+    try:
+        found, _, spurious = missing_and_spurious(edges, world_class)
+    except Undecided:
+        return None
+    return found - len(spurious)

@@ -1,0 +1,202 @@
+"""What must be refuted, with a world: the negatives, and rules with one thing changed.
+
+    negative   a mapper that ignores the direction, or the whole, of the marker confirms a false
+               hypothesis: in the smallest worlds of their class (`negatives`)
+    mutant     a rule with a fault (`words.Fault`) confirms a false hypothesis, or rejects the
+               true one
+
+The solver finds a world, a map and doors; then the simulator does it again and the checkers must
+object (`replaying`). A model that does not replay is not a counterexample: it raises.
+
+Source: docs/semantics.md, sections 7 and 10.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from time import perf_counter
+
+from topo_verify.proofs.bounded import negatives, word_rules
+from topo_verify.proofs.bounded.decode import Story, decode, telling
+from topo_verify.proofs.bounded.encoding import Marker
+from topo_verify.proofs.bounded.replay import Replay, replay_confirmation, replay_rejection
+from topo_verify.proofs.bounded.solve import first_model
+from topo_verify.proofs.bounded.word_rules import Play
+from topo_verify.proofs.bounded.words import Fault
+from topo_verify.proofs.solvers.z3_solver import name as solver_name
+from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
+
+
+@dataclass(frozen=True, slots=True)
+class _Mutant:
+    """A rule, what is changed in it, in how small a world that goes wrong, and how to tell it."""
+
+    rule: str
+    fault: Fault | Marker
+    edges: int
+    build: Callable[[int, int], Play]
+    told: str
+
+
+def negative() -> tuple[Theorem, ...]:
+    """Every negative, at its smallest size."""
+    return tuple(map(_negative, negatives.SMALLEST))
+
+
+def mutants() -> tuple[Theorem, ...]:
+    """Every fault of a rule, in the smallest worlds where it goes wrong."""
+    return tuple(map(_mutant, _MUTANTS))
+
+
+def _negative(case: negatives.Negative) -> Theorem:
+    build = partial(negatives.false_confirmation, case.edges, case.world_class, case.marker)
+    return Theorem(
+        name=case.name,
+        kind="negative",
+        claims=("no-false-confirm",),
+        words=f"{case.telling} {case.edges} edges are enough.",
+        symbols="every percept on a shortest way home as expected ∧ h ≠ alpha(e)",
+        solver_part=f"finds a world with {case.edges} edges, a map and a hypothesis",
+        expected="REFUTED",
+        prove=partial(_refute, build, partial(replay_confirmation, marker=case.marker)),
+        queries=partial(_queries, case.name, build),
+        edges=case.edges,
+    )
+
+
+_MUTANTS = (
+    _Mutant(
+        "confirm",
+        "undirected",
+        2,
+        partial(word_rules.confirm, marker="undirected"),
+        "the last percept is compared without the marker's direction",
+    ),
+    _Mutant(
+        "confirm",
+        "none",
+        2,
+        partial(word_rules.confirm, marker="none"),
+        "the last percept is compared without the marker",
+    ),
+    _Mutant(
+        "trace",
+        "turned",
+        2,
+        partial(word_rules.trace_way, fault="turned"),
+        "after an excursion it is forgotten that the reference dart is turned",
+    ),
+    _Mutant(
+        "trace",
+        "shifted",
+        2,
+        partial(word_rules.trace_way, fault="shifted"),
+        "each percept is compared with the one behind the next door",
+    ),
+    _Mutant(
+        "prefix",
+        "one-more",
+        2,
+        partial(word_rules.prefix, fault="one-more"),
+        "the door behind the common prefix is compared too",
+    ),
+    _Mutant(
+        "history",
+        "through-unexplored",
+        1,
+        partial(word_rules.history, fault="through-unexplored"),
+        "an unexplored dart is traced as if it led back to itself",
+    ),
+    _Mutant(
+        "history",
+        "absolute-doors",
+        2,
+        partial(word_rules.history, fault="absolute-doors"),
+        "doors are counted from the vertex's first dart",
+    ),
+    _Mutant(
+        "history",
+        "shifted",
+        2,
+        partial(word_rules.history, fault="shifted"),
+        "each percept is compared with the one behind the next door",
+    ),
+    _Mutant(
+        "records-one",
+        "first-dart",
+        2,
+        partial(word_rules.records, levels=1, fault="first-dart"),
+        "sequences are traced again from the vertex's first dart",
+    ),
+    _Mutant(
+        "records-all",
+        "first-dart",
+        2,
+        partial(word_rules.records, levels=None, fault="first-dart"),
+        "sequences are traced again from the vertex's first dart",
+    ),
+)
+
+
+def _mutant(case: _Mutant) -> Theorem:
+    confirms = case.rule == "confirm"
+    name = f"words-{case.rule}-{case.fault}"
+    build = partial(case.build, case.edges, case.edges)
+    return Theorem(
+        name=name,
+        kind="mutant",
+        claims=("no-false-confirm" if confirms else "true-hypothesis-kept",),
+        words=f"Rule {case.rule} with a fault goes wrong: {case.told}.",
+        symbols="h ≠ alpha(e) is confirmed" if confirms else "h = alpha(e) is rejected",
+        solver_part=f"finds a world with {_edges(case.edges)}, a map and doors",
+        expected="REFUTED",
+        prove=partial(_refute, build, _replay_of(case)),
+        queries=partial(_queries, name, build),
+        edges=case.edges,
+        of=f"words-{case.rule}",
+    )
+
+
+def _replay_of(case: _Mutant) -> Callable[[Story], Replay]:
+    match case.fault:
+        case "directed" | "undirected" | "none" as marker:
+            return partial(replay_confirmation, marker=marker, whole=False)
+        case fault:
+            return partial(replay_rejection, rule=case.rule.split("-")[0], fault=fault)
+
+
+def _refute(
+    build: Callable[[], Play], replay: Callable[[Story], Replay], budget: Budget
+) -> Outcome:
+    """Look for a model; decode it; replay it."""
+    began = perf_counter()
+    play = build()
+    decision = first_model(play.world, telling(play), budget)
+    if decision.model is None:
+        exhausted = decision.answer == "unsat"
+        return Outcome(
+            verdict="EXHAUSTED" if exhausted else "UNKNOWN",
+            solver=solver_name(),
+            seconds=perf_counter() - began,
+            note="there is no such world" if exhausted else f"{decision.why}; more time: --timeout",
+        )
+    replayed = replay(decode(play, decision.model))
+    return Outcome(
+        verdict="REFUTED",
+        solver=solver_name(),
+        seconds=perf_counter() - began,
+        replayed=(1, 1),
+        counterexample=replayed.world.id,
+        history=replayed.doors,
+        note=f"{replayed.claim} fails in {replayed.world.id} at event {replayed.event}",
+    )
+
+
+def _queries(name: str, build: Callable[[], Play]) -> Iterator[Query]:
+    yield Query(name, build().world.smt2() + "(check-sat)\n", "sat")
+
+
+def _edges(edges: int) -> str:
+    return f"{edges} edge{'s' * (edges > 1)}"

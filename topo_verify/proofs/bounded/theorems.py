@@ -1,0 +1,254 @@
+"""The bounded theorems: every world with m edges, every map that can be reached in it.
+
+    one-door   one arbitrary door at an arbitrary place, m = 1 … 6; words of any length by induction
+    words      whole words of up to m doors, m = 1 … 3; with --deep m = 4, where that is feasible
+    below      no false confirmation without the marker's direction, below the sizes of `negatives`
+    worlds     the worlds that all these speak of are the canonical codes
+
+A theorem holds if its clauses are unsatisfiable for each m: EXHAUSTED, and the worlds are counted
+in the encoding (`enumeration`) and by the formulas. Its premises alone must be satisfiable for each
+m. Should one fail, the model is decoded to a world and the theorem is REFUTED by it.
+
+Source: docs/semantics.md, sections 4 to 10.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from time import perf_counter
+
+from topo_verify.errors import InputError
+from topo_verify.proofs.bounded import drup, negatives
+from topo_verify.proofs.bounded.cnf import Formula
+from topo_verify.proofs.bounded.decode import decode_world
+from topo_verify.proofs.bounded.encoding import Worlds
+from topo_verify.proofs.bounded.model_count import (
+    another_world,
+    missing_and_spurious,
+    worlds_encoded,
+)
+from topo_verify.proofs.bounded.solve import Decision, Undecided, decide
+from topo_verify.proofs.bounded.statements import ONE_DOOR, WORDS, Statement
+from topo_verify.proofs.solvers.z3_solver import name as solver_name
+from topo_verify.proofs.theorem import Budget, Certificate, Outcome, Query, Theorem, Verdict
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+
+MOST_EDGES = 6
+"""One-door theorems are asked up to here: a few seconds in all."""
+
+WORD_EDGES, DEEP_WORD_EDGES = 3, 4
+"""Whole words grow fast: with 4 edges a minute each, and records are out of reach."""
+
+
+def bounded(edges: int = MOST_EDGES) -> tuple[Theorem, ...]:
+    """All bounded theorems, the one-door ones up to so many edges.
+
+    Raises:
+        InputError: no edges, or too many to be feasible.
+    """
+    if not 1 <= edges <= MOST_EDGES:
+        raise InputError(
+            f"--edges {edges}: bounded theorems are proved for 1 to {MOST_EDGES} edges (beyond,"
+            " the inductive ones speak of worlds of any size)"
+        )
+    small = range(1, min(edges, WORD_EDGES) + 1)
+    deep = range(1, DEEP_WORD_EDGES + 1)
+    return (
+        *(theorem(statement, range(1, edges + 1)) for statement in ONE_DOOR),
+        *(theorem(statement, small) for statement in WORDS if statement.least <= edges),
+        *(
+            theorem(statement, deep, name=f"{statement.name}-deep", deep=True)
+            for statement in WORDS
+            if not statement.name.startswith("words-records")
+        ),
+        *(_below(negative) for negative in negatives.SMALLEST),
+        worlds_theorem("bounded-worlds", range(1, 5)),
+        worlds_theorem("bounded-worlds-deep", range(1, 6), deep=True),
+    )
+
+
+def theorem(
+    statement: Statement, sizes: range, *, name: str | None = None, deep: bool = False
+) -> Theorem:
+    """The statement as a theorem about worlds with these numbers of edges."""
+    name = name or statement.name
+    sizes = range(max(sizes[0], statement.least), sizes[-1] + 1)
+    return Theorem(
+        name=name,
+        kind="bounded",
+        claims=statement.claims,
+        words=statement.words,
+        symbols=statement.symbols,
+        solver_part=f"all of it, in every world with {_span(sizes)}",
+        argued=statement.argued,
+        assumed=("the encoding",),
+        expected="EXHAUSTED",
+        prove=partial(_prove, name, statement, sizes),
+        queries=partial(_questions, name, statement.refuted, sizes),
+        edges=sizes[-1],
+        deep=deep,
+    )
+
+
+def _below(negative: negatives.Negative) -> Theorem:
+    """Below its smallest size a negative is no counterexample."""
+
+    def refuted(edges: int) -> Worlds:
+        kind, marker = negative.world_class, negative.marker
+        return negatives.false_confirmation(edges, kind, marker).world
+
+    statement = Statement(
+        name=f"{negative.name}-below",
+        claims=("no-false-confirm",),
+        words=f"{negative.telling} With fewer edges there is no such world.",
+        symbols="every percept on a shortest way home as expected ⇒ h = alpha(e)",
+        refuted=refuted,
+        premises=partial(negatives.premises, world_class=negative.world_class),
+        world_class=negative.world_class,
+    )
+    return theorem(statement, range(1, negative.edges))
+
+
+# ------------------------------------------------------------------ proving them
+
+
+def _prove(name: str, statement: Statement, sizes: range, budget: Budget) -> Outcome:
+    """Ask for each size; the first that is not unsatisfiable decides."""
+    if budget.certify:
+        drup.require_tools()
+    began = perf_counter()
+    cores: set[str] = set()
+    premises: list[bool | None] = []
+    papers: list[Certificate | str] = []
+    checked = 0
+    total = sum(WorldClass.parse(statement.world_class).count(m) for m in sizes)
+
+    def outcome(verdict: Verdict, note: str = "", counterexample: str | None = None) -> Outcome:
+        known = None if None in premises else all(premises)
+        certificate, without = _one_certificate(papers, sizes)
+        return Outcome(
+            verdict=verdict,
+            solver=solver_name(),
+            seconds=perf_counter() - began,
+            premises_satisfiable=False if False in premises else known,
+            core=tuple(sorted(cores)),
+            checked=checked,
+            total=total,
+            counterexample=counterexample,
+            certificate=certificate,
+            note=note or without,
+        )
+
+    for done, m in enumerate(sizes):
+        budget.tell(name, done, len(sizes))
+        formula = statement.refuted(m)
+        decision = decide(formula, budget)
+        if decision.answer != "unsat":
+            return outcome(*_not_proved(formula, decision, m))
+        cores |= set(decision.core)
+        alone = formula.premises() if statement.premises is None else statement.premises(m)
+        premises.append(
+            {"sat": True, "unsat": False, "unknown": None}[decide(alone, budget).answer]
+        )
+        worlds = worlds_encoded(m, statement.world_class)
+        if worlds is None:
+            return outcome("UNKNOWN", f"the worlds with {m} edges could not be counted")
+        checked += worlds
+        if budget.certify and not any(isinstance(paper, str) for paper in papers):
+            papers.append(drup.certify(formula, seconds=budget.timeout))
+    return outcome("EXHAUSTED")
+
+
+def _not_proved(formula: Worlds, decision: Decision, m: int) -> tuple[Verdict, str, str | None]:
+    """Verdict, note and counterexample where the clauses were not unsatisfiable."""
+    if decision.model is not None:
+        world = decode_world(formula, decision.model).id
+        return "REFUTED", f"it is false in {world}: `--smt2` writes the question", world
+    told = f"m = {m}: {decision.why}; more time: --timeout, fewer edges: --edges"
+    return "UNKNOWN", told, None
+
+
+def _one_certificate(
+    papers: list[Certificate | str], sizes: range
+) -> tuple[Certificate | None, str]:
+    """The certificates of all sizes as one, if each has one; else up to where there is one."""
+    made = [paper for paper in papers if isinstance(paper, Certificate)]
+    if not papers or any(not paper.checked for paper in made):
+        return (drup.together(made) if made else None), ""
+    if len(made) == len(sizes):
+        return drup.together(made), ""
+    for m, paper in zip(sizes, papers, strict=False):
+        if isinstance(paper, str):
+            return (
+                None,
+                f"certificates checked for {len(made)} of {len(sizes)} sizes; m = {m}: {paper}",
+            )
+    return None, ""
+
+
+def _questions(
+    name: str, refuted: Callable[[int], Formula], sizes: Iterable[int]
+) -> Iterator[Query]:
+    for m in sizes:
+        yield Query(f"{name}-m{m}", refuted(m).smt2() + "(check-sat)\n", "unsat")
+
+
+def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> Theorem:
+    """The models of the encoding are the canonical codes, each once.
+
+    What is exported and certified is that there is no other model; that there is one for each code
+    is seen in the list.
+    """
+
+    def prove(budget: Budget) -> Outcome:
+        if budget.certify:
+            drup.require_tools()
+        began = perf_counter()
+        found, wrong = 0, ""
+        papers: list[Certificate | str] = []
+        verdict: Verdict = "EXHAUSTED"
+        try:
+            for done, m in enumerate(sizes):
+                budget.tell(name, done, len(sizes))
+                models, missing, spurious = missing_and_spurious(m, budget=budget)
+                found += models
+                if missing or spurious:
+                    verdict, wrong = "REFUTED", str((missing or spurious)[0])
+                elif budget.certify:
+                    papers.append(drup.certify(another_world(m), seconds=budget.timeout))
+        except Undecided as gave_up:
+            verdict, wrong = "UNKNOWN", str(gave_up)
+        certificate, without = _one_certificate(papers, sizes)
+        return Outcome(
+            verdict=verdict,
+            solver=solver_name(),
+            seconds=perf_counter() - began,
+            premises_satisfiable=found > 0,
+            checked=found,
+            total=sum(map(rank_order.count, sizes)),
+            counterexample=wrong if verdict == "REFUTED" else None,
+            certificate=certificate,
+            note=wrong or without,
+        )
+
+    return Theorem(
+        name=name,
+        kind="bounded",
+        claims=(),
+        words="The worlds of the encoding are the canonical codes, each of them once.",
+        symbols="{models} = {codes of rooted maps with m edges}",
+        solver_part=f"lists all models with {_span(sizes)}; they are compared with the enumeration",
+        assumed=("the encoding",),
+        expected="EXHAUSTED",
+        prove=prove,
+        queries=partial(_questions, name, another_world, sizes),
+        edges=sizes[-1],
+        deep=deep,
+    )
+
+
+def _span(sizes: range) -> str:
+    many = f"{sizes[0]} to {sizes[-1]} edges" if len(sizes) > 1 else f"{sizes[0]} edge"
+    return many if sizes[-1] == 1 or len(sizes) > 1 else f"{many}s"

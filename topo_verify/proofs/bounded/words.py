@@ -1,0 +1,216 @@
+"""Words of doors, executed in the world and traced on a map: the rules, as clauses.
+
+A robot has crossed the unexplored dart `e` and stands at `vu`, its reference dart `alpha(e)`. A
+hypothesis `h` says that this is dart h of S. Then a word of doors can be followed twice:
+
+    there     in the world, from alpha(e): where the robot really is
+    here      on S, from h: where it would be if the hypothesis were true; over explored darts only
+
+The rules compare what is sensed there with what S shows here. All statements are about any word,
+any map and any world with m edges, up to a number of steps:
+
+    confirm   here ends at v0 and the last percepts are equal            ⇒  h = alpha(e)
+    trace     h = alpha(e), every door crosses an explored dart          ⇒  all percepts are equal
+    prefix    h = alpha(e), another word was executed there              ⇒  equal on what they share
+    history   h = alpha(e), any word, traced until a dart is unexplored  ⇒  equal until then
+    records   as history, and behind the unexplored dart the percepts of an earlier word that
+              crossed it are compared, one place deep or as deep as the doors agree
+
+A `Fault` changes a rule in one way. Each makes a rule reject a true hypothesis or confirm a false
+one in a small world: that is how it is seen that the statements can fail.
+
+Source: docs/semantics.md, sections 6, 7 and 9.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal as OneOf
+
+from topo_verify.proofs.bounded.cnf import REFUTED, Literal, Row
+from topo_verify.proofs.bounded.encoding import Map, Sense, Worlds
+
+Fault = OneOf[
+    "", "through-unexplored", "absolute-doors", "shifted", "turned", "one-more", "first-dart"
+]
+"""One thing changed in a rule:
+
+    through-unexplored  an unexplored dart is traced as if it led back to itself
+    absolute-doors      doors are counted on S from the first dart of the vertex
+    shifted             a percept is compared with the one behind the next door
+    turned              after an excursion the robot forgets that its reference dart is turned
+    one-more            the door behind the common prefix is compared too
+    first-dart          records are traced again from the first dart of the vertex that was entered
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """Positions, the doors taken, and what is sensed at each position."""
+
+    at: tuple[Row, ...]
+    doors: tuple[Row, ...]
+    leave: tuple[Row, ...]
+    senses: tuple[Sense, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A world, a map of it, and the robot behind an unexplored dart.
+
+    Attributes:
+        e, vu: the dart crossed; the reference dart behind it.
+    """
+
+    world: Worlds
+    chart: Map
+    e: Row
+    vu: Row
+
+
+def behind_an_edge(edges: int, *, world_class: str = "any") -> Scene:
+    """Any world of the class, any reachable map S, any unexplored dart e."""
+    world = Worlds(edges)
+    world.restrict(world_class)
+    chart = world.map("S")
+    world.number_the_rest(chart.known)
+    e, vu = crossed(world, chart, "e")
+    return Scene(world, chart, e, vu)
+
+
+def crossed(world: Worlds, chart: Map, name: str) -> tuple[Row, Row]:
+    """Any unexplored dart of a map, and the reference dart behind it."""
+    e = open_dart(world, chart, name)
+    vu = world.position(name, f"{name}.behind")
+    world.cross(name, e, vu)
+    return e, vu
+
+
+def open_dart(world: Worlds, chart: Map, name: str) -> Row:
+    """Any dart of a map that is unexplored."""
+    dart = world.position(name, name)
+    for d in world.darts:
+        world.add(name, -dart[d], chart.known[d])
+        world.add(name, -dart[d], -chart.explored[d])
+    return dart
+
+
+def hypothesis(scene: Scene) -> Row:
+    """Any hypothesis for e: another unexplored dart of S."""
+    h = open_dart(scene.world, scene.chart, "h")
+    for one, other in zip(scene.e, h, strict=True):
+        scene.world.add("h", -one, -other)
+    return h
+
+
+def true_hypothesis(scene: Scene) -> Row:
+    """The hypothesis that is true: the other end of e, where S knows it."""
+    h = hypothesis(scene)
+    scene.world.equate("h", (), h, scene.vu)
+    return h
+
+
+# ------------------------------------------------------------------ walks
+
+
+def doors(world: Worlds, name: str, steps: int) -> tuple[Row, ...]:
+    """Any word of doors."""
+    return tuple(world.row(name, f"{name}.{i}", len(world.darts)) for i in range(steps))
+
+
+def going(world: Worlds, name: str, steps: int) -> tuple[Literal, ...]:
+    """Per step: is it still made? A word may be shorter than the number of steps."""
+    go = world.booleans(f"{name}.go", steps)
+    for before, after in pairwise(go):
+        world.add(name, -after, before)
+    return go
+
+
+def walk(
+    world: Worlds,
+    name: str,
+    start: Row,
+    word: tuple[Row, ...],
+    go: tuple[Literal, ...] | None = None,
+) -> Walk:
+    """Follow a word in the world; where `go` has ended, stay."""
+    at, leave, senses = [start], list[Row](), [world.sense(name, start, f"{name}.0")]
+    for i, door in enumerate(word):
+        guard = () if go is None else (go[i],)
+        leave.append(world.position(name, f"{name}.leave.{i}"))
+        at.append(world.position(name, f"{name}.at.{i + 1}"))
+        world.turn(name, at[i], door, leave[i], *guard)
+        world.cross(name, leave[i], at[i + 1], *guard)
+        if go is not None:
+            world.equate(name, (-go[i],), at[i], at[i + 1])
+        senses.append(world.sense(name, at[i + 1], f"{name}.{i + 1}"))
+    return Walk(tuple(at), word, tuple(leave), tuple(senses))
+
+
+@dataclass(frozen=True, slots=True)
+class Traced:
+    """A word followed on a map until it crosses an unexplored dart.
+
+    Attributes:
+        alive: per position, is tracing still on explored darts there?
+        ends: per step, does it cross an unexplored dart for the first time?
+    """
+
+    walk: Walk
+    alive: tuple[Literal, ...]
+    ends: tuple[Literal, ...]
+
+
+def trace(
+    world: Worlds,
+    name: str,
+    chart: Map,
+    start: Row,
+    word: tuple[Row, ...],
+    *,
+    fault: Fault = "",
+) -> Traced:
+    """Follow a word on a map, over explored darts, as far as that goes."""
+    at, leave, senses = [start], list[Row](), [world.sense(name, start, f"{name}.0")]
+    alive, ends = [world.first[0]], list[Literal]()
+    for i, door in enumerate(word):
+        leave.append(world.position(name, f"{name}.leave.{i}"))
+        at.append(world.position(name, f"{name}.at.{i + 1}"))
+        world.turn(name, at[i], door, leave[i], alive[i], absolute=fault == "absolute-doors")
+        known = world.at_one_of(name, leave[i], chart.explored, f"{name}.known.{i}")
+        on = world.define_and(name, f"{name}.on.{i + 1}", [alive[i], known])
+        ends.append(world.define_and(name, f"{name}.ends.{i}", [alive[i], -known]))
+        world.cross(name, leave[i], at[i + 1], on)
+        world.equate(name, (-alive[i],), at[i], at[i + 1])
+        through = fault == "through-unexplored"
+        world.equate(name, (ends[i],), leave[i] if through else at[i], at[i + 1])
+        alive.append(world.first[0] if through else on)
+        senses.append(world.sense(name, at[i + 1], f"{name}.{i + 1}"))
+    return Traced(Walk(tuple(at), word, tuple(leave), tuple(senses)), tuple(alive), tuple(ends))
+
+
+def stay_explored(world: Worlds, chart: Map, walked: Walk, go: tuple[Literal, ...]) -> None:
+    """Every door of a walk crosses an explored dart of the map."""
+    for leave, on in zip(walked.leave, go, strict=True):
+        for d in world.darts:
+            world.add("explored-way", -on, -leave[d], chart.explored[d])
+
+
+def differ_somewhere(
+    world: Worlds, pairs: Sequence[tuple[Sense, Sense, tuple[Literal, ...]]]
+) -> None:
+    """Refuted if at one of these places all guards hold and the two percepts differ.
+
+    The premises alone must let a place with guards be reached: else nothing would be compared.
+    """
+    reached: list[Literal] = []
+    seen: list[Literal] = []
+    for i, (one, other, guards) in enumerate(pairs):
+        same = world.alike("percepts", one, other, f"compare.{i}")
+        if guards:
+            reached.append(world.define_and("percepts", f"reached.{i}", guards))
+        seen.append(world.define_and("percepts", f"differ.{i}", [-same, *guards]))
+    world.add(REFUTED, *seen)
+    world.met.append(tuple(reached))

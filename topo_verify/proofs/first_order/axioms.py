@@ -1,0 +1,171 @@
+"""The theory: worlds, the map S, the correspondence between them, as first-order axioms.
+
+    sort   what it is                      letters
+    W      darts of the world              a, b
+    M      darts of the map S              x, y; e, h as in algorithms/exploration.py
+    K      doors: k0, succ(k0), ...        i, j, k
+    G      degrees                         only compared
+    L      words of doors: nil, cons(k,w)  w
+
+    world                       map S                           together
+    sigma, alpha, root          msigma, malpha, mroot           phi: M -> W, which dart of the
+    deg    degree               mdeg                            world a dart of S is
+    inv0   is it a dart of v0?  minv0
+    rot    rot(a,k)=sigma^k(a)  mrot
+                                explored: is malpha known?
+
+Doors are built from k0 and succ and are never integers: they are all that the robot counts with,
+and Z3 answers `unknown` about them at once where they are integers. `wraps(g,i,j)`: at a vertex of
+degree g, doors i and j are the same (i = j modulo g). `toroot(a)`: a door that leads from a to the
+root, if a is a dart of v0; it replaces an existential quantifier.
+
+Percept at a: deg(a), inv0(a), and for each door i whether rot(a,i) = root. Nothing says that W is
+finite or connected: what needs it is argued in words (docs/proofs.md).
+
+Source: docs/semantics.md, sections 1-3.
+"""
+
+from __future__ import annotations
+
+from topo_verify.proofs.first_order.terms import BOOL, Symbol, Term, Var, conj, differ, eq, forall
+
+# ---------------------------------------------------------------- the world
+
+sigma = Symbol("sigma", ("W",), "W")
+alpha = Symbol("alpha", ("W",), "W")
+deg = Symbol("deg", ("W",), "G")
+inv0 = Symbol("inv0", ("W",), BOOL)
+rot = Symbol("rot", ("W", "K"), "W")
+root = Symbol("root", (), "W")()
+toroot = Symbol("toroot", ("W",), "K")
+
+# ---------------------------------------------------------------- doors
+
+k0 = Symbol("k0", (), "K")()
+succ = Symbol("succ", ("K",), "K")
+plus = Symbol("plus", ("K", "K"), "K")
+wraps = Symbol("wraps", ("G", "K", "K"), BOOL)
+
+# ---------------------------------------------------------------- the map S
+
+msigma = Symbol("msigma", ("M",), "M")
+mback = Symbol("mback", ("M",), "M")
+malpha = Symbol("malpha", ("M",), "M")
+mdeg = Symbol("mdeg", ("M",), "G")
+minv0 = Symbol("minv0", ("M",), BOOL)
+mrot = Symbol("mrot", ("M", "K"), "M")
+mroot = Symbol("mroot", (), "M")()
+mtoroot = Symbol("mtoroot", ("M",), "K")
+explored = Symbol("explored", ("M",), BOOL)
+phi = Symbol("phi", ("M",), "W")
+
+# ---------------------------------------------------------------- words
+
+nil = Symbol("nil", (), "L")()
+cons = Symbol("cons", ("K", "L"), "L")
+walk = Symbol("walk", ("W", "L"), "W")
+mwalk = Symbol("mwalk", ("M", "L"), "M")
+stays = Symbol("stays", ("M", "L"), BOOL)
+
+a, b = Var("a", "W"), Var("b", "W")
+x, y = Var("x", "M"), Var("y", "M")
+i, j, k = Var("i", "K"), Var("j", "K"), Var("k", "K")
+w = Var("w", "L")
+
+AXIOMS: dict[str, Term] = {
+    # the world
+    "sigma-injective": forall((a, b), eq(sigma(a), sigma(b)), eq(a, b)),
+    "alpha-involution": forall(a, eq(alpha(alpha(a)), a)),
+    "alpha-no-fixed-point": forall(a, differ(alpha(a), a)),
+    "degree-of-vertex": forall(a, eq(deg(sigma(a)), deg(a))),
+    "marker-of-vertex": forall(a, eq(inv0(sigma(a)), inv0(a))),
+    "root-at-v0": inv0(root),
+    "v0-sees-root": forall(a, inv0(a), eq(rot(a, toroot(a)), root)),
+    "rot-zero": forall(a, eq(rot(a, k0), a)),
+    "rot-next": forall((a, k), eq(rot(a, succ(k)), sigma(rot(a, k)))),
+    "doors-wrap": forall(
+        (a, i, j),
+        eq(eq(rot(a, i), rot(a, j)), wraps(deg(a), i, j)),
+        tried_at=((rot(a, i), rot(a, j)), (rot(a, i), wraps(deg(a), i, j))),
+    ),
+    # doors
+    "plus-zero": forall(i, eq(plus(i, k0), i)),
+    "plus-next": forall((i, j), eq(plus(i, succ(j)), succ(plus(i, j)))),
+    # the map S
+    "map-degree-of-vertex": forall(x, eq(mdeg(msigma(x)), mdeg(x))),
+    "map-marker-of-vertex": forall(x, eq(minv0(msigma(x)), minv0(x))),
+    "map-root-at-v0": minv0(mroot),
+    "map-v0-sees-root": forall(x, minv0(x), eq(mrot(x, mtoroot(x)), mroot)),
+    "map-rot-zero": forall(x, eq(mrot(x, k0), x)),
+    "map-rot-next": forall((x, k), eq(mrot(x, succ(k)), msigma(mrot(x, k)))),
+    "map-sigma-onto": forall(x, eq(msigma(mback(x)), x), tried_at=((phi(x),),)),
+    "map-doors-wrap": forall(
+        (x, i, j),
+        eq(eq(mrot(x, i), mrot(x, j)), wraps(mdeg(x), i, j)),
+        tried_at=((mrot(x, i), mrot(x, j)),),
+    ),
+    # the invariant: S is a part of the world
+    "phi-root": eq(phi(mroot), root),
+    "phi-injective": forall((x, y), eq(phi(x), phi(y)), eq(x, y)),
+    "phi-sigma": forall(x, eq(phi(msigma(x)), sigma(phi(x)))),
+    "phi-degree": forall(x, eq(mdeg(x), deg(phi(x)))),
+    "phi-marker": forall(x, eq(minv0(x), inv0(phi(x)))),
+    "phi-alpha": forall(x, explored(x), eq(phi(malpha(x)), alpha(phi(x)))),
+    "explored-both-ends": forall(x, explored(x), explored(malpha(x))),
+    # words
+    "walk-nil": forall(a, eq(walk(a, nil), a)),
+    "walk-cons": forall((a, k, w), eq(walk(a, cons(k, w)), walk(alpha(rot(a, k)), w))),
+    "map-walk-nil": forall(x, eq(mwalk(x, nil), x)),
+    "map-walk-cons": forall((x, k, w), eq(mwalk(x, cons(k, w)), mwalk(malpha(mrot(x, k)), w))),
+    "stays-nil": forall(x, stays(x, nil)),
+    "stays-cons": forall(
+        (x, k, w),
+        eq(stays(x, cons(k, w)), conj(explored(mrot(x, k)), stays(malpha(mrot(x, k)), w))),
+    ),
+    # what the inductions over doors have shown; each is an obligation of its own
+    "rot-injective": forall((a, b, k), eq(rot(a, k), rot(b, k)), eq(a, b)),
+    "rot-degree": forall((a, k), eq(deg(rot(a, k)), deg(a))),
+    "rot-marker": forall((a, k), eq(inv0(rot(a, k)), inv0(a))),
+    "phi-rot": forall((x, k), eq(phi(mrot(x, k)), rot(phi(x), k))),
+    "turning-adds": forall((a, i, j), eq(rot(rot(a, i), j), rot(a, plus(i, j)))),
+    # what the inductions over words have shown; each is an obligation of its own
+    "trace": forall((x, w), stays(x, w), eq(phi(mwalk(x, w)), walk(phi(x), w))),
+}
+"""Every axiom and every lemma under its name. Lemmas are proved before they are used."""
+
+LEMMAS = {
+    "rot-injective": "rot-injective",
+    "rot-degree": "rot-keeps-degree",
+    "rot-marker": "rot-keeps-marker",
+    "phi-rot": "phi-keeps-doors",
+    "turning-adds": "turning-adds",
+    "trace": "word-trace",
+}
+"""Which of the axioms are lemmas, and the obligations (base and step) that prove each."""
+
+WORLD = (
+    "sigma-injective",
+    "alpha-involution",
+    "alpha-no-fixed-point",
+    "degree-of-vertex",
+    "marker-of-vertex",
+    "root-at-v0",
+    "v0-sees-root",
+)
+DOORS = ("rot-zero", "rot-next")
+MAP = ("map-degree-of-vertex", "map-marker-of-vertex", "map-root-at-v0", "map-v0-sees-root")
+MAP_DOORS = ("map-rot-zero", "map-rot-next")
+INVARIANT = (
+    "phi-root",
+    "phi-injective",
+    "phi-sigma",
+    "phi-degree",
+    "phi-marker",
+    "phi-alpha",
+    "explored-both-ends",
+)
+ALL_DOORS = ("rot-injective", "rot-degree", "rot-marker", "phi-rot")
+"""The lemmas on doors that need no addition."""
+
+CORRESPONDENCE = (*WORLD, *DOORS, *MAP, *MAP_DOORS, *INVARIANT, *ALL_DOORS)
+"""A world, a map S that is a part of it, and what is known of doors."""

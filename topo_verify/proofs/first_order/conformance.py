@@ -1,0 +1,245 @@
+"""What the described rules decide in a run: the terms of `rules.py` on a real map and percepts.
+
+The link from the proofs to the code. A trace is read event by event. S is drawn from the declared
+augmentations, percepts are taken from the moves, and at each point where the algorithm decides, the
+terms that Z3 was given are evaluated on S and those percepts: which darts are hypotheses, which of
+them the rule rejects and at which step, where the motion stops. `compare` says where the two
+differ.
+What this does not show: policies, walks and costs, on which no claim rests; rule `folding`, which
+has another second opinion (`checkers/folding.py`), and `planar`, which is not sound.
+
+Source: docs/semantics.md, sections 4, 6, 7 and 13.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from topo_verify.algorithms.chart import Chart, Dart, Tree
+from topo_verify.algorithms.motion import Hypothesis
+from topo_verify.proofs.first_order.rules import RULES
+from topo_verify.proofs.first_order.run_structure import Trie, structure
+from topo_verify.proofs.first_order.structures import Structure
+from topo_verify.proofs.first_order.terms import Term
+from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject, Start
+from topo_verify.robot.percept import Door, Percept
+
+
+@dataclass(frozen=True, slots=True)
+class Decided:
+    """A rejection: of which hypothesis, by which rule, at which step of the sequence."""
+
+    hypothesis: Dart
+    rule: str
+    step: int
+
+
+@dataclass
+class Described:
+    """The described rules at work. Lives as long as one trace is read.
+
+    Attributes:
+        rule: `none`, `prefix`, `history` or `records`.
+        levels: how many places deep records go; None: as deep as was seen.
+        terms: the rules; others than `RULES` to see a change.
+    """
+
+    rule: str
+    levels: int | None = None
+    terms: Mapping[str, Term] = field(default_factory=lambda: RULES)
+    trie: Trie = field(default_factory=Trie)
+
+    def posed(self, chart: Chart, e: Dart, seen: Percept) -> set[Dart]:
+        """The hypotheses."""
+        place = structure(chart, [seen], self.trie)
+        open_darts = [d for d in range(len(chart.alpha)) if chart.alpha[d] is None]
+        return {h for h in open_darts if place.holds(self.terms["posed"], e=e, h=h, b=0)}
+
+    def moved(self, chart: Chart, h: Hypothesis, seen: Sequence[Percept]) -> int | None:
+        """The step at which the motion rejects, of as much as was executed."""
+        place = structure(chart, seen, self.trie)
+        if not place.holds(self.terms["alike"], x=h.dart, b=0):
+            return 0
+        for step in range(1, len(seen)):
+            x, k = h.arrivals[step - 1], h.doors[step - 1]
+            if place.holds(self.terms["motion"], x=x, k=k, b=step):
+                return step
+        return None
+
+    def refuted(
+        self, chart: Chart, h: Hypothesis, doors: Sequence[Door], seen: Sequence[Percept]
+    ) -> Decided | None:
+        """What the rule says of a hypothesis after a sequence."""
+        return self.refuted_at(structure(chart, seen, self.trie), h, doors)
+
+    def refuted_at(self, place: Structure, h: Hypothesis, doors: Sequence[Door]) -> Decided | None:
+        """The same, of S and percepts as a structure."""
+        if self.rule == "none":
+            return None
+        if self.rule == "prefix":
+            step = self._prefix(place, h, doors)
+            return None if step is None else Decided(h.dart, "prefix", step)
+        return self._traced(place, h.dart, doors)
+
+    def _prefix(self, place: Structure, h: Hypothesis, doors: Sequence[Door]) -> int | None:
+        for step, (own, door) in enumerate(zip(h.doors, doors, strict=False), 1):
+            if place.holds(self.terms["prefix"], x=h.arrivals[step - 1], own=own, k=door, b=step):
+                return step
+            if own != door:
+                return None
+        return None
+
+    def _traced(self, place: Structure, at: Dart, doors: Sequence[Door]) -> Decided | None:
+        hypothesis, functions = at, place.functions
+        node: int | None = None
+        depth = 0
+        for step, door in enumerate(doors, 1):
+            if node is None:
+                if place.holds(self.terms["history"], x=at, k=door, b=step):
+                    return Decided(hypothesis, "history", step)
+                exit_dart = int(functions["mrot"](at, door))
+                if functions["explored"](exit_dart):
+                    at = int(functions["malpha"](exit_dart))
+                    continue
+                if self.rule != "records" or not place.holds(self.terms["leaves"], x=at, k=door):
+                    return None
+                node = int(functions["record"](exit_dart))
+            elif functions["deeper"](node, door):
+                node = int(functions["behind"](node, door))
+            else:
+                return None
+            depth += 1
+            if place.holds(self.terms["record-differs"], r=node, b=step):
+                return Decided(hypothesis, "records", step)
+            if depth == self.levels:
+                return None
+        return None
+
+    def learn(
+        self, chart: Chart, e: Dart, entry: Dart, words: Iterable[tuple[list[Door], list[Percept]]]
+    ) -> None:
+        """Write the records of one edge."""
+        if self.rule != "records":
+            return
+        self.trie.records.pop(e, None)
+        self.trie.records.pop(entry, None)
+        for doors, seen in words:
+            self._write(chart, entry, doors, seen)
+
+    def _write(self, chart: Chart, at: Dart, doors: list[Door], seen: list[Percept]) -> None:
+        node: int | None = None
+        left = self.levels
+        for step, door in enumerate(doors, 1):
+            if node is None:
+                exit_dart = chart.turn(at, door)
+                if chart.alpha[exit_dart] is not None:
+                    at = chart.across(exit_dart)
+                    continue
+                if exit_dart not in self.trie.records:
+                    self.trie.records[exit_dart] = self.trie.node(seen[step])
+                node = self.trie.records[exit_dart]
+            else:
+                if door not in self.trie.behind[node]:
+                    self.trie.behind[node][door] = self.trie.node(seen[step])
+                node = self.trie.behind[node][door]
+            left = None if left is None else left - 1
+            if left == 0:
+                return
+
+
+# ---------------------------------------------------------------- reading a trace
+
+
+class Reading:
+    """A trace as it is read: S so far, and the robot's word behind the edge at hand."""
+
+    def __init__(self, start: Percept) -> None:
+        self.chart = Chart(start)
+        self.doors: list[Door] = []
+        self.seen: list[Percept] = [start]
+        self.turned: Door = 0
+
+    def move(self, move: Move) -> None:
+        """Extend the word, or take back its last door."""
+        if move.purpose in ("walk", "cross"):
+            self.doors, self.seen, self.turned = [], [move.percept], 0
+        elif move.purpose == "retrace":
+            self.turned = self.doors.pop()
+            self.seen.pop()
+        else:
+            self.doors.append((move.door + self.turned) % self.seen[-1].degree)
+            self.seen.append(move.percept)
+            self.turned = 0
+
+    def augment(self, event: Augment) -> Dart:
+        """S grows; the entry dart."""
+        if event.kind == "loop":
+            self.chart.join(event.edge, event.dart)
+            return event.dart
+        entry = self.chart.add_vertex(self.at_vu)
+        self.chart.join(event.edge, entry)
+        return entry
+
+    @property
+    def at_vu(self) -> Percept:
+        """What was sensed behind the edge."""
+        return self.seen[0]
+
+
+def compare(trace: Sequence[Event], described: Described) -> Iterator[str]:
+    """Where the decisions of a run differ from those of the described rules, a sentence each."""
+    start = trace[0]
+    assert isinstance(start, Start)
+    reading = Reading(start.percept)
+    words: list[tuple[list[Door], list[Percept]]] = []
+    expected: list[Decided] = []
+    remaining: list[Dart] = []
+    tree = reading.chart.tree(0)
+    for when, event in enumerate(trace):
+        match event:
+            case Move():
+                reading.move(event)
+            case Pose(edge, hypotheses):
+                words, expected, remaining = [], [], list(hypotheses)
+                tree = reading.chart.tree(0)
+                posed = described.posed(reading.chart, edge, reading.at_vu)
+                if posed != set(hypotheses):
+                    yield f"event {when}: posed {sorted(hypotheses)}, described {sorted(posed)}"
+            case Reject(_, dart, "motion", evidence):
+                h = Hypothesis(dart, reading.chart, tree)
+                step = described.moved(reading.chart, h, reading.seen)
+                if step != evidence.step or expected:
+                    yield f"event {when}: motion rejects {dart} at {evidence.step}, not {step}"
+                remaining.remove(dart)
+                if reading.doors:
+                    words.append((reading.doors.copy(), reading.seen.copy()))
+                    expected = list(_sifted(described, reading, remaining, tree))
+            case Reject(_, dart, rule, evidence):
+                told = Decided(dart, rule, evidence.step)
+                if not expected or expected.pop(0) != told:
+                    yield f"event {when}: {told} is not what the rule describes"
+                remaining.remove(dart)
+            case Confirm(_, dart):
+                h = Hypothesis(dart, reading.chart, tree)
+                seen = reading.seen[: len(h.doors) + 1]
+                if expected or described.moved(reading.chart, h, seen) is not None:
+                    yield f"event {when}: {dart} is confirmed against what is described"
+            case Augment(edge):
+                if expected:
+                    yield f"event {when}: the rule describes {expected}, which did not come"
+                entry = reading.augment(event)
+                described.learn(reading.chart, edge, entry, words)
+            case _:
+                pass
+
+
+def _sifted(
+    described: Described, reading: Reading, remaining: Iterable[Dart], tree: Tree
+) -> Iterator[Decided]:
+    place = structure(reading.chart, reading.seen, described.trie)
+    for dart in remaining:
+        h = Hypothesis(dart, reading.chart, tree)
+        decided = described.refuted_at(place, h, reading.doors)
+        if decided is not None:
+            yield decided

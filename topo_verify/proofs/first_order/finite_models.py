@@ -1,0 +1,176 @@
+"""Models over tiny domains: the same formulas, their quantifiers written out.
+
+Z3 proves over uninterpreted sorts, but cannot show there that something is satisfiable: it answers
+unknown. So each sort gets a few named elements, every `for all` becomes a conjunction, and every
+value of every function is one of the elements. What is left has no quantifier, and Z3 decides it. A
+model is read off value by value and each formula is evaluated in it again without Z3: a model that
+does not stand that is a bug of ours, never a result.
+
+What this does not show: that there is no larger model where none of these sizes has one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations, product
+
+from topo_verify.errors import InternalError
+from topo_verify.proofs.first_order.structures import Structure, Value, of_tables
+from topo_verify.proofs.first_order.terms import (
+    BOOL,
+    App,
+    Forall,
+    Symbol,
+    Term,
+    Var,
+    conj,
+    differ,
+    disj,
+    eq,
+    script,
+    sorts_of,
+    substitute,
+    symbols,
+)
+from topo_verify.proofs.solvers import z3_solver
+from topo_verify.proofs.theorem import Answer, Budget
+
+SIZES = ((1, 1), (2, 1), (2, 2), (3, 2), (3, 3), (4, 4))
+"""How many darts the world gets, and how many elements every other sort, in the order tried."""
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """What was found: an answer, and the structure if it is `sat`."""
+
+    answer: Answer
+    structure: Structure | None = None
+    tables: Mapping[str, Mapping[tuple[int, ...], Value]] | None = None
+    why: str = ""
+
+
+def smallest(assertions: Mapping[str, Term], budget: Budget) -> Model:
+    """A model of the first of `SIZES` that has one."""
+    formulas = list(assertions.values())
+    sorts = sorted(set[str]().union(*map(sorts_of, formulas)) - {BOOL})
+    last = Model("unknown", why="no size was tried")
+    for darts, others in SIZES:
+        sizes = {sort: darts if sort == "W" else others for sort in sorts}
+        last = model(formulas, sizes, budget)
+        if last.answer != "unsat":
+            return last
+    return last
+
+
+def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) -> Model:
+    """A model with these numbers of elements, if there is one.
+
+    Raises:
+        InternalError: the solver's model is none.
+    """
+    entries = list(_entries(formulas, sizes))
+    reply = z3_solver.satisfy(
+        [ground(formula, sizes) for formula in formulas] + list(_domains(entries, sizes)),
+        [*_elements(sizes), *(alias for alias, _, _, _ in entries)],
+        budget,
+    )
+    if reply.answer != "sat":
+        return Model(reply.answer, why=reply.why)
+    number = {
+        sort: {reply.values[element(sort, n).symbol.name]: n for n in range(size)}
+        for sort, size in sizes.items()
+    }
+    rows: dict[str, dict[tuple[int, ...], Value]] = {}
+    for alias, symbol, row, _ in entries:
+        value = reply.values[alias.symbol.name]
+        known = value == "True" if symbol.result == BOOL else number[symbol.result][value]
+        rows.setdefault(symbol.name, {})[row] = known
+    named: dict[str, dict[tuple[int, ...], Value]] = {
+        element(sort, n).symbol.name: {(): n} for sort, size in sizes.items() for n in range(size)
+    }
+    structure = of_tables(sizes, {**rows, **named})
+    for formula in formulas:
+        if not structure.holds(formula):
+            raise InternalError(f"the solver's model is none: {formula} does not hold in it")
+    return Model("sat", structure, rows)
+
+
+def element(sort: str, number: int) -> App:
+    """The constant that names an element."""
+    return Symbol(f"{sort}!{number}", (), sort)()
+
+
+def ground(term: Term, sizes: Mapping[str, int]) -> Term:
+    """The formula with its quantifiers written out."""
+    match term:
+        case Var():
+            return term
+        case App(symbol, arguments):
+            return App(symbol, tuple(ground(part, sizes) for part in arguments))
+        case Forall(variables, body):
+            cases: list[dict[Term, Term]] = [
+                {v: element(v.sort, n) for v, n in zip(variables, row, strict=True)}
+                for row in product(*(range(sizes[v.sort]) for v in variables))
+            ]
+            return conj(*(ground(substitute(body, case), sizes) for case in cases))
+
+
+def _elements(sizes: Mapping[str, int]) -> Iterator[App]:
+    for sort, size in sizes.items():
+        yield from (element(sort, number) for number in range(size))
+
+
+Entry = tuple[App, Symbol, tuple[int, ...], App]
+"""One value of one function: a name for it, the symbol, the arguments, the application."""
+
+
+def _entries(formulas: Sequence[Term], sizes: Mapping[str, int]) -> Iterator[Entry]:
+    """Every value of every function in the formulas."""
+    found = {symbol.name: symbol for formula in formulas for symbol in symbols(formula)}
+    named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
+    for name in sorted(found.keys() - named):
+        symbol = found[name]
+        for row in product(*(range(sizes[sort]) for sort in symbol.arguments)):
+            alias = Symbol(f"{name}!{'!'.join(map(str, row))}", (), symbol.result)()
+            pairs = zip(symbol.arguments, row, strict=True)
+            yield alias, symbol, row, symbol(*(element(sort, number) for sort, number in pairs))
+
+
+def _domains(entries: Sequence[Entry], sizes: Mapping[str, int]) -> Iterator[Term]:
+    """Elements are different, and every value is one of them."""
+    for sort, size in sizes.items():
+        for one, other in combinations(range(size), 2):
+            yield differ(element(sort, one), element(sort, other))
+    for alias, symbol, _, applied in entries:
+        yield eq(alias, applied)
+        if symbol.result != BOOL:
+            values = (element(symbol.result, n) for n in range(sizes[symbol.result]))
+            yield disj(*(eq(alias, value) for value in values))
+
+
+def question(assertions: Mapping[str, Term]) -> str:
+    """The SMT-LIB script that asks for a structure of the last of `SIZES`, quantifiers gone."""
+    formulas = list(assertions.values())
+    sorts = sorted(set[str]().union(*map(sorts_of, formulas)) - {BOOL})
+    darts, others = SIZES[-1]
+    return grounded(formulas, {sort: darts if sort == "W" else others for sort in sorts})
+
+
+def grounded(formulas: Sequence[Term], sizes: Mapping[str, int]) -> str:
+    """The SMT-LIB script that asks for a structure with these numbers of elements."""
+    entries = list(_entries(formulas, sizes))
+    rows = [*(ground(formula, sizes) for formula in formulas), *_domains(entries, sizes)]
+    return script({f"c{number}": term for number, term in enumerate(rows)}, logic="QF_UF")
+
+
+def described(found: Model) -> str:
+    """A structure in one line: sizes, then the values of each symbol in the order of arguments."""
+    assert found.structure is not None
+    assert found.tables is not None
+    sizes = ", ".join(f"{size} {sort}" for sort, size in found.structure.sizes.items())
+    rows = " ".join(
+        f"{name}={','.join(str(int(value)) for value in table.values())}"
+        for name, table in sorted(found.tables.items())
+    )
+    return f"{sizes}: {rows}"

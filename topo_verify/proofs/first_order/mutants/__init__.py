@@ -1,0 +1,104 @@
+"""Rules with one thing changed: each does wrong in some world, and here is the smallest.
+
+A mutant is refuted by a scene: an exact world, a reachable map S of it, an edge e with a hypothesis
+h, and what the robot does behind e. The scene is then played by the simulator without any solver:
+the mutated rule, evaluated on S and on what was sensed, must really reject what is true or confirm
+what is false. A scene that does not play that way is a bug of ours, and is reported as one.
+
+What is not asked: whether a mapper with reference policies would walk just there. Claims hold for
+every history, so any history that breaks one will do.
+
+    rejecting.py   recording.py   confirming.py   growing.py   folding.py
+
+Source: docs/semantics.md, sections 4, 6, 7 and 8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from time import perf_counter
+from typing import Literal
+
+from topo_verify.errors import InternalError
+from topo_verify.proofs.first_order import scenes
+from topo_verify.proofs.first_order.mutants import (
+    confirming,
+    folding,
+    growing,
+    recording,
+    rejecting,
+)
+from topo_verify.proofs.first_order.mutants.mutant import RuleMutant
+from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.terms import shown
+from topo_verify.proofs.solvers import z3_solver
+from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
+
+RULE_MUTANTS: tuple[RuleMutant, ...] = (
+    *rejecting.REJECTING,
+    *recording.RECORDING,
+    *confirming.CONFIRMING,
+    *growing.GROWING,
+    *folding.FOLDING,
+)
+
+__all__ = ["MUTANTS", "PLANAR", "RULE_MUTANTS", "RuleMutant", "theorem"]
+
+
+def theorem(mutant: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") -> Theorem:
+    """The statement that the changed rule is right, which must be refuted."""
+    edges, known = mutant.size
+
+    def queries() -> Iterator[Query]:
+        asked = scenes.question(mutant.scene, edges=edges, known=known)
+        yield Query(mutant.name, asked, "sat")
+
+    return Theorem(
+        name=mutant.name,
+        kind=kind,
+        claims=mutant.claims,
+        words=mutant.words,
+        symbols=shown(mutant.rule),
+        solver_part="a world, a map and a history in which it does wrong; played by the simulator",
+        expected="REFUTED",
+        prove=lambda budget: _refute(mutant, budget),
+        queries=queries,
+        edges=edges,
+        of=mutant.of if kind == "mutant" else None,
+    )
+
+
+def _refute(mutant: RuleMutant, budget: Budget) -> Outcome:
+    begin = perf_counter()
+    edges, known = mutant.size
+    scene, answer, why = scenes.find(mutant.scene, budget, edges=edges, known=known)
+    if scene is None:
+        told = f"{z3_solver.name()} answers {answer} with {edges} edges" + (
+            f": {why}" if why else ""
+        )
+        return Outcome(
+            verdict="EXHAUSTED" if answer == "unsat" else "UNKNOWN",
+            solver=z3_solver.name(),
+            seconds=perf_counter() - begin,
+            note=told,
+        )
+    stage = Stage(scene, without=mutant.without)
+    if not mutant.plays(stage, mutant.rule):
+        raise InternalError(
+            f"the model of {mutant.name} does not replay: in world {scene.world.id} the doors"
+            f" {list(stage.history)} show nothing wrong"
+        )
+    return Outcome(
+        verdict="REFUTED",
+        solver=z3_solver.name(),
+        seconds=perf_counter() - begin,
+        replayed=(1, 1),
+        counterexample=scene.world.id,
+        history=stage.history,
+    )
+
+
+MUTANTS: tuple[Theorem, ...] = tuple(map(theorem, RULE_MUTANTS))
+
+PLANAR: Theorem = theorem(folding.PLANAR, "negative")
+"""The planar prior is not sound in all worlds: a torus of two edges."""

@@ -1,0 +1,119 @@
+"""Fold steps that identify what is not one dart; and the planar prior."""
+
+from __future__ import annotations
+
+from topo_verify.algorithms import planar
+from topo_verify.algorithms.folding import Sketch
+from topo_verify.proofs.first_order import axioms as t
+from topo_verify.proofs.first_order import rules as r
+from topo_verify.proofs.first_order.mutants.mutant import AWAY, TRUE, RuleMutant, x
+from topo_verify.proofs.first_order.obligations.obligation import ENTAILED, KEPT, D, E, H
+from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.terms import BOOL, Symbol, Term, conj, differ, eq, forall, neg
+
+
+def _plays_fold(stage: Stage, doors: tuple[str | int, ...], one: str, other: str) -> bool:
+    """Walk from the start; are these two places, which the rule identifies, different darts?"""
+    world, at = stage.scene.world, stage.root
+    arrivals = [at]
+    for door in doors:
+        percept = stage.robot.percept
+        taken = door if isinstance(door, int) else stage.door(door, percept.degree)
+        for _ in range(taken % percept.degree):
+            at = world.sigma[at]
+        at = world.alpha[at]
+        arrivals.append(at)
+        stage.robot.move(taken % percept.degree)
+        if stage.robot.percept.degree != world.degrees[world.vertex_of[at]]:
+            return False
+    return arrivals[int(one)] != arrivals[int(other)]
+
+
+def _plays_ghost(stage: Stage, _rule: Term) -> bool:
+    vu = stage.behind("e")
+    sketch = Sketch()
+    nodes = [sketch.add(stage.chart.percepts[first], known=True) for first in stage.chart.first]
+    ghost = sketch.add(vu, known=True)  # the fault: it is not known to be a vertex of S
+
+    def place(dart: int) -> tuple[int, int]:
+        v = stage.chart.vertex[dart]
+        return nodes[v], dart - stage.chart.first[v]
+
+    sketch.join(place(stage.dart("e")), (ghost, 0))
+    refuted = sketch.join(place(stage.dart("e")), place(stage.dart("h")))
+    return bool(refuted) and stage.truth("e", "h")
+
+
+_LOOPED = r.beyond(t.root, D)
+
+FOLDING: tuple[RuleMutant, ...] = (
+    RuleMutant(
+        name="fold-marker-undirected",
+        size=(1, 2),
+        of="fold-marker",
+        words="visits that saw the marker are identified without turning them",
+        claims=ENTAILED,
+        rule=eq(_LOOPED, t.root),
+        scene={"back-at-v0": conj(t.inv0(_LOOPED), differ(_LOOPED, t.root))},
+        plays=lambda stage, _: _plays_fold(stage, ("d1",), "0", "1"),
+    ),
+    RuleMutant(
+        name="fold-without-offset",
+        size=(1, 2),
+        of="fold-offset",
+        words="two visits of one vertex are identified door by door, without an offset",
+        claims=ENTAILED,
+        rule=eq(t.rot(t.root, D), t.root),
+        scene={"turned": differ(t.rot(t.root, D), t.root)},
+        plays=lambda stage, _: _plays_fold(stage, ("d1", 0), "0", "2"),
+    ),
+    RuleMutant(
+        name="fold-next-partner",
+        size=(1, 2),
+        of="fold-cross",
+        words="with a place, the partner of the next place is identified",
+        claims=ENTAILED,
+        rule=eq(_LOOPED, r.beyond(t.root, t.succ(D))),
+        scene={"next": differ(_LOOPED, r.beyond(t.root, t.succ(D)))},
+        plays=lambda stage, _: _plays_fold(stage, ("d1", 0, 1), "1", "3"),
+    ),
+    RuleMutant(
+        name="fold-ghost-known",
+        size=(2, 4),
+        of="fold-two-known",
+        words="the place behind e counts as a vertex of S before it is known to be one",
+        claims=KEPT,
+        rule=differ(t.alpha(t.phi(E)), t.phi(H)),
+        scene={**TRUE, **AWAY},
+        plays=_plays_ghost,
+    ),
+)
+
+
+# ---------------------------------------------------------------- the planar prior
+
+face = Symbol("face", ("M",), BOOL)
+
+
+def _plays_planar(stage: Stage, _rule: Term) -> bool:
+    stage.behind("e")
+    on_face = planar.face(stage.chart, stage.dart("e"))
+    return stage.dart("h") not in on_face and stage.truth("e", "h")
+
+
+PLANAR = RuleMutant(
+    name="planar-keeps",
+    size=(2, 4),
+    of="history-keeps",
+    words="the prior `planar` rejects no true hypothesis, in any world",
+    claims=KEPT,
+    rule=face(H),
+    scene={
+        **TRUE,
+        "e-on-its-face": face(E),
+        "faces-go-on": forall(x, face(x), face(t.msigma(t.malpha(x)))),
+        "rejects": neg(face(H)),
+    },
+    plays=_plays_planar,
+)
+"""Not a change of a rule but a rule that is not sound, and must not be provable."""

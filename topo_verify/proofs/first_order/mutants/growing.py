@@ -1,0 +1,70 @@
+"""Hypotheses that are not posed, and augmentations that join the wrong darts."""
+
+from __future__ import annotations
+
+from topo_verify.proofs.first_order import axioms as t
+from topo_verify.proofs.first_order import rules as r
+from topo_verify.proofs.first_order.mutants.mutant import AWAY, TRUE, RuleMutant, x
+from topo_verify.proofs.first_order.obligations.obligation import MAPPED, POSED, E, H
+from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.scenes import mfirst
+from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, neg, substitute
+
+
+def _plays_not_posed(stage: Stage, rule: Term) -> bool:
+    vu = stage.behind("e")
+    posed = stage.says(rule, vu, e=stage.dart("e"), h=stage.dart("h"), b=0)
+    return not posed and stage.truth("e", "h")
+
+
+def _plays_first_dart(stage: Stage, _rule: Term) -> bool:
+    stage.behind("e")
+    other = stage.first(stage.dart("h"))
+    return other != stage.dart("h") and stage.truth("e", "h")
+
+
+_NOT_AT_VK = conj(r.POSED, differ(mfirst(r.h), mfirst(r.e)))
+_WHOLE_PERCEPT = conj(r.POSED, substitute(r.ALIKE, {x: mfirst(r.h)}))
+
+GROWING: tuple[RuleMutant, ...] = (
+    RuleMutant(
+        name="posed-not-at-vk",
+        size=(1, 2),
+        of="posed",
+        words="the darts of the vertex that e leaves are left out of the hypotheses",
+        claims=(*POSED, *MAPPED),
+        rule=_NOT_AT_VK,
+        scene={**TRUE, "at-vk": eq(mfirst(H), mfirst(E))},
+        plays=_plays_not_posed,
+    ),
+    RuleMutant(
+        name="posed-by-first-dart",
+        size=(1, 2),
+        of="posed",
+        words="a hypothesis must look like the place behind e from its vertex's first dart",
+        claims=(*POSED, *MAPPED),
+        rule=_WHOLE_PERCEPT,
+        scene={**TRUE, "not-alike": neg(r.alike(mfirst(H), t.phi(H)))},
+        plays=_plays_not_posed,
+    ),
+    RuleMutant(
+        name="new-though-known",
+        size=(2, 4),
+        of="new-is-new",
+        words="one hypothesis is skipped before a new vertex is added",
+        claims=MAPPED,
+        rule=conj(r.POSED, neg(r.POSED)),
+        scene={**TRUE, **AWAY},
+        plays=_plays_not_posed,
+    ),
+    RuleMutant(
+        name="loop-at-first-dart",
+        size=(1, 2),
+        of="loop-edges",
+        words="a loop joins e with the first dart of h's vertex",
+        claims=MAPPED,
+        rule=eq(x, mfirst(x)),
+        scene={**TRUE, "not-first": conj(differ(mfirst(H), H), neg(t.explored(mfirst(H))))},
+        plays=_plays_first_dart,
+    ),
+)

@@ -1,0 +1,130 @@
+"""The inductive obligations as theorems, and for each a mutant that lacks one of its premises.
+
+**Theorem**: the premises and the negated goal have no model; Z3 shows it. That the premises alone
+have one is shown by a tiny structure (`finite.py`). A theorem whose premises have none would be
+vacuous, and is not `ok`.
+
+**Mutant**: without one premise (named by the obligation) there is a structure in which all the
+others hold and the goal fails. It is evaluated without a solver before it counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from time import perf_counter
+
+from topo_verify.proofs.first_order import finite_models
+from topo_verify.proofs.first_order.axioms import INVARIANT, LEMMAS
+from topo_verify.proofs.first_order.obligations import OBLIGATIONS, Obligation
+from topo_verify.proofs.first_order.terms import conj, implies, neg, script, shown
+from topo_verify.proofs.solvers import z3_solver
+from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
+
+
+def theorem(obligation: Obligation) -> Theorem:
+    """The obligation as a theorem."""
+    given = tuple(obligation.given.values())
+    statement = implies(conj(*given), obligation.goal) if given else obligation.goal
+
+    def queries() -> Iterator[Query]:
+        yield Query(obligation.name, script(obligation.negation()), "unsat")
+
+    return Theorem(
+        name=obligation.name,
+        kind="inductive",
+        claims=obligation.claims,
+        words=obligation.words,
+        symbols=shown(statement),
+        solver_part=_solver_part(obligation),
+        argued=obligation.argued,
+        assumed=tuple(n for n in obligation.theory if n not in {*LEMMAS, *INVARIANT}),
+        expected="PROVED",
+        prove=_prover(obligation),
+        queries=queries,
+    )
+
+
+def _solver_part(obligation: Obligation) -> str:
+    lemmas = dict.fromkeys(LEMMAS[name] for name in obligation.theory if name in LEMMAS)
+    words = "for all worlds and maps of the theory, of any size"
+    if set(obligation.theory) & set(INVARIANT):
+        words += ", if S is a part of the world (the invariant, which augmentations keep)"
+    return words + (f", given {', '.join(lemmas)}" if lemmas else "")
+
+
+def _prover(obligation: Obligation) -> Callable[[Budget], Outcome]:
+    def prove(budget: Budget) -> Outcome:
+        begin = perf_counter()
+        reply = z3_solver.prove(obligation.negation(), budget)
+        if reply.answer != "unsat":
+            return Outcome(
+                verdict="UNKNOWN",
+                solver=z3_solver.name(),
+                seconds=perf_counter() - begin,
+                note=f"{z3_solver.name()} answers {reply.answer}: {reply.why or 'no reason given'}",
+            )
+        premises = finite_models.smallest(obligation.premises(), budget).answer
+        satisfiable = {"sat": True, "unsat": False, "unknown": None}[premises]
+        return Outcome(
+            verdict="PROVED",
+            solver=z3_solver.name(),
+            seconds=perf_counter() - begin,
+            premises_satisfiable=satisfiable,
+            core=tuple(name for name in reply.core if name != "goal-fails"),
+            note="" if satisfiable else "its premises were not seen to hold together: vacuous",
+        )
+
+    return prove
+
+
+def mutant(obligation: Obligation, lost: str) -> Theorem:
+    """The obligation without one premise, which must fail."""
+    dropped = obligation.premises()[lost]
+    formulas = obligation.premises(without=lost)
+    formulas |= {"premise-fails": neg(dropped), "goal-fails": neg(obligation.goal)}
+
+    def prove(budget: Budget) -> Outcome:
+        begin = perf_counter()
+        found = finite_models.smallest(formulas, budget)
+        if found.structure is None:
+            exhausted = found.answer == "unsat"
+            return Outcome(
+                verdict="EXHAUSTED" if exhausted else "UNKNOWN",
+                solver=z3_solver.name(),
+                seconds=perf_counter() - begin,
+                note=found.why
+                or f"no structure of up to {finite_models.SIZES[-1][0]} darts breaks it",
+            )
+        return Outcome(
+            verdict="REFUTED",
+            solver=z3_solver.name(),
+            seconds=perf_counter() - begin,
+            counterexample=finite_models.described(found),
+            note=f"{lost} is false there, the other premises are true, the goal is false",
+        )
+
+    def queries() -> Iterator[Query]:
+        yield Query(f"{obligation.name}-without-{lost}", finite_models.question(formulas), "sat")
+
+    return Theorem(
+        name=f"{obligation.name}-without-{lost}",
+        kind="mutant",
+        claims=obligation.claims,
+        words=f"{obligation.words}; but without {lost}",
+        symbols=f"not assumed: {shown(dropped)}",
+        solver_part="a structure of a few elements in which it fails, evaluated without a solver",
+        expected="REFUTED",
+        prove=prove,
+        queries=queries,
+        of=obligation.name,
+    )
+
+
+def _telling(obligation: Obligation) -> str:
+    """The premise whose loss says most: the first axiom or lemma, if it needs one."""
+    return next((n for n in obligation.needs if n in obligation.theory), obligation.needs[0])
+
+
+INDUCTIVE: tuple[Theorem, ...] = tuple(map(theorem, OBLIGATIONS))
+
+AXIOM_MUTANTS: tuple[Theorem, ...] = tuple(mutant(one, _telling(one)) for one in OBLIGATIONS)

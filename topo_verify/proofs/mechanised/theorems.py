@@ -1,0 +1,227 @@
+"""Theorems proved in Coq, in worlds of any size and without an axiom, checked again on demand.
+
+Each theorem here names a theorem of coq/; its statement there is what is proved. One check serves
+all of them, since they share one library: the sources are searched for words that claim without
+proof; coqc compiles them in a temporary folder; coqchk checks what was compiled again, and must
+say that there is no axiom; and Coq is asked of each theorem by itself what it rests on.
+
+    verdict     when
+    PROVED      all of that, with coqchk's own summary
+    UNKNOWN     Coq is not installed, the time is over, or something was refused; the note says
+                which. Never REFUTED: a proof that fails is no counterexample.
+
+What this does not show: that the statements say what they should (coq/README.md names the lines
+to read), nor anything of the Python code, whose runs are certified one by one (`kernel`).
+
+Source: docs/mechanised.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+from topo_verify.proofs.mechanised import toolchain
+from topo_verify.proofs.theorem import Budget, Outcome, Theorem
+
+LONGER = 10
+"""The whole check is many calls; each may take so many times the limit of one query."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mechanised:
+    """A theorem of coq/, its file and name there, the claims that rest on it, and what it says."""
+
+    name: str
+    file: str
+    theorem: str
+    claims: tuple[str, ...]
+    words: str
+
+
+def _one(name: str, where: str, claims: str, words: str) -> Mechanised:
+    file, theorem = where.split(".")
+    return Mechanised(name, file, theorem, tuple(claims.split()), words)
+
+
+STATEMENTS: tuple[Mechanised, ...] = (
+    _one("coq-foretold", "Embedding.forward", "true-hypothesis-kept",
+        "What the map foretells of a true hypothesis, the world shows."),
+    _one("coq-motion-kept", "Embedding.mismatch_refutes", "true-hypothesis-kept",
+        "A percept that differs from what the map foretells refutes the hypothesis."),
+    _one("coq-posed", "Embedding.posed", "true-hypothesis-posed",
+        "The true end of an open dart, if it is known, is another open dart that looks alike."),
+    _one("coq-confirmed", "Embedding.confirm", "no-false-confirm",
+        "A full match that ends with the marker's direction confirms only the true hypothesis."),
+    _one("coq-undirected", "Examples.undirected_fails", "no-false-confirm",
+        "Without the marker's direction a false hypothesis can match."),
+    _one("coq-records-kept", "Records.agrees_true", "true-hypothesis-kept",
+        "Rules prefix, history and records never reject the true hypothesis."),
+    _one("coq-records-true", "Records.record_true", "true-hypothesis-kept rejection-justified",
+        "What is recorded behind an open dart is true, and stays so."),
+    _one("coq-folding-kept", "Folding.folding_true", "true-hypothesis-kept",
+        "Rule folding never contradicts the true hypothesis."),
+    _one("coq-folding-confirms", "Folding.folding_confirms", "no-false-confirm",
+        "What rule folding confirms is true."),
+    _one("coq-folding-complete", "Entailed.consistent_possible",
+        "decisions-entailed map-entailed",
+        "A hypothesis that folding a log keeps has a world that shows the log."),
+    _one("coq-map-true", "Run.run_true", "map-isomorphic",
+        "All that a justified run builds is embedded in the world."),
+    _one("coq-map-unique", "Embedding.embedded_unique", "map-isomorphic",
+        "A connected map is embedded in a world in at most one way."),
+    _one("coq-run-ends-right", "Run.run_isomorphic", "map-isomorphic",
+        "A justified run that ends with nothing unexplored ends with the world."),
+    _one("coq-run-exists", "RunExists.run_exists", "map-isomorphic rejection-justified",
+        "Every world has a justified run to its end: what is false can be refuted."),
+    _one("coq-explored", "MapperCorrect.explore_correct", "map-isomorphic",
+        "The mapper ends with the world, whatever its policies and its sound rule."),
+    _one("coq-basic", "Policies.basic_correct", "map-isomorphic",
+        "The mapper with rule none, breadth-first ways and the lowest dart ends with the world."),
+    _one("coq-history", "Policies.history_correct", "map-isomorphic",
+        "So does the mapper with rule history."),
+    _one("coq-cost", "Cost.cost_within_bound", "cost-within-bound cost-honest",
+        "It makes at least m and at most m (n + (2m - 1) 2(n - 1)) moves."),
+    _one("coq-basic-cost", "Cost.basic_cost", "cost-within-bound cost-honest",
+        "So does the mapper with rule none."),
+    _one("coq-closed", "Entailed.closed_iff_determined", "map-entailed",
+        "A log has no open dart exactly if all worlds that show it are isomorphic."),
+    _one("coq-open", "Entailed.closed_or_undetermined", "map-entailed",
+        "A log that some world shows proves its map, or two worlds that differ show it."),
+    _one("coq-sound-closed", "Sound.sound_closed", "map-entailed",
+        "Any mapper that is right in every world leaves no dart open in any."),
+    _one("coq-closed-sound", "Sound.closed_sound", "map-entailed",
+        "A mapper that leaves no dart open and delivers a world that shows its log is right."),
+    _one("coq-sound-cost", "Sound.sound_cost", "cost-within-bound",
+        "Any mapper that is right in every world makes at least m moves."),
+    _one("coq-breadth-first", "Distance.breadth_first_exists", "cost-within-bound",
+        "Every world has a breadth-first tree, which the least cost is told by."),
+    _one("coq-least-cost", "LeastCost.sound_least_cost", "cost-within-bound",
+        "Any mapper that is right in every world makes at least as many moves as LB."),
+    _one("coq-certified", "CheckerCorrect.certified_correct", "map-entailed",
+        "A map and evidence that the checker accepts: the log proves the map."),
+    _one("coq-refuted", "TableCorrect.refute_correct", "map-entailed",
+        "A map with an open dart that the checker accepts: two worlds that differ show the log."),
+    _one("coq-impossible", "CheckerCorrect.impossible_correct", "map-entailed percepts-true",
+        "A contradiction that the checker accepts: no world shows the log."),
+    _one("coq-reject-entailed", "Entailed.rejection_entailed_iff", "decisions-entailed",
+        "A rejection follows from a log exactly if folding with its edge contradicts."),
+    _one("coq-confirm-entailed", "Entailed.confirmation_entailed_iff", "decisions-entailed",
+        "A confirmation follows from a log exactly if folding makes the two partners."),
+    _one("coq-reject-certified", "CheckerCorrect.rejected_correct", "decisions-entailed",
+        "A contradiction that the checker accepts: the rejection follows from the log."),
+    _one("coq-confirm-certified", "CheckerCorrect.confirmed_correct", "decisions-entailed",
+        "Partners that the checker accepts: the confirmation follows from the log."),
+    _one("coq-decisions-certified", "Decisions.decided_correct", "decisions-entailed",
+        "Decisions that the checker accepts follow, each from the log as far as it went."),
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Library:
+    """What became of the library as a whole.
+
+    Attributes:
+        why: why nothing is proved; "" if all was accepted.
+        summary: coqchk's own, in one line.
+        seconds: wall-clock time.
+    """
+
+    why: str = ""
+    summary: str = ""
+    seconds: float = 0.0
+
+
+@cache
+def library(timeout: float) -> Library:
+    """Compile and check everything, once; `timeout` is in seconds for each call of a program."""
+    if why := toolchain.missing():
+        return Library(why=why)
+    begin = perf_counter()
+    with TemporaryDirectory() as name:
+        try:
+            found = examine(Path(name), timeout=timeout)
+        except toolchain.TimeOut as error:
+            found = Library(why=str(error))
+    seconds = perf_counter() - begin
+    return Library(found.why, found.summary, seconds)
+
+
+def examine(folder: Path, *, timeout: float) -> Library:
+    """The check, in an empty folder.
+
+    Raises:
+        coqtools.TimeOut: a call takes too long.
+    """
+    names = toolchain.files()
+    toolchain.copy_library(folder, names)
+    for name in names:
+        if words := toolchain.claims_unproved((folder / f"{name}.v").read_text(encoding="utf-8")):
+            return Library(why=f"{name}.v claims without proof: {', '.join(words)}")
+    ran = toolchain.compile_all(folder, names, timeout=timeout)
+    if not ran.accepted:
+        return Library(why=f"coqc refuses {ran.said[-300:]}")
+    if (said := asked(folder, timeout=timeout)) != toolchain.NO_AXIOMS:
+        return Library(why=f"the theorems rest on more than their proofs: {said[-300:]}")
+    ran = toolchain.recheck(folder, names, timeout=timeout)
+    if not ran.accepted:
+        return Library(why=f"coqchk does not say that there is no axiom: {ran.said[-300:]}")
+    return Library(summary=summary(ran.said))
+
+
+def asked(folder: Path, *, timeout: float) -> str:
+    """What Coq says that all theorems together rest on, in the folder with the compiled library."""
+    imports = " ".join(dict.fromkeys(one.file for one in STATEMENTS))
+    theorems = ", ".join(f"@{one.file}.{one.theorem}" for one in STATEMENTS)
+    text = f"From Topo Require {imports}.\nDefinition every := ({theorems}).\n"
+    (folder / "asked.v").write_text(f"{text}Print Assumptions every.\n", encoding="utf-8")
+    return toolchain.compile_one(folder, "asked", timeout=timeout).said
+
+
+def summary(said: str) -> str:
+    """coqchk's summary in one line: its theory, its axioms, and whatever else is not <none>."""
+    lines = said.partition("CONTEXT SUMMARY")[2].splitlines()
+    points = [line.removeprefix("* ").strip() for line in lines if line.startswith("* ")]
+    told = (p for p in points if p.startswith("Axioms") or not p.endswith("<none>"))
+    return "; ".join(told)
+
+
+def theorem(statement: Mechanised) -> Theorem:
+    """The statement as a theorem of the catalogue."""
+    return Theorem(
+        name=statement.name,
+        kind="mechanised",
+        claims=statement.claims,
+        words=statement.words,
+        symbols=f"Topo.{statement.file}.{statement.theorem}, in proofs/coq/{statement.file}.v",
+        solver_part="all of it, for worlds of any size; coqchk checks the compiled proof again",
+        assumed=(),
+        expected="PROVED",
+        prove=_prover(statement),
+        queries=lambda: iter(()),
+        deep=True,
+    )
+
+
+def _prover(statement: Mechanised) -> Callable[[Budget], Outcome]:
+    def prove(budget: Budget) -> Outcome:
+        budget.tell(f"{statement.name}: coqc and coqchk on the whole library", 0, 1)
+        found = library(budget.timeout * LONGER)
+        return Outcome(
+            verdict="UNKNOWN" if found.why else "PROVED",
+            solver="coqc" if toolchain.missing() else toolchain.version(),
+            seconds=found.seconds,
+            premises_satisfiable=None
+            if found.why
+            else True,  # torus_world, run_exists: worlds and runs
+            note=found.why or f"coqchk: {found.summary}",
+        )
+
+    return prove
+
+
+MECHANISED: tuple[Theorem, ...] = tuple(map(theorem, STATEMENTS))

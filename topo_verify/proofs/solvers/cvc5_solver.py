@@ -1,0 +1,128 @@
+"""A second solver on the same question: cvc5 reads the SMT-LIB 2 script that Z3 was asked.
+
+    agrees      both say the same
+    disagrees   one says sat, the other unsat: one of them is wrong, which is an error
+    unknown     cvc5 gave up, and that is said; it is neither
+
+Quantified questions that cvc5 leaves open are asked once more with `full-saturate-quant`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from time import perf_counter
+from typing import Any, Literal
+
+from topo_verify.errors import InputError
+from topo_verify.proofs.theorem import Answer, Query
+
+Standing = Literal["agrees", "disagrees", "unknown"]
+
+
+@dataclass(frozen=True, slots=True)
+class Opinion:
+    """What cvc5 says of one question.
+
+    Attributes:
+        solver: its name and version.
+        answer: sat, unsat or unknown.
+        expected: what the theorem rests on.
+        why: why it is unknown, or which option it took.
+    """
+
+    query: str
+    solver: str
+    answer: Answer
+    expected: Answer
+    seconds: float
+    why: str = ""
+
+    @property
+    def standing(self) -> Standing:
+        """Do the two solvers agree?"""
+        if self.answer == "unknown":
+            return "unknown"
+        return "agrees" if self.answer == self.expected else "disagrees"
+
+    def __str__(self) -> str:
+        match self.standing:
+            case "agrees":
+                return f"{self.query}: {self.solver} agrees: {self.answer}"
+            case "unknown":
+                return f"{self.query}: cvc5 unknown ({self.why})"
+            case "disagrees":
+                return f"{self.query}: {self.solver} says {self.answer}, not {self.expected}"
+
+
+def require_tools() -> None:
+    """Refuse to begin where cvc5 is not to be had (`InputError`)."""
+    try:
+        import_module("cvc5")
+    except (ImportError, OSError) as error:
+        raise InputError(
+            f"a second opinion needs the package cvc5, which does not load here ({error}): install"
+            " topo-verify[proofs], or leave out --solver"
+        ) from error
+
+
+def ask(query: Query, *, timeout: float = 60.0) -> Opinion:
+    """cvc5 on the question.
+
+    Args:
+        timeout: seconds, for each of the two ways in which it may be asked.
+    Raises:
+        InputError: cvc5 is not installed, or cannot read the script.
+    """
+    require_tools()
+    began = perf_counter()
+    answer, why = _check(query, timeout, {})
+    if answer == "unknown" and "forall" in query.smt2:
+        answer, why = _check(query, timeout, {"full-saturate-quant": "true"})
+        why = why or "full-saturate-quant"
+    return Opinion(query.name, _name(), answer, query.expected, perf_counter() - began, why)
+
+
+def export(query: Query, folder: Path) -> Path:
+    """Write the script to `<folder>/<name>.smt2`, for any other solver; the path of the file.
+
+    Raises:
+        InputError: it cannot be written.
+    """
+    path = folder / f"{query.name}.smt2"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        path.write_text(query.smt2, encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error}; name another --smt2 DIR") from error
+    return path
+
+
+def _name() -> str:
+    return f"cvc5 {import_module('cvc5').__version__}"
+
+
+def _check(query: Query, timeout: float, options: dict[str, str]) -> tuple[Answer, str]:
+    """The answer to the script's `check-sat`, and why it is unknown."""
+    cvc5: Any = import_module("cvc5")
+    solver = cvc5.Solver(cvc5.TermManager())
+    for option, value in {"tlimit-per": str(max(1, round(timeout * 1000))), **options}.items():
+        solver.setOption(option, value)
+    parser = cvc5.InputParser(solver)
+    parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, query.smt2, query.name)
+    said = ""
+    try:
+        while not (command := parser.nextCommand()).isNull():
+            said += str(command.invoke(solver, parser.getSymbolManager()))
+    except RuntimeError as error:
+        raise InputError(f"cvc5 cannot read the question {query.name}: {error}") from error
+    match said.split():
+        case ["sat"]:
+            return "sat", ""
+        case ["unsat"]:
+            return "unsat", ""
+        case ["unknown", *reason]:
+            return "unknown", " ".join(reason).strip("()").lower() or "it gave up"
+        case _:
+            raise InputError(f"cvc5 answers the question {query.name} with {said.strip()!r}")

@@ -1,0 +1,213 @@
+"""Classes of worlds: `planar`, `genus:1`, `simple,max-degree:4` …, and how many worlds are in them.
+
+A class is written as terms joined with commas, in any order; a world is in it if it has all of
+the properties. They are properties of the map, so where the marker lies never matters.
+
+| term | which worlds |
+| --- | --- |
+| `any` | all |
+| `planar` | of genus 0, the same as `genus:0` |
+| `genus:G`, `genus<=G` | of this genus, of this genus at most |
+| `loopless` | no edge joins a vertex with itself |
+| `simple` | loopless, and no two edges join the same two vertices |
+| `max-degree:D` | no vertex has more than D exits |
+
+What `sample` does not do: a class other than `any` is drawn by rejection, exactly uniform, but
+hopeless where hardly a world is in the class; then it says so instead of running on.
+
+Source: docs/semantics.md, section 16.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from random import Random
+
+from topo_verify.errors import InputError
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.degree_counts import count_graphs
+from topo_verify.world.enumeration.genus_counts import count_genus
+from topo_verify.world.rooted_map import World
+
+MAX_LISTED_EDGES = 7
+"""Some classes are counted by listing: 1,708,394 worlds with 7 edges."""
+
+MAX_TRIES = 100_000
+"""So many worlds are drawn, at most, in search of one in the class."""
+
+_TERM = re.compile(r"(any|planar|simple|loopless)|(genus:|genus<=|max-degree:)([0-9]{1,9})")
+
+
+@dataclass(frozen=True, slots=True)
+class WorldClass:
+    """The worlds with all of these properties; `parse` makes one from its text, `str` is the text.
+
+    Equal classes print alike, however they were written: `genus:0,genus<=3` is `planar`.
+
+    Attributes:
+        genus: exactly this one; None: any.
+        most_genus: not more; None where `genus` says it all, or nothing does.
+        most_degree: no vertex has more exits; None: any.
+        loopless, simple: as in the table above; one of the two, since simple implies loopless.
+    """
+
+    genus: int | None = None
+    most_genus: int | None = None
+    most_degree: int | None = None
+    loopless: bool = False
+    simple: bool = False
+
+    @classmethod
+    def parse(cls, text: str) -> WorldClass:
+        """The class that the text describes.
+
+        Raises:
+            InputError: a term is unknown, or no world with an edge could have all the properties.
+        """
+        words: set[str] = set()
+        bounds: dict[str, list[int]] = {"genus:": [], "genus<=": [], "max-degree:": []}
+        for term in text.split(","):
+            found = _TERM.fullmatch(term.strip())
+            if not found:
+                raise InputError(
+                    f"class {text!r}: {term.strip()!r} is no class; a class is any, planar,"
+                    " genus:G, genus<=G, simple, loopless or max-degree:D, or several of them"
+                    " joined with commas, all of which hold"
+                )
+            word, bound, number = found.groups()
+            if bound:
+                bounds[bound].append(int(number))
+            else:
+                words.add(word)
+        exact = {*bounds["genus:"], *([0] if "planar" in words else [])}
+        most = min(bounds["genus<="], default=None)
+        degree = min(bounds["max-degree:"], default=None)
+        if most == 0:
+            exact.add(0)
+        if len(exact) > 1 or (exact and most is not None and max(exact) > most):
+            raise InputError(f"class {text!r} contradicts itself: a world has one genus")
+        genus = max(exact, default=None)
+        if degree == 0 or (genus and degree in (1, 2)):
+            raise InputError(
+                f"class {text!r} is empty: with at most {degree} exits a vertex there is no world"
+                f" {f'of genus {genus}' if degree else 'with an edge'}"
+            )
+        return cls(
+            genus=genus,
+            most_genus=most if genus is None else None,
+            most_degree=degree,
+            loopless="loopless" in words and "simple" not in words,
+            simple="simple" in words,
+        )
+
+    def __str__(self) -> str:
+        genus = "planar" if self.genus == 0 else f"genus:{self.genus}"
+        terms = {
+            genus: self.genus is not None,
+            f"genus<={self.most_genus}": self.most_genus is not None,
+            "loopless": self.loopless,
+            "simple": self.simple,
+            f"max-degree:{self.most_degree}": self.most_degree is not None,
+        }
+        return ",".join(term for term, holds in terms.items() if holds) or "any"
+
+    # ------------------------------------------------------------ which worlds
+
+    def contains(self, world: World) -> bool:
+        """Is the world in the class?"""
+        return self.admits(world.code)
+
+    def admits(self, table: rank_order.Table) -> bool:
+        """Is the world with this table in the class? For long lists: no `World` is made."""
+        degrees, alpha = table
+        if self.most_degree is not None and max(degrees) > self.most_degree:
+            return False
+        if self.loopless or self.simple:
+            vertex = [v for v, degree in enumerate(degrees) for _ in range(degree)]
+            ways = [(vertex[dart], vertex[other]) for dart, other in enumerate(alpha)]
+            if any(a == b for a, b in ways) or (self.simple and len(set(ways)) < len(ways)):
+                return False
+        if self.genus is not None:
+            return _genus(table) == self.genus
+        return self.most_genus is None or _genus(table) <= self.most_genus
+
+    # ------------------------------------------------------------ how many, and one of them
+
+    def count(self, edges: int) -> int:
+        """How many worlds with this many edges are in the class.
+
+        By a formula for `any`, `planar` and the genus; for classes of graphs by their degrees, up
+        to 16 edges. Where a genus is combined with a property of the graph neither reaches: then
+        all worlds are listed and looked at one by one. None of these knows how a class is searched
+        (`growing.py`), so a search that meets the number has left nothing out.
+        Raises:
+            InputError: more edges than can be counted.
+        """
+        if self._has_formula:
+            return self._count_by_formula(edges)
+        if self.genus is None and self.most_genus is None:
+            return count_graphs(
+                edges, most_degree=self.most_degree, loopless=self.loopless, simple=self.simple
+            )
+        if edges > MAX_LISTED_EDGES:
+            raise InputError(
+                f"class {self}: there is no formula for how many worlds are in it, and with {edges}"
+                f" edges there are {rank_order.count(edges)} to be looked at: ask for"
+                f" {MAX_LISTED_EDGES} edges or fewer"
+            )
+        return sum(map(self.admits, rank_order.tables(edges)))
+
+    def sample(self, edges: int, random: Random) -> World:
+        """A world of the class with this many edges, exactly uniform over all of them.
+
+        Raises:
+            InputError: there is none, or so few that `MAX_TRIES` draws are not likely to find one
+                or did not.
+        """
+        if self._has_formula:
+            inside, total = self._count_by_formula(edges), rank_order.count(edges)
+            if not inside:
+                raise InputError(f"class {self}: there is no world with {edges} edges in it")
+            if total > inside * MAX_TRIES:
+                raise InputError(self._too_rare(edges, f"{inside / total:.0e} of all"))
+        for _ in range(MAX_TRIES):
+            table = rank_order.sample(edges, random)
+            if self.admits(table):
+                return World.from_code(table)
+        raise InputError(self._too_rare(edges, f"none of {MAX_TRIES} that were drawn"))
+
+    @property
+    def _has_formula(self) -> bool:
+        return self.most_degree is None and not self.loopless and not self.simple
+
+    def _count_by_formula(self, edges: int) -> int:
+        if self.genus is not None:
+            return count_genus(edges, self.genus) if self.genus else rank_order.count_planar(edges)
+        if self.most_genus is not None and 2 * self.most_genus < edges:
+            return sum(count_genus(edges, genus) for genus in range(self.most_genus + 1))
+        return rank_order.count(edges)
+
+    def _too_rare(self, edges: int, seen: str) -> str:
+        return (
+            f"class {self}: too few of the worlds with {edges} edges are in it to draw one"
+            f" ({seen}): ask for fewer edges or a wider class"
+        )
+
+
+def _genus(table: rank_order.Table) -> int:
+    """From Euler's formula, V - E + F = 2 - 2g."""
+    degrees, alpha = table
+    after: list[int] = []
+    for degree in degrees:
+        first = len(after)
+        after += range(first + 1, first + degree)
+        after += [first] * (degree > 0)
+    seen = [False] * len(alpha)
+    faces = 0 if alpha else 1
+    for dart in range(len(alpha)):
+        faces += not seen[dart]
+        while not seen[dart]:
+            seen[dart] = True
+            dart = after[alpha[dart]]  # noqa: PLW2901  walks along the face
+    return (2 - len(degrees) + len(alpha) // 2 - faces) // 2
