@@ -20,8 +20,8 @@ import pytest
 from topo_verify import InputError, InternalError, Limits
 from topo_verify.harness import ledger as ledgers
 from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.search import Found, Plan, Search, search
-from topo_verify.harness.search.plan import SHARD, Shard
+from topo_verify.harness.search.exhaustive import Found, Search, search
+from topo_verify.harness.search.plan import SHARD, Plan, Shard
 from topo_verify.harness.tally import Tally
 from topo_verify.harness.targets import targets
 
@@ -79,7 +79,8 @@ def test_a_counterexample_is_found_in_the_ledger_again() -> None:
 
 SEARCHER = """
 import sys
-from topo_verify.harness.search import Plan, Search
+from topo_verify.harness.search.plan import Plan
+from topo_verify.harness.search.exhaustive import Search
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.search.plan import SHARD
 from topo_verify.harness.targets import targets

@@ -6,6 +6,10 @@ from typing import Any, Literal
 
 import msgspec
 
+Verdict = Literal["PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED"]
+"""What a check concludes: of worlds of any size, of every world of a finite class, of some worlds,
+nothing, or that there is a counterexample. Docs/semantics.md, section 16."""
+
 Status = Literal["ok", "failed", "not-declared", "not-asked"]
 """`not-declared`: the mapper declared no decision that the claim speaks of. `not-asked`: the world
 is too large for this claim unless `strict` is asked for. Neither is `ok`."""

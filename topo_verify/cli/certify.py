@@ -22,8 +22,8 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, InternalError
-from topo_verify.harness.verify.parts import plural
 from topo_verify.robot.events import Trace, read_trace
+from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World

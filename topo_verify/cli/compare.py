@@ -17,9 +17,9 @@ from topo_verify.cli.record import Opening, mapper_options
 from topo_verify.harness.baseline import file
 from topo_verify.harness.baseline.compare import KINDS, Change, Comparison, Group, Kind
 from topo_verify.harness.baseline.compare import compare as run_all
-from topo_verify.harness.verify.parts import plural
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import Policies
+from topo_verify.text import plural
 
 TITLES: dict[Kind, str] = {
     "wrong": "a claim fails",

@@ -23,7 +23,7 @@ from importlib import metadata
 import click
 
 from topo_verify.errors import InputError
-from topo_verify.world.formats import files
+from topo_verify.text import shown
 
 TRACEBACK = "TOPO_VERIFY_TRACEBACK"
 """Set to 1, this environment variable asks for the whole traceback of a bug."""
@@ -58,7 +58,7 @@ def version() -> str:
 
 def say(sentence: str) -> None:
     """One line on stderr, whatever the sentence holds."""
-    line = files.shown(sentence, limit=4000)
+    line = shown(sentence, limit=4000)
     click.echo(line.encode(errors="backslashreplace").decode(), err=True)
 
 

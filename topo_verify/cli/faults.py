@@ -23,7 +23,7 @@ from topo_verify.harness.faults.detection import (
     try_faults,
 )
 from topo_verify.harness.search.workers import processors
-from topo_verify.harness.verify.parts import plural
+from topo_verify.text import plural
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")
 WIDTHS = (29, 21, 13, 5, 3)

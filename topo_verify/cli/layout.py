@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import IO, TYPE_CHECKING
 
-from topo_verify.world.formats import files
+from topo_verify.text import shown
 
 if TYPE_CHECKING:
     from rich.table import Table as Grid
@@ -132,7 +132,7 @@ def _grid(block: Table) -> Grid:
 
 
 def _clean(text: str) -> str:
-    return files.shown(text, limit=4000)
+    return shown(text, limit=4000)
 
 
 # ---------------------------------------------------------------- as Markdown

@@ -28,7 +28,7 @@ from topo_verify.cli.failures import exit_code, say, version
 from topo_verify.cli.layout import Block
 from topo_verify.cli.progress import Progress
 from topo_verify.errors import InputError
-from topo_verify.harness.verify.parts import plural
+from topo_verify.text import plural
 
 P = ParamSpec("P")
 E = TypeVar("E", bound=msgspec.Struct)

@@ -23,11 +23,11 @@ from topo_verify.harness.baseline.record import record as run_all
 from topo_verify.harness.corpus import DEFAULT, Corpus, corpus_from
 from topo_verify.harness.target_texts import target_text, targets
 from topo_verify.harness.targets import one_target
-from topo_verify.harness.verify.parts import plural
 from topo_verify.programs.loading import Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.text import plural
 from topo_verify.world.formats import files
 
 Opening = Callable[..., AbstractContextManager[Target]]

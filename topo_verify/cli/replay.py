@@ -21,9 +21,9 @@ from topo_verify.errors import InputError
 from topo_verify.harness import target_texts
 from topo_verify.harness.run import Report, judge_trace
 from topo_verify.harness.run import explore as run_mapper
-from topo_verify.harness.verify.parts import plural
 from topo_verify.robot.events import Start, read_trace
 from topo_verify.robot.limits import Limits
+from topo_verify.text import plural
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 

@@ -16,8 +16,8 @@ from topo_verify.checkers import Finding
 from topo_verify.cli.layout import Block, Bullets, Command, Text
 from topo_verify.errors import InputError
 from topo_verify.harness.run import Exploration, Report, judge, replay_line, undecided
-from topo_verify.harness.verify.parts import plural
 from topo_verify.robot.limits import Limits
+from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.resolve import world_from
 from topo_verify.world.rooted_map import World

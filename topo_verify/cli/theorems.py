@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from topo_verify.cli.layout import Block, Bullets, Table, Text
-from topo_verify.harness.verify.parts import plural
+from topo_verify.text import plural
 
 if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Budget, Outcome, Theorem

@@ -15,9 +15,10 @@ from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks, undeclared
 from topo_verify.harness import target_texts
 from topo_verify.harness.verify import verify as campaign
-from topo_verify.harness.verify.parts import Part, plural
+from topo_verify.harness.verify.parts import Part
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
+from topo_verify.text import plural
 
 
 @click.command(

@@ -31,8 +31,8 @@ from pathlib import Path
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.text import shown
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.formats import files
 from topo_verify.world.resolve import world_from
 from topo_verify.world.rooted_map import World
 
@@ -248,7 +248,7 @@ def _folder(text: str) -> Part:
     names = sorted(_world_files(Path(text)))
     if not names:
         raise InputError(
-            f"--worlds {files.shown(text)}: no world in this folder; its files of worlds end in"
+            f"--worlds {shown(text)}: no world in this folder; its files of worlds end in"
             f" {', '.join(SUFFIXES)}"
         )
     return _listed(text, [_by_name(name, text) for name in names])
@@ -262,6 +262,4 @@ def _world_files(folder: Path) -> Iterable[str]:
             if path.is_file() and path.name.lower().endswith(SUFFIXES)
         ]
     except OSError as error:
-        raise InputError(
-            f"cannot read the folder {files.shown(folder)}: {error.strerror}"
-        ) from error
+        raise InputError(f"cannot read the folder {shown(folder)}: {error.strerror}") from error

@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from topo_verify.errors import InputError
 from topo_verify.robot.simulator import SimulatedRobot
@@ -41,7 +41,7 @@ def load(text: str) -> Mapper:
     found: Any = module
     for part in attribute.split("."):
         if isinstance(found, Mapping) and part in found:
-            found = found[part]
+            found = cast("Mapping[str, Any]", found)[part]
         elif hasattr(found, part):
             found = getattr(found, part)
         else:

@@ -31,7 +31,7 @@ from topo_verify.programs.loading import Target
 from topo_verify.robot.events import MapData
 from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
-from topo_verify.world.formats import files
+from topo_verify.text import shown
 
 Kind = Literal[
     "crashed",
@@ -177,7 +177,7 @@ class Program:
                 self._require_silence(child)
                 kind: Kind = "skip" if isinstance(message, ms.Skip) else "error"
                 verb = "skips this world" if kind == "skip" else "gives this world up"
-                why = f": {files.shown(message.why)}" if message.why else ", and does not say why"
+                why = f": {shown(message.why)}" if message.why else ", and does not say why"
                 raise Misbehaved(kind, f"the program {verb}{why}")
 
     def _require_silence(self, child: Child) -> None:
@@ -297,17 +297,17 @@ def decoded(line: bytes, decode: Callable[[bytes], Any], *, validate: bool) -> A
         if validate:
             _require_schema(line, message)
     except RecursionError:
-        told = f"the program wrote a line that is nested too deeply: {shown(line)}"
+        told = f"the program wrote a line that is nested too deeply: {shown_line(line)}"
         raise Misbehaved("nested", told) from None
     except UnicodeDecodeError:
-        raise Misbehaved("not-utf8", f"the program wrote no UTF-8: {shown(line)}") from None
+        raise Misbehaved("not-utf8", f"the program wrote no UTF-8: {shown_line(line)}") from None
     except msgspec.ValidationError as error:
         kind = _kind(str(error))
-        told = f"the program wrote no message of the protocol: {error}: {shown(line)}"
+        told = f"the program wrote no message of the protocol: {error}: {shown_line(line)}"
         raise Misbehaved(kind, told) from None
     except msgspec.DecodeError as error:
         told = str(error).removeprefix("JSON is malformed: ")
-        told = f"the program wrote what is no JSON ({told}): {shown(line)}"
+        told = f"the program wrote what is no JSON ({told}): {shown_line(line)}"
         raise Misbehaved("not-json", told) from None
     return message
 
@@ -324,19 +324,19 @@ def _require_schema(line: bytes, message: object) -> None:
     def single(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         data = dict(pairs)
         if len(data) < len(pairs):
-            told = f"the program wrote a field twice (--validate): {shown(line)}"
+            told = f"the program wrote a field twice (--validate): {shown_line(line)}"
             raise Misbehaved("doubled-field", told)
         return data
 
     data = json.loads(line, object_pairs_hook=single)
     for place in ms.strangers(data, message):
         told = f"the program wrote {place}, which the schema does not list (--validate)"
-        raise Misbehaved("unknown-field", f"{told}: {shown(line)}")
+        raise Misbehaved("unknown-field", f"{told}: {shown_line(line)}")
 
 
-def shown(line: bytes) -> str:
+def shown_line(line: bytes) -> str:
     """A line fit to be shown."""
-    return files.shown(line[: 2 * SHOWN].decode(errors="backslashreplace"), limit=SHOWN)
+    return shown(line[: 2 * SHOWN].decode(errors="backslashreplace"), limit=SHOWN)
 
 
 def obituary(child: Child, due: str) -> Misbehaved:
@@ -366,11 +366,11 @@ def _silence(child: Child, told: str) -> Misbehaved | None:
 def last_words(stderr: str) -> str:
     """The last line on standard error, to be put behind a sentence."""
     lines = [line for line in stderr.splitlines() if line.strip()]
-    return f"; its last words: {files.shown(lines[-1].strip())}" if lines else ""
+    return f"; its last words: {shown(lines[-1].strip())}" if lines else ""
 
 
 def _seen(child: Child) -> str:
-    return f": {shown(child.pending)}" if child.pending else ""
+    return f": {shown_line(child.pending)}" if child.pending else ""
 
 
 def _survey(found: MapData, cost: int | None) -> Survey:

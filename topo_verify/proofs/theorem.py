@@ -22,9 +22,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+from topo_verify.checkers.findings import Verdict
+
 Kind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
 
-Verdict = Literal["PROVED", "EXHAUSTED", "UNKNOWN", "REFUTED"]
 
 Answer = Literal["sat", "unsat", "unknown"]
 """What a solver says. Compare it with ==: every answer is a non-empty text."""

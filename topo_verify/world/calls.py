@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from topo_verify.errors import InputError
-from topo_verify.world.formats.files import shown
+from topo_verify.text import shown
 
 T = TypeVar("T")
 

@@ -15,7 +15,8 @@ from os import PathLike
 from typing import TypeVar
 
 from topo_verify.errors import InputError
-from topo_verify.world.formats import files, graphml, planar_code, sumo, world_json
+from topo_verify.text import shown
+from topo_verify.world.formats import graphml, planar_code, sumo, world_json
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -34,7 +35,7 @@ def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -
         return planar_code.load(cls, path, graph=graph)
     if graph is not None:
         raise InputError(
-            f"{files.shown(path)}: graph={graph} is for planar_code (.pc, .plc); the other formats"
+            f"{shown(path)}: graph={graph} is for planar_code (.pc, .plc); the other formats"
             " hold one world a file"
         )
     if name.endswith(".graphml"):

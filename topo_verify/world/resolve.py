@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from topo_verify.errors import InputError
+from topo_verify.text import shown
 from topo_verify.world import calls
 from topo_verify.world.families import FAMILIES
 from topo_verify.world.formats import files, world_json
@@ -51,7 +52,7 @@ def world_from(text: str, *, stdin: BinaryIO | None = None) -> World:
         return calls.call(text.removeprefix("family:"), FAMILIES, _FAMILY)
     if not _exists(text):
         raise InputError(
-            f"'{files.shown(text)}' names no world: no file of that name is to be seen; a world is"
+            f"'{shown(text)}' names no world: no file of that name is to be seen; a world is"
             " a path, an id (m5/17), a family (family:lattice(10,10,holes=0.2,seed=7)), nyc (the"
             " street network of the package) or - (world JSON on standard input)"
         )

@@ -8,8 +8,9 @@ import pytest
 
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.policies import ORDERS, PICKS
-from topo_verify.harness.search import Choices, Plan, search
 from topo_verify.harness.search.choices import SEEDS, Script, examinations
+from topo_verify.harness.search.exhaustive import search
+from topo_verify.harness.search.plan import Choices, Plan
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import Pose
 from topo_verify.world.enumeration import rank_order

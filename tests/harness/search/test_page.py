@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from topo_verify.cli import main
-from topo_verify.harness.search import search
+from topo_verify.harness.search.exhaustive import search
 from topo_verify.world.enumeration.classes import WorldClass
 
 ROOT = Path(__file__).resolve().parents[3]

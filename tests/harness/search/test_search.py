@@ -8,8 +8,9 @@ import pytest
 
 from tests.harness import mappers
 from topo_verify import CATALOGUE, InputError, InternalError, Limits, Robot, World, explore
-from topo_verify.harness.search import Plan, Search, search
 from topo_verify.harness.search import plan as planning
+from topo_verify.harness.search.exhaustive import Search, search
+from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.tally import KEPT_FINDINGS, KEPT_RUNS, KEPT_WORLDS, Tally
 from topo_verify.programs.loading import Target
 from topo_verify.world.enumeration import rank_order

@@ -17,8 +17,9 @@ import msgspec
 import pytest
 
 from topo_verify import InputError, InternalError, Limits
-from topo_verify.harness.search import Found, Plan, search, workers
-from topo_verify.harness.search.plan import SHARD, Shard
+from topo_verify.harness.search import workers
+from topo_verify.harness.search.exhaustive import Found, search
+from topo_verify.harness.search.plan import SHARD, Plan, Shard
 from topo_verify.world.enumeration.classes import WorldClass
 
 SHORT = Limits(move_timeout=0.2, world_timeout=0.5)
@@ -220,7 +221,7 @@ def test_our_bug_in_a_worker_is_told_as_such(monkeypatch: pytest.MonkeyPatch) ->
 
 
 SEARCHER = """
-from topo_verify.harness.search import search
+from topo_verify.harness.search.exhaustive import search
 search("mappers.py:{name}", edges=4, workers=2)
 """
 

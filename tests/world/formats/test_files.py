@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from topo_verify.errors import InputError
+from topo_verify.text import shown
 from topo_verify.world.formats import files
 
 ROOT = hasattr(os, "geteuid") and os.geteuid() == 0
@@ -173,7 +174,7 @@ def test_what_cannot_be_written_is_refused_with_the_systems_reason(
 
 
 def test_a_text_in_a_message_is_one_line_of_bounded_length() -> None:
-    assert files.shown("grün 空") == "grün 空"
-    assert files.shown("a\nb\0\x1b[31m\ud800") == r"a\nb\x00\x1b[31m\ud800"
-    assert files.shown("x" * 500) == "x" * 199 + "…"
-    assert files.shown(Path("a/b")) == "a/b"
+    assert shown("grün 空") == "grün 空"
+    assert shown("a\nb\0\x1b[31m\ud800") == r"a\nb\x00\x1b[31m\ud800"
+    assert shown("x" * 500) == "x" * 199 + "…"
+    assert shown(Path("a/b")) == "a/b"

@@ -32,6 +32,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs.protocol import dialect
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.text import shown
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
@@ -156,7 +157,7 @@ def load(path: str | PathLike[str]) -> Baseline:
     Raises:
         InputError: the file cannot be read; see also `decode`.
     """
-    return decode(files.read(path), name=files.shown(path))
+    return decode(files.read(path), name=shown(path))
 
 
 def decode(data: bytes, *, name: str = "baseline") -> Baseline:
@@ -251,7 +252,7 @@ def _require_version(line: bytes, name: str) -> None:
     head = _line(line, _Head, f"{name}, line 1")
     if head.format != FORMAT:
         raise InputError(
-            f"{name}, line 1: its format is {files.shown(head.format)!r}, not {FORMAT!r}: name a"
+            f"{name}, line 1: its format is {shown(head.format)!r}, not {FORMAT!r}: name a"
             " file that topo-verify record wrote"
         )
     if head.version > VERSION:

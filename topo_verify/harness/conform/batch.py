@@ -40,7 +40,7 @@ from topo_verify.programs.program import (
     Survey,
     decoded,
     obituary,
-    shown,
+    shown_line,
     split,
 )
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
@@ -185,7 +185,7 @@ class BatchExaminer:
             raise obituary(child, "wrote a run for this world") from None
         run: ms.Run = decoded(line, _run.decode, validate=self.job.validate)
         if run.id not in waiting:
-            told = f"no world {run.id!r} waits for a run: {shown(line)}"
+            told = f"no world {run.id!r} waits for a run: {shown_line(line)}"
             raise Misbehaved("unknown-world", told)
         done[waiting.pop(run.id)] = run
 
@@ -230,7 +230,7 @@ def _require_end(child: Child) -> None:
         line = child.line(seconds=GRACE)
     except (Silent, Ended):
         return
-    raise Misbehaved("unknown-world", f"no world waits for a run any more: {shown(line)}")
+    raise Misbehaved("unknown-world", f"no world waits for a run any more: {shown_line(line)}")
 
 
 def _ids(worlds: Sequence[Named]) -> list[str]:

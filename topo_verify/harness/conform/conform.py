@@ -9,18 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, field
-from typing import Literal
 
 import msgspec
 
 from topo_verify.checkers import CLAIMS
+from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.conform.batch import BatchExaminer
 from topo_verify.harness.conform.crew import Crew
 from topo_verify.harness.conform.examiner import Examiner
 from topo_verify.harness.conform.outcome import LEVELS, RESULT, Found, Job, Level, Outcome
 from topo_verify.harness.corpus import Corpus
-
-Verdict = Literal["EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED"]
 
 PATIENCE = 20
 """After so many time-outs enough is seen."""

@@ -15,12 +15,13 @@ from statistics import median
 import msgspec
 
 from topo_verify.checkers import CLAIMS
+from topo_verify.checkers.findings import Verdict
 from topo_verify.checkers.replayed_trace import Case
 from topo_verify.faults import Fault
 from topo_verify.faults.fault import Told
 from topo_verify.harness.run import explore
-from topo_verify.harness.search import Size, search
-from topo_verify.harness.verify.parts import Tell, Verdict
+from topo_verify.harness.search.exhaustive import Size, search
+from topo_verify.harness.verify.parts import Tell
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import Augment, Decision
 from topo_verify.robot.limits import Limits

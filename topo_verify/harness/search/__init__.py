@@ -8,22 +8,3 @@ workers.py   processes that examine shards; worker.py is one of them
 pace.py      how fast it goes
 identity.py  a hash of what a mapper is made of
 """
-
-from topo_verify.harness.search.exhaustive import Found, Search, Size, search
-from topo_verify.harness.search.plan import Choices, Plan
-from topo_verify.harness.tally import Compared, Costs, Failing, Failure, Pair, Tally
-
-__all__ = [
-    "Choices",
-    "Compared",
-    "Costs",
-    "Failing",
-    "Failure",
-    "Found",
-    "Pair",
-    "Plan",
-    "Search",
-    "Size",
-    "Tally",
-    "search",
-]

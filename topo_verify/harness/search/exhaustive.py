@@ -15,10 +15,10 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
-from typing import Literal
 
 import msgspec
 
+from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness import target_texts
 from topo_verify.harness.ledger import Ledger
@@ -33,8 +33,6 @@ from topo_verify.programs.loading import Mapper, Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.classes import WorldClass
-
-Verdict = Literal["EXHAUSTED", "UNKNOWN", "REFUTED"]
 
 
 class Size(msgspec.Struct, frozen=True):

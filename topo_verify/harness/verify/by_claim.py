@@ -24,7 +24,7 @@ from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import Trials
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
-from topo_verify.world.formats import files
+from topo_verify.text import shown
 
 Status = Literal["holds", "fails", "undecided", "not-declared"]
 
@@ -74,7 +74,7 @@ class Outcome:
         finding = self.first[claim]
         event = "" if finding.event is None else f" (event {finding.event})"
         worlds = f"{failed:,} of {self.part.checked:,} worlds of 1 to {self.edges} edges"
-        message = files.shown(finding.message, limit=1000)
+        message = shown(finding.message, limit=1000)
         lines = [f"{claim} fails in {worlds}, first in {finding.world}{event}: {message}"]
         if finding.world in self.raised:
             lines.append(f"  raised at: {self.raised[finding.world]}")

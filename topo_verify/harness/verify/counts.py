@@ -8,7 +8,9 @@ the sum of completions F, a recurrence in the edges alone, and Tutte's count of 
 from __future__ import annotations
 
 from topo_verify.checkers import Finding
-from topo_verify.harness.verify.parts import Part, Tell, Verdict, plural
+from topo_verify.checkers.findings import Verdict
+from topo_verify.harness.verify.parts import Part, Tell
+from topo_verify.text import plural
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 

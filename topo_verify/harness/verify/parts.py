@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, Protocol
+from typing import Protocol
 
 import msgspec
 
-from topo_verify.checkers import Finding
-
-Verdict = Literal["PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED"]
+from topo_verify.checkers.findings import Finding, Verdict
 
 Tell = Callable[[str, int, int], None]
 """Called as work goes on: (part, how much of it is done, how much there is)."""
@@ -75,8 +73,3 @@ class Job(Protocol):
     def part(self, *, interrupted: bool = False) -> Part:
         """What was found so far."""
         ...
-
-
-def plural(number: int, thing: str, things: str = "") -> str:
-    """`1 world`, `2 worlds`."""
-    return f"{number} {thing if number == 1 else things or thing + 's'}"

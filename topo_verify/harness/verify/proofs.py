@@ -15,7 +15,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from topo_verify.checkers import Finding
-from topo_verify.harness.verify.parts import Part, Tell, Verdict
+from topo_verify.checkers.findings import Verdict
+from topo_verify.harness.verify.parts import Part, Tell
 
 if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Outcome, Theorem

@@ -11,12 +11,14 @@ from collections.abc import Sequence
 
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.checkers import CLAIMS
-from topo_verify.harness.search import Found, Plan, Search
+from topo_verify.harness.search.exhaustive import Found, Search
+from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.search.workers import processors
-from topo_verify.harness.verify.parts import Part, Tell, plural
+from topo_verify.harness.verify.parts import Part, Tell
 from topo_verify.harness.verify.trials import PATIENCE, claims_in_words
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
+from topo_verify.text import plural
 
 WORTH = 4
 """Worlds with fewer edges are examined before a worker has started."""

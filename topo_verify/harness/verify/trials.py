@@ -16,10 +16,12 @@ import msgspec
 
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.checkers import CLAIMS, Finding
+from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.run import Exploration, Report, explore, judge, undecided
-from topo_verify.harness.verify.parts import Cost, Part, Tell, Verdict, plural
+from topo_verify.harness.verify.parts import Cost, Part, Tell
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
+from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
 PATIENCE = 3

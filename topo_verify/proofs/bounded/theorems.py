@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from time import perf_counter
 
+from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError
 from topo_verify.proofs.bounded import drup, negatives
 from topo_verify.proofs.bounded.cnf import Formula
@@ -31,7 +32,7 @@ from topo_verify.proofs.bounded.model_count import (
 from topo_verify.proofs.bounded.solve import Decision, Undecided, decide
 from topo_verify.proofs.bounded.statements import ONE_DOOR, WORDS, Statement
 from topo_verify.proofs.solvers.z3_solver import name as solver_name
-from topo_verify.proofs.theorem import Budget, Certificate, Outcome, Query, Theorem, Verdict
+from topo_verify.proofs.theorem import Budget, Certificate, Outcome, Query, Theorem
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 

@@ -32,7 +32,7 @@ from math import hypot
 from typing import Any, NamedTuple, TypeVar
 
 from topo_verify.errors import InputError
-from topo_verify.world.formats import files
+from topo_verify.text import shown
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -118,7 +118,7 @@ def _course(way: Way, places: Sequence[Place]) -> tuple[Point, ...]:
     if len(course) < 2:
         what = "a loop that is" if way.start == way.end else "an edge that is"
         raise InputError(
-            f"at vertex '{files.shown(start.name)}' begins {what} a single point, so it leaves in"
+            f"at vertex '{shown(start.name)}' begins {what} a single point, so it leaves in"
             " no direction: give it a geometry with two different points, or leave it out"
         )
     as_is = _apart(course[0], start.at) + _apart(course[-1], end.at)
@@ -192,7 +192,7 @@ def _exits(
     for place, row in zip(places, exits, strict=True):
         if not row and len(places) > 1:
             raise InputError(
-                f"vertex '{files.shown(place.name)}' has no edge, so the world is not connected:"
+                f"vertex '{shown(place.name)}' has no edge, so the world is not connected:"
                 " leave the vertex out"
             )
     return exits
@@ -214,7 +214,7 @@ def _require_connected(places: Sequence[Place], ways: Sequence[Way]) -> None:
         if number not in reached:
             raise InputError(
                 f"the world is not connected: no way leads from vertex"
-                f" '{files.shown(places[0].name)}' to vertex '{files.shown(place.name)}'; keep one"
+                f" '{shown(places[0].name)}' to vertex '{shown(place.name)}'; keep one"
                 f" of the parts ({len(queue)} of {len(places)} vertices are in the first)"
             )
 
@@ -223,9 +223,9 @@ def _clockwise(place: Place, exits: Sequence[_Exit], ways: Sequence[Way]) -> lis
     row = sorted(exits, key=cmp_to_key(_compared))
     for one, other in pairwise(row):
         if _compared(one, other) == 0:
-            names = [files.shown(ways[leaving.end.way].name, limit=60) for leaving in (one, other)]
+            names = [shown(ways[leaving.end.way].name, limit=60) for leaving in (one, other)]
             raise InputError(
-                f"at vertex '{files.shown(place.name)}' two edges leave at the same angle,"
+                f"at vertex '{shown(place.name)}' two edges leave at the same angle,"
                 f" '{names[0]}' toward {one.toward} and '{names[1]}' toward {other.toward}, so"
                 " neither comes first: move a point of one of them, or leave one out"
             )
@@ -261,8 +261,7 @@ def number(value: Any, what: str) -> float:
     # A long integer is not written out: Python refuses to, beyond some thousand digits.
     seen = "an integer" if isinstance(value, int) else repr(value)
     raise InputError(
-        f"{what} is {files.shown(seen, limit=60)}, expected a number of at most {FARTHEST:.0e}"
-        " in size"
+        f"{what} is {shown(seen, limit=60)}, expected a number of at most {FARTHEST:.0e} in size"
     )
 
 
@@ -275,7 +274,7 @@ def line(text: str, what: str) -> tuple[Point, ...]:
     found = re.fullmatch(r"\s*LINESTRING\s*(?:Z\s*)?\(([^()]*)\)\s*", text, re.IGNORECASE)
     if not found:
         raise InputError(
-            f"{what} is '{files.shown(text, limit=60)}', expected a line as LINESTRING (0 0, 1 2)"
+            f"{what} is '{shown(text, limit=60)}', expected a line as LINESTRING (0 0, 1 2)"
         )
     return points([part.split() for part in found[1].split(",")], what)
 

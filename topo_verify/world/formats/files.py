@@ -12,6 +12,7 @@ from secrets import token_hex
 from typing import IO
 
 from topo_verify.errors import InputError
+from topo_verify.text import shown
 
 LIMIT = 64 * 2**20
 """Bytes that a file may have: room for a world of a million darts with positions, twice."""
@@ -94,12 +95,6 @@ def _replace(target: Path, data: bytes) -> None:
 def stem(path: str | PathLike[str]) -> str:
     """What to call a world that has no name in its file: the file's name without its ending."""
     return os.fsencode(Path(path).stem).decode("utf-8", "replace")
-
-
-def shown(text: str | PathLike[str], *, limit: int = 200) -> str:
-    """The text fit for one line of a message: control characters escaped, cut where it is long."""
-    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in os.fspath(text))
-    return line if len(line) <= limit else line[: limit - 1] + "…"
 
 
 def _reason(error: OSError | ValueError) -> str:

@@ -20,6 +20,7 @@ from os import PathLike
 from typing import TypeVar
 
 from topo_verify.errors import InputError
+from topo_verify.text import shown
 from topo_verify.world.formats import embedding, files, markup
 from topo_verify.world.formats.embedding import Place, Way
 from topo_verify.world.rooted_map import World
@@ -35,7 +36,7 @@ def load(cls: type[W], path: str | PathLike[str]) -> W:
     Raises:
         InputError: as `decode`, or the file cannot be read.
     """
-    return decode(cls, files.read(path), name=files.shown(path), stem=files.stem(path))
+    return decode(cls, files.read(path), name=shown(path), stem=files.stem(path))
 
 
 def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") -> W:
@@ -151,7 +152,7 @@ class _Reader:
 
     def _what(self) -> str:
         kind = "edge" if "source" in self.attributes else "node"
-        return f"{self.name}: {kind} '{files.shown(self._name(), limit=60)}'"
+        return f"{self.name}: {kind} '{shown(self._name(), limit=60)}'"
 
     def ways(self) -> list[Way]:
         """The edges, once all nodes are known."""

@@ -22,7 +22,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from topo_verify.errors import InputError
-from topo_verify.world.formats import embedding, files
+from topo_verify.text import shown
+from topo_verify.world.formats import embedding
 from topo_verify.world.formats.embedding import End, Place, Point, Way
 from topo_verify.world.formats.planar_code import require_simple_and_planar
 from topo_verify.world.rooted_map import World
@@ -56,11 +57,11 @@ def from_planar_embedding(
         given.check_structure()
         rows = {node: list(given.neighbors_cw_order(node)) for node in given}
     except (nx.NetworkXException, KeyError, TypeError) as error:
-        raise InputError(f"{source} is broken: {files.shown(str(error))}") from error
+        raise InputError(f"{source} is broken: {shown(str(error))}") from error
     ends = [(node, other) for node, row in rows.items() for other in row]
     dart: dict[Marker, int] = {end: number for number, end in enumerate(ends)}
     if marker is not None and marker not in dart:
-        raise InputError(f"{source} has no edge for marker={files.shown(repr(marker))}")
+        raise InputError(f"{source} has no edge for marker={shown(repr(marker))}")
     try:
         return World.from_rotations(
             [[dart[node, other] for other in row] for node, row in rows.items()],
@@ -138,7 +139,7 @@ def from_positions(
 
 
 def _at(attributes: Mapping[str, Any], node: Any, positions: Mapping[Any, Any] | None) -> Point:
-    what = f"the graph: the position of node {files.shown(repr(node), limit=60)}"
+    what = f"the graph: the position of node {shown(repr(node), limit=60)}"
     position: Any = attributes.get("pos") if positions is None else positions.get(node)
     if position is None and positions is None and "x" in attributes and "y" in attributes:
         position = attributes["x"], attributes["y"]
@@ -152,7 +153,7 @@ def _at(attributes: Mapping[str, Any], node: Any, positions: Mapping[Any, Any] |
 
 
 def _geometry(graph: Any, label: tuple[Any, ...]) -> Sequence[Point]:
-    what = f"the graph: the geometry of edge {files.shown(repr(label), limit=60)}"
+    what = f"the graph: the geometry of edge {shown(repr(label), limit=60)}"
     value = graph.edges[label].get("geometry")
     if value is None:
         return ()
@@ -165,8 +166,8 @@ def _geometry(graph: Any, label: tuple[Any, ...]) -> Sequence[Point]:
 def _row(value: Any, what: str) -> list[Any]:
     """What is in the row, whatever it is a row of."""
     if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
-        shown = files.shown(repr(cast("Any", value)), limit=60)
-        raise InputError(f"{what} is {shown}, expected x and y in a row, or such rows")
+        seen = shown(repr(cast("Any", value)), limit=60)
+        raise InputError(f"{what} is {seen}, expected x and y in a row, or such rows")
     return list(cast("Any", value))
 
 
@@ -182,10 +183,10 @@ def _marked(marker: Marker, labels: Sequence[tuple[Any, ...]]) -> End:
             return End(fits[0], side)
         if fits:
             raise InputError(
-                f"the graph has {len(fits)} edges for marker={files.shown(repr(marker))}: name its"
+                f"the graph has {len(fits)} edges for marker={shown(repr(marker))}: name its"
                 " key, too, as in (node, neighbour, key)"
             )
     raise InputError(
-        f"the graph has no edge for marker={files.shown(repr(marker))}: name one by its two ends"
+        f"the graph has no edge for marker={shown(repr(marker))}: name one by its two ends"
         " and, in a multigraph, its key"
     )

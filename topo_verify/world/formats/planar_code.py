@@ -28,6 +28,7 @@ from os import PathLike
 from typing import TypeVar
 
 from topo_verify.errors import InputError
+from topo_verify.text import shown
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
@@ -45,7 +46,7 @@ def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -
     Raises:
         InputError: as `decode`, or the file cannot be read.
     """
-    return decode(cls, files.read(path), name=files.shown(path), graph=graph, stem=files.stem(path))
+    return decode(cls, files.read(path), name=shown(path), graph=graph, stem=files.stem(path))
 
 
 def decode(
@@ -133,7 +134,7 @@ def _graphs(data: bytes, name: str) -> Iterator[list[Sequence[int]]]:
     if data.startswith(b">>") and head is None:
         raise InputError(
             f"{name} does not begin like planar_code: its head is"
-            f" '{files.shown(data[:20].decode('latin-1'))}', expected '>>planar_code<<'"
+            f" '{shown(data[:20].decode('latin-1'))}', expected '>>planar_code<<'"
         )
     little = head is not None and head[1] == b"le"
     at, number = head.end() if head else 0, 0

@@ -22,6 +22,7 @@ from os import PathLike
 from typing import TypeVar
 
 from topo_verify.errors import InputError
+from topo_verify.text import shown
 from topo_verify.world.formats import embedding, files, markup
 from topo_verify.world.formats.embedding import Place, Point, Way
 from topo_verify.world.rooted_map import World
@@ -36,7 +37,7 @@ def load(cls: type[W], path: str | PathLike[str]) -> W:
         InputError: as `decode`, or the file cannot be read.
     """
     stem = files.stem(path).removesuffix(".net")
-    return decode(cls, files.read(path), name=files.shown(path), stem=stem)
+    return decode(cls, files.read(path), name=shown(path), stem=stem)
 
 
 def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str = "") -> W:
@@ -57,7 +58,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
         if path[1:] in {("junction",), ("edge",)}:
             known = places if path[1] == "junction" else edges
             key = attributes.get("id", "")
-            what = f"{name}: {path[1]} '{files.shown(key, limit=60)}'"
+            what = f"{name}: {path[1]} '{shown(key, limit=60)}'"
             if not key or key in known:
                 why = "stands there twice" if key else "has no id"
                 raise InputError(f"{what} {why}: each has an id of its own")
@@ -85,7 +86,7 @@ def _ways(places: dict[str, Place], edges: dict[str, dict[str, str]], name: str)
     number = {key: place for place, key in enumerate(places)}
     ways: dict[str, Way] = {}
     for key, attributes in edges.items():
-        what = f"{name}: edge '{files.shown(key, limit=60)}'"
+        what = f"{name}: edge '{shown(key, limit=60)}'"
         start, end = (number.get(attributes.get(side, "")) for side in ("from", "to"))
         if start is None or end is None:
             raise InputError(f"{what} joins what is no junction: 'from' and 'to' are their ids")

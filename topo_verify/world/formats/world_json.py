@@ -29,6 +29,7 @@ import msgspec
 from msgspec import UNSET, Meta, UnsetType
 
 from topo_verify.errors import InputError
+from topo_verify.text import shown
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
@@ -103,7 +104,7 @@ def load(cls: type[W], path: str | PathLike[str]) -> W:
     Raises:
         InputError: the file cannot be read, is larger than `files.LIMIT`, or holds no world.
     """
-    name = files.shown(path)
+    name = shown(path)
     data = _parse(files.read(path), name)
     return from_data(cls, data, name=name, stem=files.stem(path))
 
@@ -179,7 +180,7 @@ def _text(text: str | bytes, name: str) -> str:
 def _require_version(header: _Header, name: str) -> None:
     if header.format != "topo-verify/world":
         raise InputError(
-            f"{name} is no world: its 'format' is '{files.shown(header.format)}',"
+            f"{name} is no world: its 'format' is '{shown(header.format)}',"
             " that of a world is 'topo-verify/world'"
         )
     if header.version > VERSION:
@@ -206,8 +207,8 @@ def _sentence(error: str, name: str) -> str:
         mend = f"'{named[0]}' is {fields[named[0]]['description']}"
     else:
         mend = f"a world is one JSON object with no fields but {', '.join(fields)}"
-    where = f"{name}, {files.shown(place[:-1])}" if place else name
-    return f"{where}: {files.shown(_lower(what))}; {mend}"
+    where = f"{name}, {shown(place[:-1])}" if place else name
+    return f"{where}: {shown(_lower(what))}; {mend}"
 
 
 def _lower(sentence: str) -> str:
