@@ -18,8 +18,9 @@ if TYPE_CHECKING:
     from topo_verify.checkers.certificate import Certificate, certify
     from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
     from topo_verify.harness.run import Exploration, Report, assert_maps, examine, explore
+    from topo_verify.robot.events import Robot
     from topo_verify.robot.limits import Limits
-    from topo_verify.robot.percept import Percept, Robot
+    from topo_verify.robot.percept import Percept
     from topo_verify.world import families
     from topo_verify.world.rooted_map import World
 
@@ -53,7 +54,8 @@ _MODULES = {
     "checkers.certificate": ("Certificate", "certify"),
     "errors": ("ClaimFailed", "InputError", "InternalError", "TopoVerifyError"),
     "robot.limits": ("Limits",),
-    "robot.percept": ("Percept", "Robot"),
+    "robot.events": ("Robot",),
+    "robot.percept": ("Percept",),
     "harness.run": ("Exploration", "Report", "assert_maps", "examine", "explore"),
     "world": ("families",),
     "world.rooted_map": ("World",),

@@ -25,10 +25,11 @@ from topo_verify.robot.events import (
     Finish,
     Move,
     Reject,
+    Robot,
     Start,
     Trace,
 )
-from topo_verify.robot.percept import Percept, Robot
+from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import first_percept
 
 

@@ -33,8 +33,7 @@ from topo_verify.algorithms.exploration import Rule, explore
 from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Motion, overlap, retrace
 from topo_verify.algorithms.planar import PlanarRule
-from topo_verify.robot.events import Policies
-from topo_verify.robot.percept import Robot
+from topo_verify.robot.events import Policies, Robot
 
 __all__ = ["CATALOGUE", "REFERENCE", "Algorithm", "Policies", "Rule", "algorithm"]
 

@@ -22,7 +22,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from topo_verify.algorithms.chart import Chart, Dart, Tree
-from topo_verify.robot.percept import Door, Percept, Purpose, Robot
+from topo_verify.robot.events import Robot
+from topo_verify.robot.percept import Door, Percept, Purpose
 
 
 @dataclass(frozen=True, slots=True)

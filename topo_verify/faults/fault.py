@@ -17,8 +17,8 @@ from topo_verify.algorithms import CATALOGUE, Rule, exploration
 from topo_verify.algorithms.chart import Chart, Dart, Survey
 from topo_verify.algorithms.motion import Executed, Motion
 from topo_verify.algorithms.policies import Order, Pick, order_policy, pick_policy
-from topo_verify.robot.events import Decision
-from topo_verify.robot.percept import Door, Percept, Purpose, Robot
+from topo_verify.robot.events import Decision, Robot
+from topo_verify.robot.percept import Door, Percept, Purpose
 
 PartName = Literal[
     "motion", "marker", "hypotheses", "prefix", "history", "records", "chart", "folding", "report"

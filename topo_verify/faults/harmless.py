@@ -18,8 +18,8 @@ from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Executed, Hypothesis, Pilot
 from topo_verify.algorithms.policies import Order, last, newest
 from topo_verify.faults.fault import Fault, Told, mapper
-from topo_verify.robot.events import Decision
-from topo_verify.robot.percept import Percept, Robot
+from topo_verify.robot.events import Decision, Robot
+from topo_verify.robot.percept import Percept
 
 basic = CATALOGUE["basic"]
 

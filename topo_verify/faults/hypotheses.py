@@ -11,7 +11,8 @@ from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.algorithms.planar import PlanarRule
 from topo_verify.algorithms.policies import Order, shortest
 from topo_verify.faults.fault import Fault, Told, crossed, mapper
-from topo_verify.robot.percept import Percept, Robot
+from topo_verify.robot.events import Robot
+from topo_verify.robot.percept import Percept
 
 
 def _not_its_own(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:

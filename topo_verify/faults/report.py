@@ -9,7 +9,7 @@ from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Dart, Survey
 from topo_verify.algorithms.motion import Executed, Pilot
 from topo_verify.faults.fault import Fault, mapper
-from topo_verify.robot.percept import Robot
+from topo_verify.robot.events import Robot
 
 basic = CATALOGUE["basic"]
 

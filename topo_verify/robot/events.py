@@ -13,7 +13,7 @@ Source: docs/semantics.md, sections 3 and 13.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Protocol
 
 import msgspec
 
@@ -146,6 +146,24 @@ class Finish(_Event, frozen=True):
 Decision = Pose | Reject | Confirm | Augment
 Event = Start | Move | Pose | Reject | Confirm | Augment | Finish
 Trace = tuple[Event, ...]
+
+
+class Robot(Protocol):
+    """What a mapper is given: it can look, move, and say what it concludes."""
+
+    @property
+    def percept(self) -> Percept:
+        """What is sensed where the robot stands now."""
+        ...
+
+    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
+        """Leave by this door (0 … degree-1; cost: one edge traversal); what is sensed behind it."""
+        ...
+
+    def declare(self, event: Decision) -> None:
+        """Put a decision on record, to have it checked. Costs nothing."""
+        ...
+
 
 _encoder = msgspec.json.Encoder()
 _decoder: msgspec.json.Decoder[Event] = msgspec.json.Decoder(Event)

@@ -1,4 +1,4 @@
-"""What a robot senses, and what a mapper may ask of a robot.
+"""What a robot senses at a vertex, and by which doors it can leave.
 
 The robot stands at a vertex with a **reference dart** `a`, the dart by which it came in (at the
 start: the dart that the marker points at). It senses the degree of the vertex and, where the
@@ -10,12 +10,9 @@ Source: docs/semantics.md, section 2.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal, Protocol, get_args
+from typing import Annotated, Literal, get_args
 
 import msgspec
-
-if TYPE_CHECKING:
-    from topo_verify.robot.events import Decision
 
 Door = int
 """0 … degree-1, counted clockwise from the reference dart."""
@@ -49,20 +46,3 @@ class Percept(msgspec.Struct, frozen=True, gc=False):
     def __str__(self) -> str:
         marker = "no marker" if self.marker is None else f"marker at door {self.marker}"
         return f"(degree {self.degree}, {marker})"
-
-
-class Robot(Protocol):
-    """What a mapper is given: it can look, move, and say what it concludes."""
-
-    @property
-    def percept(self) -> Percept:
-        """What is sensed where the robot stands now."""
-        ...
-
-    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        """Leave by this door (0 … degree-1; cost: one edge traversal); what is sensed behind it."""
-        ...
-
-    def declare(self, event: Decision) -> None:
-        """Put a decision on record, to have it checked. Costs nothing."""
-        ...

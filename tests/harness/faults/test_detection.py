@@ -25,9 +25,8 @@ from topo_verify.harness.faults.checks import (
 )
 from topo_verify.harness.faults.detection import entry_of, try_faults
 from topo_verify.proofs.catalogue import catalogue
-from topo_verify.robot.events import Augment
+from topo_verify.robot.events import Augment, Robot
 from topo_verify.robot.limits import Limits
-from topo_verify.robot.percept import Robot
 from topo_verify.world.rooted_map import World
 
 UNTURNED = FAULTS["restores-with-the-wrong-sign"]

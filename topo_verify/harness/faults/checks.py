@@ -23,9 +23,8 @@ from topo_verify.harness.run import explore
 from topo_verify.harness.search.exhaustive import Size, search
 from topo_verify.harness.verify.parts import Tell
 from topo_verify.programs.loading import Target
-from topo_verify.robot.events import Augment, Decision
+from topo_verify.robot.events import Augment, Decision, Robot
 from topo_verify.robot.limits import Limits
-from topo_verify.robot.percept import Robot
 from topo_verify.world.rooted_map import World
 
 LARGEST = 7

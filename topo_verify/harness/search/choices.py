@@ -34,9 +34,8 @@ from topo_verify.errors import InputError
 from topo_verify.harness.run import Exploration, Report, explore, judge
 from topo_verify.harness.search.plan import Plan
 from topo_verify.programs.loading import Target
-from topo_verify.robot.events import Confirm, Pose, Trace
+from topo_verify.robot.events import Confirm, Pose, Robot, Trace
 from topo_verify.robot.limits import Limits
-from topo_verify.robot.percept import Robot
 from topo_verify.world.rooted_map import World
 
 SEEDS = 3
