@@ -8,7 +8,8 @@ from tests.checkers.example import LOOP, TRACE, WORLD, inserted
 from tests.helpers import EIGHT, EMPTY, PAPER, edited, failing, fits, statuses, trace_of, worlds
 from topo_verify import CATALOGUE, InputError, World
 from topo_verify.checkers import CLAIMS, Finding, check
-from topo_verify.checkers.replayed_trace import Case
+from topo_verify.checkers.darts import KnownDart
+from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.robot.events import (
     Augment,
     Confirm,
@@ -133,16 +134,16 @@ def test_in_the_empty_world_every_event_is_a_lie(event: Event, claim: str) -> No
     assert claim in failing(EMPTY, inserted(trace_of(EMPTY), 1, event))
 
 
-def test_a_case_knows_where_the_robot_was_and_what_s_was() -> None:
-    case = Case(WORLD, TRACE)
-    assert case.cost == 16
-    assert case.positions[0] == WORLD.root
-    assert (case.illegal, case.spoiled) == (None, None)
-    assert case.is_open(2, LOOP)
-    assert not case.is_open(2, LOOP + 1)
-    assert case.alpha[2] == 5
-    assert case.truth(2, LOOP) == 5
-    assert case.truth(2, LOOP + 1) is None
+def test_a_replayed_trace_knows_where_the_robot_was_and_what_s_was() -> None:
+    run = ReplayedTrace(WORLD, TRACE)
+    assert run.cost == 16
+    assert run.positions[0] == WORLD.root
+    assert (run.illegal, run.spoiled) == (None, None)
+    assert run.map.is_open(2, LOOP)
+    assert not run.map.is_open(2, LOOP + 1)
+    assert run.map.alpha[KnownDart(2)] == 5
+    assert run.map.truth(2, LOOP) == 5
+    assert run.map.truth(2, LOOP + 1) is None
 
 
 @pytest.mark.parametrize("degree", [-1, 0, 2**62])

@@ -116,5 +116,5 @@ def test_confirming_anything_for_an_edge_to_a_new_vertex_is_caught() -> None:
 def test_confirming_something_for_an_edge_that_is_not_there_is_caught() -> None:
     lie = inserted(TRACE, FINISH - 1, Confirm(77, 4, "motion"))
     assert said(lie, "no-false-confirm") == [
-        "edge 77 leads to nowhere (it is no unexplored dart of S), but dart 4 is confirmed"
+        "edge 77 leads to nowhere (it is not an unexplored dart of S), but dart 4 is confirmed"
     ]

@@ -201,10 +201,10 @@ def test_a_decision_made_too_early_does_not_follow() -> None:
     ("kind", "fields", "message"),
     [
         (Augment, {"degree": 9}, "another vertex"),
-        (Augment, {"edge": 99}, "no unexplored dart"),
-        (Augment, {"dart": 99}, "no unexplored dart"),
-        (Confirm, {"hypothesis": -1}, "no unexplored dart"),
-        (Reject, {"hypothesis": 99}, "no unexplored dart"),
+        (Augment, {"edge": 99}, "not an unexplored dart"),
+        (Augment, {"dart": 99}, "not an unexplored dart"),
+        (Confirm, {"hypothesis": -1}, "not an unexplored dart"),
+        (Reject, {"hypothesis": 99}, "not an unexplored dart"),
     ],
 )
 def test_nonsense_is_a_finding(kind: type, fields: dict[str, object], message: str) -> None:

@@ -163,7 +163,7 @@ def test_rejecting_what_is_no_unexplored_dart_is_caught_even_if_it_was_posed() -
     posed = edited(TRACE, place(TRACE, Pose, 1), hypotheses=(3, 4, 5, 6, 7, 99))
     lie = edited(posed, BY_MOTION, hypothesis=99)
     assert wrong(lie) == {"true-hypothesis-posed", "rejection-justified"}
-    assert "these are no unexplored darts of S" in said(lie, "rejection-justified")[0]
+    assert "the two are not unexplored darts of S" in said(lie, "rejection-justified")[0]
 
 
 def test_the_planar_rule_may_reject_what_lies_on_another_face_and_nothing_else() -> None:
@@ -175,4 +175,4 @@ def test_the_planar_rule_may_reject_what_lies_on_another_face_and_nothing_else()
     # Behind dart 2 of the other world nothing is explored yet: all its darts lie on one face.
     lie = edited(TRACE, BY_MOTION, rule="planar")
     assert wrong(lie) == {"rejection-justified"}
-    assert "they lie on one face" in said(lie, "rejection-justified")[0]
+    assert "the two lie on one face of S" in said(lie, "rejection-justified")[0]

@@ -12,7 +12,7 @@ from tests.helpers import edited, of_type, place, statuses, trace_of, worlds
 from topo_verify import World, certify
 from topo_verify.checkers import check, decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.entailment import Conclusion
-from topo_verify.checkers.replayed_trace import Case
+from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.robot.events import (
     Augment,
     Confirm,
@@ -72,7 +72,7 @@ def test_what_is_no_map_and_a_history_of_no_world_are_named_at_their_event() -> 
     trace = trace_of("m3/14")
     assert map_conclusion(trace[:-1]) == (0, "no map was delivered", None)
     when, why, _ = map_conclusion(edited(trace, -1, map=MapData((), (), None)))
-    assert (when, why[:29]) == (len(trace) - 1, "what was delivered is no map:")
+    assert (when, why[:32]) == (len(trace) - 1, "the delivered value is not a map")
     third = place(trace, Move, 2)
     when, why, _ = map_conclusion(edited(trace, third, door=99))
     assert (when, why[:28]) == (third, "no world shows this history:")
@@ -134,7 +134,8 @@ def assert_wrong_in(witness: World, trace: Trace, when: int) -> None:
     event = trace[when]
     assert isinstance(event, Reject)
     assert shows(witness, [e for e in trace[:when] if isinstance(e, Start | Move)])
-    assert Case(witness, trace[: when + 1]).truth(event.edge, when) == event.hypothesis
+    run = ReplayedTrace(witness, trace[: when + 1])
+    assert run.map.truth(event.edge, when) == event.hypothesis
 
 
 def renamed(trace: Trace, old: Rule, new: Rule) -> Trace:
@@ -250,7 +251,7 @@ def test_an_edge_that_s_has_is_not_explored_again() -> None:
             for again in repetitions:
                 (*_, last) = decision_conclusions(inserted(trace, after, again))
                 assert last.when == after
-                assert "is no unexplored dart of S" in last.why
+                assert "is not an unexplored dart of S" in last.why
                 repeated += 1
     assert repeated > 20
 

@@ -121,7 +121,7 @@ def test_a_map_that_is_no_world_is_delivered_and_refuted(result: object) -> None
     assert run.map is not None
     (finding,) = judge(run).findings[:1]
     assert finding.claim == "map-isomorphic"
-    assert finding.message.startswith("what was delivered is no map: ")
+    assert finding.message.startswith("the delivered value is not a map: ")
 
 
 def test_moves_that_a_map_makes_when_it_is_read_are_counted() -> None:

@@ -19,7 +19,9 @@ from contextlib import suppress
 from functools import lru_cache
 from typing import NamedTuple
 
-from topo_verify.checkers.folding import Contradiction, Fold, Place
+from topo_verify.checkers.darts import KnownDart
+from topo_verify.checkers.folding import Contradiction, Fold
+from topo_verify.checkers.map_on_fold import MapOnFold
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, MapData, Move, Reject, Start
 from topo_verify.robot.percept import Percept
@@ -75,7 +77,7 @@ def map_conclusion(trace: Sequence[Event]) -> Conclusion:
     try:
         code = delivered_code(finish.map)
     except InputError as error:
-        return Conclusion(last, f"what was delivered is no map: {error}")
+        return Conclusion(last, f"the delivered value is not a map: {error}")
     left = fold.open_darts()
     why = f"darts never crossed: {left}" if left else "the history proves another map"
     for witness in (fold.world(1), fold.world(2)) if left else (fold.world(),):
@@ -88,65 +90,97 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
     """Every declared reject, confirm and augmentation, up to the first that draws a wrong S."""
     assert isinstance(trace[0], Start)
     fold = Fold(trace[0].percept)
-    seats: list[Place] = [(0, door) for door in range(fold.degree(0))]  # where the darts of S are
-    opened = set(range(len(seats)))
-    prior = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
+    on_fold = MapOnFold(fold)
+    planar = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     for when, event in enumerate(trace):
         if why := _followed(fold, event):
             yield Conclusion(when, f"no world shows this history: {why}")
             return
         if not isinstance(event, (Reject, Confirm, Augment)):
             continue
-        new = isinstance(event, Augment) and event.kind == "new"
-        other = event.dart if isinstance(event, Augment) else event.hypothesis
-        if event.edge not in opened or other not in ([len(seats)] if new else opened):
-            yield Conclusion(when, f"{event.edge} or {other} is no unexplored dart of S")
+        if why := _unknown_dart(on_fold, event):
+            yield Conclusion(when, why)
             return
-        e = seats[event.edge]
-        if isinstance(event, Reject):
-            conclusion = _leads_to_none(fold, when, e, [seats[other]], prior=prior)
-        elif new:
-            assert isinstance(event, Augment)
-            rest = [seats[h] for h in sorted(opened - {event.edge})]
-            conclusion = _new(fold, when, e, event.degree, seats)
-            if not conclusion.why:
-                conclusion = _leads_to_none(fold, when, e, rest, prior=prior)
-        elif fold.partner(e) != fold.find(seats[other]):
-            why = f"darts {event.edge} and {other} may well belong to different edges"
-            conclusion = Conclusion(when, why, fold.world())
-        elif isinstance(event, Augment) and event.degree != fold.degree(seats[other][0]):
-            conclusion = Conclusion(when, "the vertex there has another degree", fold.world())
-        else:
-            conclusion = Conclusion(when, "")
-        yield conclusion
+        doubt = _doubt(on_fold, event, planar=planar)
+        why, witness = doubt or ("", None)
+        yield Conclusion(when, why, witness)
         if isinstance(event, Augment):
-            if conclusion.why:
+            if doubt is not None:  # from here on S is not proved
                 return
-            if new:
-                entry = fold.partner(e)
-                assert entry is not None, "a crossed edge has two ends"
-                opened |= set(range(len(seats), len(seats) + event.degree))
-                seats += [(entry[0], entry[1] + door) for door in range(event.degree)]
-            opened -= {event.edge, other}
+            on_fold.grow(event)
 
 
-def _new(fold: Fold, when: int, e: Place, degree: int, seats: Sequence[Place]) -> Conclusion:
-    """Was e crossed, to a place of this degree that is not known to be a vertex of S?"""
-    entry = fold.partner(e)
-    if entry is None:
-        return Conclusion(when, "the edge was never crossed", fold.world(2 if degree == 1 else 1))
-    if fold.degree(entry[0]) != degree or entry[0] in {fold.find(seat)[0] for seat in seats}:
-        return Conclusion(when, "the edge leads to another vertex", fold.world())
-    return Conclusion(when, "")
+Doubt = tuple[str, World]
+"""Why a decision does not follow, and a world with the same history in which it is false."""
 
 
-def _leads_to_none(
-    fold: Fold, when: int, e: Place, ends: Sequence[Place], *, prior: bool
-) -> Conclusion:
-    """Does a contradiction follow from each of these being the other end of e?"""
+def _unknown_dart(on_fold: MapOnFold, event: Reject | Confirm | Augment) -> str:
+    """Which dart that a decision names is not the one that it must be; "" if all are."""
+    other = event.dart if isinstance(event, Augment) else event.hypothesis
+    if isinstance(event, Augment) and event.kind == "new":
+        right = other == on_fold.size
+    else:
+        right = on_fold.is_open(other)
+    if right and on_fold.is_open(event.edge):
+        return ""
+    return f"{event.edge} or {other} is not an unexplored dart of S"
+
+
+def _doubt(on_fold: MapOnFold, event: Reject | Confirm | Augment, *, planar: bool) -> Doubt | None:
+    """Why a decision does not follow from the history, or None if it does.
+
+    Its darts are unexplored darts of S. `planar`: only a planar world counts as a witness.
+    """
+    e = KnownDart(event.edge)
+    match event:
+        case Reject(_, h):
+            return _may_lead_to(on_fold, e, [KnownDart(h)], planar=planar)
+        case Confirm(_, h):
+            return _may_be_apart(on_fold, e, KnownDart(h))
+        case Augment(_, "new", _, degree):
+            return _may_be_known(on_fold, e, degree) or _may_lead_to(
+                on_fold, e, on_fold.others(e), planar=planar
+            )
+        case Augment(_, _, h, degree):
+            return _may_be_apart(on_fold, e, KnownDart(h)) or _has_another_degree(
+                on_fold, KnownDart(h), degree
+            )
+
+
+def _may_lead_to(
+    on_fold: MapOnFold, e: KnownDart, ends: Sequence[KnownDart], *, planar: bool
+) -> Doubt | None:
+    """Folding with e joined to each of these must contradict; else the fold shows an end of e."""
+    fold = on_fold.fold
     for end in ends:
-        with suppress(Contradiction), fold.assuming(e, end):
+        with suppress(Contradiction), fold.assuming(on_fold.place(e), on_fold.place(end)):
             witness = fold.world()
-            if witness.is_planar or not prior:
-                return Conclusion(when, "the edge may well lead there", witness)
-    return Conclusion(when, "")
+            if witness.is_planar or not planar:
+                return "the edge may well lead there", witness
+    return None
+
+
+def _may_be_apart(on_fold: MapOnFold, e: KnownDart, h: KnownDart) -> Doubt | None:
+    """Folding must make e and h partners; else they belong to different edges of the fold."""
+    if on_fold.are_partners(e, h):
+        return None
+    return f"darts {e} and {h} may well belong to different edges", on_fold.fold.world()
+
+
+def _has_another_degree(on_fold: MapOnFold, h: KnownDart, degree: int) -> Doubt | None:
+    """The degree that is stated must be that of the vertex of h."""
+    node, _ = on_fold.place(h)
+    if on_fold.fold.degree(node) == degree:
+        return None
+    return "the vertex there has another degree", on_fold.fold.world()
+
+
+def _may_be_known(on_fold: MapOnFold, e: KnownDart, degree: int) -> Doubt | None:
+    """The edge e must have been crossed, to a place of this degree that is no vertex of S."""
+    fold = on_fold.fold
+    entry = fold.partner(on_fold.place(e))
+    if entry is None:  # a leaf may be behind e, and if a leaf is claimed, a vertex of degree 2
+        return "the edge was never crossed", fold.world(2 if degree == 1 else 1)
+    if fold.degree(entry[0]) != degree or on_fold.is_known(entry[0]):
+        return "the edge leads to another vertex", fold.world()
+    return None

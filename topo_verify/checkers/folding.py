@@ -161,23 +161,32 @@ class Fold:
     def _roots(self) -> list[int]:
         return [node for node, parent in enumerate(self._parent) if node == parent]
 
-    def world(self, hang: int = 1) -> World:
-        """The fold as a world, with a path of this many vertices hung on every open dart."""
-        first: dict[int, int] = {}
-        vertices: list[range] = []
+    def world(self, pendant_length: int = 1) -> World:
+        """The fold as a world, with a path of so many vertices hung on every open dart."""
+        first: dict[int, int] = {}  # of each node, the number of its dart 0
+        vertices: list[tuple[int, ...]] = []
         edges: list[tuple[int, int]] = []
-        fresh = 0
+        count = 0
         for node in self._roots():
-            first[node] = fresh
-            vertices.append(range(fresh, fresh := fresh + self._seen[node].degree))
-        for node, rotation in zip(tuple(first), tuple(vertices), strict=True):
-            for dart, here in enumerate(rotation):
-                end = self.partner((node, dart))
-                if end is None:
-                    path = range(fresh, fresh := fresh + 2 * hang - 1)
-                    vertices += [path[i : i + 2] for i in range(0, len(path), 2)]
-                    edges += [(here, path[0]), *zip(path[1::2], path[2::2], strict=True)]
-                elif here < first[end[0]] + end[1]:
-                    edges.append((here, first[end[0]] + end[1]))
-        node, dart = self.find((0, 0)) if fresh else (0, 0)
-        return World.from_rotations(vertices, edges, first[node] + dart if fresh else None)
+            first[node] = count
+            count += self.degree(node)
+            vertices.append(tuple(range(first[node], count)))
+        for node, start in first.items():
+            for dart in range(self.degree(node)):
+                here, end = start + dart, self.partner((node, dart))
+                if end is not None:
+                    there = first[end[0]] + end[1]
+                    if here < there:  # an edge is met at both its ends
+                        edges.append((here, there))
+                    continue
+                edges.append((here, count))
+                for _ in range(pendant_length - 1):
+                    vertices.append((count, count + 1))
+                    edges.append((count + 1, count + 2))
+                    count += 2
+                vertices.append((count,))
+                count += 1
+        if not count:
+            return World.from_rotations(vertices, edges, None)
+        node, dart = self.find((0, 0))  # the robot starts at v0, its reference dart the marked one
+        return World.from_rotations(vertices, edges, first[node] + dart)

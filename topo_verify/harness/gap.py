@@ -14,6 +14,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from topo_verify.checkers import Fold
+from topo_verify.checkers.darts import KnownDart
+from topo_verify.checkers.map_on_fold import MapOnFold
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject, Start
 
 
@@ -34,35 +36,34 @@ def gap(trace: Sequence[Event]) -> Gap:
     """The gap of a run whose decisions are declared and right (claims 1-8 hold)."""
     assert isinstance(trace[0], Start)
     fold = Fold(trace[0].percept)
-    seats = [(0, door) for door in range(trace[0].percept.degree)]  # where the darts of S are
+    on_fold = MapOnFold(fold)
     false = walked = refutable = 0
-    refuted: set[int] = set()
-    alive: list[int] = []
-    edge = 0
+    refuted: set[KnownDart] = set()
+    alive: list[KnownDart] = []
+    edge = KnownDart(0)
     setting_out = False
     for event in trace:
         match event:
             case Move(door, percept):
                 if setting_out:  # the history up to here is what the choice was made with
-                    e = seats[edge]
-                    refuted |= {h for h in alive if not fold.possible(e, seats[h])}
+                    e = on_fold.place(edge)
+                    refuted |= {h for h in alive if not fold.possible(e, on_fold.place(h))}
                     setting_out = False
                 fold.move(door, percept)
-            case Pose(edge, hypotheses):
-                alive, refuted, setting_out = list(hypotheses), set[int](), True
+            case Pose(e, hypotheses):
+                edge, alive = KnownDart(e), list(map(KnownDart, hypotheses))
+                refuted, setting_out = set[KnownDart](), True
                 false += len(hypotheses)
             case Reject(_, h, rule):
-                alive.remove(h)
+                alive.remove(KnownDart(h))
                 walked += rule == "motion"
                 refutable += rule == "motion" and h in refuted
                 setting_out = True
             case Confirm():
                 false -= 1
-            case Augment(e, kind, _, degree):
+            case Augment():
                 alive, setting_out = [], False
-                entry = fold.partner(seats[e])
-                if kind == "new" and entry is not None:
-                    seats += [(entry[0], entry[1] + door) for door in range(degree)]
+                on_fold.grow(event)
             case _:
                 pass
     return Gap(false, walked, refutable)

@@ -11,7 +11,7 @@ from tests.helpers import EMPTY, PAPER, edited, of_type, place, trace_of, worlds
 from topo_verify import families
 from topo_verify.checkers import Fold
 from topo_verify.checkers.certificate import certify
-from topo_verify.checkers.replayed_trace import Case
+from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InternalError
 from topo_verify.proofs.mechanised import decision_evidence as module
 from topo_verify.proofs.mechanised import evidence
@@ -88,16 +88,17 @@ def test_each_fact_holds_in_the_log_cut_after_its_visit() -> None:
                 assert holds(folded(trace, fact.visit - 1), fact)
 
 
-def said(case: Case, when: int) -> list[tuple[int, int, bool]]:
+def said(run: ReplayedTrace, when: int) -> list[tuple[int, int, bool]]:
     """What a decision says of darts of the world: an edge leads from one to the other, or none."""
-    event, phi = case.trace[when], case.phi
+    event, s = run.trace[when], run.map
+    phi = [image for _, image in sorted(s.phi.items())]
     if isinstance(event, Reject):
         return [(phi[event.edge], phi[event.hypothesis], False)]
     if isinstance(event, Confirm):
         return [(phi[event.edge], phi[event.hypothesis], True)]
     assert isinstance(event, Augment)
     leads = (phi[event.edge], phi[event.dart], True)
-    unexplored = [d for d in range(len(phi)) if case.born[d] < when <= case.joined[d]]
+    unexplored = [d for d in s.phi if s.born[d] < when and s.is_open(d, when)]
     if event.kind == "loop":
         return [leads]
     return [leads, *((phi[event.edge], phi[d], False) for d in unexplored if d != event.edge)]
@@ -106,10 +107,10 @@ def said(case: Case, when: int) -> list[tuple[int, int, bool]]:
 def test_the_facts_are_what_was_decided_about_darts_of_the_world() -> None:
     news = 0
     for number, world in enumerate([*worlds(range(1, 4)), families.lattice(4, 4)]):
-        case = Case(world, trace_of(world, [*PAPER, "folding"][number % 9]))
-        moments = zip(case.positions, case.trace, strict=True)
+        run = ReplayedTrace(world, trace_of(world, [*PAPER, "folding"][number % 9]))
+        moments = zip(run.positions, run.trace, strict=True)
         visits = [at for at, event in moments if isinstance(event, Start | Move)]
-        for one in decided(case.trace).stated:
+        for one in decided(run.trace).stated:
             found: list[tuple[int, int, bool]] = []
             for fact in one.facts:
                 start, end = (
@@ -117,7 +118,7 @@ def test_the_facts_are_what_was_decided_about_darts_of_the_world() -> None:
                     for visit, door in (fact.one, fact.other)
                 )
                 found.append((start, end, isinstance(fact.reason, Arc)))
-            assert found == said(case, one.when)
+            assert found == said(run, one.when)
             news += len(found) > 1
     assert news > 50
 

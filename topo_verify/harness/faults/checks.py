@@ -16,7 +16,7 @@ import msgspec
 
 from topo_verify.checkers import CLAIMS
 from topo_verify.checkers.findings import Verdict
-from topo_verify.checkers.replayed_trace import Case
+from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.faults import Fault
 from topo_verify.faults.fault import Told
 from topo_verify.harness.run import explore
@@ -264,8 +264,8 @@ def fails(fault: Fault, world: World) -> bool | None:
     run = explore(world, target, limits=limits)
     if run.limit is not None and (run.limit != "budget" or budget < bound):
         return None
-    case = Case(world, run.trace, run.stopped)
-    return run.map is None or any(True for claim, _ in CLAIMS.values() for _ in claim(case))
+    replayed = ReplayedTrace(world, run.trace, run.stopped)
+    return run.map is None or any(True for claim, _ in CLAIMS.values() for _ in claim(replayed))
 
 
 class _Counting(Told):

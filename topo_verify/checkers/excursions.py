@@ -1,0 +1,84 @@
+"""What a robot does behind an edge, as words of doors; and what these words show later.
+
+Trusted. **Excursions.** Behind an edge the robot walks out and back. Its moves are reduced to the
+word of doors from vu to where it stands: a move through the dart by which it came cancels the last
+door, every other move adds one. A *sequence* is the word at a mismatch in motion.
+
+**Records.** Once it is known where the edge leads, its sequences show what lies behind unexplored
+darts of S: each is traced on S up to the first of them, and what remains of it is kept there.
+
+Source: docs/semantics.md, section 9, "Moves become words"; section 7, "Records".
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from topo_verify.checkers.darts import KnownDart
+from topo_verify.checkers.map_in_world import MapInWorld
+from topo_verify.robot.percept import Door, Percept
+
+
+class Step(NamedTuple):
+    """One door of a word, and what the world shows behind it to a robot that comes in there."""
+
+    door: Door
+    percept: Percept
+
+
+Word = tuple[Step, ...]
+
+
+class Excursion:
+    """The moves behind one posed edge, reduced. Begins with the pose; ends with the next.
+
+    Attributes:
+        word: the steps from vu to where the robot stands.
+        sequences: the words at the mismatches so far.
+    """
+
+    def __init__(self) -> None:
+        self.word: list[Step] = []
+        self.sequences: tuple[Word, ...] = ()
+        # A robot that came back by a door k has its reference dart turned by k, compared with the
+        # reference dart that it had when it first was there: its next door is meant k further on.
+        self._turned: Door = 0
+
+    def move(self, door: Door, degree: int, behind: Percept) -> None:
+        """Leave a vertex of this degree by a door; `behind` is seen there."""
+        door = (door + self._turned) % degree
+        if door == 0 and self.word:
+            self._turned = self.word.pop().door
+        else:
+            self.word.append(Step(door, behind))
+            self._turned = 0
+
+    def mismatch(self) -> None:
+        """Note the word as a sequence: motion along it has rejected a hypothesis."""
+        if self.word:
+            self.sequences = (*self.sequences, tuple(self.word))
+
+
+class Records:
+    """What was seen behind unexplored darts of S, and since which event it is known."""
+
+    def __init__(self, drawn: MapInWorld) -> None:
+        self._map = drawn
+        self._words: dict[KnownDart, list[tuple[int, Word]]] = {}
+
+    def add(self, when: int, at: KnownDart, sequence: Word) -> None:
+        """Keep what a sequence from a dart of S shows behind the first unexplored dart."""
+        for place, step in enumerate(sequence):
+            exit_at = self._map.turn(at, step.door)
+            # The edge that event `when` explores is explored here: so S is asked one event later.
+            if self._map.is_open(exit_at, when + 1):
+                self._words.setdefault(exit_at, []).append((when, sequence[place:]))
+                return
+            at = self._map.alpha[exit_at]
+
+    def behind(self, dart: KnownDart, doors: tuple[Door, ...], when: int) -> Percept | None:
+        """What was known at event `when` of the place behind an unexplored dart and doors."""
+        for since, word in self._words.get(dart, ()):
+            if since < when and tuple(step.door for step in word[1 : len(doors) + 1]) == doors:
+                return word[len(doors)].percept
+        return None

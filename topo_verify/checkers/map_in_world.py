@@ -1,0 +1,106 @@
+"""The map S beside the world: which dart of the world each dart of S is.
+
+Trusted. S is drawn from the declared augmentations, and only as far as they are true.
+
+    phi      S -> world: which dart of the world a dart of S is
+    number   world -> S: the inverse of phi
+    alpha    S -> S: the other end of each explored edge
+    born     the event at which a dart of S appeared     (S at event i: the darts born before i)
+    joined   the event at which it was explored          (explored at event i: joined before i)
+
+S only grows, so one drawing is S at every moment: what is asked of it is asked at an event.
+"""
+
+from __future__ import annotations
+
+from typing import TypeGuard, cast
+
+from topo_verify.checkers.darts import KnownDart, WorldDart
+from topo_verify.robot.events import Augment
+from topo_verify.robot.percept import Door, Percept
+from topo_verify.robot.simulator import exit_dart, first_percept, percepts
+from topo_verify.world.rooted_map import World
+
+
+class MapInWorld:
+    """S, from v0 alone to the whole world. Grows by `grow`, as a trace is read."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self._percepts = percepts(world)
+        self._across = cast("tuple[WorldDart, ...]", world.alpha)
+        self._rotation: dict[KnownDart, tuple[KnownDart, ...]] = {}
+        self.phi: dict[KnownDart, WorldDart] = {}
+        self.number: dict[WorldDart, KnownDart] = {}
+        self.alpha: dict[KnownDart, KnownDart] = {}
+        self.born: dict[KnownDart, int] = {}
+        self.joined: dict[KnownDart, int] = {}
+        if world.root is not None:
+            self._add_vertex(WorldDart(world.root), 0)
+
+    # ------------------------------------------------------------ the world
+
+    def seen_at(self, dart: WorldDart) -> Percept:
+        """What the world shows to a robot with this reference dart."""
+        return self._percepts[dart] if self._percepts else first_percept(self.world)
+
+    def beyond(self, dart: WorldDart, door: Door) -> WorldDart:
+        """The reference dart in the world after leaving by a door."""
+        return self._across[exit_dart(self.world, dart, door)]
+
+    def end(self, e: KnownDart) -> WorldDart:
+        """The dart of the world at the other end of a dart of S."""
+        return self._across[self.phi[e]]
+
+    # ------------------------------------------------------------ S
+
+    def grow(self, when: int, event: Augment) -> bool:
+        """Let S grow by an augmentation, and return True; or False if it is not true here."""
+        edge = event.edge
+        if not self.is_open(edge, when):
+            return False
+        end = self.end(edge)
+        known = self.number.get(end)
+        if (event.kind == "new") != (known is None) or event.degree != self.seen_at(end).degree:
+            return False
+        here = KnownDart(len(self.phi)) if known is None else known
+        if event.dart != here:
+            return False
+        if known is None:
+            self._add_vertex(end, when)
+        for dart, other in ((edge, here), (here, edge)):
+            self.alpha[dart], self.joined[dart] = other, when
+        return True
+
+    def _add_vertex(self, entry: WorldDart, when: int) -> None:
+        first, degree = len(self.phi), self.seen_at(entry).degree
+        rotation = tuple(map(KnownDart, range(first, first + degree)))
+        for door, dart in enumerate(rotation):
+            image = WorldDart(exit_dart(self.world, entry, door))
+            self.phi[dart], self.number[image] = image, dart
+            self.born[dart], self._rotation[dart] = when, rotation
+
+    def is_open(self, dart: int, when: int) -> TypeGuard[KnownDart]:
+        """Whether this is a dart of S, and unexplored, when event `when` happens."""
+        number = KnownDart(dart)
+        return number in self.born and self.born[number] <= when <= self.joined.get(number, when)
+
+    def turn(self, dart: KnownDart, door: Door) -> KnownDart:
+        """The dart of S that a door means to a robot whose reference dart on S is `dart`."""
+        rotation = self._rotation[dart]
+        return rotation[(dart - rotation[0] + door) % len(rotation)]
+
+    def truth(self, e: int, when: int) -> KnownDart | None:
+        """The other end of the unexplored dart e of S, if its vertex is known at event `when`."""
+        end = self.number.get(self.end(e)) if self.is_open(e, when) else None
+        return end if end is not None and self.born[end] < when else None
+
+    def face(self, e: KnownDart, when: int) -> list[KnownDart]:
+        """The darts of S on the face of e; where a dart is open, the boundary turns back."""
+        face = [e]
+        while True:
+            last = face[-1]
+            across = last if self.is_open(last, when) else self.alpha[last]
+            face.append(self.turn(across, 1))
+            if face[-1] == e:
+                return face
