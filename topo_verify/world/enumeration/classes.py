@@ -65,21 +65,7 @@ class WorldClass:
         Raises:
             InputError: a term is unknown, or no world with an edge could have all the properties.
         """
-        words: set[str] = set()
-        bounds: dict[str, list[int]] = {"genus:": [], "genus<=": [], "max-degree:": []}
-        for term in text.split(","):
-            found = _TERM.fullmatch(term.strip())
-            if not found:
-                raise InputError(
-                    f"class {text!r}: {term.strip()!r} is no class; a class is any, planar,"
-                    " genus:G, genus<=G, simple, loopless or max-degree:D, or several of them"
-                    " joined with commas, all of which hold"
-                )
-            word, bound, number = found.groups()
-            if bound:
-                bounds[bound].append(int(number))
-            else:
-                words.add(word)
+        words, bounds = _terms(text)
         exact = {*bounds["genus:"], *([0] if "planar" in words else [])}
         most = min(bounds["genus<="], default=None)
         degree = min(bounds["max-degree:"], default=None)
@@ -120,14 +106,20 @@ class WorldClass:
 
     def admits(self, table: rank_order.Table) -> bool:
         """Is the world with this table in the class? For long lists: no `World` is made."""
+        return self._admits_graph(table) and self._admits_genus(table)
+
+    def _admits_graph(self, table: rank_order.Table) -> bool:
         degrees, alpha = table
         if self.most_degree is not None and max(degrees) > self.most_degree:
             return False
-        if self.loopless or self.simple:
-            vertex = [v for v, degree in enumerate(degrees) for _ in range(degree)]
-            ways = [(vertex[dart], vertex[other]) for dart, other in enumerate(alpha)]
-            if any(a == b for a, b in ways) or (self.simple and len(set(ways)) < len(ways)):
-                return False
+        if not (self.loopless or self.simple):
+            return True
+        vertex = [v for v, degree in enumerate(degrees) for _ in range(degree)]
+        ways = [(vertex[dart], vertex[other]) for dart, other in enumerate(alpha)]
+        has_loop = any(a == b for a, b in ways)
+        return not has_loop and not (self.simple and len(set(ways)) < len(ways))
+
+    def _admits_genus(self, table: rank_order.Table) -> bool:
         if self.genus is not None:
             return _genus(table) == self.genus
         return self.most_genus is None or _genus(table) <= self.most_genus
@@ -193,6 +185,26 @@ class WorldClass:
             f"class {self}: too few of the worlds with {edges} edges are in it to draw one"
             f" ({seen}): ask for fewer edges or a wider class"
         )
+
+
+def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
+    """The terms of a class: words as they stand, and the numbers that follow each bound."""
+    words: set[str] = set()
+    bounds: dict[str, list[int]] = {"genus:": [], "genus<=": [], "max-degree:": []}
+    for term in text.split(","):
+        found = _TERM.fullmatch(term.strip())
+        if not found:
+            raise InputError(
+                f"class {text!r}: {term.strip()!r} is no class; a class is any, planar,"
+                " genus:G, genus<=G, simple, loopless or max-degree:D, or several of them"
+                " joined with commas, all of which hold"
+            )
+        word, bound, number = found.groups()
+        if bound:
+            bounds[bound].append(int(number))
+        else:
+            words.add(word)
+    return words, bounds
 
 
 def _genus(table: rank_order.Table) -> int:
