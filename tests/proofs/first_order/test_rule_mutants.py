@@ -16,7 +16,7 @@ from topo_verify.proofs.first_order.mutants import (
     RuleMutant,
     theorem,
 )
-from topo_verify.proofs.first_order.mutants.folding import PLANAR as PLANAR_SCENE
+from topo_verify.proofs.first_order.mutants.fold_steps import PLANAR as PLANAR_SCENE
 from topo_verify.proofs.first_order.scene_replay import Stage
 from topo_verify.proofs.first_order.terms import Term
 from topo_verify.proofs.first_order.theorems import INDUCTIVE

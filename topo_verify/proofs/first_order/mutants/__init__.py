@@ -8,7 +8,9 @@ what is false. A scene that does not play that way is a bug of ours, and is repo
 What is not asked: whether a mapper with reference policies would walk just there. Claims hold for
 every history, so any history that breaks one will do.
 
-    rejecting.py   recording.py   confirming.py   growing.py   folding.py
+    rejection.py      a true hypothesis is rejected      records.py      records are misplaced
+    confirmation.py   a false one is confirmed           fold_steps.py   what differs is identified
+    growth.py         S grows in the wrong place
 
 Source: docs/semantics.md, sections 4, 6, 7 and 8.
 """
@@ -22,11 +24,11 @@ from typing import Literal
 from topo_verify.errors import InternalError
 from topo_verify.proofs.first_order import scenes
 from topo_verify.proofs.first_order.mutants import (
-    confirming,
-    folding,
-    growing,
-    recording,
-    rejecting,
+    confirmation,
+    fold_steps,
+    growth,
+    records,
+    rejection,
 )
 from topo_verify.proofs.first_order.mutants.mutant import RuleMutant
 from topo_verify.proofs.first_order.scene_replay import Stage
@@ -35,11 +37,11 @@ from topo_verify.proofs.solvers import z3_solver
 from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
 
 RULE_MUTANTS: tuple[RuleMutant, ...] = (
-    *rejecting.REJECTING,
-    *recording.RECORDING,
-    *confirming.CONFIRMING,
-    *growing.GROWING,
-    *folding.FOLDING,
+    *rejection.REJECTIONS,
+    *records.RECORDS,
+    *confirmation.CONFIRMATIONS,
+    *growth.GROWTH,
+    *fold_steps.FOLD_STEPS,
 )
 
 __all__ = ["MUTANTS", "PLANAR", "RULE_MUTANTS", "RuleMutant", "theorem"]
@@ -100,5 +102,5 @@ def _refute(mutant: RuleMutant, budget: Budget) -> Outcome:
 
 MUTANTS: tuple[Theorem, ...] = tuple(map(theorem, RULE_MUTANTS))
 
-PLANAR: Theorem = theorem(folding.PLANAR, "negative")
+PLANAR: Theorem = theorem(fold_steps.PLANAR, "negative")
 """The planar prior is not sound in all worlds: a torus of two edges."""

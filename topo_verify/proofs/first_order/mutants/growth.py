@@ -26,7 +26,7 @@ def _plays_first_dart(stage: Stage, _rule: Term) -> bool:
 _NOT_AT_VK = conj(r.POSED, differ(mfirst(r.h), mfirst(r.e)))
 _WHOLE_PERCEPT = conj(r.POSED, substitute(r.ALIKE, {x: mfirst(r.h)}))
 
-GROWING: tuple[RuleMutant, ...] = (
+GROWTH: tuple[RuleMutant, ...] = (
     RuleMutant(
         name="posed-not-at-vk",
         size=(1, 2),

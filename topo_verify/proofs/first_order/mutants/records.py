@@ -88,7 +88,7 @@ def _recording(
 
 _MET = r.beyond(t.phi(H), D)
 
-RECORDING: tuple[RuleMutant, ...] = (
+RECORDS: tuple[RuleMutant, ...] = (
     _recording(
         "records-stale-root",
         "records-written",

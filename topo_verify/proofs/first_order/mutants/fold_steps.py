@@ -46,7 +46,7 @@ def _plays_ghost(stage: Stage, _rule: Term) -> bool:
 
 _LOOPED = r.beyond(t.root, D)
 
-FOLDING: tuple[RuleMutant, ...] = (
+FOLD_STEPS: tuple[RuleMutant, ...] = (
     RuleMutant(
         name="fold-marker-undirected",
         size=(1, 2),

@@ -59,7 +59,7 @@ def _plays_confirm_unturned(stage: Stage, rule: Term) -> bool:
     return matches and not stage.truth("e", "h")
 
 
-CONFIRMING: tuple[RuleMutant, ...] = (
+CONFIRMATIONS: tuple[RuleMutant, ...] = (
     RuleMutant(
         name="confirm-undirected",
         size=(2, 3),

@@ -76,7 +76,7 @@ def _plays_at_v0(stage: Stage, rule: Term) -> bool:
     return not stage.says(rule, vu, x=stage.dart("h"), b=0) and stage.truth("e", "h")
 
 
-REJECTING: tuple[RuleMutant, ...] = (
+REJECTIONS: tuple[RuleMutant, ...] = (
     _history(
         "history-through-unexplored",
         "history-keeps",
