@@ -27,7 +27,7 @@ from topo_verify.checkers.findings import Verdict
 Kind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
 
 
-Answer = Literal["sat", "unsat", "unknown"]
+SolverAnswer = Literal["sat", "unsat", "unknown"]
 """What a solver says. Compare it with ==: every answer is a non-empty text."""
 
 Standing = Literal["ok", "failed", "open"]
@@ -58,6 +58,11 @@ class Budget:
     certify: bool = False
     tell: Tell = silence
 
+    @property
+    def milliseconds(self) -> int:
+        """The time limit of one query as solvers take it; at least 1, since 0 means no limit."""
+        return max(1, round(self.timeout * 1000))
+
 
 @dataclass(frozen=True, slots=True)
 class Query:
@@ -70,7 +75,7 @@ class Query:
 
     name: str
     smt2: str
-    expected: Answer
+    expected: SolverAnswer
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -117,14 +117,6 @@ class Formula:
             lines.append(f") :named {group}))")
         return "\n".join(lines) + "\n"
 
-    def dimacs(self) -> str:
-        """DIMACS, the format of SAT solvers; the names stand in comments."""
-        clauses = self.clauses
-        lines = [f"c {number} {name}" for number, name in enumerate(self.names, 1)]
-        lines.append(f"p cnf {len(self.names)} {len(clauses)}")
-        lines += [" ".join(map(str, (*clause, 0))) for clause in clauses]
-        return "\n".join(lines) + "\n"
-
     def _disjunction(self, clause: Iterable[Literal]) -> str:
         written = [
             self.names[literal - 1] if literal > 0 else f"(not {self.names[-literal - 1]})"

@@ -34,7 +34,7 @@ from topo_verify.proofs.first_order.terms import (
     symbols,
 )
 from topo_verify.proofs.solvers import z3_solver
-from topo_verify.proofs.theorem import Answer, Budget
+from topo_verify.proofs.theorem import Budget, SolverAnswer
 
 SIZES = ((1, 1), (2, 1), (2, 2), (3, 2), (3, 3), (4, 4))
 """How many darts the world gets, and how many elements every other sort, in the order tried."""
@@ -44,7 +44,7 @@ SIZES = ((1, 1), (2, 1), (2, 2), (3, 2), (3, 3), (4, 4))
 class Model:
     """What was found: an answer, and the structure if it is `sat`."""
 
-    answer: Answer
+    answer: SolverAnswer
     structure: Structure | None = None
     tables: Mapping[str, Mapping[tuple[int, ...], Value]] | None = None
     why: str = ""
@@ -70,11 +70,9 @@ def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) ->
         InternalError: the solver's model is none.
     """
     entries = list(_entries(formulas, sizes))
-    reply = z3_solver.satisfy(
-        [ground(formula, sizes) for formula in formulas] + list(_domains(entries, sizes)),
-        [*_elements(sizes), *(alias for alias, _, _, _ in entries)],
-        budget,
-    )
+    wanted = (*_elements(sizes), *(alias for alias, _, _, _ in entries))
+    sorts = {constant.symbol.name: constant.sort for constant in wanted}
+    reply = z3_solver.find_values(grounded(formulas, sizes), sorts, budget)
     if reply.answer != "sat":
         return Model(reply.answer, why=reply.why)
     number = {

@@ -16,7 +16,7 @@ from time import perf_counter
 from topo_verify.proofs.first_order import finite_models
 from topo_verify.proofs.first_order.axioms import INVARIANT, LEMMAS
 from topo_verify.proofs.first_order.obligations import OBLIGATIONS, Obligation
-from topo_verify.proofs.first_order.terms import conj, implies, neg, script, shown
+from topo_verify.proofs.first_order.terms import Term, conj, implies, neg, script, shown
 from topo_verify.proofs.solvers import z3_solver
 from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
 
@@ -55,7 +55,7 @@ def _solver_part(obligation: Obligation) -> str:
 def _prover(obligation: Obligation) -> Callable[[Budget], Outcome]:
     def prove(budget: Budget) -> Outcome:
         begin = perf_counter()
-        reply = z3_solver.prove(obligation.negation(), budget)
+        reply = refute(obligation.negation(), budget)
         if reply.answer != "unsat":
             return Outcome(
                 verdict="UNKNOWN",
@@ -75,6 +75,11 @@ def _prover(obligation: Obligation) -> Callable[[Budget], Outcome]:
         )
 
     return prove
+
+
+def refute(assertions: dict[str, Term], budget: Budget) -> z3_solver.Z3Reply:
+    """Z3's reply: can all of these hold at once? The core consists of their names."""
+    return z3_solver.refute(script(assertions), assertions, budget)
 
 
 def mutant(obligation: Obligation, lost: str) -> Theorem:

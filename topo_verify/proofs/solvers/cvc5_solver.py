@@ -16,7 +16,7 @@ from time import perf_counter
 from typing import Any, Literal
 
 from topo_verify.errors import InputError
-from topo_verify.proofs.theorem import Answer, Query
+from topo_verify.proofs.theorem import Budget, Query, SolverAnswer
 
 Standing = Literal["agrees", "disagrees", "unknown"]
 
@@ -34,8 +34,8 @@ class Opinion:
 
     query: str
     solver: str
-    answer: Answer
-    expected: Answer
+    answer: SolverAnswer
+    expected: SolverAnswer
     seconds: float
     why: str = ""
 
@@ -103,11 +103,12 @@ def _name() -> str:
     return f"cvc5 {import_module('cvc5').__version__}"
 
 
-def _check(query: Query, timeout: float, options: dict[str, str]) -> tuple[Answer, str]:
+def _check(query: Query, timeout: float, options: dict[str, str]) -> tuple[SolverAnswer, str]:
     """The answer to the script's `check-sat`, and why it is unknown."""
     cvc5: Any = import_module("cvc5")
     solver = cvc5.Solver(cvc5.TermManager())
-    for option, value in {"tlimit-per": str(max(1, round(timeout * 1000))), **options}.items():
+    limit = str(Budget(timeout=timeout).milliseconds)
+    for option, value in {"tlimit-per": limit, **options}.items():
         solver.setOption(option, value)
     parser = cvc5.InputParser(solver)
     parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, query.smt2, query.name)
