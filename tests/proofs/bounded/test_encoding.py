@@ -12,7 +12,7 @@ from topo_verify import World
 from topo_verify.proofs.bounded.decode import decode_world
 from topo_verify.proofs.bounded.encoding import Marker, Worlds
 from topo_verify.proofs.bounded.solve import decide, models
-from topo_verify.proofs.bounded.words import doors, walk
+from topo_verify.proofs.bounded.walks import doors, walk
 from topo_verify.proofs.theorem import Budget
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import exit_dart, percepts

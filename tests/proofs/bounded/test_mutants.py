@@ -19,8 +19,8 @@ from topo_verify.proofs.bounded.mutants import mutants, negative
 from topo_verify.proofs.bounded.negatives import SMALLEST, Negative, false_confirmation
 from topo_verify.proofs.bounded.replay import Disagreement, replay_confirmation, replay_rejection
 from topo_verify.proofs.bounded.solve import decide, first_model, models
+from topo_verify.proofs.bounded.walks import Fault
 from topo_verify.proofs.bounded.word_rules import Play
-from topo_verify.proofs.bounded.words import Fault
 from topo_verify.proofs.theorem import Budget, Theorem
 from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.enumeration.classes import WorldClass

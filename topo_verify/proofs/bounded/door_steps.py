@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from topo_verify.proofs.bounded.cnf import REFUTED, Row
 from topo_verify.proofs.bounded.encoding import Map, Marker, Worlds
-from topo_verify.proofs.bounded.words import behind_an_edge, doors, open_dart, walk
+from topo_verify.proofs.bounded.walks import behind_an_edge, doors, open_dart, walk
 
 
 def pose(edges: int) -> Worlds:

@@ -2,7 +2,7 @@
 
     negative   a mapper that ignores the direction, or the whole, of the marker confirms a false
                hypothesis: in the smallest worlds of their class (`negatives`)
-    mutant     a rule with a fault (`words.Fault`) confirms a false hypothesis, or rejects the
+    mutant     a rule with a fault (`walks.Fault`) confirms a false hypothesis, or rejects the
                true one
 
 The solver finds a world, a map and doors; then the simulator does it again and the checkers must
@@ -23,8 +23,8 @@ from topo_verify.proofs.bounded.decode import Story, decode, telling
 from topo_verify.proofs.bounded.encoding import Marker
 from topo_verify.proofs.bounded.replay import Replay, replay_confirmation, replay_rejection
 from topo_verify.proofs.bounded.solve import first_model
+from topo_verify.proofs.bounded.walks import Fault
 from topo_verify.proofs.bounded.word_rules import Play
-from topo_verify.proofs.bounded.words import Fault
 from topo_verify.proofs.solvers.z3_solver import name as solver_name
 from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
 

@@ -24,8 +24,8 @@ from dataclasses import dataclass
 
 from topo_verify.proofs.bounded.cnf import REFUTED, Formula, Row
 from topo_verify.proofs.bounded.encoding import Map, Marker, Worlds
+from topo_verify.proofs.bounded.walks import behind_an_edge, doors, hypothesis, stay_explored, walk
 from topo_verify.proofs.bounded.word_rules import Play
-from topo_verify.proofs.bounded.words import behind_an_edge, doors, hypothesis, stay_explored, walk
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ from topo_verify.checkers import check
 from topo_verify.errors import InternalError
 from topo_verify.proofs.bounded.decode import Behind, Story, Word
 from topo_verify.proofs.bounded.encoding import Marker
-from topo_verify.proofs.bounded.words import Fault
+from topo_verify.proofs.bounded.walks import Fault
 from topo_verify.robot.events import Augment, Confirm, Decision, Evidence, Move, Pose, Reject, Start
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot, first_percept

@@ -1,7 +1,7 @@
 """The rules on whole words: every word of up to `steps` doors, on every map of every world.
 
 Each function says, as clauses, that a rule goes wrong: it confirms a false hypothesis, or rejects
-the true one. That nothing satisfies them is the statement. The letters and the rules: `words.py`;
+the true one. That nothing satisfies them is the statement. The letters and the rules: `walks.py`;
 of one door at a time, and so of words of any length: `one_door.py`. Here nothing is left to an
 induction.
 
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from topo_verify.proofs.bounded.cnf import REFUTED, Literal, Row
 from topo_verify.proofs.bounded.encoding import Map, Marker, Worlds
-from topo_verify.proofs.bounded.words import (
+from topo_verify.proofs.bounded.walks import (
     Fault,
     Traced,
     behind_an_edge,
