@@ -16,9 +16,9 @@ from topo_verify.proofs.bounded.theorems import MOST_EDGES, bounded
 from topo_verify.proofs.first_order import mutants
 from topo_verify.proofs.first_order.theorems import AXIOM_MUTANTS, INDUCTIVE
 from topo_verify.proofs.mechanised.theorems import MECHANISED
-from topo_verify.proofs.theorem import Kind, Theorem
+from topo_verify.proofs.theorem import Theorem, TheoremKind
 
-QUICK: tuple[Kind, ...] = ("inductive", "negative", "mutant")
+QUICK: tuple[TheoremKind, ...] = ("inductive", "negative", "mutant")
 """The kinds that are done in seconds."""
 
 

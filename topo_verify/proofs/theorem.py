@@ -24,19 +24,19 @@ from typing import Literal
 
 from topo_verify.checkers.findings import Verdict
 
-Kind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
+TheoremKind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
 
 
 SolverAnswer = Literal["sat", "unsat", "unknown"]
 """What a solver says. Compare it with ==: every answer is a non-empty text."""
 
-Standing = Literal["ok", "failed", "open"]
+ResultStatus = Literal["ok", "failed", "open"]
 
-Tell = Callable[[str, int, int], None]
+TheoremProgress = Callable[[str, int, int], None]
 """Called as work goes on: (theorem, how much of it is done, how much there is)."""
 
 
-def silence(_theorem: str, _done: int, _total: int) -> None:
+def no_progress(_theorem: str, _done: int, _total: int) -> None:
     """Tell nobody."""
 
 
@@ -56,7 +56,7 @@ class Budget:
     rlimit: int = 0
     seed: int = 0
     certify: bool = False
-    tell: Tell = silence
+    progress: TheoremProgress = no_progress
 
     @property
     def milliseconds(self) -> int:
@@ -79,7 +79,7 @@ class Query:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Certificate:
+class RefutationCertificate:
     """A proof object, and what a checker that calls no solver said of it.
 
     Attributes:
@@ -99,7 +99,7 @@ class Certificate:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
+class TheoremResult:
     """What became of one theorem.
 
     Attributes:
@@ -127,7 +127,7 @@ class Outcome:
     total: int | None = None
     counterexample: str | None = None
     history: tuple[int, ...] | None = None
-    certificate: Certificate | None = None
+    certificate: RefutationCertificate | None = None
     note: str = ""
 
 
@@ -152,7 +152,7 @@ class Theorem:
     """
 
     name: str
-    kind: Kind
+    kind: TheoremKind
     claims: tuple[str, ...]
     words: str
     symbols: str
@@ -160,13 +160,13 @@ class Theorem:
     argued: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
     expected: Verdict
-    prove: Callable[[Budget], Outcome]
+    prove: Callable[[Budget], TheoremResult]
     queries: Callable[[], Iterator[Query]]
     edges: int | None = None
     of: str | None = None
     deep: bool = False
 
-    def ok(self, outcome: Outcome) -> bool:
+    def ok(self, outcome: TheoremResult) -> bool:
         """Is the outcome what it must be? Vacuous, unknown, not replayed: none of these is."""
         replayed = outcome.replayed
         certificate = outcome.certificate
@@ -178,7 +178,7 @@ class Theorem:
             and (certificate is None or certificate.checked)
         )
 
-    def standing(self, outcome: Outcome) -> Standing:
+    def status(self, outcome: TheoremResult) -> ResultStatus:
         """`ok`; `failed`: decided, and not as it must be; `open`: all else, which is no pass."""
         if self.ok(outcome):
             return "ok"

@@ -10,13 +10,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from time import perf_counter
 
-from topo_verify.proofs.bounded.cnf import Formula, Row
+from topo_verify.proofs.bounded.cnf import CnfRow, Formula
 from topo_verify.proofs.solvers.z3_solver import Z3Question
 from topo_verify.proofs.theorem import Budget, SolverAnswer
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class Assignment:
     """An assignment that satisfies a formula: the Booleans that are true."""
 
     true: frozenset[int]
@@ -25,14 +25,14 @@ class Model:
         """Is the literal true?"""
         return (abs(literal) in self.true) == (literal > 0)
 
-    def index(self, row: Row) -> int:
+    def index(self, row: CnfRow) -> int:
         """Which literal of a one-hot row is true."""
         (place,) = (index for index, literal in enumerate(row) if self.holds(literal))
         return place
 
 
 @dataclass(frozen=True, slots=True)
-class Decision:
+class SatResult:
     """Z3's answer about a formula.
 
     Attributes:
@@ -43,22 +43,22 @@ class Decision:
 
     answer: SolverAnswer
     seconds: float
-    model: Model | None = None
+    model: Assignment | None = None
     core: tuple[str, ...] = ()
     why: str = ""
 
 
-def decide(formula: Formula, budget: Budget) -> Decision:
+def solve(formula: Formula, budget: Budget) -> SatResult:
     """Is the formula satisfiable? Never raises for a time-out."""
     began = perf_counter()
     question = Z3Question(formula.smt2(), budget, setup="clauses", labels=tuple(formula.groups))
     answer = question.check()
     seconds = perf_counter() - began
     model = _model(formula, question) if answer == "sat" else None
-    return Decision(answer, seconds, model, core=question.core, why=question.why)
+    return SatResult(answer, seconds, model, core=question.core, why=question.why)
 
 
-def first_model(formula: Formula, over: Row, budget: Budget) -> Decision:
+def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
     """As `decide`, and a model is always the same one: the first of all, by the Booleans `over`.
 
     First is the one in which the earliest of them are true. (What Z3 finds first varies from run to
@@ -67,7 +67,7 @@ def first_model(formula: Formula, over: Row, budget: Budget) -> Decision:
     began = perf_counter()
     question = Z3Question(formula.smt2(), budget, setup="clauses")
     if (answer := question.check()) != "sat":
-        return Decision(answer, perf_counter() - began, why=question.why)
+        return SatResult(answer, perf_counter() - began, why=question.why)
     model = _model(formula, question)
     assumed: dict[str, bool] = {}
     for literal in over:
@@ -76,14 +76,14 @@ def first_model(formula: Formula, over: Row, budget: Budget) -> Decision:
         if not model.holds(literal):
             answer = question.check(assumed | {name: literal > 0})
             if answer == "unknown":
-                return Decision("unknown", perf_counter() - began, why=question.why)
+                return SatResult("unknown", perf_counter() - began, why=question.why)
             if answer == "sat":
                 model = _model(formula, question)
         assumed[name] = model.holds(abs(literal))
-    return Decision("sat", perf_counter() - began, model)
+    return SatResult("sat", perf_counter() - began, model)
 
 
-def models(formula: Formula, over: Row, budget: Budget) -> Iterator[Model]:
+def models(formula: Formula, over: CnfRow, budget: Budget) -> Iterator[Assignment]:
     """All models, one for each assignment of the Booleans `over`; the order is Z3's.
 
     Raises:
@@ -96,13 +96,13 @@ def models(formula: Formula, over: Row, budget: Budget) -> Iterator[Model]:
         yield model
         question.forbid({name: model.holds(number) for number, name in names.items()})
     if answer == "unknown":
-        raise Undecided(question.why)
+        raise SolverGaveUp(question.why)
 
 
-class Undecided(Exception):
+class SolverGaveUp(Exception):
     """The solver gave up: give it more time with `--timeout`."""
 
 
-def _model(formula: Formula, question: Z3Question) -> Model:
+def _model(formula: Formula, question: Z3Question) -> Assignment:
     true = question.true()
-    return Model(frozenset(v for v, name in enumerate(formula.names, 1) if name in true))
+    return Assignment(frozenset(v for v, name in enumerate(formula.names, 1) if name in true))

@@ -18,11 +18,11 @@ from typing import Any, Literal
 from topo_verify.errors import InputError
 from topo_verify.proofs.theorem import Budget, Query, SolverAnswer
 
-Standing = Literal["agrees", "disagrees", "unknown"]
+Agreement = Literal["agrees", "disagrees", "unknown"]
 
 
 @dataclass(frozen=True, slots=True)
-class Opinion:
+class SecondAnswer:
     """What cvc5 says of one question.
 
     Attributes:
@@ -40,14 +40,14 @@ class Opinion:
     why: str = ""
 
     @property
-    def standing(self) -> Standing:
+    def agreement(self) -> Agreement:
         """Do the two solvers agree?"""
         if self.answer == "unknown":
             return "unknown"
         return "agrees" if self.answer == self.expected else "disagrees"
 
     def __str__(self) -> str:
-        match self.standing:
+        match self.agreement:
             case "agrees":
                 return f"{self.query}: {self.solver} agrees: {self.answer}"
             case "unknown":
@@ -67,7 +67,7 @@ def require_tools() -> None:
         ) from error
 
 
-def ask(query: Query, *, timeout: float = 60.0) -> Opinion:
+def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
     """cvc5 on the question.
 
     Args:
@@ -81,7 +81,7 @@ def ask(query: Query, *, timeout: float = 60.0) -> Opinion:
     if answer == "unknown" and "forall" in query.smt2:
         answer, why = _check(query, timeout, {"full-saturate-quant": "true"})
         why = why or "full-saturate-quant"
-    return Opinion(query.name, _name(), answer, query.expected, perf_counter() - began, why)
+    return SecondAnswer(query.name, _name(), answer, query.expected, perf_counter() - began, why)
 
 
 def export(query: Query, folder: Path) -> Path:

@@ -31,10 +31,10 @@ from topo_verify.proofs.first_order.mutants import (
     rejection,
 )
 from topo_verify.proofs.first_order.mutants.mutant import RuleMutant
-from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.terms import shown
 from topo_verify.proofs.solvers import z3_solver
-from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
+from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult
 
 RULE_MUTANTS: tuple[RuleMutant, ...] = (
     *rejection.REJECTIONS,
@@ -70,7 +70,7 @@ def theorem(mutant: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") 
     )
 
 
-def _refute(mutant: RuleMutant, budget: Budget) -> Outcome:
+def _refute(mutant: RuleMutant, budget: Budget) -> TheoremResult:
     begin = perf_counter()
     edges, known = mutant.size
     scene, answer, why = scenes.find(mutant.scene, budget, edges=edges, known=known)
@@ -78,25 +78,25 @@ def _refute(mutant: RuleMutant, budget: Budget) -> Outcome:
         told = f"{z3_solver.name()} answers {answer} with {edges} edges" + (
             f": {why}" if why else ""
         )
-        return Outcome(
+        return TheoremResult(
             verdict="EXHAUSTED" if answer == "unsat" else "UNKNOWN",
             solver=z3_solver.name(),
             seconds=perf_counter() - begin,
             note=told,
         )
-    stage = Stage(scene, without=mutant.without)
-    if not mutant.plays(stage, mutant.rule):
+    replay = SceneReplay(scene, without=mutant.without)
+    if not mutant.plays(replay, mutant.rule):
         raise InternalError(
             f"the model of {mutant.name} does not replay: in world {scene.world.id} the doors"
-            f" {list(stage.history)} show nothing wrong"
+            f" {list(replay.history)} show nothing wrong"
         )
-    return Outcome(
+    return TheoremResult(
         verdict="REFUTED",
         solver=z3_solver.name(),
         seconds=perf_counter() - begin,
         replayed=(1, 1),
         counterexample=scene.world.id,
-        history=stage.history,
+        history=replay.history,
     )
 
 
