@@ -14,8 +14,8 @@ from tests.helpers import failing, worlds
 from topo_verify import World
 from topo_verify.harness.run import explore
 from topo_verify.proofs.bounded import negatives, word_rules
-from topo_verify.proofs.bounded.decode import Counterexample, decode, telling
-from topo_verify.proofs.bounded.mutants import mutants, negative
+from topo_verify.proofs.bounded.decode import Counterexample, decode, decoded_booleans
+from topo_verify.proofs.bounded.mutants import mutant_theorems, negative_theorems
 from topo_verify.proofs.bounded.negatives import SMALLEST, Negative, false_confirmation
 from topo_verify.proofs.bounded.replay import Disagreement, replay_confirmation, replay_rejection
 from topo_verify.proofs.bounded.solve import first_model, models, solve
@@ -28,7 +28,9 @@ from topo_verify.world.enumeration.classes import WorldClass
 BUDGET = Budget()
 
 
-@pytest.mark.parametrize("one", [*negative(), *mutants()], ids=lambda one: one.name)
+@pytest.mark.parametrize(
+    "one", [*negative_theorems(), *mutant_theorems()], ids=lambda one: one.name
+)
 def test_it_is_refuted_by_a_world_that_replays(one: Theorem) -> None:
     outcome = one.prove(BUDGET)
     assert (outcome.verdict, outcome.replayed) == ("REFUTED", (1, 1))
@@ -73,7 +75,7 @@ def test_every_model_of_a_negative_replays(case: Negative) -> None:
     encoded = false_confirmation(case.edges, case.world_class, case.marker)
     replayed = [
         replay_confirmation(decode(encoded, model), case.marker)
-        for model in islice(models(encoded.world, telling(encoded), BUDGET), 40)
+        for model in islice(models(encoded.world, decoded_booleans(encoded), BUDGET), 40)
     ]
     assert replayed
     assert {replay.claim for replay in replayed} == {"no-false-confirm"}
@@ -94,14 +96,14 @@ def test_many_models_of_a_faulty_rule_replay(
     rule: str, build: Callable[[int, int], EncodedCounterexample], fault: RuleFault
 ) -> None:
     encoded = build(3, 3)
-    for model in islice(models(encoded.world, telling(encoded), BUDGET), 20):
+    for model in islice(models(encoded.world, decoded_booleans(encoded), BUDGET), 20):
         replay = replay_rejection(decode(encoded, model), rule, fault)
         assert replay.claim == "true-hypothesis-kept"
 
 
 def _story(case: Negative) -> Counterexample:
     encoded = false_confirmation(case.edges, case.world_class, case.marker)
-    model = first_model(encoded.world, telling(encoded), BUDGET).model
+    model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
     assert model is not None
     return decode(encoded, model)
 
@@ -118,20 +120,20 @@ def test_a_story_that_is_not_true_does_not_replay() -> None:
 
 def test_a_rule_without_its_fault_rejects_nothing() -> None:
     encoded = word_rules.history(2, 2, fault="absolute-doors")
-    model = first_model(encoded.world, telling(encoded), BUDGET).model
+    model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
     assert model is not None
     with pytest.raises(Disagreement, match="rejects nothing"):
         replay_rejection(decode(encoded, model), "history", "")
 
 
 def test_the_counterexample_is_the_same_in_every_run() -> None:
-    (theorem,) = (one for one in negative() if one.name == "undirected-simple")
+    (theorem,) = (one for one in negative_theorems() if one.name == "undirected-simple")
     first, again = theorem.prove(BUDGET), theorem.prove(Budget(seed=7))
     assert (first.counterexample, first.history) == (again.counterexample, again.history)
 
 
 def test_where_nothing_is_found_the_negative_is_not_refuted() -> None:
-    (theorem,) = (one for one in negative() if one.name == "undirected-simple")
+    (theorem,) = (one for one in negative_theorems() if one.name == "undirected-simple")
     outcome = theorem.prove(Budget(rlimit=1000))
     assert outcome.verdict == "UNKNOWN"
     assert "--timeout" in outcome.note

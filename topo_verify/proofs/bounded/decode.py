@@ -65,7 +65,7 @@ def decode_world(world: Worlds, model: Assignment) -> World:
     return World.from_code(decode_table(world, model))
 
 
-def telling(encoded: EncodedCounterexample) -> CnfRow:
+def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
     """The Booleans from which `decode` makes the story; the rest follows, or does not matter."""
     maps = [encoded.chart] if encoded.earlier is None else [encoded.earlier.chart, encoded.chart]
     rows = [encoded.world.first, tuple(encoded.world.joined.values())]

@@ -19,7 +19,7 @@ from functools import partial
 from time import perf_counter
 
 from topo_verify.proofs.bounded import negatives, word_rules
-from topo_verify.proofs.bounded.decode import Counterexample, decode, telling
+from topo_verify.proofs.bounded.decode import Counterexample, decode, decoded_booleans
 from topo_verify.proofs.bounded.encoding import MarkerDetail
 from topo_verify.proofs.bounded.replay import (
     ReplayedCounterexample,
@@ -41,15 +41,15 @@ class _FaultyRule:
     fault: RuleFault | MarkerDetail
     edges: int
     build: Callable[[int, int], EncodedCounterexample]
-    told: str
+    mistake: str
 
 
-def negative() -> tuple[Theorem, ...]:
+def negative_theorems() -> tuple[Theorem, ...]:
     """Every negative, at its smallest size."""
     return tuple(map(_negative, negatives.SMALLEST))
 
 
-def mutants() -> tuple[Theorem, ...]:
+def mutant_theorems() -> tuple[Theorem, ...]:
     """Every fault of a rule, in the smallest worlds where it goes wrong."""
     return tuple(map(_mutant, _MUTANTS))
 
@@ -60,7 +60,7 @@ def _negative(case: negatives.Negative) -> Theorem:
         name=case.name,
         kind="negative",
         claims=("no-false-confirm",),
-        words=f"{case.telling} {case.edges} edges are enough.",
+        words=f"{case.statement} {case.edges} edges are enough.",
         symbols="every percept on a shortest way home as expected ∧ h ≠ alpha(e)",
         solver_part=f"finds a world with {case.edges} edges, a map and a hypothesis",
         expected="REFUTED",
@@ -152,7 +152,7 @@ def _mutant(case: _FaultyRule) -> Theorem:
         name=name,
         kind="mutant",
         claims=("no-false-confirm" if confirms else "true-hypothesis-kept",),
-        words=f"Rule {case.rule} with a fault goes wrong: {case.told}.",
+        words=f"Rule {case.rule} with a fault goes wrong: {case.mistake}.",
         symbols="h ≠ alpha(e) is confirmed" if confirms else "h = alpha(e) is rejected",
         solver_part=f"finds a world with {_edges(case.edges)}, a map and doors",
         expected="REFUTED",
@@ -179,7 +179,7 @@ def _refute(
     """Look for a model; decode it; replay it."""
     began = perf_counter()
     encoded = build()
-    result = first_model(encoded.world, telling(encoded), budget)
+    result = first_model(encoded.world, decoded_booleans(encoded), budget)
     if result.model is None:
         exhausted = result.answer == "unsat"
         return TheoremResult(

@@ -42,7 +42,7 @@ class Negative:
         return f"{self.marker}-{self.world_class}"
 
     @property
-    def telling(self) -> str:
+    def statement(self) -> str:
         """The false claim, in words."""
         what = {
             "directed": "compares all of the marker",

@@ -111,7 +111,7 @@ def _below(negative: negatives.Negative) -> Theorem:
     statement = BoundedStatement(
         name=f"{negative.name}-below",
         claims=("no-false-confirm",),
-        words=f"{negative.telling} With fewer edges there is no such world.",
+        words=f"{negative.statement} With fewer edges there is no such world.",
         symbols="every percept on a shortest way home as expected ⇒ h = alpha(e)",
         refuted=refuted,
         premises=partial(negatives.premises, world_class=negative.world_class),
@@ -175,8 +175,8 @@ def _not_proved(formula: Worlds, result: SatResult, m: int) -> tuple[Verdict, st
     if result.model is not None:
         world = decode_world(formula, result.model).id
         return "REFUTED", f"it is false in {world}: `--smt2` writes the question", world
-    told = f"m = {m}: {result.why}; more time: --timeout, fewer edges: --edges"
-    return "UNKNOWN", told, None
+    note = f"m = {m}: {result.why}; more time: --timeout, fewer edges: --edges"
+    return "UNKNOWN", note, None
 
 
 def _one_certificate(

@@ -218,9 +218,9 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
                     words.append((reading.doors.copy(), reading.seen.copy()))
                     expected = list(_sifted(described, reading, remaining, tree))
             case Reject(_, dart, rule, evidence):
-                told = RuleRejection(dart, rule, evidence.step)
-                if not expected or expected.pop(0) != told:
-                    yield f"event {when}: {told} is not what the rule describes"
+                declared = RuleRejection(dart, rule, evidence.step)
+                if not expected or expected.pop(0) != declared:
+                    yield f"event {when}: {declared} is not what the rule describes"
                 remaining.remove(dart)
             case Confirm(_, dart):
                 h = Hypothesis(dart, reading.chart, tree)

@@ -104,21 +104,21 @@ def evidence_for_decisions(trace: Sequence[Event]) -> EntailedDecisions:
     Complexity: as claim 10 itself; nearly linear, and what each assumed edge adds.
     """
     prior = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
-    told = _LogSoFar()
+    log = _LogSoFar()
     stated: list[EntailedDecision] = []
     spent = steps = 0
     for when, event in _following(trace):
-        told.catch_up(trace, when)
-        facts = told.facts(event)
+        log.catch_up(trace, when)
+        facts = log.facts(event)
         if facts:
             stated.append(EntailedDecision(when, _words(event), facts))
         elif not prior:
             raise InternalError(f"two folds of one log differ at event {when}: {_words(event)}")
         spent += sum(map(_length, facts))
-        steps = told.visit + len(told.fold.meetings) + spent
+        steps = log.visit + len(log.fold.meetings) + spent
         if steps > MOST:
             return EntailedDecisions((), (), steps)
-    return EntailedDecisions(tuple(stated), tuple(told.fold.meetings), steps)
+    return EntailedDecisions(tuple(stated), tuple(log.fold.meetings), steps)
 
 
 def _following(trace: Sequence[Event]) -> Iterator[tuple[int, DeclaredDecision]]:

@@ -186,8 +186,8 @@ def summary(output: str) -> str:
     """coqchk's summary in one line: its theory, its axioms, and whatever else is not <none>."""
     lines = output.partition("CONTEXT SUMMARY")[2].splitlines()
     points = [line.removeprefix("* ").strip() for line in lines if line.startswith("* ")]
-    told = (p for p in points if p.startswith("Axioms") or not p.endswith("<none>"))
-    return "; ".join(told)
+    worth_saying = (p for p in points if p.startswith("Axioms") or not p.endswith("<none>"))
+    return "; ".join(worth_saying)
 
 
 def theorem(statement: MechanisedStatement) -> Theorem:

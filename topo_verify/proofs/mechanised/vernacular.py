@@ -99,12 +99,12 @@ def coq_file(certificate: CoqCertificate) -> str:
     rows = [f"({r.following}, {r.previous}, {_option(r.other)})" for r in fold.table]
     conflict = fold.conflict or Illegal()
     decisions = certificate.decisions
-    files, imports, told = "World.v and Log.v", "CheckerCorrect", ""
+    files, imports, decisions_text = "World.v and Log.v", "CheckerCorrect", ""
     if certificate.writes_decisions:
         files, imports = "World.v, Log.v and Decisions.v", f"{imports} Decisions"
-        told = _decisions(decisions)
+        decisions_text = _decisions(decisions)
     elif decisions.steps > MANY:
-        told = _TOO_LONG
+        decisions_text = _TOO_LONG
     return f"""\
 (* A certificate by topo-verify: {len(moves)} moves, {len(rows)} darts, {len(fold.meetings)} merges.
    It says what {files} define and nothing else; map and evidence are not trusted. *)
@@ -127,7 +127,7 @@ Definition conflict := {_conflict(conflict)}.
 {_THEOREM[certificate.statement]}
 
 Print Assumptions proved.
-{told}"""
+{decisions_text}"""
 
 
 def _decisions(decisions: EntailedDecisions) -> str:

@@ -111,11 +111,11 @@ class Z3Question:
 
     def check(self, assumed: Mapping[str, bool] | None = None) -> SolverAnswer:
         """The answer, if the Booleans of these names have these values."""
-        said = self._solver.check(*(self._literal(*one) for one in (assumed or {}).items()))
-        if said == _z3.sat:
+        result = self._solver.check(*(self._literal(*one) for one in (assumed or {}).items()))
+        if result == _z3.sat:
             self._answer = "sat"
         else:
-            self._answer = "unsat" if said == _z3.unsat else "unknown"
+            self._answer = "unsat" if result == _z3.unsat else "unknown"
         return self._answer
 
     def forbid(self, values: Mapping[str, bool]) -> None:

@@ -75,14 +75,14 @@ def _refute(mutant: RuleMutant, budget: Budget) -> TheoremResult:
     edges, known = mutant.size
     scene, answer, why = scenes.find(mutant.scene, budget, edges=edges, known=known)
     if scene is None:
-        told = f"{z3_solver.name()} answers {answer} with {edges} edges" + (
+        note = f"{z3_solver.name()} answers {answer} with {edges} edges" + (
             f": {why}" if why else ""
         )
         return TheoremResult(
             verdict="EXHAUSTED" if answer == "unsat" else "UNKNOWN",
             solver=z3_solver.name(),
             seconds=perf_counter() - begin,
-            note=told,
+            note=note,
         )
     replay = SceneReplay(scene, without=mutant.without)
     if not mutant.plays(replay, mutant.rule):
