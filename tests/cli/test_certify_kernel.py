@@ -38,8 +38,8 @@ THREE = "certify ring.jsonl 'short log.jsonl' none.jsonl --kernel"
 def test_each_verdict_is_stated_in_a_file_of_its_own(
     results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def accepted(*_: object) -> certificates.Checked:
-        return certificates.Checked(accepted=True, by="coqc 0")
+    def accepted(*_: object) -> certificates.CertificateCheck:
+        return certificates.CertificateCheck(accepted=True, by="coqc 0")
 
     monkeypatch.setattr("topo_verify.proofs.mechanised.certificates._Checker.check", accepted)
     found = [entry["kernel"] for entry in results(THREE, code=1)["results"]]
@@ -82,8 +82,8 @@ def test_without_coq_the_file_is_written_and_the_exit_says_incomplete(
 def test_a_certificate_that_is_refused_is_a_bug_of_ours(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refused(*_: object) -> certificates.Checked:
-        return certificates.Checked(accepted=False, by="coqc 0", why="no")
+    def refused(*_: object) -> certificates.CertificateCheck:
+        return certificates.CertificateCheck(accepted=False, by="coqc 0", why="no")
 
     monkeypatch.setattr("topo_verify.proofs.mechanised.certificates._Checker.check", refused)
     done = call("certify ring.jsonl --kernel")
@@ -96,14 +96,14 @@ def told(path: str, mapper: str = "basic", world: str = "m3/50") -> None:
     Path(path).write_bytes(write_trace(trace_of(world, mapper)))
 
 
-def judging(monkeypatch: pytest.MonkeyPatch, checked: certificates.Checked) -> None:
-    def check(*_: object) -> certificates.Checked:
+def judging(monkeypatch: pytest.MonkeyPatch, checked: certificates.CertificateCheck) -> None:
+    def check(*_: object) -> certificates.CertificateCheck:
         return checked
 
     monkeypatch.setattr("topo_verify.proofs.mechanised.certificates._Checker.check", check)
 
 
-COQC = certificates.Checked(accepted=True, by="coqc 0")
+COQC = certificates.CertificateCheck(accepted=True, by="coqc 0")
 
 
 def test_decisions_that_follow_are_certified(
@@ -164,7 +164,7 @@ def test_decisions_that_are_not_checked_make_the_run_incomplete(
     results: Results, call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told("run.jsonl")
-    apart = certificates.Checked(accepted=None, by="", why="the evidence is long")
+    apart = certificates.CertificateCheck(accepted=None, by="", why="the evidence is long")
     judging(monkeypatch, replace(COQC, decisions=apart))
     (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
     assert entry["kernel"]["accepted"]
@@ -177,7 +177,7 @@ def test_decisions_are_not_certified_by_a_certificate_that_is_not_checked(
     results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told("run.jsonl")
-    judging(monkeypatch, certificates.Checked(accepted=None, by="", why="no Coq"))
+    judging(monkeypatch, certificates.CertificateCheck(accepted=None, by="", why="no Coq"))
     (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
     found = entry["kernel"]["decisions"]
     assert (found["certified"], found["by"]) == (0, "")
@@ -188,7 +188,7 @@ def test_decisions_that_are_refused_are_a_bug_of_ours(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told("run.jsonl")
-    apart = certificates.Checked(accepted=False, by="the program", why="refused")
+    apart = certificates.CertificateCheck(accepted=False, by="the program", why="refused")
     judging(monkeypatch, replace(COQC, decisions=apart))
     done = call("certify run.jsonl --kernel")
     assert done.exit_code == 70

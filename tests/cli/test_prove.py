@@ -12,7 +12,7 @@ from topo_verify.proofs.first_order import mutants
 from topo_verify.proofs.first_order.obligations.obligation import A, B, Obligation
 from topo_verify.proofs.first_order.terms import eq, neg
 from topo_verify.proofs.first_order.theorems import theorem
-from topo_verify.proofs.theorem import Outcome, Theorem
+from topo_verify.proofs.theorem import Theorem, TheoremResult
 
 FIELDS = {
     "name", "kind", "claim", "verdict", "expected", "ok", "premises_satisfiable", "replayed",
@@ -129,8 +129,8 @@ def stocked(monkeypatch: pytest.MonkeyPatch) -> None:
         return theorem(Obligation(**(fields | more)))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
 
     def lucky(one: Theorem) -> Theorem:
-        def prove(_budget: object) -> Outcome:
-            return Outcome(verdict="EXHAUSTED", solver="none")
+        def prove(_budget: object) -> TheoremResult:
+            return TheoremResult(verdict="EXHAUSTED", solver="none")
 
         return Theorem(
             name="unrefuted",

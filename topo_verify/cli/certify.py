@@ -29,10 +29,10 @@ from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
-    from topo_verify.proofs.mechanised.certificates import Checked
-    from topo_verify.proofs.mechanised.vernacular import Certificate as Stated
+    from topo_verify.proofs.mechanised.certificates import CertificateCheck
+    from topo_verify.proofs.mechanised.vernacular import CoqCertificate
 
-    Check = Callable[[str, Stated], Checked]
+    Check = Callable[[str, CoqCertificate], CertificateCheck]
 
 
 class Tally(msgspec.Struct, frozen=True):
@@ -173,7 +173,9 @@ def _bytes(trace: str) -> bytes:
 def _checking(output: Output, timeout: int) -> AbstractContextManager[Check]:
     from topo_verify.proofs.mechanised import certificates
 
-    return certificates.checking(timeout=timeout, tell=lambda doing: output.progress(doing, 0, 1))
+    return certificates.checking(
+        timeout=timeout, progress=lambda doing: output.progress(doing, 0, 1)
+    )
 
 
 def _proof(
@@ -213,7 +215,7 @@ def _proof(
     )
 
 
-def _proved(stated: int, entailed: int, checked: Checked) -> Proved:
+def _proved(stated: int, entailed: int, checked: CertificateCheck) -> Proved:
     """How many of the decisions that follow are certified; `stated` have evidence."""
     if not entailed:
         return Proved(0, 0, "", "")

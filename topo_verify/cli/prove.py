@@ -91,7 +91,7 @@ def prove(  # noqa: PLR0913  an argument an option
             "prove-list", lambda: map(Result, map(shown.listed, theorems)), shown.show_list
         )
     _require(second=solver == "cvc5", certify=certify)
-    budget = Budget(timeout=timeout, seed=seed, certify=certify, tell=output.progress)
+    budget = Budget(timeout=timeout, seed=seed, certify=certify, progress=output.progress)
 
     seconds: dict[str, float] = {}
 
@@ -135,11 +135,11 @@ def _export(theorem: Theorem, folder: Path) -> None:
 def _proved(theorem: Theorem, budget: Budget, *, second: bool) -> Result[shown.Proved]:
     outcome = theorem.prove(budget)
     opinion = _opinion(theorem, budget) if second else None
-    standing = theorem.standing(outcome)
+    status = theorem.status(outcome)
     return Result(
         shown.entry_of(theorem, outcome, opinion),
-        failed=standing == "failed",
-        incomplete=standing == "open",
+        failed=status == "failed",
+        incomplete=status == "open",
     )
 
 
@@ -153,9 +153,9 @@ def _opinion(theorem: Theorem, budget: Budget) -> shown.Opinions | None:
 
     opinions = [ask(query, timeout=budget.timeout) for query in theorem.queries()]
     for opinion in opinions:
-        if opinion.standing == "disagrees":
+        if opinion.agreement == "disagrees":
             raise InternalError(f"the solvers disagree: {opinion}")
     if not opinions:
         return None
-    count = Counter(opinion.standing for opinion in opinions)
+    count = Counter(opinion.agreement for opinion in opinions)
     return shown.Opinions(opinions[0].solver, count["agrees"], count["unknown"], len(opinions))

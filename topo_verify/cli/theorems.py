@@ -12,7 +12,7 @@ from topo_verify.cli.layout import Block, Bullets, Table, Text
 from topo_verify.text import plural
 
 if TYPE_CHECKING:
-    from topo_verify.proofs.theorem import Budget, Outcome, Theorem
+    from topo_verify.proofs.theorem import Budget, Theorem, TheoremResult
 
 KINDS = ("inductive", "mechanised", "bounded", "negative", "mutant")
 
@@ -91,7 +91,7 @@ class Listed(msgspec.Struct, frozen=True):
     assumed: tuple[str, ...]
 
 
-def entry_of(theorem: Theorem, outcome: Outcome, opinion: Opinions | None) -> Proved:
+def entry_of(theorem: Theorem, outcome: TheoremResult, opinion: Opinions | None) -> Proved:
     """What became of a theorem, as it is printed."""
     made = outcome.certificate
     return Proved(

@@ -1,7 +1,17 @@
-"""Every theorem there is, in one order; choosing among them.
+"""All theorems in one order, and the choice among them.
 
-Inductive ones first, then mechanised, bounded, negatives, mutants. Names are unique; scripts may
-use them.
+Inductive theorems come first, then mechanised and bounded ones, negatives, mutants. Names are
+unique, and scripts may rely on them. A new theorem is entered in one table of its engine, and needs
+no line here:
+
+    kind        table                                          what one entry is
+    inductive   first_order/obligations/<theme>.OBLIGATIONS    an `Obligation`
+    mechanised  mechanised/theorems.STATEMENTS                 a theorem of a file of coq/
+    bounded     bounded/statements.py                          a `BoundedStatement`
+    negative    bounded/negatives.SMALLEST                     a `Negative`
+    mutant      `needs` of its obligation                      the premise that is dropped
+                first_order/mutants/<theme>.py                 a `RuleMutant`
+                bounded/mutants.py                             a rule with a `RuleFault`
 """
 
 from __future__ import annotations
@@ -16,10 +26,10 @@ from topo_verify.proofs.bounded.theorems import MOST_EDGES, bounded
 from topo_verify.proofs.first_order import mutants
 from topo_verify.proofs.first_order.theorems import AXIOM_MUTANTS, INDUCTIVE
 from topo_verify.proofs.mechanised.theorems import MECHANISED
-from topo_verify.proofs.theorem import Kind, Theorem
+from topo_verify.proofs.theorem import Theorem, TheoremKind
 
-QUICK: tuple[Kind, ...] = ("inductive", "negative", "mutant")
-"""The kinds that are done in seconds."""
+QUICK: tuple[TheoremKind, ...] = ("inductive", "negative", "mutant")
+"""The kinds that take seconds."""
 
 
 @cache
@@ -27,19 +37,19 @@ def catalogue(edges: int | None = None) -> tuple[Theorem, ...]:
     """All theorems.
 
     Args:
-        edges: the size up to which the bounded ones speak; default: as far as is quick.
+        edges: the largest worlds that the bounded ones speak of; default: as large as is quick.
     Raises:
-        InputError: too many edges.
+        InputError: no edges, or more than are feasible.
     """
     theorems = (
         *INDUCTIVE,
         *MECHANISED,
         *bounded(MOST_EDGES if edges is None else edges),
-        *bounded_mutants.negative(),
+        *bounded_mutants.negative_theorems(),
         mutants.PLANAR,
         *AXIOM_MUTANTS,
         *mutants.MUTANTS,
-        *bounded_mutants.mutants(),
+        *bounded_mutants.mutant_theorems(),
     )
     names = [theorem.name for theorem in theorems]
     if doubled := sorted({name for name in names if names.count(name) > 1}):
@@ -54,14 +64,14 @@ def choose(
     edges: int | None = None,
     deep: bool = False,
 ) -> tuple[Theorem, ...]:
-    """The theorems with these names, or of these kinds, or all; long ones only if asked for.
+    """The theorems with these names and of these kinds; without names, all that are quick.
 
     Args:
-        edges: bounded theorems up to this size; of negatives and mutants those within it.
-        deep: also the long ones. A theorem that is named is chosen, long or not; the mechanised
-            ones, which need Coq, also where their kind is asked for.
+        edges: bounded theorems up to this size; negatives and mutants of at most this size.
+        deep: also the theorems that take minutes. One that is named is chosen in any case; the
+            mechanised ones, which need Coq, also where their kind is asked for.
     Raises:
-        InputError: no such theorem, no theorem of these kinds with that name, too many edges.
+        InputError: no theorem of that name, none of these kinds and sizes, or too many edges.
     """
     everything = catalogue(edges)
     known = {theorem.name: theorem for theorem in everything}

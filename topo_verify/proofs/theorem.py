@@ -1,9 +1,8 @@
-"""What a theorem is, and what becomes of it: types and nothing else.
+"""A theorem, the budget of its proof, and its result: the types that all engines share.
 
-A **theorem** says something about every world of some kind, and says of itself which part of it a
-solver proves and which part is argued in words. Solvers answer three things, so a theorem that was
-expected to be proved and came back unknown is not proved, and nothing here turns one into the
-other.
+A **theorem** makes a statement about every world of some kind, and names which part of it a solver
+proves and which part is argued in words. A solver gives one of three answers. A theorem that was
+expected to be proved and came back `unknown` is not proved: no code turns one answer into another.
 
     kind        about                                          verdict if all is well
     inductive   worlds of any size                             PROVED
@@ -12,8 +11,8 @@ other.
     negative    a claim that is false, at its smallest size    REFUTED, with a world
     mutant      a theorem with one thing changed               REFUTED, with what breaks
 
-A theorem whose premises cannot all hold proves nothing: its outcome is **vacuous**, which is never
-`ok`, whatever the verdict.
+A theorem whose premises cannot all hold is **vacuous**: it is true, and says nothing. Its result is
+never `ok`, whatever the verdict.
 """
 
 from __future__ import annotations
@@ -24,65 +23,71 @@ from typing import Literal
 
 from topo_verify.checkers.findings import Verdict
 
-Kind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
+TheoremKind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
 
 
-Answer = Literal["sat", "unsat", "unknown"]
-"""What a solver says. Compare it with ==: every answer is a non-empty text."""
+SolverAnswer = Literal["sat", "unsat", "unknown"]
+"""A solver's answer. Compare it with `==`: each is a non-empty text, so each counts as true."""
 
-Standing = Literal["ok", "failed", "open"]
+ResultStatus = Literal["ok", "failed", "open"]
+"""`failed`: a definite but unexpected verdict. `open`: no verdict, which never counts as a pass."""
 
-Tell = Callable[[str, int, int], None]
-"""Called as work goes on: (theorem, how much of it is done, how much there is)."""
+TheoremProgress = Callable[[str, int, int], None]
+"""A progress callback: (name of the theorem, steps done, steps in all)."""
 
 
-def silence(_theorem: str, _done: int, _total: int) -> None:
-    """Tell nobody."""
+def no_progress(_theorem: str, _done: int, _total: int) -> None:
+    """Do nothing: the progress callback of whoever wants none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Budget:
-    """What a proof may cost, and how it is to be looked for.
+    """The limits of a proof, and the options for its search.
 
     Attributes:
         timeout: seconds for each query.
         rlimit: Z3's deterministic resource units for each query; 0: no limit but the time.
-        seed: of the solver.
-        certify: also make certificates and have them checked, where there are any.
-        tell: is told of the progress.
+        seed: of the solver's random choices.
+        certify: also make certificates, and have them checked, where the engine can.
+        progress: is called before each step of a long proof.
     """
 
     timeout: float = 60.0
     rlimit: int = 0
     seed: int = 0
     certify: bool = False
-    tell: Tell = silence
+    progress: TheoremProgress = no_progress
+
+    @property
+    def milliseconds(self) -> int:
+        """The time limit of one query as solvers take it; at least 1, since 0 means no limit."""
+        return max(1, round(self.timeout * 1000))
 
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """One question to a solver, as an SMT-LIB 2 script that begins with its `set-logic`.
+    """A question to a solver: an SMT-LIB 2 script that begins with its `set-logic`.
 
     Attributes:
-        name: of the question; a file name without its suffix.
-        expected: the answer on which the theorem's expected verdict rests.
+        name: of the question, and of the file to which it is exported, without the suffix.
+        expected: the answer that the theorem's expected verdict rests on.
     """
 
     name: str
     smt2: str
-    expected: Answer
+    expected: SolverAnswer
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Certificate:
-    """A proof object, and what a checker that calls no solver said of it.
+class RefutationCertificate:
+    """A refutation of clauses, and the judgement of a checker that calls no solver.
 
     Attributes:
-        format: of the proof, as "drup".
-        checker: the name and version of the checker.
-        checked: it was accepted.
-        clauses, steps: of the problem, of the proof.
-        why: why there is none, or why it was not accepted; "" if it was.
+        format: of the proof, such as "drup".
+        checker: name and version of the checker.
+        checked: did the checker accept the proof?
+        clauses, steps: the number of clauses refuted, the number of steps of the proof.
+        why: the reason why the checker refused it; "" if it accepted it.
     """
 
     format: str
@@ -94,22 +99,22 @@ class Certificate:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
-    """What became of one theorem.
+class TheoremResult:
+    """The result of trying to prove one theorem.
 
     Attributes:
-        verdict: UNKNOWN for time-outs and whatever else is neither one nor the other.
-        solver: its name and version.
-        seconds: wall-clock time; no result, only shown.
-        premises_satisfiable: can all premises hold at once? None: not known (a time-out), or there
-            are no premises to ask for, as where a model was found.
+        verdict: UNKNOWN for a time-out, and for any other answer that settles nothing.
+        solver: name and version of the solver.
+        seconds: wall-clock time; shown to people, never compared.
+        premises_satisfiable: can all premises hold at once? None: unknown (a time-out), or not
+            asked, since a model was found in which they hold.
         core: the premises that the proof used, as far as the solver named them.
-        replayed: of the models found, how many were replayed without a solver, and of how many.
-        checked, total: worlds, for EXHAUSTED.
-        counterexample: the world (its id) or the structure that refutes it.
-        history: doors that show it in that world.
-        certificate: of an unsatisfiable query, where one was asked for.
-        note: one sentence more: what was unknown, what is shown.
+        replayed: how many of the models found were replayed without a solver, and of how many.
+        checked, total: for EXHAUSTED, the worlds judged and the worlds there are.
+        counterexample: the id of the world that refutes the theorem, or the structure in one line.
+        history: the doors of a walk that shows it in that world.
+        certificate: of the unsatisfiable queries, where one was asked for.
+        note: one sentence for people, such as the reason for UNKNOWN.
     """
 
     verdict: Verdict
@@ -122,32 +127,32 @@ class Outcome:
     total: int | None = None
     counterexample: str | None = None
     history: tuple[int, ...] | None = None
-    certificate: Certificate | None = None
+    certificate: RefutationCertificate | None = None
     note: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Theorem:
-    """A statement, how it is proved, and what it is good for.
+    """A statement, the claims that rest on it, and the function that proves it.
 
     Attributes:
-        name: lower case with dashes; in all rooms the same for the same thing.
-        kind: see the head of this file.
+        name: lower case with dashes. Scripts use it, so it never changes.
+        kind: one of the five in the table at the head of this file.
         claims: the claims of docs/semantics.md, section 9, that rest on it, by their names.
         words, symbols: the statement in words, and as it is given to the solver.
         solver_part: what the solver proves.
         argued: the steps that are argued in words, by their names in docs/proofs.md.
         assumed: what nobody proves here.
         expected: the verdict if all is well.
-        prove: has it proved or refuted; never raises for a time-out.
-        queries: the questions put to the solver, for other solvers and for export.
-        edges: the number of edges, for what is bounded; the largest if there are several.
-        of: for a mutant, the theorem that it changes.
-        deep: too long for every day: only with `--deep`, or by name.
+        prove: tries to prove or to refute it. A time-out is a result, never an exception.
+        queries: the questions behind it, for export and for a second solver.
+        edges: for a bounded theorem, the largest number of edges of its worlds.
+        of: for a mutant, the name of the theorem that it changes.
+        deep: it takes minutes, and is proved only with `--deep` or by name.
     """
 
     name: str
-    kind: Kind
+    kind: TheoremKind
     claims: tuple[str, ...]
     words: str
     symbols: str
@@ -155,14 +160,15 @@ class Theorem:
     argued: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
     expected: Verdict
-    prove: Callable[[Budget], Outcome]
+    prove: Callable[[Budget], TheoremResult]
     queries: Callable[[], Iterator[Query]]
     edges: int | None = None
     of: str | None = None
     deep: bool = False
 
-    def ok(self, outcome: Outcome) -> bool:
-        """Is the outcome what it must be? Vacuous, unknown, not replayed: none of these is."""
+    def ok(self, outcome: TheoremResult) -> bool:
+        """Is this the expected result, with nothing vacuous, unknown, unreplayed or refused?"""
+        # `expected` is never UNKNOWN; the chain makes sure that no slip there turns into a pass.
         replayed = outcome.replayed
         certificate = outcome.certificate
         return (
@@ -173,8 +179,8 @@ class Theorem:
             and (certificate is None or certificate.checked)
         )
 
-    def standing(self, outcome: Outcome) -> Standing:
-        """`ok`; `failed`: decided, and not as it must be; `open`: all else, which is no pass."""
+    def status(self, outcome: TheoremResult) -> ResultStatus:
+        """Whether the result is `ok`; if not, whether it is a definite one (see `ResultStatus`)."""
         if self.ok(outcome):
             return "ok"
         return "open" if outcome.verdict in ("UNKNOWN", self.expected) else "failed"

@@ -8,7 +8,7 @@ import pytest
 
 from topo_verify.proofs.bounded import door_steps
 from topo_verify.proofs.bounded.cnf import REFUTED, Formula
-from topo_verify.proofs.bounded.solve import decide, first_model, models
+from topo_verify.proofs.bounded.solve import first_model, models, solve
 from topo_verify.proofs.theorem import Budget
 
 BUDGET = Budget()
@@ -81,4 +81,4 @@ def test_a_contradiction_has_no_first_model() -> None:
     formula.add("yes", x)
     formula.add("no", -x)
     assert first_model(formula, (x,), BUDGET).answer == "unsat"
-    assert decide(formula, BUDGET).core == ("no", "yes")
+    assert solve(formula, BUDGET).core == ("no", "yes")

@@ -10,27 +10,33 @@ import pytest
 from topo_verify.errors import InputError
 from topo_verify.proofs.bounded import door_steps, drup, word_rules
 from topo_verify.proofs.bounded.cnf import Formula
-from topo_verify.proofs.bounded.drup import Refutation, certify, objection, refute, together
-from topo_verify.proofs.bounded.statements import ONE_DOOR, WORDS, Statement
+from topo_verify.proofs.bounded.drup import DrupRefutation, certify, objection, refute, together
+from topo_verify.proofs.bounded.statements import (
+    ONE_DOOR_STATEMENTS,
+    WHOLE_WORD_STATEMENTS,
+    BoundedStatement,
+)
 from topo_verify.proofs.bounded.theorems import theorem
-from topo_verify.proofs.theorem import Budget, Certificate
+from topo_verify.proofs.theorem import Budget, RefutationCertificate
 
 pytest.importorskip("pysat", reason="python-sat is not installed: topo-verify[proofs]")
 pytest.importorskip("drup", reason="drup is not installed: topo-verify[proofs]")
 
 
-def named(name: str) -> Statement:
-    (statement,) = (one for one in (*ONE_DOOR, *WORDS) if one.name == name)
+def named(name: str) -> BoundedStatement:
+    (statement,) = (
+        one for one in (*ONE_DOOR_STATEMENTS, *WHOLE_WORD_STATEMENTS) if one.name == name
+    )
     return statement
 
 
-def refuted(formula: Formula) -> Refutation:
+def refuted(formula: Formula) -> DrupRefutation:
     refutation = refute(formula)
-    assert isinstance(refutation, Refutation)
+    assert isinstance(refutation, DrupRefutation)
     return refutation
 
 
-@pytest.mark.parametrize("name", [one.name for one in ONE_DOOR])
+@pytest.mark.parametrize("name", [one.name for one in ONE_DOOR_STATEMENTS])
 def test_one_door_theorems_up_to_two_edges_carry_a_checked_certificate(name: str) -> None:
     one = theorem(named(name), range(1, 3))
     outcome = one.prove(Budget(certify=True))
@@ -67,13 +73,13 @@ def test_a_proof_that_does_not_end_in_the_empty_clause_is_refused() -> None:
 
 def test_a_refutation_of_other_clauses_is_refused() -> None:
     formula = door_steps.closed(2)
-    other = Refutation(((1,), (-1,)), ((),))
+    other = DrupRefutation(((1,), (-1,)), ((),))
     assert "not those of the formula" in objection(formula, other)
 
 
 def test_no_proof_makes_satisfiable_clauses_contradict() -> None:
     premises = door_steps.closed(2).premises()
-    bogus = Refutation(tuple(premises.clauses), ((1,), (-1,), ()))
+    bogus = DrupRefutation(tuple(premises.clauses), ((1,), (-1,), ()))
     assert "refuses" in objection(premises, bogus)
     assert certify(premises) == "the SAT solver finds that the clauses can all hold"
 
@@ -104,7 +110,7 @@ def test_what_is_too_long_for_the_checker_has_no_certificate_and_says_so() -> No
 
 
 def test_several_are_checked_only_if_all_are() -> None:
-    good = Certificate(format="drup", checker="drup", checked=True, clauses=2, steps=3)
+    good = RefutationCertificate(format="drup", checker="drup", checked=True, clauses=2, steps=3)
     bad = replace(good, checked=False, why="refused")
     assert together([good, good]) == replace(good, checker=drup.checker(), clauses=4, steps=6)
     assert (together([good, bad]).checked, together([good, bad]).why) == (False, "refused")

@@ -10,9 +10,9 @@ import pytest
 from tests.helpers import worlds
 from topo_verify import World
 from topo_verify.proofs.bounded.decode import decode_world
-from topo_verify.proofs.bounded.encoding import Marker, Worlds
-from topo_verify.proofs.bounded.solve import decide, models
-from topo_verify.proofs.bounded.words import doors, walk
+from topo_verify.proofs.bounded.encoding import MarkerDetail, Worlds
+from topo_verify.proofs.bounded.solve import models, solve
+from topo_verify.proofs.bounded.walks import doors, walk
 from topo_verify.proofs.theorem import Budget
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import exit_dart, percepts
@@ -104,7 +104,7 @@ def test_a_walk_in_clauses_is_the_walk_of_the_simulator(world: World) -> None:
     walked = walk(encoded, "walk", start, row)
     for literals, door in zip(row, word, strict=True):
         encoded.add("word", literals[door])
-    model = decide(encoded, BUDGET).model
+    model = solve(encoded, BUDGET).model
     for place, sense in zip(walked.at, walked.senses, strict=True):
         if model is not None:
             assert model.index(place) == at
@@ -123,7 +123,7 @@ def test_a_walk_in_clauses_is_the_walk_of_the_simulator(world: World) -> None:
     assert model is not None
 
 
-LOOKED: dict[Marker, Callable[[Percept], object]] = {
+LOOKED: dict[MarkerDetail, Callable[[Percept], object]] = {
     "directed": lambda percept: percept,
     "undirected": lambda percept: percept.signature,
     "none": lambda percept: percept.degree,
@@ -131,7 +131,7 @@ LOOKED: dict[Marker, Callable[[Percept], object]] = {
 
 
 @pytest.mark.parametrize("marker", LOOKED)
-def test_percepts_are_alike_as_far_as_the_marker_is_looked_at(marker: Marker) -> None:
+def test_percepts_are_alike_as_far_as_the_marker_is_looked_at(marker: MarkerDetail) -> None:
     for world in worlds([2]):
         world = World.from_code(world.code)  # noqa: PLW2901  numbered by its code
         seen = percepts(world)
@@ -144,6 +144,6 @@ def test_percepts_are_alike_as_far_as_the_marker_is_looked_at(marker: Marker) ->
                 encoded.add("at", places[1][other])
                 senses = [encoded.sense("at", at, f"sense.{i}") for i, at in enumerate(places)]
                 alike = encoded.alike("at", senses[0], senses[1], "same", marker)
-                model = decide(encoded, BUDGET).model
+                model = solve(encoded, BUDGET).model
                 assert model is not None
                 assert model.holds(alike) == (looked(seen[one]) == looked(seen[other]))

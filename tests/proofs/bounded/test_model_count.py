@@ -9,7 +9,7 @@ import pytest
 from topo_verify.proofs.bounded import model_count
 from topo_verify.proofs.bounded.encoding import Worlds
 from topo_verify.proofs.bounded.model_count import codes, every_world, missing_and_spurious
-from topo_verify.proofs.bounded.solve import Undecided
+from topo_verify.proofs.bounded.solve import SolverGaveUp
 from topo_verify.proofs.bounded.theorems import worlds_theorem
 from topo_verify.proofs.theorem import Budget
 from topo_verify.world.enumeration import rank_order
@@ -79,5 +79,5 @@ def test_an_encoding_that_loses_a_world_is_refuted(monkeypatch: pytest.MonkeyPat
 
 
 def test_a_solver_that_gives_up_has_not_listed_all() -> None:
-    with pytest.raises(Undecided):
+    with pytest.raises(SolverGaveUp):
         list(codes(4, budget=Budget(rlimit=1)))

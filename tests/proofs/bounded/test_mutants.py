@@ -14,13 +14,13 @@ from tests.helpers import failing, worlds
 from topo_verify import World
 from topo_verify.harness.run import explore
 from topo_verify.proofs.bounded import negatives, word_rules
-from topo_verify.proofs.bounded.decode import Story, decode, telling
-from topo_verify.proofs.bounded.mutants import mutants, negative
+from topo_verify.proofs.bounded.decode import Counterexample, decode, decoded_booleans
+from topo_verify.proofs.bounded.mutants import mutant_theorems, negative_theorems
 from topo_verify.proofs.bounded.negatives import SMALLEST, Negative, false_confirmation
 from topo_verify.proofs.bounded.replay import Disagreement, replay_confirmation, replay_rejection
-from topo_verify.proofs.bounded.solve import decide, first_model, models
-from topo_verify.proofs.bounded.word_rules import Play
-from topo_verify.proofs.bounded.words import Fault
+from topo_verify.proofs.bounded.solve import first_model, models, solve
+from topo_verify.proofs.bounded.walks import RuleFault
+from topo_verify.proofs.bounded.word_rules import EncodedCounterexample
 from topo_verify.proofs.theorem import Budget, Theorem
 from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.enumeration.classes import WorldClass
@@ -28,7 +28,9 @@ from topo_verify.world.enumeration.classes import WorldClass
 BUDGET = Budget()
 
 
-@pytest.mark.parametrize("one", [*negative(), *mutants()], ids=lambda one: one.name)
+@pytest.mark.parametrize(
+    "one", [*negative_theorems(), *mutant_theorems()], ids=lambda one: one.name
+)
 def test_it_is_refuted_by_a_world_that_replays(one: Theorem) -> None:
     outcome = one.prove(BUDGET)
     assert (outcome.verdict, outcome.replayed) == ("REFUTED", (1, 1))
@@ -43,16 +45,16 @@ def test_it_is_refuted_by_a_world_that_replays(one: Theorem) -> None:
 @pytest.mark.parametrize("case", SMALLEST, ids=lambda case: case.name)
 def test_below_its_size_there_is_no_such_world(case: Negative) -> None:
     for edges in range(1, case.edges):
-        play = false_confirmation(edges, case.world_class, case.marker)
-        assert decide(play.world, BUDGET).answer == "unsat"
-        assert decide(negatives.premises(edges, case.world_class), BUDGET).answer == "sat"
+        encoded = false_confirmation(edges, case.world_class, case.marker)
+        assert solve(encoded.world, BUDGET).answer == "unsat"
+        assert solve(negatives.premises(edges, case.world_class), BUDGET).answer == "sat"
 
 
 @pytest.mark.parametrize("world_class", ["any", "loopless", "simple"])
 def test_with_the_direction_there_is_no_such_world_at_any_of_these_sizes(world_class: str) -> None:
     for edges in (1, 2, 3):
-        play = false_confirmation(edges, world_class, "directed")
-        assert decide(play.world, BUDGET).answer == "unsat"
+        encoded = false_confirmation(edges, world_class, "directed")
+        assert solve(encoded.world, BUDGET).answer == "unsat"
 
 
 @pytest.mark.parametrize("case", SMALLEST, ids=lambda case: case.name)
@@ -70,16 +72,16 @@ def test_the_sizes_are_those_at_which_a_mapper_confirms_what_is_false(case: Nega
 
 @pytest.mark.parametrize("case", [case for case in SMALLEST if case.edges < 4], ids=repr)
 def test_every_model_of_a_negative_replays(case: Negative) -> None:
-    play = false_confirmation(case.edges, case.world_class, case.marker)
+    encoded = false_confirmation(case.edges, case.world_class, case.marker)
     replayed = [
-        replay_confirmation(decode(play, model), case.marker)
-        for model in islice(models(play.world, telling(play), BUDGET), 40)
+        replay_confirmation(decode(encoded, model), case.marker)
+        for model in islice(models(encoded.world, decoded_booleans(encoded), BUDGET), 40)
     ]
     assert replayed
     assert {replay.claim for replay in replayed} == {"no-false-confirm"}
 
 
-FAULTS: list[tuple[str, Callable[[int, int], Play], Fault]] = [
+FAULTS: list[tuple[str, Callable[[int, int], EncodedCounterexample], RuleFault]] = [
     ("trace", partial(word_rules.trace_way, fault="turned"), "turned"),
     ("prefix", partial(word_rules.prefix, fault="one-more"), "one-more"),
     ("history", partial(word_rules.history, fault="absolute-doors"), "absolute-doors"),
@@ -91,47 +93,47 @@ FAULTS: list[tuple[str, Callable[[int, int], Play], Fault]] = [
 
 @pytest.mark.parametrize(("rule", "build", "fault"), FAULTS)
 def test_many_models_of_a_faulty_rule_replay(
-    rule: str, build: Callable[[int, int], Play], fault: Fault
+    rule: str, build: Callable[[int, int], EncodedCounterexample], fault: RuleFault
 ) -> None:
-    play = build(3, 3)
-    for model in islice(models(play.world, telling(play), BUDGET), 20):
-        replay = replay_rejection(decode(play, model), rule, fault)
+    encoded = build(3, 3)
+    for model in islice(models(encoded.world, decoded_booleans(encoded), BUDGET), 20):
+        replay = replay_rejection(decode(encoded, model), rule, fault)
         assert replay.claim == "true-hypothesis-kept"
 
 
-def _story(case: Negative) -> Story:
-    play = false_confirmation(case.edges, case.world_class, case.marker)
-    model = first_model(play.world, telling(play), BUDGET).model
+def _story(case: Negative) -> Counterexample:
+    encoded = false_confirmation(case.edges, case.world_class, case.marker)
+    model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
     assert model is not None
-    return decode(play, model)
+    return decode(encoded, model)
 
 
 def test_a_story_that_is_not_true_does_not_replay() -> None:
-    story = _story(Negative("undirected", "loopless", 3))
-    assert replay_confirmation(story, "undirected").world.id == "m3/27"
-    true = story.world.alpha[story.e]
+    counterexample = _story(Negative("undirected", "loopless", 3))
+    assert replay_confirmation(counterexample, "undirected").world.id == "m3/27"
+    true = counterexample.world.alpha[counterexample.e]
     with pytest.raises(Disagreement, match="no-false-confirm does not fail"):
-        replay_confirmation(replace(story, h=true, word=()), "undirected")
+        replay_confirmation(replace(counterexample, h=true, word=()), "undirected")
     with pytest.raises(Disagreement):
-        replay_confirmation(story, "directed")
+        replay_confirmation(counterexample, "directed")
 
 
 def test_a_rule_without_its_fault_rejects_nothing() -> None:
-    play = word_rules.history(2, 2, fault="absolute-doors")
-    model = first_model(play.world, telling(play), BUDGET).model
+    encoded = word_rules.history(2, 2, fault="absolute-doors")
+    model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
     assert model is not None
     with pytest.raises(Disagreement, match="rejects nothing"):
-        replay_rejection(decode(play, model), "history", "")
+        replay_rejection(decode(encoded, model), "history", "")
 
 
 def test_the_counterexample_is_the_same_in_every_run() -> None:
-    (theorem,) = (one for one in negative() if one.name == "undirected-simple")
+    (theorem,) = (one for one in negative_theorems() if one.name == "undirected-simple")
     first, again = theorem.prove(BUDGET), theorem.prove(Budget(seed=7))
     assert (first.counterexample, first.history) == (again.counterexample, again.history)
 
 
 def test_where_nothing_is_found_the_negative_is_not_refuted() -> None:
-    (theorem,) = (one for one in negative() if one.name == "undirected-simple")
+    (theorem,) = (one for one in negative_theorems() if one.name == "undirected-simple")
     outcome = theorem.prove(Budget(rlimit=1000))
     assert outcome.verdict == "UNKNOWN"
     assert "--timeout" in outcome.note

@@ -12,8 +12,12 @@ from topo_verify.proofs.bounded import door_steps, word_rules
 from topo_verify.proofs.bounded import theorems as room
 from topo_verify.proofs.bounded.cnf import REFUTED
 from topo_verify.proofs.bounded.encoding import Worlds
-from topo_verify.proofs.bounded.solve import decide
-from topo_verify.proofs.bounded.statements import ONE_DOOR, WORDS, Statement
+from topo_verify.proofs.bounded.solve import solve
+from topo_verify.proofs.bounded.statements import (
+    ONE_DOOR_STATEMENTS,
+    WHOLE_WORD_STATEMENTS,
+    BoundedStatement,
+)
 from topo_verify.proofs.bounded.theorems import bounded, theorem
 from topo_verify.proofs.theorem import Budget, Theorem
 from topo_verify.world.enumeration import rank_order
@@ -22,7 +26,7 @@ BUDGET = Budget()
 
 
 @pytest.mark.parametrize(
-    "one", [theorem(s, range(1, 5)) for s in ONE_DOOR], ids=lambda one: one.name
+    "one", [theorem(s, range(1, 5)) for s in ONE_DOOR_STATEMENTS], ids=lambda one: one.name
 )
 def test_one_door_theorems_hold_in_all_worlds_up_to_four_edges(one: Theorem) -> None:
     outcome = one.prove(BUDGET)
@@ -31,7 +35,9 @@ def test_one_door_theorems_hold_in_all_worlds_up_to_four_edges(one: Theorem) -> 
     assert one.ok(outcome)
 
 
-@pytest.mark.parametrize("one", [theorem(s, range(1, 4)) for s in WORDS], ids=lambda one: one.name)
+@pytest.mark.parametrize(
+    "one", [theorem(s, range(1, 4)) for s in WHOLE_WORD_STATEMENTS], ids=lambda one: one.name
+)
 def test_whole_words_hold_in_all_worlds_up_to_three_edges(one: Theorem) -> None:
     outcome = one.prove(BUDGET)
     assert one.ok(outcome), outcome
@@ -70,13 +76,13 @@ NEEDED = [
 
 @pytest.mark.parametrize(("build", "premise"), NEEDED)
 def test_without_this_premise_it_is_false(
-    build: Callable[[int], Worlds | word_rules.Play], premise: str
+    build: Callable[[int], Worlds | word_rules.EncodedCounterexample], premise: str
 ) -> None:
     built = build(3)
     formula = built if isinstance(built, Worlds) else built.world
-    assert decide(formula, BUDGET).answer == "unsat"
+    assert solve(formula, BUDGET).answer == "unsat"
     del formula.groups[premise]
-    assert decide(formula, BUDGET).answer == "sat"
+    assert solve(formula, BUDGET).answer == "sat"
 
 
 def _false(edges: int) -> Worlds:
@@ -89,8 +95,8 @@ def _vacuous(edges: int) -> Worlds:
     return world
 
 
-def _statement(refuted: Callable[[int], Worlds]) -> Statement:
-    return Statement(name="planted", claims=(), words="", symbols="", refuted=refuted)
+def _statement(refuted: Callable[[int], Worlds]) -> BoundedStatement:
+    return BoundedStatement(name="planted", claims=(), words="", symbols="", refuted=refuted)
 
 
 def test_a_false_theorem_is_refuted_by_a_world() -> None:
@@ -108,9 +114,9 @@ def test_a_vacuous_theorem_is_no_pass() -> None:
 
 
 def test_a_theorem_on_words_is_vacuous_where_no_word_is_compared() -> None:
-    assert decide(word_rules.history(1, 1).world, BUDGET).answer == "unsat"
-    assert decide(word_rules.history(1, 1).world.premises(), BUDGET).answer == "unsat"
-    assert decide(word_rules.history(2, 2).world.premises(), BUDGET).answer == "sat"
+    assert solve(word_rules.history(1, 1).world, BUDGET).answer == "unsat"
+    assert solve(word_rules.history(1, 1).world.premises(), BUDGET).answer == "unsat"
+    assert solve(word_rules.history(2, 2).world.premises(), BUDGET).answer == "sat"
 
 
 def test_unknown_is_no_pass_and_tells_the_mend() -> None:

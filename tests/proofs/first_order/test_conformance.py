@@ -18,7 +18,7 @@ from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.exploration import hypotheses as exploration_hypotheses
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
-from topo_verify.proofs.first_order.conformance import Described, compare
+from topo_verify.proofs.first_order.conformance import DescribedRule, compare
 from topo_verify.proofs.first_order.rules import RULES
 from topo_verify.proofs.first_order.terms import conj, neg
 from topo_verify.robot.events import Reject, Trace
@@ -39,7 +39,7 @@ DESCRIBED: dict[str, tuple[str, int | None]] = {
 def differences(trace: Trace, name: str, **more: object) -> list[str]:
     """Where a run decides otherwise than the described rules of this algorithm."""
     rule, levels = DESCRIBED[name]
-    return list(compare(trace, Described(rule, levels, **more)))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    return list(compare(trace, DescribedRule(rule, levels, **more)))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
 
 
 def alike_places() -> Iterator[World]:

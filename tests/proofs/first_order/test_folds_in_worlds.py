@@ -9,7 +9,7 @@ from tests.helpers import any_world, trace_of, worlds
 from topo_verify import World
 from topo_verify.checkers import Fold
 from topo_verify.proofs.first_order.axioms import AXIOMS
-from topo_verify.proofs.first_order.obligations.folded import CLOSED, FITS, PI_ROT, pi, same
+from topo_verify.proofs.first_order.obligations.folds import CLOSED, FITS, PI_ROT, pi, same
 from topo_verify.proofs.first_order.run_structure import binary, nullary, unary
 from topo_verify.proofs.first_order.structures import Function, Structure
 from topo_verify.proofs.first_order.terms import Var, eq, forall, implies

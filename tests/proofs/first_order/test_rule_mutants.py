@@ -16,8 +16,8 @@ from topo_verify.proofs.first_order.mutants import (
     RuleMutant,
     theorem,
 )
-from topo_verify.proofs.first_order.mutants.folding import PLANAR as PLANAR_SCENE
-from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.mutants.fold_steps import PLANAR as PLANAR_SCENE
+from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.terms import Term
 from topo_verify.proofs.first_order.theorems import INDUCTIVE
 from topo_verify.proofs.theorem import Budget, Theorem
@@ -63,7 +63,7 @@ def test_no_smaller_scene_shows_it(mutant: RuleMutant) -> None:
             assert answer == "unsat", (edges, known, why)
 
 
-def never(_stage: Stage, _rule: Term) -> bool:
+def never(_stage: SceneReplay, _rule: Term) -> bool:
     return False
 
 
@@ -77,7 +77,7 @@ def test_a_mutant_without_a_scene_is_not_refuted() -> None:
     one = theorem(replace(RULE_MUTANTS[0], size=(1, 1)))
     outcome = one.prove(BUDGET)
     assert outcome.verdict == "EXHAUSTED"
-    assert one.standing(outcome) == "failed"
+    assert one.status(outcome) == "failed"
 
 
 def test_a_stage_draws_the_map_of_the_scene() -> None:
@@ -86,7 +86,7 @@ def test_a_stage_draws_the_map_of_the_scene() -> None:
     scene, answer, _ = scenes.find(mutant.scene, BUDGET, edges=edges, known=known)
     assert (answer, scene is not None) == ("sat", True)
     assert scene is not None
-    whole, part = Stage(scene), Stage(scene, without=mutant.without)
+    whole, part = SceneReplay(scene), SceneReplay(scene, without=mutant.without)
     assert len(whole.chart.alpha) == len(part.chart.alpha) == known
-    explored = [sum(a is not None for a in stage.chart.alpha) for stage in (whole, part)]
+    explored = [sum(a is not None for a in replay.chart.alpha) for replay in (whole, part)]
     assert explored[0] == len(scene.explored) == explored[1] + 2

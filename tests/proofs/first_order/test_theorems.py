@@ -10,9 +10,14 @@ from topo_verify.proofs.first_order.axioms import AXIOMS, LEMMAS, phi
 from topo_verify.proofs.first_order.obligations import OBLIGATIONS, Obligation
 from topo_verify.proofs.first_order.obligations.obligation import A, B, X
 from topo_verify.proofs.first_order.terms import eq, neg
-from topo_verify.proofs.first_order.theorems import AXIOM_MUTANTS, INDUCTIVE, mutant, theorem
-from topo_verify.proofs.solvers import z3_solver
-from topo_verify.proofs.theorem import Budget, Outcome, Theorem
+from topo_verify.proofs.first_order.theorems import (
+    AXIOM_MUTANTS,
+    INDUCTIVE,
+    mutant,
+    refute,
+    theorem,
+)
+from topo_verify.proofs.theorem import Budget, Theorem, TheoremResult
 
 NAMES = [obligation.name for obligation in OBLIGATIONS]
 BY_NAME = {obligation.name: obligation for obligation in OBLIGATIONS}
@@ -82,11 +87,11 @@ def test_a_lemma_says_what_its_induction_proves() -> None:
             continue
         base = BY_NAME[f"{name}-base"]
         premises = {"lemma": AXIOMS[lemma], "base-fails": neg(base.goal)}
-        assert z3_solver.prove(premises, BUDGET).answer == "unsat", lemma
+        assert refute(premises, BUDGET).answer == "unsat", lemma
         step = BY_NAME[f"{name}-step"]
         premises = {"lemma": AXIOMS[lemma], "step-fails": neg(step.goal)}
         if lemma != "turning-adds":
-            assert z3_solver.prove(premises, BUDGET).answer == "unsat", lemma
+            assert refute(premises, BUDGET).answer == "unsat", lemma
 
 
 def test_the_claims_that_rest_on_them_are_claims() -> None:
@@ -121,7 +126,7 @@ def test_what_does_not_follow_is_unknown_and_no_pass() -> None:
     outcome = one.prove(BUDGET)
     assert outcome.verdict == "UNKNOWN"
     assert "unknown" in outcome.note or "sat" in outcome.note
-    assert one.standing(outcome) == "open"
+    assert one.status(outcome) == "open"
 
 
 def test_a_vacuous_theorem_is_proved_and_no_pass() -> None:
@@ -129,7 +134,7 @@ def test_a_vacuous_theorem_is_proved_and_no_pass() -> None:
     outcome = one.prove(BUDGET)
     assert (outcome.verdict, outcome.premises_satisfiable) == ("PROVED", False)
     assert "vacuous" in outcome.note
-    assert one.standing(outcome) == "open"
+    assert one.status(outcome) == "open"
 
 
 def test_a_time_out_is_unknown() -> None:
@@ -142,24 +147,24 @@ def test_a_mutant_that_holds_is_not_refuted() -> None:
     one = mutant(BY_NAME["confirm-final"], "map-v0-sees-root")  # the others imply it
     outcome = one.prove(BUDGET)
     assert outcome.verdict != "REFUTED"
-    assert one.standing(outcome) == "failed"
+    assert one.status(outcome) == "failed"
 
 
 @pytest.mark.parametrize(
     ("outcome", "standing"),
     [
-        (Outcome(verdict="PROVED", solver="", premises_satisfiable=True), "ok"),
-        (Outcome(verdict="PROVED", solver="", premises_satisfiable=None), "open"),
-        (Outcome(verdict="UNKNOWN", solver=""), "open"),
-        (Outcome(verdict="REFUTED", solver=""), "failed"),
+        (TheoremResult(verdict="PROVED", solver="", premises_satisfiable=True), "ok"),
+        (TheoremResult(verdict="PROVED", solver="", premises_satisfiable=None), "open"),
+        (TheoremResult(verdict="UNKNOWN", solver=""), "open"),
+        (TheoremResult(verdict="REFUTED", solver=""), "failed"),
         (
-            Outcome(verdict="PROVED", solver="", premises_satisfiable=True, replayed=(1, 2)),
+            TheoremResult(verdict="PROVED", solver="", premises_satisfiable=True, replayed=(1, 2)),
             "open",
         ),
     ],
 )
-def test_only_what_is_as_it_must_be_is_ok(outcome: Outcome, standing: str) -> None:
-    assert INDUCTIVE[0].standing(outcome) == standing
+def test_only_what_is_as_it_must_be_is_ok(outcome: TheoremResult, status: str) -> None:
+    assert INDUCTIVE[0].status(outcome) == status
 
 
 def test_a_structure_that_is_none_is_a_bug() -> None:

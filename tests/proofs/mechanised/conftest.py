@@ -24,7 +24,7 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("library")
     toolchain.copy_library(folder, toolchain.files())
     ran = toolchain.compile_all(folder, toolchain.files(), timeout=LIMIT)
-    assert ran.accepted, ran.said
+    assert ran.accepted, ran.output
     return folder
 
 

@@ -15,8 +15,8 @@ from topo_verify import World, families
 from topo_verify.checkers.certificate import certify
 from topo_verify.errors import InputError
 from topo_verify.proofs.mechanised import certificates, toolchain
-from topo_verify.proofs.mechanised.evidence import Alone, Arrive, Illegal, Marked, Row
-from topo_verify.proofs.mechanised.vernacular import Certificate, coq_file
+from topo_verify.proofs.mechanised.evidence import Alone, Arrive, Illegal, MapRow, Marked
+from topo_verify.proofs.mechanised.vernacular import CoqCertificate, coq_file
 from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.percept import Percept
 
@@ -54,11 +54,11 @@ def stated(trace: tuple[Event, ...]) -> str:
     return "undetermined" if verdict.witnesses else "impossible"
 
 
-def by_coqc(place: Path, certificate: Certificate) -> certificates.Checked:
+def by_coqc(place: Path, certificate: CoqCertificate) -> certificates.CertificateCheck:
     return certificates.by_kernel(place, "Log_of_the_test", coq_file(certificate), timeout=LIMIT)
 
 
-def without_merges(certificate: Certificate) -> Certificate:
+def without_merges(certificate: CoqCertificate) -> CoqCertificate:
     return replace(certificate, fold=replace(certificate.fold, meetings=()))
 
 
@@ -106,7 +106,7 @@ def test_the_world_without_edges_and_negative_numbers_are_outside() -> None:
 @pytest.mark.parametrize("cut", [len(LATTICE), len(LATTICE) // 2])
 def test_coqc_accepts_a_certificate_and_names_no_axiom(place: Path, cut: int) -> None:
     certificate = certificates.state(LATTICE[:cut])
-    assert by_coqc(place, certificate) == certificates.Checked(True, toolchain.version())
+    assert by_coqc(place, certificate) == certificates.CertificateCheck(True, toolchain.version())
 
 
 @pytest.mark.parametrize("kind", [Arrive, Marked, Alone, Illegal])
@@ -121,8 +121,8 @@ def test_coqc_refuses_a_tampered_map(place: Path) -> None:
     certificate = certificates.state(LATTICE)
     table = list(certificate.fold.table)
     table[0], table[1] = (
-        Row(table[0].following, table[0].previous, table[1].other),
-        Row(table[1].following, table[1].previous, table[0].other),
+        MapRow(table[0].following, table[0].previous, table[1].other),
+        MapRow(table[1].following, table[1].previous, table[0].other),
     )
     forged = replace(certificate, fold=replace(certificate.fold, table=tuple(table)))
     assert by_coqc(place, forged).accepted is False
@@ -203,7 +203,7 @@ def test_long_logs_go_to_the_extracted_program(
 
     told: list[str] = []
     monkeypatch.setattr(certificates, "build", linked)
-    with certificates.checking(timeout=LIMIT, tell=told.append) as check:
+    with certificates.checking(timeout=LIMIT, progress=told.append) as check:
         assert check("short", certificates.state(LATTICE)).by == toolchain.version()
         monkeypatch.setattr(certificates, "LONG", 10)
         if shutil.which("ocamlfind"):

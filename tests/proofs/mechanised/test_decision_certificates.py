@@ -19,9 +19,9 @@ from topo_verify import World, families
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.proofs.mechanised import certificates, toolchain, vernacular
 from topo_verify.proofs.mechanised import decision_evidence as evidence
-from topo_verify.proofs.mechanised.decision_evidence import Decided, Fact, Refutation
+from topo_verify.proofs.mechanised.decision_evidence import EdgeRefutation, EntailedDecision, Fact
 from topo_verify.proofs.mechanised.evidence import Alone, Arc
-from topo_verify.proofs.mechanised.vernacular import Certificate, coq_file
+from topo_verify.proofs.mechanised.vernacular import CoqCertificate, coq_file
 from topo_verify.robot.events import Reject
 from topo_verify.world.enumeration.rank_order import count
 
@@ -32,7 +32,7 @@ def some(edges: int, number: int) -> list[World]:
 
 
 @cache
-def runs() -> tuple[Certificate, ...]:
+def runs() -> tuple[CoqCertificate, ...]:
     """Every algorithm in every world of up to 2 edges, and in some of 3 to 5."""
     small = [*worlds((1, 2)), *some(3, 4), *some(4, 3), *some(5, 3)]
     found = [
@@ -49,11 +49,11 @@ def runs() -> tuple[Certificate, ...]:
 
 
 @cache
-def lattice() -> Certificate:
+def lattice() -> CoqCertificate:
     return certificates.state(trace_of(families.lattice(3, 3)))
 
 
-def together(certificates: Sequence[Certificate]) -> str:
+def together(certificates: Sequence[CoqCertificate]) -> str:
     """Many certificates in one file, a module each, asked together what they rest on."""
     parts: list[str] = []
     for number, one in enumerate(certificates):
@@ -66,11 +66,11 @@ def together(certificates: Sequence[Certificate]) -> str:
     return "".join(parts)
 
 
-def by_coqc(place: Path, text: str) -> certificates.Checked:
+def by_coqc(place: Path, text: str) -> certificates.CertificateCheck:
     return certificates.by_kernel(place, "Decisions_of_the_test", text, timeout=LIMIT)
 
 
-def by_program(place: Path, certificate: Certificate) -> bool | None:
+def by_program(place: Path, certificate: CoqCertificate) -> bool | None:
     return certificates.extracted_decisions(place, certificate, timeout=LIMIT).accepted
 
 
@@ -80,7 +80,7 @@ def by_program(place: Path, certificate: Certificate) -> bool | None:
 def test_coqc_accepts_the_decisions_of_every_algorithm(place: Path) -> None:
     text = together(runs())
     assert text.count("Theorem decisions_follow") == len(runs()) > 150
-    assert by_coqc(place, text) == certificates.Checked(True, toolchain.version())
+    assert by_coqc(place, text) == certificates.CertificateCheck(True, toolchain.version())
 
 
 @needs_ocaml
@@ -133,7 +133,7 @@ def confirmed_instead(fact: Fact) -> Fact | None:
 
 def rejected_instead(fact: Fact) -> Fact | None:
     """A confirmation turned into a rejection."""
-    why = Refutation((), Alone(fact.visit))
+    why = EdgeRefutation((), Alone(fact.visit))
     return replace(fact, reason=why) if isinstance(fact.reason, Arc) else None
 
 
@@ -165,27 +165,27 @@ FORGERIES: tuple[Forgery, ...] = (
 )
 
 
-def with_facts(certificate: Certificate, facts: Sequence[Fact]) -> Certificate:
+def with_facts(certificate: CoqCertificate, facts: Sequence[Fact]) -> CoqCertificate:
     """The certificate with these facts in place of its own."""
-    stated = (Decided(0, "changed", tuple(facts)),)
+    stated = (EntailedDecision(0, "changed", tuple(facts)),)
     return replace(certificate, decisions=replace(certificate.decisions, stated=stated))
 
 
-def facts_of(certificate: Certificate) -> list[Fact]:
+def facts_of(certificate: CoqCertificate) -> list[Fact]:
     return [fact for one in certificate.decisions.stated for fact in one.facts]
 
 
-def forged(forgery: Forgery) -> list[Certificate]:
+def forged(forgery: Forgery) -> list[CoqCertificate]:
     """The lattice's certificate with one fact changed, for each that can be changed so."""
     facts = facts_of(lattice())
-    found: list[Certificate] = []
+    found: list[CoqCertificate] = []
     for number, fact in enumerate(facts):
         if (changed := forgery(fact)) is not None:
             found.append(with_facts(lattice(), [*facts[:number], changed, *facts[number + 1 :]]))
     return found
 
 
-def rearranged() -> list[Certificate]:
+def rearranged() -> list[CoqCertificate]:
     """Facts in another order, and without the merges of the log."""
     without = replace(lattice(), decisions=replace(lattice().decisions, merges=()))
     return [with_facts(lattice(), facts_of(lattice())[::-1]), without]
@@ -257,7 +257,7 @@ def linked(monkeypatch: pytest.MonkeyPatch, library: Path) -> None:
 @pytest.mark.usefixtures("linked")
 def test_decisions_are_checked_with_the_map_by_coqc() -> None:
     with certificates.checking(timeout=LIMIT) as check:
-        assert check("short", lattice()) == certificates.Checked(True, toolchain.version())
+        assert check("short", lattice()) == certificates.CertificateCheck(True, toolchain.version())
 
 
 @needs_ocaml

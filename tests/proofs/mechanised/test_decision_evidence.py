@@ -15,7 +15,11 @@ from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InternalError
 from topo_verify.proofs.mechanised import decision_evidence as module
 from topo_verify.proofs.mechanised import evidence
-from topo_verify.proofs.mechanised.decision_evidence import Fact, Refutation, decided
+from topo_verify.proofs.mechanised.decision_evidence import (
+    EdgeRefutation,
+    Fact,
+    evidence_for_decisions,
+)
 from topo_verify.proofs.mechanised.evidence import Alone, Arc, Conflict, Meeting
 from topo_verify.robot.events import Augment, Confirm, Move, Reject, Start, Trace
 from topo_verify.robot.percept import Percept
@@ -65,7 +69,7 @@ def folded(trace: Trace, moves: int) -> Fold:
 def holds(fold: Fold, fact: Fact) -> bool:
     """Does the fold show the fact? The checkers count visits from 0."""
     one, other = ((visit - 1, door) for visit, door in (fact.one, fact.other))
-    if isinstance(fact.reason, Refutation):
+    if isinstance(fact.reason, EdgeRefutation):
         return not fold.possible(one, other)
     return fold.partner(one) == fold.find(other)
 
@@ -74,21 +78,21 @@ def test_what_follows_is_stated_and_nothing_else() -> None:
     different = 0
     for trace in traces():
         certificate = certify(trace)
-        assert len(decided(trace).stated) == certificate.entailed
+        assert len(evidence_for_decisions(trace).stated) == certificate.entailed
         different += certificate.entailed < certificate.decisions
     assert different > 50
 
 
 def test_each_fact_holds_in_the_log_cut_after_its_visit() -> None:
     for trace in traces():
-        for one in decided(trace).stated:
+        for one in evidence_for_decisions(trace).stated:
             for fact in one.facts:
                 passed = trace[: one.when]
                 assert fact.visit == len(of_type(Start, passed)) + len(of_type(Move, passed))
                 assert holds(folded(trace, fact.visit - 1), fact)
 
 
-def said(run: ReplayedTrace, when: int) -> list[tuple[int, int, bool]]:
+def output(run: ReplayedTrace, when: int) -> list[tuple[int, int, bool]]:
     """What a decision says of darts of the world: an edge leads from one to the other, or none."""
     event, s = run.trace[when], run.map
     phi = [image for _, image in sorted(s.phi.items())]
@@ -110,7 +114,7 @@ def test_the_facts_are_what_was_decided_about_darts_of_the_world() -> None:
         run = ReplayedTrace(world, trace_of(world, [*PAPER, "folding"][number % 9]))
         moments = zip(run.positions, run.trace, strict=True)
         visits = [at for at, event in moments if isinstance(event, Start | Move)]
-        for one in decided(run.trace).stated:
+        for one in evidence_for_decisions(run.trace).stated:
             found: list[tuple[int, int, bool]] = []
             for fact in one.facts:
                 start, end = (
@@ -118,23 +122,23 @@ def test_the_facts_are_what_was_decided_about_darts_of_the_world() -> None:
                     for visit, door in (fact.one, fact.other)
                 )
                 found.append((start, end, isinstance(fact.reason, Arc)))
-            assert found == said(run, one.when)
+            assert found == output(run, one.when)
             news += len(found) > 1
     assert news > 50
 
 
 def test_a_new_vertex_is_where_the_robot_came_in_and_no_other_unexplored_dart() -> None:
     trace = trace_of(families.lattice(3, 3))
-    first = next(one for one in decided(trace).stated if "new vertex" in one.words)
+    first = next(one for one in evidence_for_decisions(trace).stated if "new vertex" in one.words)
     assert first.when == place(trace, Augment)
     leads, *rest = first.facts
     assert (leads.one, leads.other, leads.reason) == ((1, 0), (2, 0), Arc(True, 1))
     assert [(fact.one, fact.other) for fact in rest] == [((1, 0), (1, 1))]
-    assert all(isinstance(fact.reason, Refutation) for fact in rest)
+    assert all(isinstance(fact.reason, EdgeRefutation) for fact in rest)
 
 
 def test_a_new_vertex_may_be_where_the_robot_came_from() -> None:
-    new, loop = decided(BACKWARDS).stated
+    new, loop = evidence_for_decisions(BACKWARDS).stated
     assert [(fact.one, fact.other) for fact in new.facts] == [((1, 1), (2, 1)), ((1, 1), (1, 0))]
     assert [(fact.one, fact.other) for fact in loop.facts] == [((1, 0), (2, 0))]
     assert certify(BACKWARDS).entailed == 2
@@ -145,15 +149,15 @@ def test_a_dart_is_not_its_own_partner_and_that_may_be_the_only_conflict() -> No
     when = place(trace, Reject)
     rejected = trace[when]
     assert isinstance(rejected, Reject)
-    changed = decided(edited(trace, when, hypothesis=rejected.edge))
+    changed = evidence_for_decisions(edited(trace, when, hypothesis=rejected.edge))
     (fact,) = next(one.facts for one in changed.stated if one.when == when)
     assert fact.one == fact.other
-    assert isinstance(fact.reason, Refutation)
+    assert isinstance(fact.reason, EdgeRefutation)
     assert isinstance(fact.reason.conflict, Alone)
 
 
 def test_events_are_told_in_words() -> None:
-    words = [one.words for one in decided(trace_of(families.lattice(3, 3))).stated]
+    words = [one.words for one in evidence_for_decisions(trace_of(families.lattice(3, 3))).stated]
     assert words[:3] == [
         "a new vertex: 0 leads to one of degree 3",
         "a new vertex: 3 leads to one of degree 4",
@@ -166,23 +170,23 @@ def test_events_are_told_in_words() -> None:
 def test_where_nothing_is_declared_nothing_is_stated() -> None:
     trace = trace_of(families.lattice(3, 3))
     for plain in (tuple(e for e in trace if isinstance(e, Start | Move)), trace_of(EMPTY)):
-        found = decided(plain)
+        found = evidence_for_decisions(plain)
         assert (found.stated, found.merges, found.steps) == ((), (), 0)
 
 
 def test_what_follows_in_planar_worlds_only_is_not_stated() -> None:
     trace = trace_of(PLANAR, "folding+planar")
-    assert len(decided(trace).stated) == 8
+    assert len(evidence_for_decisions(trace).stated) == 8
     assert certify(trace).entailed == 9
 
 
 def test_evidence_that_is_too_long_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     trace = trace_of(families.lattice(3, 3))
-    steps = decided(trace).steps
+    steps = evidence_for_decisions(trace).steps
     monkeypatch.setattr(module, "MOST", steps)
-    assert not decided(trace).too_long
+    assert not evidence_for_decisions(trace).too_long
     monkeypatch.setattr(module, "MOST", steps - 1)
-    found = decided(trace)
+    found = evidence_for_decisions(trace)
     assert found.too_long
     assert found.stated == ()
 
@@ -195,6 +199,6 @@ def test_a_decision_that_follows_without_evidence_is_a_bug_of_ours(
     def nothing(*_: object) -> tuple[tuple[Meeting, ...], Conflict | None]:
         return (), None
 
-    monkeypatch.setattr(evidence.Fold, "refute", nothing)
+    monkeypatch.setattr(evidence.ProofProducingFold, "refute", nothing)
     with pytest.raises(InternalError, match="two folds of one log differ at event 3"):
-        decided(trace)
+        evidence_for_decisions(trace)

@@ -127,7 +127,7 @@ def test_an_axiom_is_named_by_coqchk(place: Path) -> None:
     assert toolchain.compile_all(place, ["Gap", "Whole"], timeout=LIMIT).accepted
     refused = toolchain.recheck(place, ["Gap"], timeout=LIMIT)
     assert not refused.accepted
-    assert "Topo.Gap.gap" in refused.said
+    assert "Topo.Gap.gap" in refused.output
     assert toolchain.recheck(place, ["Whole"], timeout=LIMIT).accepted
 
 
@@ -137,7 +137,7 @@ def test_no_proof_relies_on_a_name_that_coq_chose(library: Path, tmp_path: Path)
     toolchain.copy_library(tmp_path, toolchain.files())
     mangled = ["-mangle-names", "_mangled"]
     ran = toolchain.compile_all(tmp_path, toolchain.files(), timeout=LIMIT, flags=mangled)
-    assert ran.accepted, ran.said
+    assert ran.accepted, ran.output
     (tmp_path / "Chosen.v").write_text(
         "Lemma chosen : forall n : nat, n = n.\nProof. intros. induction n; reflexivity. Qed.\n"
     )

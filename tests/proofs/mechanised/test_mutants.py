@@ -144,7 +144,7 @@ def refusal(mutant: Mutant, place: Path) -> tuple[str, str]:
     for name in needing:
         ran = toolchain.compile_one(place, name, timeout=LIMIT)
         if not ran.accepted:
-            return name, ran.said
+            return name, ran.output
     return "", ""
 
 
@@ -156,10 +156,10 @@ def refusal(mutant: Mutant, place: Path) -> tuple[str, str]:
     ],
 )
 def test_a_mutant_is_refused(mutant: Mutant, place: Path) -> None:
-    name, said = refusal(mutant, place)
+    name, output = refusal(mutant, place)
     assert name == mutant.refused
-    assert "Error" in said
-    assert not any(word in said for word in CARELESS), said
+    assert "Error" in output
+    assert not any(word in output for word in CARELESS), output
 
 
 def test_a_patch_that_changes_nothing_is_accepted(place: Path) -> None:

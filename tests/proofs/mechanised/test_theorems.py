@@ -37,7 +37,7 @@ def test_without_coq_nothing_is_known_and_the_way_to_get_it_is_told(
     outcome = MECHANISED[0].prove(Budget())
     assert outcome.verdict == "UNKNOWN"
     assert "apt-get install --no-install-recommends coq" in outcome.note
-    assert MECHANISED[0].standing(outcome) == "open"
+    assert MECHANISED[0].status(outcome) == "open"
 
 
 def test_what_takes_too_long_is_unknown(monkeypatch: pytest.MonkeyPatch, library: Path) -> None:
@@ -57,7 +57,7 @@ def test_theorems_that_rest_on_an_axiom_are_not_proved(
 ) -> None:
     (place / "Gap.v").write_text("Axiom gap : False.\nLemma a : False.\nProof. exact gap. Qed.\n")
     assert toolchain.compile_one(place, "Gap", timeout=LIMIT).accepted
-    gap = theorems.Mechanised("coq-gap", "Gap", "a", (), "False.")
+    gap = theorems.MechanisedStatement("coq-gap", "Gap", "a", (), "False.")
     monkeypatch.setattr(theorems, "STATEMENTS", (*STATEMENTS, gap))
     assert "Gap.gap : False" in theorems.asked(place, timeout=LIMIT)
 

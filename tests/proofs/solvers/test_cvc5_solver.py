@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from topo_verify.errors import InputError
-from topo_verify.proofs.bounded.mutants import mutants, negative
+from topo_verify.proofs.bounded.mutants import mutant_theorems, negative_theorems
 from topo_verify.proofs.bounded.theorems import bounded
 from topo_verify.proofs.first_order.theorems import INDUCTIVE
 from topo_verify.proofs.solvers.cvc5_solver import ask, export
@@ -29,10 +29,12 @@ CONTRADICTION = Query(
 )
 def test_it_agrees_on_the_bounded_theorems(one: Theorem) -> None:
     for query in one.queries():
-        assert ask(query).standing == "agrees", query.name
+        assert ask(query).agreement == "agrees", query.name
 
 
-@pytest.mark.parametrize("one", [*negative(), *mutants()], ids=lambda one: one.name)
+@pytest.mark.parametrize(
+    "one", [*negative_theorems(), *mutant_theorems()], ids=lambda one: one.name
+)
 def test_it_finds_the_counterexamples_too(one: Theorem) -> None:
     for query in one.queries():
         assert ask(query).answer == "sat"
@@ -41,13 +43,13 @@ def test_it_finds_the_counterexamples_too(one: Theorem) -> None:
 def test_it_is_never_against_an_inductive_theorem() -> None:
     """Some quantified questions are too hard for it; none may come out the other way."""
     opinions = [ask(query, timeout=2) for one in INDUCTIVE[:6] for query in one.queries()]
-    assert {opinion.standing for opinion in opinions} <= {"agrees", "unknown"}
-    assert "agrees" in {opinion.standing for opinion in opinions}
+    assert {opinion.agreement for opinion in opinions} <= {"agrees", "unknown"}
+    assert "agrees" in {opinion.agreement for opinion in opinions}
 
 
 def test_a_contradiction_between_solvers_is_seen() -> None:
     opinion = ask(replace(CONTRADICTION, expected="sat"))
-    assert opinion.standing == "disagrees"
+    assert opinion.agreement == "disagrees"
     assert "says unsat, not sat" in str(opinion)
 
 
@@ -62,7 +64,7 @@ def test_unknown_is_said_as_such() -> None:
     ]
     script = "\n".join(["(set-logic QF_UF)", *pigeons, "(check-sat)", ""])
     opinion = ask(Query("pigeons", script, "unsat"), timeout=0.2)
-    assert opinion.standing == "unknown"
+    assert opinion.agreement == "unknown"
     assert str(opinion).startswith("pigeons: cvc5 unknown (")
 
 

@@ -19,7 +19,7 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.verify.parts import Part, Tell
 
 if TYPE_CHECKING:
-    from topo_verify.proofs.theorem import Outcome, Theorem
+    from topo_verify.proofs.theorem import Theorem, TheoremResult
 
 TIMEOUT = 20.0
 """Seconds for each question; each takes a small part of one."""
@@ -37,7 +37,7 @@ class Proofs:
         self._quick = quick
         self._given = None if theorems is None else tuple(theorems)
         self.total = 0
-        self.done: list[tuple[Theorem, Outcome]] = []
+        self.done: list[tuple[Theorem, TheoremResult]] = []
 
     def work(self, tell: Tell) -> None:
         """Prove them all."""
@@ -53,7 +53,7 @@ class Proofs:
 
     def part(self, *, interrupted: bool = False) -> Part:
         """What was found so far."""
-        standings = Counter(theorem.standing(outcome) for theorem, outcome in self.done)
+        standings = Counter(theorem.status(outcome) for theorem, outcome in self.done)
         whole = len(self.done) == self.total > 0 and not interrupted
         verdict: Verdict = "UNKNOWN"
         if standings["failed"]:
@@ -71,7 +71,7 @@ class Proofs:
             findings=tuple(
                 _finding(theorem, outcome)
                 for theorem, outcome in self.done
-                if theorem.standing(outcome) == "failed"
+                if theorem.status(outcome) == "failed"
             ),
         )
 
@@ -88,7 +88,7 @@ class Proofs:
         }
         words = [told.format(ok[kind], n) for kind, told in said.items() if (n := all_of[kind])]
         words += [f"{came} of {found} models replayed"] if found else []
-        undecided = [t.name for t, outcome in self.done if t.standing(outcome) == "open"]
+        undecided = [t.name for t, outcome in self.done if t.status(outcome) == "open"]
         if undecided:
             words.append(f"not decided: {', '.join(undecided[:3])}")
         if interrupted:
@@ -96,7 +96,7 @@ class Proofs:
         return "; ".join(words)
 
 
-def _finding(theorem: Theorem, outcome: Outcome) -> Finding:
+def _finding(theorem: Theorem, outcome: TheoremResult) -> Finding:
     told = f"theorem {theorem.name} is {outcome.verdict}, not {theorem.expected}: {theorem.words}"
     return Finding(
         claim=theorem.claims[0] if theorem.claims else "proofs",

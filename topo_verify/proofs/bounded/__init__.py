@@ -2,7 +2,7 @@
 
 cnf.py          clauses over named Booleans
 encoding.py     worlds and maps as clauses
-words.py        words of doors, executed and traced
+walks.py        words of doors, executed and traced
 door_steps.py   what one door can do
 word_rules.py   what the rules do on whole words
 statements.py   what is claimed, in words, symbols and clauses

@@ -16,9 +16,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import combinations
 
-Literal = int
-Row = tuple[Literal, ...]
-Clause = tuple[Literal, ...]
+CnfLiteral = int
+CnfRow = tuple[CnfLiteral, ...]
+Clause = tuple[CnfLiteral, ...]
 
 REFUTED = "refuted"
 """The group that says: and yet the conclusion is false."""
@@ -37,36 +37,36 @@ class Formula:
 
     # ------------------------------------------------------------ saying things
 
-    def boolean(self, name: str) -> Literal:
+    def boolean(self, name: str) -> CnfLiteral:
         """A new Boolean."""
         self.names.append(name)
         return len(self.names)
 
-    def booleans(self, name: str, size: int) -> Row:
+    def booleans(self, name: str, size: int) -> CnfRow:
         """New Booleans `name.0`, `name.1`, …, with nothing said about them."""
         return tuple(self.boolean(f"{name}.{index}") for index in range(size))
 
-    def row(self, group: str, name: str, size: int) -> Row:
+    def row(self, group: str, name: str, size: int) -> CnfRow:
         """A new one-hot row."""
         row = self.booleans(name, size)
         self.exactly_one(group, row)
         return row
 
-    def add(self, group: str, *literals: Literal) -> None:
+    def add(self, group: str, *literals: CnfLiteral) -> None:
         """One of these holds."""
         self.groups.setdefault(group, []).append(literals)
 
-    def imply(self, group: str, premises: Sequence[Literal], *conclusions: Literal) -> None:
+    def imply(self, group: str, premises: Sequence[CnfLiteral], *conclusions: CnfLiteral) -> None:
         """If all premises hold, one of the conclusions does."""
         self.add(group, *(-premise for premise in premises), *conclusions)
 
-    def exactly_one(self, group: str, literals: Sequence[Literal]) -> None:
+    def exactly_one(self, group: str, literals: Sequence[CnfLiteral]) -> None:
         """One of these holds, and no two."""
         self.add(group, *literals)
         for one, other in combinations(literals, 2):
             self.add(group, -one, -other)
 
-    def define_and(self, group: str, name: str, literals: Sequence[Literal]) -> Literal:
+    def define_and(self, group: str, name: str, literals: Sequence[CnfLiteral]) -> CnfLiteral:
         """A new Boolean that holds exactly if all of these do."""
         both = self.boolean(name)
         for literal in literals:
@@ -74,17 +74,17 @@ class Formula:
         self.imply(group, literals, both)
         return both
 
-    def define_or(self, group: str, name: str, literals: Sequence[Literal]) -> Literal:
+    def define_or(self, group: str, name: str, literals: Sequence[CnfLiteral]) -> CnfLiteral:
         """A new Boolean that holds exactly if one of these does, or more."""
         return -self.define_and(group, name, [-literal for literal in literals])
 
-    def equate(self, group: str, guard: Sequence[Literal], one: Row, other: Row) -> None:
+    def equate(self, group: str, guard: Sequence[CnfLiteral], one: CnfRow, other: CnfRow) -> None:
         """Where the guard holds, the two rows are equal, literal by literal."""
         for a, b in zip(one, other, strict=True):
             self.imply(group, (*guard, a), b)
             self.imply(group, (*guard, b), a)
 
-    def define_equal(self, group: str, name: str, one: Row, other: Row) -> Literal:
+    def define_equal(self, group: str, name: str, one: CnfRow, other: CnfRow) -> CnfLiteral:
         """A new Boolean that holds exactly if the two one-hot rows are equal."""
         equal = self.boolean(name)
         self.equate(group, (equal,), one, other)
@@ -117,15 +117,7 @@ class Formula:
             lines.append(f") :named {group}))")
         return "\n".join(lines) + "\n"
 
-    def dimacs(self) -> str:
-        """DIMACS, the format of SAT solvers; the names stand in comments."""
-        clauses = self.clauses
-        lines = [f"c {number} {name}" for number, name in enumerate(self.names, 1)]
-        lines.append(f"p cnf {len(self.names)} {len(clauses)}")
-        lines += [" ".join(map(str, (*clause, 0))) for clause in clauses]
-        return "\n".join(lines) + "\n"
-
-    def _disjunction(self, clause: Iterable[Literal]) -> str:
+    def _disjunction(self, clause: Iterable[CnfLiteral]) -> str:
         written = [
             self.names[literal - 1] if literal > 0 else f"(not {self.names[-literal - 1]})"
             for literal in clause

@@ -8,28 +8,28 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from topo_verify.algorithms.chart import Dart
-from topo_verify.proofs.bounded.cnf import Row
-from topo_verify.proofs.bounded.encoding import Map, Worlds
-from topo_verify.proofs.bounded.solve import Model
-from topo_verify.proofs.bounded.word_rules import Play
+from topo_verify.proofs.bounded.cnf import CnfRow
+from topo_verify.proofs.bounded.encoding import EncodedMap, Worlds
+from topo_verify.proofs.bounded.solve import Assignment
+from topo_verify.proofs.bounded.word_rules import EncodedCounterexample
 from topo_verify.robot.percept import Door
 from topo_verify.world.enumeration.rank_order import Table
 from topo_verify.world.rooted_map import World
 
-Word = tuple[Door, ...]
+DoorWord = tuple[Door, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Behind:
+class Excursion:
     """An excursion: the explored edges before it, the dart crossed, the doors taken behind it."""
 
     explored: frozenset[tuple[Dart, Dart]]
     e: Dart
-    word: Word
+    word: DoorWord
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Story:
+class Counterexample:
     """What a model says happens. Darts are those of S, and of the world: they are one numbering.
 
     Attributes:
@@ -43,14 +43,14 @@ class Story:
     explored: frozenset[tuple[Dart, Dart]]
     e: Dart
     h: Dart
-    word: Word
-    own: Word
+    word: DoorWord
+    own: DoorWord
     turned: Door | None = None
-    earlier: Behind | None = None
+    earlier: Excursion | None = None
     levels: int | None = None
 
 
-def decode_table(world: Worlds, model: Model) -> Table:
+def decode_table(world: Worlds, model: Assignment) -> Table:
     """Degrees and alpha of a model, as they are numbered there."""
     held = sorted(place for place, vertex in world.vertex.items() if model.holds(vertex))
     alpha = [0] * len(world.darts)
@@ -60,50 +60,50 @@ def decode_table(world: Worlds, model: Model) -> Table:
     return tuple(degree for _, degree in held), tuple(alpha)
 
 
-def decode_world(world: Worlds, model: Model) -> World:
+def decode_world(world: Worlds, model: Assignment) -> World:
     """The world of a model, its darts as they are numbered there."""
     return World.from_code(decode_table(world, model))
 
 
-def telling(play: Play) -> Row:
+def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
     """The Booleans from which `decode` makes the story; the rest follows, or does not matter."""
-    maps = [play.chart] if play.earlier is None else [play.earlier.chart, play.chart]
-    rows = [play.world.first, tuple(play.world.joined.values())]
+    maps = [encoded.chart] if encoded.earlier is None else [encoded.earlier.chart, encoded.chart]
+    rows = [encoded.world.first, tuple(encoded.world.joined.values())]
     rows += [row for chart in maps for row in (chart.known, chart.explored)]
-    rows += [play.e, play.h, play.made or (), *play.executed, *play.own]
-    rows += [] if play.turned is None else [play.turned]
-    rows += [] if play.earlier is None else [play.earlier.e, *play.earlier.executed]
+    rows += [encoded.e, encoded.h, encoded.made or (), *encoded.executed, *encoded.own]
+    rows += [] if encoded.turned is None else [encoded.turned]
+    rows += [] if encoded.earlier is None else [encoded.earlier.e, *encoded.earlier.executed]
     return tuple(literal for row in rows for literal in row)
 
 
-def decode(play: Play, model: Model) -> Story:
+def decode(encoded: EncodedCounterexample, model: Assignment) -> Counterexample:
     """What the model says happens."""
-    world = decode_world(play.world, model)
-    made = sum(map(model.holds, play.made)) if play.made is not None else None
-    own = play.own or play.executed
-    behind = play.earlier
-    return Story(
+    world = decode_world(encoded.world, model)
+    made = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
+    own = encoded.own or encoded.executed
+    behind = encoded.earlier
+    return Counterexample(
         world=world,
-        explored=_edges(world, play.chart, model),
-        e=model.index(play.e),
-        h=model.index(play.h),
-        word=_word(play.executed if play.own else play.executed[:made], model),
+        explored=_edges(world, encoded.chart, model),
+        e=model.index(encoded.e),
+        h=model.index(encoded.h),
+        word=_word(encoded.executed if encoded.own else encoded.executed[:made], model),
         own=_word(own[:made], model),
-        turned=None if play.turned is None else model.index(play.turned),
+        turned=None if encoded.turned is None else model.index(encoded.turned),
         earlier=None
         if behind is None
-        else Behind(
+        else Excursion(
             _edges(world, behind.chart, model),
             model.index(behind.e),
             _word(behind.executed, model),
         ),
-        levels=play.levels,
+        levels=encoded.levels,
     )
 
 
-def _word(rows: tuple[Row, ...], model: Model) -> Word:
+def _word(rows: tuple[CnfRow, ...], model: Assignment) -> DoorWord:
     return tuple(model.index(row) for row in rows)
 
 
-def _edges(world: World, chart: Map, model: Model) -> frozenset[tuple[Dart, Dart]]:
+def _edges(world: World, chart: EncodedMap, model: Assignment) -> frozenset[tuple[Dart, Dart]]:
     return frozenset(edge for edge in world.edges if model.holds(chart.explored[edge[0]]))

@@ -12,9 +12,9 @@ Source: docs/semantics.md, sections 4, 6, 7 and 9.
 
 from __future__ import annotations
 
-from topo_verify.proofs.bounded.cnf import REFUTED, Row
-from topo_verify.proofs.bounded.encoding import Map, Marker, Worlds
-from topo_verify.proofs.bounded.words import behind_an_edge, doors, open_dart, walk
+from topo_verify.proofs.bounded.cnf import REFUTED, CnfRow
+from topo_verify.proofs.bounded.encoding import EncodedMap, MarkerDetail, Worlds
+from topo_verify.proofs.bounded.walks import behind_an_edge, doors, open_dart, walk
 
 
 def pose(edges: int) -> Worlds:
@@ -55,7 +55,7 @@ def confirm_back(edges: int) -> Worlds:
     return world
 
 
-def confirm_final(edges: int, *, marker: Marker = "directed") -> Worlds:
+def confirm_final(edges: int, *, marker: MarkerDetail = "directed") -> Worlds:
     """At v0 the percepts are equal, marker direction included, and yet the darts are not.
 
     Args:
@@ -108,20 +108,20 @@ def closed(edges: int) -> Worlds:
     return world
 
 
-def _map(edges: int) -> tuple[Worlds, Map]:
+def _map(edges: int) -> tuple[Worlds, EncodedMap]:
     world = Worlds(edges)
     chart = world.map("S")
     world.number_the_rest(chart.known)
     return world, chart
 
 
-def _known(world: Worlds, chart: Map, name: str) -> Row:
+def _known(world: Worlds, chart: EncodedMap, name: str) -> CnfRow:
     dart = world.position(name, name)
     for d in world.darts:
         world.add(name, -dart[d], chart.known[d])
     return dart
 
 
-def _explored(world: Worlds, chart: Map, leave: Row) -> None:
+def _explored(world: Worlds, chart: EncodedMap, leave: CnfRow) -> None:
     for d in world.darts:
         world.add("explored-door", -leave[d], chart.explored[d])

@@ -23,7 +23,7 @@ from typing import Any
 
 from topo_verify.errors import InputError
 from topo_verify.proofs.bounded.cnf import Clause, Formula
-from topo_verify.proofs.theorem import Certificate
+from topo_verify.proofs.theorem import RefutationCertificate
 
 FORMAT = "drup"
 SOLVERS = ("glucose4", "lingeling", "cadical153")
@@ -38,7 +38,7 @@ _FEWEST_CLAUSES = 400
 
 
 @dataclass(frozen=True, slots=True)
-class Refutation:
+class DrupRefutation:
     """Clauses that contradict each other, and the learned clauses that show it, the last empty."""
 
     clauses: tuple[Clause, ...]
@@ -63,7 +63,7 @@ def checker() -> str:
     return f"drup {metadata.version('drup')}"
 
 
-def certify(formula: Formula, *, seconds: float = 60.0) -> Certificate | str:
+def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate | str:
     """A checked certificate that the formula is unsatisfiable; or why there is none.
 
     A proof that the checker refuses is a `Certificate` that is not `checked`: something is wrong.
@@ -79,7 +79,7 @@ def certify(formula: Formula, *, seconds: float = 60.0) -> Certificate | str:
     if clauses * steps > largest:
         return f"too long for the checker: {steps} steps over {clauses} clauses (--timeout)"
     why = objection(formula, refutation)
-    return Certificate(
+    return RefutationCertificate(
         format=FORMAT,
         checker=checker(),
         checked=not why,
@@ -89,7 +89,7 @@ def certify(formula: Formula, *, seconds: float = 60.0) -> Certificate | str:
     )
 
 
-def refute(formula: Formula, *, most_steps: int = 1_000_000) -> Refutation | str:
+def refute(formula: Formula, *, most_steps: int = 1_000_000) -> DrupRefutation | str:
     """A short refutation; or why there is none: satisfiable, or more steps than that."""
     clauses = formula.clauses
     for _ in range(_ROUNDS):
@@ -100,10 +100,10 @@ def refute(formula: Formula, *, most_steps: int = 1_000_000) -> Refutation | str
             break
         clauses = used
     proofs = [_proof(clauses, name) for name in SOLVERS]
-    return Refutation(tuple(clauses), min(proofs, key=len))
+    return DrupRefutation(tuple(clauses), min(proofs, key=len))
 
 
-def objection(formula: Formula, refutation: Refutation) -> str:
+def objection(formula: Formula, refutation: DrupRefutation) -> str:
     """What the checker has against the refutation; "" if it accepts it. Calls no solver."""
     drup: Any = import_module("drup")
     if not set(refutation.clauses) <= set(formula.clauses):
@@ -114,9 +114,9 @@ def objection(formula: Formula, refutation: Refutation) -> str:
     return "" if outcome == drup.Outcome.VALID else f"{checker()} refuses it"
 
 
-def together(certificates: list[Certificate]) -> Certificate:
+def together(certificates: list[RefutationCertificate]) -> RefutationCertificate:
     """One for several formulas: checked if all of them are; clauses and steps are added up."""
-    return Certificate(
+    return RefutationCertificate(
         format=FORMAT,
         checker=checker(),
         checked=all(one.checked for one in certificates),

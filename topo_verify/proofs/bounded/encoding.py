@@ -34,29 +34,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Literal as OneOf
+from typing import Literal
 
-from topo_verify.proofs.bounded.cnf import Formula, Literal, Row
+from topo_verify.proofs.bounded.cnf import CnfLiteral, CnfRow, Formula
 
-Marker = OneOf["directed", "undirected", "none"]
+MarkerDetail = Literal["directed", "undirected", "none"]
 """What of the marker is compared: its direction; whether it is here; nothing."""
 
 
 @dataclass(frozen=True, slots=True)
-class Map:
+class EncodedMap:
     """A reachable map S of the world: which darts it knows, which of them are explored."""
 
-    known: Row
-    explored: Row
+    known: CnfRow
+    explored: CnfRow
 
 
 @dataclass(frozen=True, slots=True)
-class Sense:
+class EncodedPercept:
     """A percept as one-hot rows: the degree less one; is the marker here; its door, if it is."""
 
-    degree: Row
-    here: Literal
-    marker: Row
+    degree: CnfRow
+    here: CnfLiteral
+    marker: CnfRow
 
 
 class Worlds(Formula):
@@ -76,13 +76,13 @@ class Worlds(Formula):
         self.joined = {
             (a, b): self.boolean(f"joined.{a}.{b}") for a, b in combinations(self.darts, 2)
         }
-        self.vertex: dict[tuple[int, int], Literal] = {}
-        self.entry: dict[tuple[int, int], Literal] = {}
+        self.vertex: dict[tuple[int, int], CnfLiteral] = {}
+        self.entry: dict[tuple[int, int], CnfLiteral] = {}
         self._rotation()
         self._edges()
         self.in_v0 = self._first_vertex()
 
-    def edge(self, one: int, other: int) -> Literal:
+    def edge(self, one: int, other: int) -> CnfLiteral:
         """The two darts are joined."""
         return self.joined[min(one, other), max(one, other)]
 
@@ -105,14 +105,14 @@ class Worlds(Formula):
         for f in self.darts[1:]:
             self.imply("connected", [self.first[f]], *(self.entry[e, f] for e in range(f)))
 
-    def _first_vertex(self) -> Row:
+    def _first_vertex(self) -> CnfRow:
         """Per dart: it is at v0."""
         degrees = [self.vertex[0, after] for after in range(1, len(self.darts) + 1)]
         return tuple(self.define_or("rotation", f"in_v0.{d}", degrees[d:]) for d in self.darts)
 
     # ------------------------------------------------------------ the map S
 
-    def map(self, name: str) -> Map:
+    def map(self, name: str) -> EncodedMap:
         """A new map of the world, reachable."""
         known = self.booleans(f"{name}.known", len(self.darts))
         explored = self.booleans(f"{name}.explored", len(self.darts))
@@ -127,9 +127,9 @@ class Worlds(Formula):
         for (a, b), joined in self.joined.items():
             self.imply(group, [joined, explored[a]], explored[b])
             self.imply(group, [joined, explored[b]], explored[a])
-        return Map(known, explored)
+        return EncodedMap(known, explored)
 
-    def number_the_rest(self, known: Row | None = None) -> None:
+    def number_the_rest(self, known: CnfRow | None = None) -> None:
         """Number the vertices that a map does not know (None: all but v0) breadth-first."""
         known = self.in_v0 if known is None else known
         group = "numbering"
@@ -143,7 +143,7 @@ class Worlds(Formula):
                     before = [self.entry[x, f] for x in range(e)]
                     self.imply(group, [vertex, self.edge(e, g)], *before, known[f])
 
-    def include(self, group: str, smaller: Map, larger: Map) -> None:
+    def include(self, group: str, smaller: EncodedMap, larger: EncodedMap) -> None:
         """The smaller map is a part of the larger."""
         for d in self.darts:
             self.imply(group, [smaller.known[d]], larger.known[d])
@@ -154,7 +154,7 @@ class Worlds(Formula):
         if world_class == "any":
             return
         group = "class"
-        same: dict[tuple[int, int], Literal] = {}
+        same: dict[tuple[int, int], CnfLiteral] = {}
         for a, b in combinations(self.darts, 2):
             literal = self.define_and(
                 group, f"same.{a}.{b}", [-self.first[d] for d in range(a + 1, b + 1)]
@@ -169,12 +169,18 @@ class Worlds(Formula):
 
     # ------------------------------------------------------------ walking
 
-    def position(self, group: str, name: str) -> Row:
+    def position(self, group: str, name: str) -> CnfRow:
         """A new position: some dart."""
         return self.row(group, name, len(self.darts))
 
     def turn(
-        self, group: str, at: Row, door: Row, leave: Row, *guard: Literal, absolute: bool = False
+        self,
+        group: str,
+        at: CnfRow,
+        door: CnfRow,
+        leave: CnfRow,
+        *guard: CnfLiteral,
+        absolute: bool = False,
     ) -> None:
         """Where the guard holds: `leave` is the dart that the door means at `at`, and exists.
 
@@ -191,13 +197,13 @@ class Worlds(Formula):
                     else:
                         self.imply(group, here, -door[k])
 
-    def cross(self, group: str, leave: Row, arrive: Row, *guard: Literal) -> None:
+    def cross(self, group: str, leave: CnfRow, arrive: CnfRow, *guard: CnfLiteral) -> None:
         """Where the guard holds: `arrive` is the other dart of the edge of `leave`."""
         for (a, b), joined in self.joined.items():
             self.imply(group, [*guard, leave[a], joined], arrive[b])
             self.imply(group, [*guard, leave[b], joined], arrive[a])
 
-    def at_one_of(self, group: str, at: Row, darts: Row, name: str) -> Literal:
+    def at_one_of(self, group: str, at: CnfRow, darts: CnfRow, name: str) -> CnfLiteral:
         """A new Boolean: the dart of the position is one of these."""
         found = self.boolean(name)
         for place, member in zip(at, darts, strict=True):
@@ -207,7 +213,7 @@ class Worlds(Formula):
 
     # ------------------------------------------------------------ sensing
 
-    def sense(self, group: str, at: Row, name: str) -> Sense:
+    def sense(self, group: str, at: CnfRow, name: str) -> EncodedPercept:
         """What is sensed with the position as reference dart."""
         degree = self.row(group, f"{name}.degree", len(self.darts))
         marker = self.booleans(f"{name}.marker", len(self.darts))
@@ -221,11 +227,16 @@ class Worlds(Formula):
             self.add(group, -one, -other)
         for door in marker:
             self.imply(group, [door], here)
-        return Sense(degree, here, marker)
+        return EncodedPercept(degree, here, marker)
 
     def alike(
-        self, group: str, one: Sense, other: Sense, name: str, marker: Marker = "directed"
-    ) -> Literal:
+        self,
+        group: str,
+        one: EncodedPercept,
+        other: EncodedPercept,
+        name: str,
+        marker: MarkerDetail = "directed",
+    ) -> CnfLiteral:
         """A new Boolean: two percepts are equal, as far as the marker is looked at."""
         parts = [self.define_equal(group, f"{name}.degree", one.degree, other.degree)]
         if marker != "none":

@@ -18,7 +18,7 @@ from itertools import accumulate
 from topo_verify.proofs.bounded.cnf import REFUTED
 from topo_verify.proofs.bounded.decode import decode_table
 from topo_verify.proofs.bounded.encoding import Worlds
-from topo_verify.proofs.bounded.solve import Undecided, models
+from topo_verify.proofs.bounded.solve import SolverGaveUp, models
 from topo_verify.proofs.theorem import Budget
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
@@ -87,6 +87,6 @@ def worlds_encoded(edges: int, world_class: str = "any") -> int | None:
         return WorldClass.parse(world_class).count(edges)
     try:
         found, _, spurious = missing_and_spurious(edges, world_class)
-    except Undecided:
+    except SolverGaveUp:
         return None
     return found - len(spurious)

@@ -2,7 +2,7 @@
 
     negative   a mapper that ignores the direction, or the whole, of the marker confirms a false
                hypothesis: in the smallest worlds of their class (`negatives`)
-    mutant     a rule with a fault (`words.Fault`) confirms a false hypothesis, or rejects the
+    mutant     a rule with a fault (`walks.Fault`) confirms a false hypothesis, or rejects the
                true one
 
 The solver finds a world, a map and doors; then the simulator does it again and the checkers must
@@ -19,33 +19,37 @@ from functools import partial
 from time import perf_counter
 
 from topo_verify.proofs.bounded import negatives, word_rules
-from topo_verify.proofs.bounded.decode import Story, decode, telling
-from topo_verify.proofs.bounded.encoding import Marker
-from topo_verify.proofs.bounded.replay import Replay, replay_confirmation, replay_rejection
+from topo_verify.proofs.bounded.decode import Counterexample, decode, decoded_booleans
+from topo_verify.proofs.bounded.encoding import MarkerDetail
+from topo_verify.proofs.bounded.replay import (
+    ReplayedCounterexample,
+    replay_confirmation,
+    replay_rejection,
+)
 from topo_verify.proofs.bounded.solve import first_model
-from topo_verify.proofs.bounded.word_rules import Play
-from topo_verify.proofs.bounded.words import Fault
+from topo_verify.proofs.bounded.walks import RuleFault
+from topo_verify.proofs.bounded.word_rules import EncodedCounterexample
 from topo_verify.proofs.solvers.z3_solver import name as solver_name
-from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
+from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult
 
 
 @dataclass(frozen=True, slots=True)
-class _Mutant:
+class _FaultyRule:
     """A rule, what is changed in it, in how small a world that goes wrong, and how to tell it."""
 
     rule: str
-    fault: Fault | Marker
+    fault: RuleFault | MarkerDetail
     edges: int
-    build: Callable[[int, int], Play]
-    told: str
+    build: Callable[[int, int], EncodedCounterexample]
+    mistake: str
 
 
-def negative() -> tuple[Theorem, ...]:
+def negative_theorems() -> tuple[Theorem, ...]:
     """Every negative, at its smallest size."""
     return tuple(map(_negative, negatives.SMALLEST))
 
 
-def mutants() -> tuple[Theorem, ...]:
+def mutant_theorems() -> tuple[Theorem, ...]:
     """Every fault of a rule, in the smallest worlds where it goes wrong."""
     return tuple(map(_mutant, _MUTANTS))
 
@@ -56,7 +60,7 @@ def _negative(case: negatives.Negative) -> Theorem:
         name=case.name,
         kind="negative",
         claims=("no-false-confirm",),
-        words=f"{case.telling} {case.edges} edges are enough.",
+        words=f"{case.statement} {case.edges} edges are enough.",
         symbols="every percept on a shortest way home as expected ∧ h ≠ alpha(e)",
         solver_part=f"finds a world with {case.edges} edges, a map and a hypothesis",
         expected="REFUTED",
@@ -67,70 +71,70 @@ def _negative(case: negatives.Negative) -> Theorem:
 
 
 _MUTANTS = (
-    _Mutant(
+    _FaultyRule(
         "confirm",
         "undirected",
         2,
         partial(word_rules.confirm, marker="undirected"),
         "the last percept is compared without the marker's direction",
     ),
-    _Mutant(
+    _FaultyRule(
         "confirm",
         "none",
         2,
         partial(word_rules.confirm, marker="none"),
         "the last percept is compared without the marker",
     ),
-    _Mutant(
+    _FaultyRule(
         "trace",
         "turned",
         2,
         partial(word_rules.trace_way, fault="turned"),
         "after an excursion it is forgotten that the reference dart is turned",
     ),
-    _Mutant(
+    _FaultyRule(
         "trace",
         "shifted",
         2,
         partial(word_rules.trace_way, fault="shifted"),
         "each percept is compared with the one behind the next door",
     ),
-    _Mutant(
+    _FaultyRule(
         "prefix",
         "one-more",
         2,
         partial(word_rules.prefix, fault="one-more"),
         "the door behind the common prefix is compared too",
     ),
-    _Mutant(
+    _FaultyRule(
         "history",
         "through-unexplored",
         1,
         partial(word_rules.history, fault="through-unexplored"),
         "an unexplored dart is traced as if it led back to itself",
     ),
-    _Mutant(
+    _FaultyRule(
         "history",
         "absolute-doors",
         2,
         partial(word_rules.history, fault="absolute-doors"),
         "doors are counted from the vertex's first dart",
     ),
-    _Mutant(
+    _FaultyRule(
         "history",
         "shifted",
         2,
         partial(word_rules.history, fault="shifted"),
         "each percept is compared with the one behind the next door",
     ),
-    _Mutant(
+    _FaultyRule(
         "records-one",
         "first-dart",
         2,
         partial(word_rules.records, levels=1, fault="first-dart"),
         "sequences are traced again from the vertex's first dart",
     ),
-    _Mutant(
+    _FaultyRule(
         "records-all",
         "first-dart",
         2,
@@ -140,7 +144,7 @@ _MUTANTS = (
 )
 
 
-def _mutant(case: _Mutant) -> Theorem:
+def _mutant(case: _FaultyRule) -> Theorem:
     confirms = case.rule == "confirm"
     name = f"words-{case.rule}-{case.fault}"
     build = partial(case.build, case.edges, case.edges)
@@ -148,7 +152,7 @@ def _mutant(case: _Mutant) -> Theorem:
         name=name,
         kind="mutant",
         claims=("no-false-confirm" if confirms else "true-hypothesis-kept",),
-        words=f"Rule {case.rule} with a fault goes wrong: {case.told}.",
+        words=f"Rule {case.rule} with a fault goes wrong: {case.mistake}.",
         symbols="h ≠ alpha(e) is confirmed" if confirms else "h = alpha(e) is rejected",
         solver_part=f"finds a world with {_edges(case.edges)}, a map and doors",
         expected="REFUTED",
@@ -159,7 +163,7 @@ def _mutant(case: _Mutant) -> Theorem:
     )
 
 
-def _replay_of(case: _Mutant) -> Callable[[Story], Replay]:
+def _replay_of(case: _FaultyRule) -> Callable[[Counterexample], ReplayedCounterexample]:
     match case.fault:
         case "directed" | "undirected" | "none" as marker:
             return partial(replay_confirmation, marker=marker, whole=False)
@@ -168,22 +172,24 @@ def _replay_of(case: _Mutant) -> Callable[[Story], Replay]:
 
 
 def _refute(
-    build: Callable[[], Play], replay: Callable[[Story], Replay], budget: Budget
-) -> Outcome:
+    build: Callable[[], EncodedCounterexample],
+    replay: Callable[[Counterexample], ReplayedCounterexample],
+    budget: Budget,
+) -> TheoremResult:
     """Look for a model; decode it; replay it."""
     began = perf_counter()
-    play = build()
-    decision = first_model(play.world, telling(play), budget)
-    if decision.model is None:
-        exhausted = decision.answer == "unsat"
-        return Outcome(
+    encoded = build()
+    result = first_model(encoded.world, decoded_booleans(encoded), budget)
+    if result.model is None:
+        exhausted = result.answer == "unsat"
+        return TheoremResult(
             verdict="EXHAUSTED" if exhausted else "UNKNOWN",
             solver=solver_name(),
             seconds=perf_counter() - began,
-            note="there is no such world" if exhausted else f"{decision.why}; more time: --timeout",
+            note="there is no such world" if exhausted else f"{result.why}; more time: --timeout",
         )
-    replayed = replay(decode(play, decision.model))
-    return Outcome(
+    replayed = replay(decode(encoded, result.model))
+    return TheoremResult(
         verdict="REFUTED",
         solver=solver_name(),
         seconds=perf_counter() - began,
@@ -194,7 +200,7 @@ def _refute(
     )
 
 
-def _queries(name: str, build: Callable[[], Play]) -> Iterator[Query]:
+def _queries(name: str, build: Callable[[], EncodedCounterexample]) -> Iterator[Query]:
     yield Query(name, build().world.smt2() + "(check-sat)\n", "sat")
 
 

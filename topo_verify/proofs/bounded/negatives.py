@@ -22,17 +22,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from topo_verify.proofs.bounded.cnf import REFUTED, Formula, Row
-from topo_verify.proofs.bounded.encoding import Map, Marker, Worlds
-from topo_verify.proofs.bounded.word_rules import Play
-from topo_verify.proofs.bounded.words import behind_an_edge, doors, hypothesis, stay_explored, walk
+from topo_verify.proofs.bounded.cnf import REFUTED, CnfRow, Formula
+from topo_verify.proofs.bounded.encoding import EncodedMap, MarkerDetail, Worlds
+from topo_verify.proofs.bounded.walks import behind_an_edge, doors, hypothesis, stay_explored, walk
+from topo_verify.proofs.bounded.word_rules import EncodedCounterexample
 
 
 @dataclass(frozen=True, slots=True)
 class Negative:
     """How much of the marker is compared; the fewest edges of a world of the class."""
 
-    marker: Marker
+    marker: MarkerDetail
     world_class: str
     edges: int
 
@@ -42,7 +42,7 @@ class Negative:
         return f"{self.marker}-{self.world_class}"
 
     @property
-    def telling(self) -> str:
+    def statement(self) -> str:
         """The false claim, in words."""
         what = {
             "directed": "compares all of the marker",
@@ -68,7 +68,7 @@ def premises(edges: int, world_class: str) -> Formula:
     return behind_an_edge(edges, world_class=world_class).world
 
 
-def false_confirmation(edges: int, world_class: str, marker: Marker) -> Play:
+def false_confirmation(edges: int, world_class: str, marker: MarkerDetail) -> EncodedCounterexample:
     """Everything on a shortest way home from h is as expected, and yet e does not end in h."""
     scene = behind_an_edge(edges, world_class=world_class)
     world, h = scene.world, hypothesis(scene)
@@ -87,10 +87,12 @@ def false_confirmation(edges: int, world_class: str, marker: Marker) -> Play:
         world.add("matching", world.alike("percepts", one, other, f"compare.{i}", marker))
     for a, b in zip(h, scene.vu, strict=True):
         world.add(REFUTED, -a, -b)
-    return Play(world=world, chart=scene.chart, e=scene.e, h=h, executed=word, made=go)
+    return EncodedCounterexample(
+        world=world, chart=scene.chart, e=scene.e, h=h, executed=word, made=go
+    )
 
 
-def depths(world: Worlds, chart: Map) -> tuple[Row, ...]:
+def depths(world: Worlds, chart: EncodedMap) -> tuple[CnfRow, ...]:
     """How far each known dart's vertex is from v0 on the map: a row a dart."""
     group, levels = "depths", range(world.edges + 1)
     depth = tuple(world.booleans(f"depth.{d}", len(levels)) for d in world.darts)
@@ -119,7 +121,9 @@ def depths(world: Worlds, chart: Map) -> tuple[Row, ...]:
     return depth
 
 
-def _one_nearer(world: Worlds, depth: tuple[Row, ...], leave: Row, arrive: Row, on: int) -> None:
+def _one_nearer(
+    world: Worlds, depth: tuple[CnfRow, ...], leave: CnfRow, arrive: CnfRow, on: int
+) -> None:
     """A step that is made leads from depth t to depth t - 1."""
     for x in world.darts:
         for y in world.darts:

@@ -22,15 +22,24 @@ from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.motion import Pilot, common_prefix
 from topo_verify.checkers import check
 from topo_verify.errors import InternalError
-from topo_verify.proofs.bounded.decode import Behind, Story, Word
-from topo_verify.proofs.bounded.encoding import Marker
-from topo_verify.proofs.bounded.words import Fault
-from topo_verify.robot.events import Augment, Confirm, Decision, Evidence, Move, Pose, Reject, Start
+from topo_verify.proofs.bounded.decode import Counterexample, DoorWord, Excursion
+from topo_verify.proofs.bounded.encoding import MarkerDetail
+from topo_verify.proofs.bounded.walks import RuleFault
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Decision,
+    Evidence,
+    Move,
+    Pose,
+    Reject,
+    Start,
+)
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.world.rooted_map import World
 
-Compared = Iterator[tuple[int, Percept, Percept]]
+PerceptPairs = Iterator[tuple[int, Percept, Percept]]
 """Step, the percept that the rule expects, the one that it takes for observed."""
 
 
@@ -39,16 +48,18 @@ class Disagreement(InternalError):
 
 
 @dataclass(frozen=True, slots=True)
-class Replay:
+class ReplayedCounterexample:
     """A story that came true: the doors of all moves; the event that fails the claim."""
 
     world: World
-    doors: Word
+    doors: DoorWord
     event: int
     claim: str
 
 
-def replay_confirmation(story: Story, marker: Marker, *, whole: bool = True) -> Replay:
+def replay_confirmation(
+    found: Counterexample, marker: MarkerDetail, *, whole: bool = True
+) -> ReplayedCounterexample:
     """The story of a false confirmation, done.
 
     Args:
@@ -57,22 +68,22 @@ def replay_confirmation(story: Story, marker: Marker, *, whole: bool = True) -> 
     Raises:
         Disagreement: it does not happen.
     """
-    run = _Run(story)
-    run.cross(story.e, marker)
-    run.out(story.word)
-    way = _way(run.chart, story.h, story.word)
+    run = _Replayer(found)
+    run.cross(found.e, marker)
+    run.out(found.word)
+    way = _way(run.chart, found.h, found.word)
     vertices = [run.chart.vertex[at] for at in way]
     expected = [run.chart.percepts[at] for at in way]
     since = 0 if whole else -1
     wanted = [_seen(percept, marker) for percept in expected[since:]]
     if wanted != [_seen(percept, marker) for percept in run.pilot.percepts[since:]]:
-        raise Disagreement(f"{story}: the robot sees {run.pilot.percepts}, expected {expected}")
-    if vertices[-1] != 0 or (whole and run.chart.tree(0).depth[vertices[0]] != len(story.word)):
-        raise Disagreement(f"{story}: this is no shortest way home")
-    return run.judge(Confirm(story.e, story.h, "motion"), "no-false-confirm")
+        raise Disagreement(f"{found}: the robot sees {run.pilot.percepts}, expected {expected}")
+    if vertices[-1] != 0 or (whole and run.chart.tree(0).depth[vertices[0]] != len(found.word)):
+        raise Disagreement(f"{found}: this is no shortest way home")
+    return run.judge(Confirm(found.e, found.h, "motion"), "no-false-confirm")
 
 
-def replay_rejection(story: Story, rule: str, fault: Fault) -> Replay:
+def replay_rejection(found: Counterexample, rule: str, fault: RuleFault) -> ReplayedCounterexample:
     """The story of a false rejection, done.
 
     Args:
@@ -81,63 +92,66 @@ def replay_rejection(story: Story, rule: str, fault: Fault) -> Replay:
     Raises:
         Disagreement: it does not happen.
     """
-    run = _Run(story, fault)
-    run.cross(story.e)
-    if story.turned is not None:
-        run.excursion((story.turned,))
-    run.out(story.word)
-    for step, expected, observed in _compared(run, story, rule, fault):
+    run = _Replayer(found, fault)
+    run.cross(found.e)
+    if found.turned is not None:
+        run.excursion((found.turned,))
+    run.out(found.word)
+    for step, expected, observed in _compared(run, found, rule, fault):
         if expected != observed:
             evidence = Evidence(step, expected, observed)
-            return run.judge(Reject(story.e, story.h, "motion", evidence), "true-hypothesis-kept")
-    raise Disagreement(f"{story}: the rule {rule} with the fault {fault!r} rejects nothing")
+            return run.judge(
+                Reject(found.e, found.h, "motion", evidence),
+                "true-hypothesis-kept",
+            )
+    raise Disagreement(f"{found}: the rule {rule} with the fault {fault!r} rejects nothing")
 
 
 # ------------------------------------------------------------------ the faulty rules
 
 
-def _compared(run: _Run, story: Story, rule: str, fault: Fault) -> Compared:
+def _compared(run: _Replayer, found: Counterexample, rule: str, fault: RuleFault) -> PerceptPairs:
     """What the rule compares for h, in its order."""
     if rule == "records":
-        return _records(run, story)
+        return _records(run, found)
     if rule == "prefix":
-        return _prefix(run, story, fault)
-    way = _traced(run.chart, story.h, story.word, fault) if rule == "history" else None
-    return _along(run, way or _way(run.chart, story.h, story.word), fault)
+        return _prefix(run, found, fault)
+    way = _traced(run.chart, found.h, found.word, fault) if rule == "history" else None
+    return _along(run, way or _way(run.chart, found.h, found.word), fault)
 
 
-def _along(run: _Run, way: list[Dart], fault: Fault) -> Compared:
+def _along(run: _Replayer, way: list[Dart], fault: RuleFault) -> PerceptPairs:
     """The percepts along a way, one for one; with the fault `shifted` one later."""
     later = int(fault == "shifted")
     for step, (at, seen) in enumerate(zip(way, run.pilot.percepts[later:], strict=False)):
         yield step, run.chart.percepts[at], seen
 
 
-def _prefix(run: _Run, story: Story, fault: Fault) -> Compared:
+def _prefix(run: _Replayer, found: Counterexample, fault: RuleFault) -> PerceptPairs:
     """The percepts on the common prefix; with the fault `one-more` one door further."""
-    way = _way(run.chart, story.h, story.own)
-    shared = common_prefix(story.own, story.word) + int(fault == "one-more")
-    for step in range(1, min(shared, len(story.own), len(story.word)) + 1):
+    way = _way(run.chart, found.h, found.own)
+    shared = common_prefix(found.own, found.word) + int(fault == "one-more")
+    for step in range(1, min(shared, len(found.own), len(found.word)) + 1):
         yield step, run.chart.percepts[way[step]], run.pilot.percepts[step]
 
 
-def _records(run: _Run, story: Story) -> Compared:
+def _records(run: _Replayer, found: Counterexample) -> PerceptPairs:
     """What was recorded behind the unexplored dart where tracing ends, as deep as doors agree."""
-    assert story.earlier is not None
-    step = len(_traced(run.chart, story.h, story.word))
-    if run.recorded is None or step > len(story.word):
+    assert found.earlier is not None
+    step = len(_traced(run.chart, found.h, found.word))
+    if run.recorded is None or step > len(found.word):
         return
-    crossed = _traced(run.chart, story.h, story.word)[-1]
+    crossed = _traced(run.chart, found.h, found.word)[-1]
     d, place = run.recorded
-    if run.chart.turn(crossed, story.word[step - 1]) != d:
+    if run.chart.turn(crossed, found.word[step - 1]) != d:
         return
-    written = story.earlier.word[place + 1 :]
-    deep = 1 + common_prefix(written, story.word[step:])
-    for level in range(deep if story.levels is None else min(deep, story.levels)):
+    written = found.earlier.word[place + 1 :]
+    deep = 1 + common_prefix(written, found.word[step:])
+    for level in range(deep if found.levels is None else min(deep, found.levels)):
         yield step + level, run.recorded_percepts[place + level], run.pilot.percepts[step + level]
 
 
-def _way(chart: Chart, at: Dart, word: Word) -> list[Dart]:
+def _way(chart: Chart, at: Dart, word: DoorWord) -> list[Dart]:
     """The reference darts on a way over explored darts, the first included."""
     way = [at]
     for door in word:
@@ -145,7 +159,7 @@ def _way(chart: Chart, at: Dart, word: Word) -> list[Dart]:
     return way
 
 
-def _traced(chart: Chart, at: Dart, word: Word, fault: Fault = "") -> list[Dart]:
+def _traced(chart: Chart, at: Dart, word: DoorWord, fault: RuleFault = "") -> list[Dart]:
     """The reference darts while a word is traced, until it crosses an unexplored dart."""
     way = [at]
     for door in word:
@@ -158,7 +172,7 @@ def _traced(chart: Chart, at: Dart, word: Word, fault: Fault = "") -> list[Dart]
     return way
 
 
-def _seen(percept: Percept, marker: Marker) -> object:
+def _seen(percept: Percept, marker: MarkerDetail) -> object:
     """What a mapper compares that looks at so much of the marker."""
     match marker:
         case "directed":
@@ -172,52 +186,52 @@ def _seen(percept: Percept, marker: Marker) -> object:
 # ------------------------------------------------------------------ the robot
 
 
-class _Run:
+class _Replayer:
     """A robot in the story's world that draws the story's map. Lives for one replay."""
 
-    def __init__(self, story: Story, fault: Fault = "") -> None:
-        self.world = story.world
-        self.robot = SimulatedRobot(story.world, 10_000)
+    def __init__(self, found: Counterexample, fault: RuleFault = "") -> None:
+        self.world = found.world
+        self.robot = SimulatedRobot(found.world, 10_000)
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
         self.at: Dart = 0
         self.recorded: tuple[Dart, int] | None = None  # T's dart; the place of its first percept
         self.recorded_percepts: tuple[Percept, ...] = ()
-        if story.earlier is not None:
-            self._learn(story.earlier, fault)
-        self._draw(story.explored)
+        if found.earlier is not None:
+            self._learn(found.earlier, fault)
+        self._draw(found.explored)
 
-    def cross(self, e: Dart, marker: Marker = "undirected") -> None:
+    def cross(self, e: Dart, marker: MarkerDetail = "undirected") -> None:
         """Walk to e, cross it, pose the hypotheses that look like what is there."""
         del self.chart.unexplored[e]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
-        signature: Marker = "undirected" if marker == "directed" else marker
+        signature: MarkerDetail = "undirected" if marker == "directed" else marker
         seen = _seen(self.pilot.cross(self.chart, self.at, e), signature)
         percepts = self.chart.percepts
         alike = [h for h in self.chart.unexplored if _seen(percepts[h], signature) == seen]
         self.robot.declare(Pose(e, tuple(alike)))
 
-    def out(self, word: Word) -> None:
+    def out(self, word: DoorWord) -> None:
         """Take these doors."""
         for door in word:
             self.pilot.forward(door)
 
-    def excursion(self, word: Word) -> None:
+    def excursion(self, word: DoorWord) -> None:
         """Out and back, and then forget that the reference dart is turned."""
         self.out(word)
         self.pilot.back(0)
         self.pilot.turned = 0
 
-    def judge(self, decision: Decision, claim: str) -> Replay:
+    def judge(self, result: Decision, claim: str) -> ReplayedCounterexample:
         """Declare it; the checkers must find that the claim fails, at just this event."""
-        self.robot.declare(decision)
+        self.robot.declare(result)
         trace = (Start(percept=first_percept(self.world)), *self.robot.events)
         event = len(trace) - 1
         findings = [found for judged in check(self.world, trace) for found in judged.findings]
         if (claim, event) not in [(found.claim, found.event) for found in findings]:
-            raise Disagreement(f"in {self.world.text}, {claim} does not fail at {decision}")
+            raise Disagreement(f"in {self.world.text}, {claim} does not fail at {result}")
         moves = tuple(move.door for move in trace if isinstance(move, Move))
-        return Replay(self.world, moves, event, claim)
+        return ReplayedCounterexample(self.world, moves, event, claim)
 
     def _draw(self, explored: frozenset[tuple[Dart, Dart]]) -> None:
         """Explore these edges: first those that find vertices, in their order, then the others."""
@@ -238,7 +252,7 @@ class _Run:
         self.robot.declare(Augment(e, "new" if new else "loop", end, percept.degree))
         self.at = self.chart.turn(end, self.pilot.turned)
 
-    def _learn(self, behind: Behind, fault: Fault) -> None:
+    def _learn(self, behind: Excursion, fault: RuleFault) -> None:
         """Draw the earlier map, execute the word behind its dart, trace it again from there."""
         self._draw(behind.explored)
         self.cross(behind.e)

@@ -1,4 +1,4 @@
-"""Ask Z3 about clauses, and read what it says.
+"""Put clauses to Z3, and read assignments back.
 
 Z3 reads the SMT-LIB 2 text that is also exported and handed to other solvers, so all of them answer
 the same question. The answer is one of three; a time-out is `unknown`, whatever words come with it.
@@ -8,21 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib import import_module
 from time import perf_counter
-from typing import Any
 
-from topo_verify.proofs.bounded.cnf import Formula, Row
-from topo_verify.proofs.theorem import Answer, Budget
-
-_z3: Any = import_module("z3")  # as in z3solver.py: the package has no types
-
-LOGIC = "QF_FD"
-"""Z3's solver for finite domains: of those tried the fastest on these clauses."""
+from topo_verify.proofs.bounded.cnf import CnfRow, Formula
+from topo_verify.proofs.solvers.z3_solver import Z3Question
+from topo_verify.proofs.theorem import Budget, SolverAnswer
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class Assignment:
     """An assignment that satisfies a formula: the Booleans that are true."""
 
     true: frozenset[int]
@@ -31,15 +25,15 @@ class Model:
         """Is the literal true?"""
         return (abs(literal) in self.true) == (literal > 0)
 
-    def index(self, row: Row) -> int:
+    def index(self, row: CnfRow) -> int:
         """Which literal of a one-hot row is true."""
         (place,) = (index for index, literal in enumerate(row) if self.holds(literal))
         return place
 
 
 @dataclass(frozen=True, slots=True)
-class Decision:
-    """What Z3 said.
+class SatResult:
+    """Z3's answer about a formula.
 
     Attributes:
         model: if the answer is sat.
@@ -47,99 +41,68 @@ class Decision:
         why: why it is unknown.
     """
 
-    answer: Answer
+    answer: SolverAnswer
     seconds: float
-    model: Model | None = None
+    model: Assignment | None = None
     core: tuple[str, ...] = ()
     why: str = ""
 
 
-def decide(formula: Formula, budget: Budget) -> Decision:
+def solve(formula: Formula, budget: Budget) -> SatResult:
     """Is the formula satisfiable? Never raises for a time-out."""
     began = perf_counter()
-    solver = _solver(budget, formula, tracked=True)
-    answer = _answer(solver.check())
+    question = Z3Question(formula.smt2(), budget, setup="clauses", labels=tuple(formula.groups))
+    answer = question.check()
     seconds = perf_counter() - began
-    match answer:
-        case "sat":
-            return Decision("sat", seconds, _model(formula, solver))
-        case "unsat":
-            core = sorted(map(str, solver.unsat_core()))
-            return Decision("unsat", seconds, core=tuple(core))
-        case "unknown":
-            return Decision("unknown", seconds, why=solver.reason_unknown())
+    model = _model(formula, question) if answer == "sat" else None
+    return SatResult(answer, seconds, model, core=question.core, why=question.why)
 
 
-def first_model(formula: Formula, over: Row, budget: Budget) -> Decision:
+def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
     """As `decide`, and a model is always the same one: the first of all, by the Booleans `over`.
 
     First is the one in which the earliest of them are true. (What Z3 finds first varies from run to
     run.)
     """
     began = perf_counter()
-    solver = _solver(budget, formula)
-    answer = _answer(solver.check())
-    model = _model(formula, solver) if answer == "sat" else Model(frozenset())
-    assumed: list[Any] = []
-    for literal in over if answer == "sat" else ():
-        name = _z3.Bool(formula.names[abs(literal) - 1])
-        wanted, other = (name, _z3.Not(name)) if literal > 0 else (_z3.Not(name), name)
+    question = Z3Question(formula.smt2(), budget, setup="clauses")
+    if (answer := question.check()) != "sat":
+        return SatResult(answer, perf_counter() - began, why=question.why)
+    model = _model(formula, question)
+    assumed: dict[str, bool] = {}
+    for literal in over:
+        name = formula.names[abs(literal) - 1]
+        # One Boolean after the other is made true where it can be; what can be is then assumed.
         if not model.holds(literal):
-            answer = _answer(solver.check(*assumed, wanted))
+            answer = question.check(assumed | {name: literal > 0})
             if answer == "unknown":
-                break
+                return SatResult("unknown", perf_counter() - began, why=question.why)
             if answer == "sat":
-                model = _model(formula, solver)
-        assumed.append(wanted if model.holds(literal) else other)
-    seconds = perf_counter() - began
-    if answer == "unknown":
-        return Decision("unknown", seconds, why=solver.reason_unknown())
-    return Decision("sat", seconds, model) if model.true else Decision("unsat", seconds)
+                model = _model(formula, question)
+        assumed[name] = model.holds(abs(literal))
+    return SatResult("sat", perf_counter() - began, model)
 
 
-def models(formula: Formula, over: Row, budget: Budget) -> Iterator[Model]:
+def models(formula: Formula, over: CnfRow, budget: Budget) -> Iterator[Assignment]:
     """All models, one for each assignment of the Booleans `over`; the order is Z3's.
 
     Raises:
         Undecided: Z3 gave up before it had said that there are no more.
     """
-    solver = _solver(budget, formula)
-    while (answer := _answer(solver.check())) == "sat":
-        model = _model(formula, solver)
+    question = Z3Question(formula.smt2(), budget, setup="clauses")
+    names = {abs(literal): formula.names[abs(literal) - 1] for literal in over}
+    while (answer := question.check()) == "sat":
+        model = _model(formula, question)
         yield model
-        names = [(formula.names[abs(literal) - 1], model.holds(literal)) for literal in over]
-        other = [_z3.Not(_z3.Bool(name)) if held else _z3.Bool(name) for name, held in names]
-        solver.add(_z3.Or(other))
+        question.forbid({name: model.holds(number) for number, name in names.items()})
     if answer == "unknown":
-        raise Undecided(solver.reason_unknown())
+        raise SolverGaveUp(question.why)
 
 
-class Undecided(Exception):
+class SolverGaveUp(Exception):
     """The solver gave up: give it more time with `--timeout`."""
 
 
-def _solver(budget: Budget, formula: Formula, *, tracked: bool = False) -> Any:
-    solver = _z3.SolverFor(LOGIC)
-    solver.set("timeout", max(1, round(budget.timeout * 1000)))
-    solver.set("random_seed", budget.seed)
-    if budget.rlimit:
-        solver.set("rlimit", budget.rlimit)
-    parsed = _z3.parse_smt2_string(formula.smt2())
-    for group, assertion in zip(formula.groups, parsed, strict=True):
-        if tracked:
-            solver.assert_and_track(assertion, group)
-        else:
-            solver.add(assertion)
-    return solver
-
-
-def _model(formula: Formula, solver: Any) -> Model:
-    model = solver.model()
-    true = {str(name) for name in model.decls() if _z3.is_true(model[name])}
-    return Model(frozenset(v for v, name in enumerate(formula.names, 1) if name in true))
-
-
-def _answer(said: Any) -> Answer:
-    if said == _z3.sat:
-        return "sat"
-    return "unsat" if said == _z3.unsat else "unknown"
+def _model(formula: Formula, question: Z3Question) -> Assignment:
+    true = question.true()
+    return Assignment(frozenset(v for v, name in enumerate(formula.names, 1) if name in true))

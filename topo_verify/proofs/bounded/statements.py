@@ -19,7 +19,7 @@ from topo_verify.proofs.bounded.encoding import Worlds
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Statement:
+class BoundedStatement:
     """A bounded theorem before it is given its sizes.
 
     Attributes:
@@ -42,15 +42,15 @@ class Statement:
 _BY_DOORS = ("doors",)
 """The step from one door to words of any length, as docs/proofs.md calls it."""
 
-ONE_DOOR = (
-    Statement(
+ONE_DOOR_STATEMENTS = (
+    BoundedStatement(
         name="bounded-pose",
         claims=("true-hypothesis-posed",),
         words="If e leads to a known vertex, its other end is unexplored and not e: it is in H.",
         symbols="alpha(e) ∈ S ⇒ alpha(e) ∈ U \\ {e}",
         refuted=door_steps.pose,
     ),
-    Statement(
+    BoundedStatement(
         name="bounded-door",
         claims=("true-hypothesis-kept", "map-isomorphic"),
         words="Through an explored door of S and the same door of the world, corresponding darts"
@@ -59,14 +59,14 @@ ONE_DOOR = (
         refuted=door_steps.door,
         argued=_BY_DOORS,
     ),
-    Statement(
+    BoundedStatement(
         name="bounded-confirm-final",
         claims=("no-false-confirm",),
         words="Two places that show v0's percept with the same marker direction are one dart.",
         symbols="p ∈ v0 ∧ percept(p) = percept(r) ⇒ p = r",
         refuted=door_steps.confirm_final,
     ),
-    Statement(
+    BoundedStatement(
         name="bounded-confirm-back",
         claims=("no-false-confirm",),
         words="Where a door of S and the same door of the world lead to one dart, they leave from"
@@ -75,21 +75,21 @@ ONE_DOOR = (
         refuted=door_steps.confirm_back,
         argued=_BY_DOORS,
     ),
-    Statement(
+    BoundedStatement(
         name="bounded-record",
         claims=("true-hypothesis-kept",),
         words="What was seen behind an unexplored dart is what is seen there on any later map.",
         symbols="S ⊆ S', sigma^k(q) = sigma^l(p) = d ∈ U' ⇒ percept(q') = percept(p')",
         refuted=door_steps.record,
     ),
-    Statement(
+    BoundedStatement(
         name="bounded-new-vertex",
         claims=("map-isomorphic",),
         words="If e leads to no known dart, S knows no dart of the vertex behind it.",
         symbols="alpha(e) ∉ S ⇒ sigma^k(alpha(e)) ∉ S",
         refuted=door_steps.new_vertex,
     ),
-    Statement(
+    BoundedStatement(
         name="bounded-closed",
         claims=("map-isomorphic",),
         words="A map on which everything is explored is the whole world.",
@@ -99,19 +99,19 @@ ONE_DOOR = (
 )
 
 
-def _word(build: Callable[[int, int], word_rules.Play], edges: int) -> Worlds:
+def _word(build: Callable[[int, int], word_rules.EncodedCounterexample], edges: int) -> Worlds:
     return build(edges, edges).world
 
 
-WORDS = (
-    Statement(
+WHOLE_WORD_STATEMENTS = (
+    BoundedStatement(
         name="words-confirm",
         claims=("no-false-confirm",),
         words="A way home from h whose last percept is v0's as expected proves that e ends in h.",
         symbols="w ≤ m doors from h to v0 on S, percepts equal at its end ⇒ h = alpha(e)",
         refuted=partial(_word, word_rules.confirm),
     ),
-    Statement(
+    BoundedStatement(
         name="words-trace",
         claims=("true-hypothesis-kept",),
         words="On every way over explored edges the true hypothesis meets the percepts it expects.",
@@ -119,7 +119,7 @@ WORDS = (
         refuted=partial(_word, word_rules.trace_way),
         least=2,
     ),
-    Statement(
+    BoundedStatement(
         name="words-prefix",
         claims=("true-hypothesis-kept",),
         words="Rule prefix keeps the true hypothesis, whatever word was executed.",
@@ -127,7 +127,7 @@ WORDS = (
         refuted=partial(_word, word_rules.prefix),
         least=2,
     ),
-    Statement(
+    BoundedStatement(
         name="words-history",
         claims=("true-hypothesis-kept",),
         words="Rule history keeps the true hypothesis, whatever word was executed.",
@@ -135,7 +135,7 @@ WORDS = (
         refuted=partial(_word, word_rules.history),
         least=2,
     ),
-    Statement(
+    BoundedStatement(
         name="words-records-one",
         claims=("true-hypothesis-kept",),
         words="Rule records(1) keeps the true hypothesis, whatever was recorded on an earlier map.",
@@ -143,7 +143,7 @@ WORDS = (
         refuted=partial(_word, partial(word_rules.records, levels=1)),
         least=2,
     ),
-    Statement(
+    BoundedStatement(
         name="words-records-all",
         claims=("true-hypothesis-kept",),
         words="Rule records(∞) keeps the true hypothesis, whatever was recorded on an earlier map.",

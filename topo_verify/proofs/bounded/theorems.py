@@ -29,10 +29,14 @@ from topo_verify.proofs.bounded.model_count import (
     missing_and_spurious,
     worlds_encoded,
 )
-from topo_verify.proofs.bounded.solve import Decision, Undecided, decide
-from topo_verify.proofs.bounded.statements import ONE_DOOR, WORDS, Statement
+from topo_verify.proofs.bounded.solve import SatResult, SolverGaveUp, solve
+from topo_verify.proofs.bounded.statements import (
+    ONE_DOOR_STATEMENTS,
+    WHOLE_WORD_STATEMENTS,
+    BoundedStatement,
+)
 from topo_verify.proofs.solvers.z3_solver import name as solver_name
-from topo_verify.proofs.theorem import Budget, Certificate, Outcome, Query, Theorem
+from topo_verify.proofs.theorem import Budget, Query, RefutationCertificate, Theorem, TheoremResult
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -57,11 +61,15 @@ def bounded(edges: int = MOST_EDGES) -> tuple[Theorem, ...]:
     small = range(1, min(edges, WORD_EDGES) + 1)
     deep = range(1, DEEP_WORD_EDGES + 1)
     return (
-        *(theorem(statement, range(1, edges + 1)) for statement in ONE_DOOR),
-        *(theorem(statement, small) for statement in WORDS if statement.least <= edges),
+        *(theorem(statement, range(1, edges + 1)) for statement in ONE_DOOR_STATEMENTS),
+        *(
+            theorem(statement, small)
+            for statement in WHOLE_WORD_STATEMENTS
+            if statement.least <= edges
+        ),
         *(
             theorem(statement, deep, name=f"{statement.name}-deep", deep=True)
-            for statement in WORDS
+            for statement in WHOLE_WORD_STATEMENTS
             if not statement.name.startswith("words-records")
         ),
         *(_below(negative) for negative in negatives.SMALLEST),
@@ -71,7 +79,7 @@ def bounded(edges: int = MOST_EDGES) -> tuple[Theorem, ...]:
 
 
 def theorem(
-    statement: Statement, sizes: range, *, name: str | None = None, deep: bool = False
+    statement: BoundedStatement, sizes: range, *, name: str | None = None, deep: bool = False
 ) -> Theorem:
     """The statement as a theorem about worlds with these numbers of edges."""
     name = name or statement.name
@@ -100,10 +108,10 @@ def _below(negative: negatives.Negative) -> Theorem:
         kind, marker = negative.world_class, negative.marker
         return negatives.false_confirmation(edges, kind, marker).world
 
-    statement = Statement(
+    statement = BoundedStatement(
         name=f"{negative.name}-below",
         claims=("no-false-confirm",),
-        words=f"{negative.telling} With fewer edges there is no such world.",
+        words=f"{negative.statement} With fewer edges there is no such world.",
         symbols="every percept on a shortest way home as expected ⇒ h = alpha(e)",
         refuted=refuted,
         premises=partial(negatives.premises, world_class=negative.world_class),
@@ -115,21 +123,23 @@ def _below(negative: negatives.Negative) -> Theorem:
 # ------------------------------------------------------------------ proving them
 
 
-def _prove(name: str, statement: Statement, sizes: range, budget: Budget) -> Outcome:
+def _prove(name: str, statement: BoundedStatement, sizes: range, budget: Budget) -> TheoremResult:
     """Ask for each size; the first that is not unsatisfiable decides."""
     if budget.certify:
         drup.require_tools()
     began = perf_counter()
     cores: set[str] = set()
     premises: list[bool | None] = []
-    papers: list[Certificate | str] = []
+    attempts: list[RefutationCertificate | str] = []
     checked = 0
     total = sum(WorldClass.parse(statement.world_class).count(m) for m in sizes)
 
-    def outcome(verdict: Verdict, note: str = "", counterexample: str | None = None) -> Outcome:
+    def outcome(
+        verdict: Verdict, note: str = "", counterexample: str | None = None
+    ) -> TheoremResult:
         known = None if None in premises else all(premises)
-        certificate, without = _one_certificate(papers, sizes)
-        return Outcome(
+        certificate, without = _one_certificate(attempts, sizes)
+        return TheoremResult(
             verdict=verdict,
             solver=solver_name(),
             seconds=perf_counter() - began,
@@ -143,48 +153,46 @@ def _prove(name: str, statement: Statement, sizes: range, budget: Budget) -> Out
         )
 
     for done, m in enumerate(sizes):
-        budget.tell(name, done, len(sizes))
+        budget.progress(name, done, len(sizes))
         formula = statement.refuted(m)
-        decision = decide(formula, budget)
-        if decision.answer != "unsat":
-            return outcome(*_not_proved(formula, decision, m))
-        cores |= set(decision.core)
+        result = solve(formula, budget)
+        if result.answer != "unsat":
+            return outcome(*_not_proved(formula, result, m))
+        cores |= set(result.core)
         alone = formula.premises() if statement.premises is None else statement.premises(m)
-        premises.append(
-            {"sat": True, "unsat": False, "unknown": None}[decide(alone, budget).answer]
-        )
+        premises.append({"sat": True, "unsat": False, "unknown": None}[solve(alone, budget).answer])
         worlds = worlds_encoded(m, statement.world_class)
         if worlds is None:
             return outcome("UNKNOWN", f"the worlds with {m} edges could not be counted")
         checked += worlds
-        if budget.certify and not any(isinstance(paper, str) for paper in papers):
-            papers.append(drup.certify(formula, seconds=budget.timeout))
+        if budget.certify and not any(isinstance(attempt, str) for attempt in attempts):
+            attempts.append(drup.certify(formula, seconds=budget.timeout))
     return outcome("EXHAUSTED")
 
 
-def _not_proved(formula: Worlds, decision: Decision, m: int) -> tuple[Verdict, str, str | None]:
+def _not_proved(formula: Worlds, result: SatResult, m: int) -> tuple[Verdict, str, str | None]:
     """Verdict, note and counterexample where the clauses were not unsatisfiable."""
-    if decision.model is not None:
-        world = decode_world(formula, decision.model).id
+    if result.model is not None:
+        world = decode_world(formula, result.model).id
         return "REFUTED", f"it is false in {world}: `--smt2` writes the question", world
-    told = f"m = {m}: {decision.why}; more time: --timeout, fewer edges: --edges"
-    return "UNKNOWN", told, None
+    note = f"m = {m}: {result.why}; more time: --timeout, fewer edges: --edges"
+    return "UNKNOWN", note, None
 
 
 def _one_certificate(
-    papers: list[Certificate | str], sizes: range
-) -> tuple[Certificate | None, str]:
+    attempts: list[RefutationCertificate | str], sizes: range
+) -> tuple[RefutationCertificate | None, str]:
     """The certificates of all sizes as one, if each has one; else up to where there is one."""
-    made = [paper for paper in papers if isinstance(paper, Certificate)]
-    if not papers or any(not paper.checked for paper in made):
+    made = [attempt for attempt in attempts if isinstance(attempt, RefutationCertificate)]
+    if not attempts or any(not attempt.checked for attempt in made):
         return (drup.together(made) if made else None), ""
     if len(made) == len(sizes):
         return drup.together(made), ""
-    for m, paper in zip(sizes, papers, strict=False):
-        if isinstance(paper, str):
+    for m, attempt in zip(sizes, attempts, strict=False):
+        if isinstance(attempt, str):
             return (
                 None,
-                f"certificates checked for {len(made)} of {len(sizes)} sizes; m = {m}: {paper}",
+                f"certificates checked for {len(made)} of {len(sizes)} sizes; m = {m}: {attempt}",
             )
     return None, ""
 
@@ -203,26 +211,26 @@ def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> Theorem:
     is seen in the list.
     """
 
-    def prove(budget: Budget) -> Outcome:
+    def prove(budget: Budget) -> TheoremResult:
         if budget.certify:
             drup.require_tools()
         began = perf_counter()
         found, wrong = 0, ""
-        papers: list[Certificate | str] = []
+        attempts: list[RefutationCertificate | str] = []
         verdict: Verdict = "EXHAUSTED"
         try:
             for done, m in enumerate(sizes):
-                budget.tell(name, done, len(sizes))
+                budget.progress(name, done, len(sizes))
                 models, missing, spurious = missing_and_spurious(m, budget=budget)
                 found += models
                 if missing or spurious:
                     verdict, wrong = "REFUTED", str((missing or spurious)[0])
                 elif budget.certify:
-                    papers.append(drup.certify(another_world(m), seconds=budget.timeout))
-        except Undecided as gave_up:
+                    attempts.append(drup.certify(another_world(m), seconds=budget.timeout))
+        except SolverGaveUp as gave_up:
             verdict, wrong = "UNKNOWN", str(gave_up)
-        certificate, without = _one_certificate(papers, sizes)
-        return Outcome(
+        certificate, without = _one_certificate(attempts, sizes)
+        return TheoremResult(
             verdict=verdict,
             solver=solver_name(),
             seconds=perf_counter() - began,

@@ -1,7 +1,7 @@
 """The rules on whole words: every word of up to `steps` doors, on every map of every world.
 
 Each function says, as clauses, that a rule goes wrong: it confirms a false hypothesis, or rejects
-the true one. That nothing satisfies them is the statement. The letters and the rules: `words.py`;
+the true one. That nothing satisfies them is the statement. The letters and the rules: `walks.py`;
 of one door at a time, and so of words of any length: `one_door.py`. Here nothing is left to an
 induction.
 
@@ -13,11 +13,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from topo_verify.proofs.bounded.cnf import REFUTED, Literal, Row
-from topo_verify.proofs.bounded.encoding import Map, Marker, Worlds
-from topo_verify.proofs.bounded.words import (
-    Fault,
-    Traced,
+from topo_verify.proofs.bounded.cnf import REFUTED, CnfLiteral, CnfRow
+from topo_verify.proofs.bounded.encoding import EncodedMap, MarkerDetail, Worlds
+from topo_verify.proofs.bounded.walks import (
+    RuleFault,
+    TracedWalk,
     behind_an_edge,
     crossed,
     differ_somewhere,
@@ -33,16 +33,16 @@ from topo_verify.proofs.bounded.words import (
 
 
 @dataclass(frozen=True, slots=True)
-class Excursion:
+class EncodedExcursion:
     """An earlier one: the map before it, the dart crossed, the word executed behind."""
 
-    chart: Map
-    e: Row
-    executed: tuple[Row, ...]
+    chart: EncodedMap
+    e: CnfRow
+    executed: tuple[CnfRow, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Play:
+class EncodedCounterexample:
     """A formula, and the rows that say what happens in a world that satisfies it.
 
     Attributes:
@@ -55,18 +55,18 @@ class Play:
     """
 
     world: Worlds
-    chart: Map
-    e: Row
-    h: Row
-    executed: tuple[Row, ...]
-    made: tuple[Literal, ...] | None = None
-    own: tuple[Row, ...] = ()
-    turned: Row | None = None
-    earlier: Excursion | None = None
+    chart: EncodedMap
+    e: CnfRow
+    h: CnfRow
+    executed: tuple[CnfRow, ...]
+    made: tuple[CnfLiteral, ...] | None = None
+    own: tuple[CnfRow, ...] = ()
+    turned: CnfRow | None = None
+    earlier: EncodedExcursion | None = None
     levels: int | None = None
 
 
-def confirm(edges: int, steps: int, *, marker: Marker = "directed") -> Play:
+def confirm(edges: int, steps: int, *, marker: MarkerDetail = "directed") -> EncodedCounterexample:
     """A way home from h ends at v0 as it should, and yet h is not the other end of e.
 
     Only the last percept is compared: those between can only reject more.
@@ -84,10 +84,12 @@ def confirm(edges: int, steps: int, *, marker: Marker = "directed") -> Play:
     )
     for one, other in zip(h, scene.vu, strict=True):
         world.add(REFUTED, -one, -other)
-    return Play(world=world, chart=scene.chart, e=scene.e, h=h, executed=word, made=go)
+    return EncodedCounterexample(
+        world=world, chart=scene.chart, e=scene.e, h=h, executed=word, made=go
+    )
 
 
-def trace_way(edges: int, steps: int, *, fault: Fault = "") -> Play:
+def trace_way(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterexample:
     """On a way over explored darts from the true h, a percept is not the expected one."""
     scene = behind_an_edge(edges)
     world, h = scene.world, true_hypothesis(scene)
@@ -103,12 +105,12 @@ def trace_way(edges: int, steps: int, *, fault: Fault = "") -> Play:
     pairs = [(here.senses[i - later], there.senses[i], (go[i - 1],)) for i in range(1, steps + 1)]
     at_vu = [] if fault else [(here.senses[0], there.senses[0], ())]
     differ_somewhere(world, [*at_vu, *pairs])
-    return Play(
+    return EncodedCounterexample(
         world=world, chart=scene.chart, e=scene.e, h=h, executed=word, made=go, turned=turned
     )
 
 
-def prefix(edges: int, steps: int, *, fault: Fault = "") -> Play:
+def prefix(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterexample:
     """Any word was executed; on the common prefix with the way of the true h, percepts differ."""
     scene = behind_an_edge(edges)
     world, h = scene.world, true_hypothesis(scene)
@@ -126,10 +128,12 @@ def prefix(edges: int, steps: int, *, fault: Fault = "") -> Play:
         for i in range(1, steps + 1)
     ]
     differ_somewhere(world, pairs)
-    return Play(world=world, chart=scene.chart, e=scene.e, h=h, executed=executed, made=go, own=own)
+    return EncodedCounterexample(
+        world=world, chart=scene.chart, e=scene.e, h=h, executed=executed, made=go, own=own
+    )
 
 
-def history(edges: int, steps: int, *, fault: Fault = "") -> Play:
+def history(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterexample:
     """Any word was executed; traced on S from the true h, a percept differs."""
     scene = behind_an_edge(edges)
     world, h = scene.world, true_hypothesis(scene)
@@ -142,10 +146,12 @@ def history(edges: int, steps: int, *, fault: Fault = "") -> Play:
         for i in range(1, steps + 1 - later)
     ]
     differ_somewhere(world, pairs)
-    return Play(world=world, chart=scene.chart, e=scene.e, h=h, executed=word)
+    return EncodedCounterexample(world=world, chart=scene.chart, e=scene.e, h=h, executed=word)
 
 
-def records(edges: int, steps: int, *, levels: int | None, fault: Fault = "") -> Play:
+def records(
+    edges: int, steps: int, *, levels: int | None, fault: RuleFault = ""
+) -> EncodedCounterexample:
     """A word was recorded behind an unexplored dart; a true h is traced across it, and they differ.
 
     The map `before` has the unexplored dart `e1`; behind it the word `wrote` is executed, e1 turns
@@ -178,13 +184,13 @@ def records(edges: int, steps: int, *, levels: int | None, fault: Fault = "") ->
         (past.senses[j + 1], there.senses[i + 1], (linked,)) for (j, i), linked in link.items()
     ]
     differ_somewhere(world, pairs)
-    earlier_word = Excursion(before, e1, written)
-    return Play(
+    earlier_word = EncodedExcursion(before, e1, written)
+    return EncodedCounterexample(
         world=world, chart=later, e=e, h=h, executed=read, earlier=earlier_word, levels=levels
     )
 
 
-def _root(world: Worlds, entry: Row, fault: Fault) -> Row:
+def _root(world: Worlds, entry: CnfRow, fault: RuleFault) -> CnfRow:
     """Where the earlier word is traced from: its entry dart, or (a fault) the vertex's first."""
     if fault != "first-dart":
         return entry
@@ -196,10 +202,10 @@ def _root(world: Worlds, entry: Row, fault: Fault) -> Row:
 
 
 def _links(
-    world: Worlds, past: Traced, now: Traced, later: Map, levels: int | None
-) -> dict[tuple[int, int], Literal]:
+    world: Worlds, past: TracedWalk, now: TracedWalk, later: EncodedMap, levels: int | None
+) -> dict[tuple[int, int], CnfLiteral]:
     """link[j, i]: what was seen behind door j of the past is what is compared behind door i now."""
-    link: dict[tuple[int, int], Literal] = {}
+    link: dict[tuple[int, int], CnfLiteral] = {}
     for j, ended in enumerate(past.ends):
         explored = world.at_one_of("records", past.walk.leave[j], later.explored, f"dropped.{j}")
         for i, ends in enumerate(now.ends):

@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 from topo_verify.algorithms.chart import Chart, Dart, Tree
 from topo_verify.algorithms.motion import Hypothesis
 from topo_verify.proofs.first_order.rules import RULES
-from topo_verify.proofs.first_order.run_structure import Trie, structure
+from topo_verify.proofs.first_order.run_structure import RecordTrie, structure
 from topo_verify.proofs.first_order.structures import Structure
 from topo_verify.proofs.first_order.terms import Term
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject, Start
@@ -27,7 +27,7 @@ from topo_verify.robot.percept import Door, Percept
 
 
 @dataclass(frozen=True, slots=True)
-class Decided:
+class RuleRejection:
     """A rejection: of which hypothesis, by which rule, at which step of the sequence."""
 
     hypothesis: Dart
@@ -36,7 +36,7 @@ class Decided:
 
 
 @dataclass
-class Described:
+class DescribedRule:
     """The described rules at work. Lives as long as one trace is read.
 
     Attributes:
@@ -48,7 +48,7 @@ class Described:
     rule: str
     levels: int | None = None
     terms: Mapping[str, Term] = field(default_factory=lambda: RULES)
-    trie: Trie = field(default_factory=Trie)
+    trie: RecordTrie = field(default_factory=RecordTrie)
 
     def posed(self, chart: Chart, e: Dart, seen: Percept) -> set[Dart]:
         """The hypotheses."""
@@ -69,17 +69,19 @@ class Described:
 
     def refuted(
         self, chart: Chart, h: Hypothesis, doors: Sequence[Door], seen: Sequence[Percept]
-    ) -> Decided | None:
+    ) -> RuleRejection | None:
         """What the rule says of a hypothesis after a sequence."""
         return self.refuted_at(structure(chart, seen, self.trie), h, doors)
 
-    def refuted_at(self, place: Structure, h: Hypothesis, doors: Sequence[Door]) -> Decided | None:
+    def refuted_at(
+        self, place: Structure, h: Hypothesis, doors: Sequence[Door]
+    ) -> RuleRejection | None:
         """The same, of S and percepts as a structure."""
         if self.rule == "none":
             return None
         if self.rule == "prefix":
             step = self._prefix(place, h, doors)
-            return None if step is None else Decided(h.dart, "prefix", step)
+            return None if step is None else RuleRejection(h.dart, "prefix", step)
         return self._traced(place, h.dart, doors)
 
     def _prefix(self, place: Structure, h: Hypothesis, doors: Sequence[Door]) -> int | None:
@@ -90,14 +92,14 @@ class Described:
                 return None
         return None
 
-    def _traced(self, place: Structure, at: Dart, doors: Sequence[Door]) -> Decided | None:
+    def _traced(self, place: Structure, at: Dart, doors: Sequence[Door]) -> RuleRejection | None:
         hypothesis, functions = at, place.functions
         node: int | None = None
         depth = 0
         for step, door in enumerate(doors, 1):
             if node is None:
                 if place.holds(self.terms["history"], x=at, k=door, b=step):
-                    return Decided(hypothesis, "history", step)
+                    return RuleRejection(hypothesis, "history", step)
                 exit_dart = int(functions["mrot"](at, door))
                 if functions["explored"](exit_dart):
                     at = int(functions["malpha"](exit_dart))
@@ -111,7 +113,7 @@ class Described:
                 return None
             depth += 1
             if place.holds(self.terms["record-differs"], r=node, b=step):
-                return Decided(hypothesis, "records", step)
+                return RuleRejection(hypothesis, "records", step)
             if depth == self.levels:
                 return None
         return None
@@ -151,7 +153,7 @@ class Described:
 # ---------------------------------------------------------------- reading a trace
 
 
-class Reading:
+class TraceReader:
     """A trace as it is read: S so far, and the robot's word behind the edge at hand."""
 
     def __init__(self, start: Percept) -> None:
@@ -187,13 +189,13 @@ class Reading:
         return self.seen[0]
 
 
-def compare(trace: Sequence[Event], described: Described) -> Iterator[str]:
+def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
     """Where the decisions of a run differ from those of the described rules, a sentence each."""
     start = trace[0]
     assert isinstance(start, Start)
-    reading = Reading(start.percept)
+    reading = TraceReader(start.percept)
     words: list[tuple[list[Door], list[Percept]]] = []
-    expected: list[Decided] = []
+    expected: list[RuleRejection] = []
     remaining: list[Dart] = []
     tree = reading.chart.tree(0)
     for when, event in enumerate(trace):
@@ -216,9 +218,9 @@ def compare(trace: Sequence[Event], described: Described) -> Iterator[str]:
                     words.append((reading.doors.copy(), reading.seen.copy()))
                     expected = list(_sifted(described, reading, remaining, tree))
             case Reject(_, dart, rule, evidence):
-                told = Decided(dart, rule, evidence.step)
-                if not expected or expected.pop(0) != told:
-                    yield f"event {when}: {told} is not what the rule describes"
+                declared = RuleRejection(dart, rule, evidence.step)
+                if not expected or expected.pop(0) != declared:
+                    yield f"event {when}: {declared} is not what the rule describes"
                 remaining.remove(dart)
             case Confirm(_, dart):
                 h = Hypothesis(dart, reading.chart, tree)
@@ -235,8 +237,8 @@ def compare(trace: Sequence[Event], described: Described) -> Iterator[str]:
 
 
 def _sifted(
-    described: Described, reading: Reading, remaining: Iterable[Dart], tree: Tree
-) -> Iterator[Decided]:
+    described: DescribedRule, reading: TraceReader, remaining: Iterable[Dart], tree: Tree
+) -> Iterator[RuleRejection]:
     place = structure(reading.chart, reading.seen, described.trie)
     for dart in remaining:
         h = Hypothesis(dart, reading.chart, tree)

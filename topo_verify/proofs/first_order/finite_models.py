@@ -34,27 +34,27 @@ from topo_verify.proofs.first_order.terms import (
     symbols,
 )
 from topo_verify.proofs.solvers import z3_solver
-from topo_verify.proofs.theorem import Answer, Budget
+from topo_verify.proofs.theorem import Budget, SolverAnswer
 
 SIZES = ((1, 1), (2, 1), (2, 2), (3, 2), (3, 3), (4, 4))
 """How many darts the world gets, and how many elements every other sort, in the order tried."""
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class FiniteModel:
     """What was found: an answer, and the structure if it is `sat`."""
 
-    answer: Answer
+    answer: SolverAnswer
     structure: Structure | None = None
     tables: Mapping[str, Mapping[tuple[int, ...], Value]] | None = None
     why: str = ""
 
 
-def smallest(assertions: Mapping[str, Term], budget: Budget) -> Model:
+def smallest(assertions: Mapping[str, Term], budget: Budget) -> FiniteModel:
     """A model of the first of `SIZES` that has one."""
     formulas = list(assertions.values())
     sorts = sorted(set[str]().union(*map(sorts_of, formulas)) - {BOOL})
-    last = Model("unknown", why="no size was tried")
+    last = FiniteModel("unknown", why="no size was tried")
     for darts, others in SIZES:
         sizes = {sort: darts if sort == "W" else others for sort in sorts}
         last = model(formulas, sizes, budget)
@@ -63,20 +63,18 @@ def smallest(assertions: Mapping[str, Term], budget: Budget) -> Model:
     return last
 
 
-def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) -> Model:
+def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) -> FiniteModel:
     """A model with these numbers of elements, if there is one.
 
     Raises:
         InternalError: the solver's model is none.
     """
     entries = list(_entries(formulas, sizes))
-    reply = z3_solver.satisfy(
-        [ground(formula, sizes) for formula in formulas] + list(_domains(entries, sizes)),
-        [*_elements(sizes), *(alias for alias, _, _, _ in entries)],
-        budget,
-    )
+    wanted = (*_elements(sizes), *(alias for alias, _, _, _ in entries))
+    sorts = {constant.symbol.name: constant.sort for constant in wanted}
+    reply = z3_solver.find_values(grounded(formulas, sizes), sorts, budget)
     if reply.answer != "sat":
-        return Model(reply.answer, why=reply.why)
+        return FiniteModel(reply.answer, why=reply.why)
     number = {
         sort: {reply.values[element(sort, n).symbol.name]: n for n in range(size)}
         for sort, size in sizes.items()
@@ -93,7 +91,7 @@ def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) ->
     for formula in formulas:
         if not structure.holds(formula):
             raise InternalError(f"the solver's model is none: {formula} does not hold in it")
-    return Model("sat", structure, rows)
+    return FiniteModel("sat", structure, rows)
 
 
 def element(sort: str, number: int) -> App:
@@ -121,11 +119,11 @@ def _elements(sizes: Mapping[str, int]) -> Iterator[App]:
         yield from (element(sort, number) for number in range(size))
 
 
-Entry = tuple[App, Symbol, tuple[int, ...], App]
+FunctionValue = tuple[App, Symbol, tuple[int, ...], App]
 """One value of one function: a name for it, the symbol, the arguments, the application."""
 
 
-def _entries(formulas: Sequence[Term], sizes: Mapping[str, int]) -> Iterator[Entry]:
+def _entries(formulas: Sequence[Term], sizes: Mapping[str, int]) -> Iterator[FunctionValue]:
     """Every value of every function in the formulas."""
     found = {symbol.name: symbol for formula in formulas for symbol in symbols(formula)}
     named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
@@ -137,7 +135,7 @@ def _entries(formulas: Sequence[Term], sizes: Mapping[str, int]) -> Iterator[Ent
             yield alias, symbol, row, symbol(*(element(sort, number) for sort, number in pairs))
 
 
-def _domains(entries: Sequence[Entry], sizes: Mapping[str, int]) -> Iterator[Term]:
+def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iterator[Term]:
     """Elements are different, and every value is one of them."""
     for sort, size in sizes.items():
         for one, other in combinations(range(size), 2):
@@ -164,7 +162,7 @@ def grounded(formulas: Sequence[Term], sizes: Mapping[str, int]) -> str:
     return script({f"c{number}": term for number, term in enumerate(rows)}, logic="QF_UF")
 
 
-def described(found: Model) -> str:
+def described(found: FiniteModel) -> str:
     """A structure in one line: sizes, then the values of each symbol in the order of arguments."""
     assert found.structure is not None
     assert found.tables is not None

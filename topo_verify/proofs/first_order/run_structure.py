@@ -15,7 +15,7 @@ from topo_verify.robot.percept import Door, Percept
 NO_DOOR = -1
 
 
-class Trie:
+class RecordTrie:
     """The records, as nodes with numbers: what was seen, and by door what was seen behind."""
 
     def __init__(self) -> None:
@@ -35,7 +35,7 @@ def points(percept: Percept, door: Door) -> bool:
     return percept.marker is not None and (door - percept.marker) % percept.degree == 0
 
 
-def structure(chart: Chart, seen: Sequence[Percept], trie: Trie) -> Structure:
+def structure(chart: Chart, seen: Sequence[Percept], trie: RecordTrie) -> Structure:
     """S, what was sensed, and the records, as a structure of the theory."""
     rows = {
         "root": nullary(0),
@@ -69,7 +69,7 @@ def _of_percepts(seen: Sequence[Percept]) -> dict[str, Function]:
     }
 
 
-def _of_records(trie: Trie) -> dict[str, Function]:
+def _of_records(trie: RecordTrie) -> dict[str, Function]:
     percepts, records = trie.percepts, trie.records
     return {
         "recorded": unary(lambda x: x in records),

@@ -14,7 +14,7 @@ from functools import cached_property
 from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.motion import Hypothesis, Pilot
 from topo_verify.errors import InternalError
-from topo_verify.proofs.first_order.run_structure import Trie, structure
+from topo_verify.proofs.first_order.run_structure import RecordTrie, structure
 from topo_verify.proofs.first_order.scenes import Scene
 from topo_verify.proofs.first_order.terms import Term
 from topo_verify.robot.events import Move
@@ -24,7 +24,7 @@ from topo_verify.robot.simulator import SimulatedRobot
 MOVES = 10_000
 
 
-class Stage:
+class SceneReplay:
     """A robot in the world of a scene. Lives for one replay; its map grows as it moves.
 
     Attributes:
@@ -38,7 +38,7 @@ class Stage:
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
         self.at: Dart = 0
-        self.trie = Trie()
+        self.trie = RecordTrie()
         left_out = {scene.constants[name] for name in without}
         left_out |= {self._other(x) for x in left_out}
         self.number: dict[int, Dart] = {}

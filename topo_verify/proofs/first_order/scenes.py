@@ -36,7 +36,7 @@ from topo_verify.proofs.first_order.terms import (
     neg,
     symbols,
 )
-from topo_verify.proofs.theorem import Answer, Budget
+from topo_verify.proofs.theorem import Budget, SolverAnswer
 from topo_verify.world.rooted_map import World
 
 DOORS, MOST_DEGREE = 12, 4
@@ -133,7 +133,7 @@ class Scene:
 
 def find(
     given: Mapping[str, Term], budget: Budget, *, edges: int, known: int
-) -> tuple[Scene | None, Answer, str]:
+) -> tuple[Scene | None, SolverAnswer, str]:
     """A scene with so many edges, and so many darts in S, of which these things are true.
 
     Returns:

@@ -16,9 +16,9 @@ from time import perf_counter
 from topo_verify.proofs.first_order import finite_models
 from topo_verify.proofs.first_order.axioms import INVARIANT, LEMMAS
 from topo_verify.proofs.first_order.obligations import OBLIGATIONS, Obligation
-from topo_verify.proofs.first_order.terms import conj, implies, neg, script, shown
+from topo_verify.proofs.first_order.terms import Term, conj, implies, neg, script, shown
 from topo_verify.proofs.solvers import z3_solver
-from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
+from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult
 
 
 def theorem(obligation: Obligation) -> Theorem:
@@ -52,12 +52,12 @@ def _solver_part(obligation: Obligation) -> str:
     return words + (f", given {', '.join(lemmas)}" if lemmas else "")
 
 
-def _prover(obligation: Obligation) -> Callable[[Budget], Outcome]:
-    def prove(budget: Budget) -> Outcome:
+def _prover(obligation: Obligation) -> Callable[[Budget], TheoremResult]:
+    def prove(budget: Budget) -> TheoremResult:
         begin = perf_counter()
-        reply = z3_solver.prove(obligation.negation(), budget)
+        reply = refute(obligation.negation(), budget)
         if reply.answer != "unsat":
-            return Outcome(
+            return TheoremResult(
                 verdict="UNKNOWN",
                 solver=z3_solver.name(),
                 seconds=perf_counter() - begin,
@@ -65,7 +65,7 @@ def _prover(obligation: Obligation) -> Callable[[Budget], Outcome]:
             )
         premises = finite_models.smallest(obligation.premises(), budget).answer
         satisfiable = {"sat": True, "unsat": False, "unknown": None}[premises]
-        return Outcome(
+        return TheoremResult(
             verdict="PROVED",
             solver=z3_solver.name(),
             seconds=perf_counter() - begin,
@@ -77,25 +77,30 @@ def _prover(obligation: Obligation) -> Callable[[Budget], Outcome]:
     return prove
 
 
+def refute(assertions: dict[str, Term], budget: Budget) -> z3_solver.Z3Reply:
+    """Z3's reply: can all of these hold at once? The core consists of their names."""
+    return z3_solver.refute(script(assertions), assertions, budget)
+
+
 def mutant(obligation: Obligation, lost: str) -> Theorem:
     """The obligation without one premise, which must fail."""
     dropped = obligation.premises()[lost]
     formulas = obligation.premises(without=lost)
     formulas |= {"premise-fails": neg(dropped), "goal-fails": neg(obligation.goal)}
 
-    def prove(budget: Budget) -> Outcome:
+    def prove(budget: Budget) -> TheoremResult:
         begin = perf_counter()
         found = finite_models.smallest(formulas, budget)
         if found.structure is None:
             exhausted = found.answer == "unsat"
-            return Outcome(
+            return TheoremResult(
                 verdict="EXHAUSTED" if exhausted else "UNKNOWN",
                 solver=z3_solver.name(),
                 seconds=perf_counter() - begin,
                 note=found.why
                 or f"no structure of up to {finite_models.SIZES[-1][0]} darts breaks it",
             )
-        return Outcome(
+        return TheoremResult(
             verdict="REFUTED",
             solver=z3_solver.name(),
             seconds=perf_counter() - begin,

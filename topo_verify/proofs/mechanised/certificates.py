@@ -32,12 +32,12 @@ from tempfile import TemporaryDirectory
 from topo_verify.checkers.replayed_trace import require_order
 from topo_verify.errors import InputError
 from topo_verify.proofs.mechanised import toolchain
-from topo_verify.proofs.mechanised.decision_evidence import MOST, decided
+from topo_verify.proofs.mechanised.decision_evidence import MOST, evidence_for_decisions
 from topo_verify.proofs.mechanised.evidence import fold_log
 from topo_verify.proofs.mechanised.vernacular import (
     MANY,
-    Certificate,
-    Statement,
+    CertifiedStatement,
+    CoqCertificate,
     coq_file,
     numbers,
     numbers_of_decisions,
@@ -55,7 +55,7 @@ _PROGRAM = ("certifier.mli", "certifier.ml", "driver.ml")
 
 
 @dataclass(frozen=True, slots=True)
-class Checked:
+class CertificateCheck:
     """What became of a certificate.
 
     Attributes:
@@ -68,10 +68,10 @@ class Checked:
     accepted: bool | None
     by: str
     why: str = ""
-    decisions: Checked | None = None
+    decisions: CertificateCheck | None = None
 
 
-def state(trace: Sequence[Event]) -> Certificate:
+def state(trace: Sequence[Event]) -> CoqCertificate:
     """What the log proves, stated, with its evidence.
 
     Raises:
@@ -92,15 +92,15 @@ def state(trace: Sequence[Event]) -> Certificate:
             " leave out --kernel"
         )
     fold = fold_log(percepts, doors)
-    shown: Statement = "map" if fold.closed else "undetermined"
+    shown: CertifiedStatement = "map" if fold.closed else "undetermined"
     statement = "impossible" if fold.conflict else shown
-    return Certificate(statement, percepts, doors, fold, decided(trace))
+    return CoqCertificate(statement, percepts, doors, fold, evidence_for_decisions(trace))
 
 
 @contextmanager
 def checking(
-    *, timeout: float, tell: Callable[[str], None] = lambda _: None
-) -> Generator[Callable[[str, Certificate], Checked]]:
+    *, timeout: float, progress: Callable[[str], None] = lambda _: None
+) -> Generator[Callable[[str, CoqCertificate], CertificateCheck]]:
     """Have certificates checked, each with the name of its file, without suffix.
 
     coqc checks them; long ones the extracted program does, where it can be made. What they build on
@@ -111,50 +111,50 @@ def checking(
         tell: is told what is being done.
     """
     with TemporaryDirectory() as folder:
-        yield _Checker(Path(folder), timeout, tell).check
+        yield _Checker(Path(folder), timeout, progress).check
 
 
 class _Checker:
     """A folder in which certificates are checked."""
 
-    def __init__(self, folder: Path, timeout: float, tell: Callable[[str], None]) -> None:
-        self.folder, self.timeout, self.tell = folder, timeout, tell
+    def __init__(self, folder: Path, timeout: float, progress: Callable[[str], None]) -> None:
+        self.folder, self.timeout, self.progress = folder, timeout, progress
 
-    def check(self, name: str, certificate: Certificate) -> Checked:
+    def check(self, name: str, certificate: CoqCertificate) -> CertificateCheck:
         """What becomes of it."""
         if why := toolchain.missing():
-            return Checked(None, "", why)
+            return CertificateCheck(None, "", why)
         compiler = shutil.which("ocamlfind") is not None
         by_program = compiler and len(certificate.doors) > LONG
         try:
             if not (self.folder / f"{LIBRARY}.vo").exists():
-                self.tell("compiling the proofs")
+                self.progress("compiling the proofs")
                 build(self.folder, timeout=self.timeout)
-            self.tell(f"checking {name}.v")
+            self.progress(f"checking {name}.v")
             if by_program:
                 found = extracted(self.folder, certificate, timeout=self.timeout)
             else:
                 found = by_kernel(self.folder, name, coq_file(certificate), timeout=self.timeout)
         except toolchain.TimeOut as error:
-            return Checked(None, toolchain.version(), str(error))
+            return CertificateCheck(None, toolchain.version(), str(error))
         if by_program or not certificate.writes_decisions:
             return replace(found, decisions=self.decisions(certificate, compiler=compiler))
         return found
 
-    def decisions(self, certificate: Certificate, *, compiler: bool) -> Checked | None:
+    def decisions(self, certificate: CoqCertificate, *, compiler: bool) -> CertificateCheck | None:
         """What becomes of decisions that coqc is not asked about; None if there are none."""
         if certificate.decisions.too_long:
-            return Checked(None, "", f"their evidence has more than {MOST:,} steps")
+            return CertificateCheck(None, "", f"their evidence has more than {MOST:,} steps")
         if not certificate.decisions.stated:
             return None
         if not compiler:
             why = f"their evidence has more than {MANY:,} steps, and ocamlfind is not installed"
-            return Checked(None, "", why)
-        self.tell("checking the decisions")
+            return CertificateCheck(None, "", why)
+        self.progress("checking the decisions")
         try:
             return extracted_decisions(self.folder, certificate, timeout=self.timeout)
         except toolchain.TimeOut as error:
-            return Checked(None, toolchain.version(), str(error))
+            return CertificateCheck(None, toolchain.version(), str(error))
 
 
 def build(folder: Path, *, timeout: float) -> None:
@@ -170,30 +170,32 @@ def build(folder: Path, *, timeout: float) -> None:
     if not ran.accepted:
         raise InputError(
             f"{toolchain.version()} refuses the proofs that come with topo-verify, written for Coq"
-            f" 8.16: {ran.said[:200]}"
+            f" 8.16: {ran.output[:200]}"
         )
 
 
-def by_kernel(folder: Path, name: str, text: str, *, timeout: float) -> Checked:
+def by_kernel(folder: Path, name: str, text: str, *, timeout: float) -> CertificateCheck:
     """Have coqc check a certificate, beside the compiled library."""
     (folder / f"{name}.v").write_text(text, encoding="utf-8")
     ran = toolchain.compile_one(folder, name, timeout=timeout)
     asked = text.count("\nPrint Assumptions ")
-    accepted = ran.accepted and asked == ran.said.count(toolchain.NO_AXIOMS) > 0
-    return Checked(accepted, toolchain.version(), "" if accepted else ran.said[-300:])
+    accepted = ran.accepted and asked == ran.output.count(toolchain.NO_AXIOMS) > 0
+    return CertificateCheck(accepted, toolchain.version(), "" if accepted else ran.output[-300:])
 
 
-def extracted(folder: Path, certificate: Certificate, *, timeout: float) -> Checked:
+def extracted(folder: Path, certificate: CoqCertificate, *, timeout: float) -> CertificateCheck:
     """Have the extracted program check what a log proves of the map."""
     return _extracted(folder, numbers(certificate), timeout=timeout)
 
 
-def extracted_decisions(folder: Path, certificate: Certificate, *, timeout: float) -> Checked:
+def extracted_decisions(
+    folder: Path, certificate: CoqCertificate, *, timeout: float
+) -> CertificateCheck:
     """Have the extracted program check the decisions."""
     return _extracted(folder, numbers_of_decisions(certificate), timeout=timeout)
 
 
-def _extracted(folder: Path, stdin: str, *, timeout: float) -> Checked:
+def _extracted(folder: Path, stdin: str, *, timeout: float) -> CertificateCheck:
     """Have the extracted program check; it is compiled where it is not yet there."""
     program = folder / "certifier"
     by = f"the checker extracted by {toolchain.version()}"
@@ -207,10 +209,10 @@ def _extracted(folder: Path, stdin: str, *, timeout: float) -> Checked:
         for step in steps:
             ran = toolchain.run(step, folder, timeout=timeout)
             if not ran.accepted:
-                return Checked(None, by, f"{step[0]} fails: {ran.said[-300:]}")
+                return CertificateCheck(None, by, f"{step[0]} fails: {ran.output[-300:]}")
     ran = toolchain.run([str(program)], folder, timeout=timeout, stdin=stdin)
-    accepted = ran.accepted and ran.said == "accepted"
-    return Checked(accepted, by, "" if accepted else ran.said[-300:] or "refused")
+    accepted = ran.accepted and ran.output == "accepted"
+    return CertificateCheck(accepted, by, "" if accepted else ran.output[-300:] or "refused")
 
 
 def command(name: str, sources: Path = toolchain.SOURCES) -> str:

@@ -27,18 +27,24 @@ from dataclasses import dataclass
 
 from topo_verify.checkers import decision_conclusions
 from topo_verify.errors import InternalError
-from topo_verify.proofs.mechanised.evidence import Arc, Conflict, Fold, Meeting, Place
+from topo_verify.proofs.mechanised.evidence import (
+    Arc,
+    Conflict,
+    LogPlace,
+    Meeting,
+    ProofProducingFold,
+)
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Reject, Start
 from topo_verify.robot.percept import Door, Percept
 
-Declared = Reject | Confirm | Augment
+DeclaredDecision = Reject | Confirm | Augment
 
 MOST = 2_000_000
 """Evidence of more steps is given up: it would take hundreds of megabytes."""
 
 
 @dataclass(frozen=True, slots=True)
-class Refutation:
+class EdgeRefutation:
     """With an edge between the two places these arcs meet, and this contradicts."""
 
     meetings: tuple[Meeting, ...]
@@ -56,13 +62,13 @@ class Fact:
     """
 
     visit: int
-    one: Place
-    other: Place
-    reason: Arc | Refutation
+    one: LogPlace
+    other: LogPlace
+    reason: Arc | EdgeRefutation
 
 
 @dataclass(frozen=True, slots=True)
-class Decided:
+class EntailedDecision:
     """A declared decision that follows: its event in the trace, in words, and as facts."""
 
     when: int
@@ -71,7 +77,7 @@ class Decided:
 
 
 @dataclass(frozen=True, slots=True)
-class Decisions:
+class EntailedDecisions:
     """The decisions of a trace that follow.
 
     Attributes:
@@ -80,7 +86,7 @@ class Decisions:
         steps: how long all evidence is: visits, merges, facts and merges under assumptions.
     """
 
-    stated: tuple[Decided, ...]
+    stated: tuple[EntailedDecision, ...]
     merges: tuple[Meeting, ...]
     steps: int
 
@@ -90,7 +96,7 @@ class Decisions:
         return self.steps > MOST
 
 
-def decided(trace: Sequence[Event]) -> Decisions:
+def evidence_for_decisions(trace: Sequence[Event]) -> EntailedDecisions:
     """The decisions of a trace, with evidence.
 
     Raises:
@@ -98,34 +104,34 @@ def decided(trace: Sequence[Event]) -> Decisions:
     Complexity: as claim 10 itself; nearly linear, and what each assumed edge adds.
     """
     prior = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
-    told = _Told()
-    stated: list[Decided] = []
+    log = _LogSoFar()
+    stated: list[EntailedDecision] = []
     spent = steps = 0
     for when, event in _following(trace):
-        told.catch_up(trace, when)
-        facts = told.facts(event)
+        log.catch_up(trace, when)
+        facts = log.facts(event)
         if facts:
-            stated.append(Decided(when, _words(event), facts))
+            stated.append(EntailedDecision(when, _words(event), facts))
         elif not prior:
             raise InternalError(f"two folds of one log differ at event {when}: {_words(event)}")
         spent += sum(map(_length, facts))
-        steps = told.visit + len(told.fold.meetings) + spent
+        steps = log.visit + len(log.fold.meetings) + spent
         if steps > MOST:
-            return Decisions((), (), steps)
-    return Decisions(tuple(stated), tuple(told.fold.meetings), steps)
+            return EntailedDecisions((), (), steps)
+    return EntailedDecisions(tuple(stated), tuple(log.fold.meetings), steps)
 
 
-def _following(trace: Sequence[Event]) -> Iterator[tuple[int, Declared]]:
+def _following(trace: Sequence[Event]) -> Iterator[tuple[int, DeclaredDecision]]:
     """The declared decisions that follow, with their number in the trace."""
-    if not any(isinstance(event, Declared) for event in trace):
+    if not any(isinstance(event, DeclaredDecision) for event in trace):
         return
     for conclusion in decision_conclusions(trace):
         event = trace[conclusion.when]
-        if not conclusion.why and isinstance(event, Declared):
+        if not conclusion.why and isinstance(event, DeclaredDecision):
             yield conclusion.when, event
 
 
-def _words(event: Declared) -> str:
+def _words(event: DeclaredDecision) -> str:
     match event:
         case Reject(edge, hypothesis):
             return f"the other end of {edge} is not {hypothesis}"
@@ -138,16 +144,16 @@ def _words(event: Declared) -> str:
 
 
 def _length(fact: Fact) -> int:
-    return 1 + (len(fact.reason.meetings) if isinstance(fact.reason, Refutation) else 0)
+    return 1 + (len(fact.reason.meetings) if isinstance(fact.reason, EdgeRefutation) else 0)
 
 
-class _Told:
+class _LogSoFar:
     """What was known at one moment of a trace: the fold, and where the darts of S are."""
 
     def __init__(self) -> None:
-        self.fold = Fold()
+        self.fold = ProofProducingFold()
         self.next = 0  # the first event that was not looked at
-        self.seats: list[Place] = []  # of each dart of S, a place
+        self.map_to_fold: list[LogPlace] = []  # of each dart of S, a place
         self.opened: set[int] = set()
 
     @property
@@ -166,14 +172,14 @@ class _Told:
             self.draw((1, 0))
         self.next = when
 
-    def draw(self, entry: Place) -> None:
+    def draw(self, entry: LogPlace) -> None:
         """A new vertex of S, seen from this place on."""
         visit, door = entry
         degree = self.fold.seen[visit].degree
-        self.opened |= set(range(len(self.seats), len(self.seats) + degree))
-        self.seats += [(visit, (door + step) % degree) for step in range(degree)]
+        self.opened |= set(range(len(self.map_to_fold), len(self.map_to_fold) + degree))
+        self.map_to_fold += [(visit, (door + step) % degree) for step in range(degree)]
 
-    def facts(self, event: Declared) -> tuple[Fact, ...]:
+    def facts(self, event: DeclaredDecision) -> tuple[Fact, ...]:
         """What a decision says, with evidence; none if there is none. S grows by it."""
         edge = event.edge
         if isinstance(event, Reject):
@@ -185,22 +191,22 @@ class _Told:
             self.draw(entry)
         else:
             other = event.dart if isinstance(event, Augment) else event.hypothesis
-            found = [self.joined(edge, self.seats[other])]
+            found = [self.joined(edge, self.map_to_fold[other])]
         if isinstance(event, Augment):
             self.opened -= {edge, event.dart}
         facts = tuple(fact for fact in found if fact is not None)
         return facts if len(facts) == len(found) else ()
 
-    def entry(self, edge: int) -> Place:
+    def entry(self, edge: int) -> LogPlace:
         """The place to which the first move through a dart of S led."""
-        arc = self.fold.joining(self.seats[edge])
+        arc = self.fold.joining(self.map_to_fold[edge])
         assert arc is not None, "an edge that leads to a new vertex was crossed"
         leaves, arrives = self.fold.edges[arc.visit]
         return arrives if arc.forwards else leaves
 
-    def joined(self, edge: int, other: Place) -> Fact | None:
+    def joined(self, edge: int, other: LogPlace) -> Fact | None:
         """An edge leads from a dart of S to a place."""
-        one = self.seats[edge]
+        one = self.map_to_fold[edge]
         arc = self.fold.joining(one)
         if arc is None or self.fold.end(arc) != self.fold.find(other):
             return None
@@ -208,8 +214,8 @@ class _Told:
 
     def apart(self, edge: int, dart: int) -> Fact | None:
         """No edge leads from one dart of S to the other."""
-        one, other = self.seats[edge], self.seats[dart]
+        one, other = self.map_to_fold[edge], self.map_to_fold[dart]
         meetings, conflict = self.fold.refute(one, other)
         if conflict is None:
             return None
-        return Fact(self.visit, one, other, Refutation(meetings, conflict))
+        return Fact(self.visit, one, other, EdgeRefutation(meetings, conflict))

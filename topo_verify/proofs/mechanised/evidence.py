@@ -35,7 +35,7 @@ class Arc(NamedTuple):
 
 
 Meeting = tuple[Arc, Arc]
-Place = tuple[int, int]
+LogPlace = tuple[int, int]
 """A visit, counted from 1, and a dart of its vertex, counted from the reference dart."""
 
 
@@ -68,7 +68,7 @@ class Illegal:
 Conflict = Arrive | Marked | Alone | Illegal
 
 
-class Row(NamedTuple):
+class MapRow(NamedTuple):
     """A dart of a map: the next and the previous one clockwise, the other dart of its edge."""
 
     following: int
@@ -77,7 +77,7 @@ class Row(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Folded:
+class FoldedLog:
     """A log, folded.
 
     Attributes:
@@ -88,7 +88,7 @@ class Folded:
 
     meetings: tuple[Meeting, ...]
     conflict: Conflict | None
-    table: tuple[Row, ...]
+    table: tuple[MapRow, ...]
 
     @property
     def closed(self) -> bool:
@@ -96,13 +96,13 @@ class Folded:
         return all(row.other is not None for row in self.table)
 
 
-def fold_log(percepts: Sequence[Percept], doors: Sequence[Door]) -> Folded:
+def fold_log(percepts: Sequence[Percept], doors: Sequence[Door]) -> FoldedLog:
     """Fold the log of these percepts; door i leads from percept i to percept i + 1."""
     if not _legal(percepts, doors):
-        return Folded((), Illegal(), ())
-    fold = Fold()
+        return FoldedLog((), Illegal(), ())
+    fold = ProofProducingFold()
     conflict = fold.extend(percepts, doors) or fold.alone()
-    return Folded(tuple(fold.meetings), conflict, () if conflict else fold.table())
+    return FoldedLog(tuple(fold.meetings), conflict, () if conflict else fold.table())
 
 
 def _legal(percepts: Sequence[Percept], doors: Sequence[Door]) -> bool:
@@ -113,12 +113,12 @@ def _legal(percepts: Sequence[Percept], doors: Sequence[Door]) -> bool:
     )
 
 
-class Fold:
+class ProofProducingFold:
     """The union-find while it runs; grows by `extend`. Index 0 of its lists is not used."""
 
     def __init__(self) -> None:
         self.seen = [Percept(0, None)]
-        self.edges: list[tuple[Place, Place]] = [((0, 0), (0, 0))]
+        self.edges: list[tuple[LogPlace, LogPlace]] = [((0, 0), (0, 0))]
         self.parent = [0]
         self.offset = [0]
         self.size = [1]
@@ -141,7 +141,7 @@ class Fold:
                 one, other = self.find((1, 0)), self.find((visit, percept.marker))
                 if self.apart(one, other):
                     return Marked(visit)
-                self.hang(one, other)
+                self.link(one, other)
         for move in moves:
             if conflict := self.cross(move):
                 return conflict
@@ -152,12 +152,12 @@ class Fold:
         edges = range(1, len(self.edges))
         return next((Alone(e) for e in edges if self.leaves(e) == self.arrives(e)), None)
 
-    def joining(self, place: Place) -> Arc | None:
+    def joining(self, place: LogPlace) -> Arc | None:
         """An arc that leaves by this dart; None if it is open."""
         visit, dart = self.find(place)
         return self.leaving[visit].get(dart)
 
-    def refute(self, one: Place, other: Place) -> tuple[tuple[Meeting, ...], Conflict | None]:
+    def refute(self, one: LogPlace, other: LogPlace) -> tuple[tuple[Meeting, ...], Conflict | None]:
         """What follows from an edge between the two: meetings up to a conflict, if there is one.
 
         The fold is the same afterwards.
@@ -179,19 +179,19 @@ class Fold:
                 self.size[self.parent[visit]] -= self.size[visit]
                 self.parent[visit], self.offset[visit] = visit, 0
 
-    def leaves(self, edge: int) -> Place:
+    def leaves(self, edge: int) -> LogPlace:
         """Where an edge leaves: a move, or one that is assumed."""
         return self.find(self.edges[edge][0])
 
-    def arrives(self, edge: int) -> Place:
+    def arrives(self, edge: int) -> LogPlace:
         """Where it arrives."""
         return self.find(self.edges[edge][1])
 
-    def end(self, arc: Arc) -> Place:
+    def end(self, arc: Arc) -> LogPlace:
         """Where an arc arrives."""
         return self.arrives(arc.visit) if arc.forwards else self.leaves(arc.visit)
 
-    def find(self, place: Place) -> Place:
+    def find(self, place: LogPlace) -> LogPlace:
         """The place that stands for all that are the same dart."""
         visit, dart = place
         while self.parent[visit] != visit:
@@ -199,7 +199,7 @@ class Fold:
             visit = self.parent[visit]
         return visit, dart % self.seen[visit].degree
 
-    def apart(self, one: Place, other: Place) -> bool:
+    def apart(self, one: LogPlace, other: LogPlace) -> bool:
         """Can they not be one dart?"""
         if one[0] == other[0]:
             return one != other
@@ -225,10 +225,10 @@ class Fold:
                 if self.size[one[0]] < self.size[other[0]]:
                     meeting, one, other = (meeting[1], meeting[0]), other, one
                 self.meetings.append(meeting)
-                todo += self.hang(one, other)
+                todo += self.link(one, other)
         return None
 
-    def hang(self, one: Place, other: Place) -> list[Meeting]:
+    def link(self, one: LogPlace, other: LogPlace) -> list[Meeting]:
         """Hang the class of the second under that of the first; the arcs that then meet."""
         (kept, i), (lost, j) = one, other
         if kept == lost:
@@ -251,22 +251,22 @@ class Fold:
             self.done.append((visit, dart))
         return first
 
-    def table(self) -> tuple[Row, ...]:
+    def table(self) -> tuple[MapRow, ...]:
         """The fold as a map: vertices in the order of discovery, from the entry dart on."""
-        first: dict[int, Place] = {}  # of each vertex: its entry dart, and that dart's number
-        order: list[Place] = []  # all darts, by number
+        first: dict[int, LogPlace] = {}  # of each vertex: its entry dart, and that dart's number
+        order: list[LogPlace] = []  # all darts, by number
         self.discover(self.find((1, 0)), first, order)
-        rows: list[Row] = []
+        rows: list[MapRow] = []
         for number, (visit, dart) in enumerate(order):
             arc = self.leaving[visit].get(dart)
             other = None if arc is None else self.number(self.end(arc), first)
             low = first[visit][1]
             degree = self.seen[visit].degree
             after, before = ((number - low + step) % degree + low for step in (1, -1))
-            rows.append(Row(after, before, other))
+            rows.append(MapRow(after, before, other))
         return tuple(rows)
 
-    def discover(self, root: Place, first: dict[int, Place], order: list[Place]) -> None:
+    def discover(self, root: LogPlace, first: dict[int, LogPlace], order: list[LogPlace]) -> None:
         """Number the darts: each vertex by its entry dart, breadth first."""
         todo = [root]
         for visit, entry in todo:
@@ -279,7 +279,7 @@ class Fold:
             arcs = (self.leaving[visit].get(dart) for _, dart in darts)
             todo += [self.end(arc) for arc in arcs if arc is not None]
 
-    def number(self, place: Place, first: dict[int, Place]) -> int:
+    def number(self, place: LogPlace, first: dict[int, LogPlace]) -> int:
         """The number of a dart."""
         visit, dart = place
         entry, low = first[visit]

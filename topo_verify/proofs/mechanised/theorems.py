@@ -26,14 +26,14 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from topo_verify.proofs.mechanised import toolchain
-from topo_verify.proofs.theorem import Budget, Outcome, Theorem
+from topo_verify.proofs.theorem import Budget, Theorem, TheoremResult
 
 LONGER = 10
 """The whole check is many calls; each may take so many times the limit of one query."""
 
 
 @dataclass(frozen=True, slots=True)
-class Mechanised:
+class MechanisedStatement:
     """A theorem of coq/, its file and name there, the claims that rest on it, and what it says."""
 
     name: str
@@ -43,12 +43,12 @@ class Mechanised:
     words: str
 
 
-def _one(name: str, where: str, claims: str, words: str) -> Mechanised:
+def _one(name: str, where: str, claims: str, words: str) -> MechanisedStatement:
     file, theorem = where.split(".")
-    return Mechanised(name, file, theorem, tuple(claims.split()), words)
+    return MechanisedStatement(name, file, theorem, tuple(claims.split()), words)
 
 
-STATEMENTS: tuple[Mechanised, ...] = (
+STATEMENTS: tuple[MechanisedStatement, ...] = (
     _one("coq-foretold", "Embedding.forward", "true-hypothesis-kept",
         "What the map foretells of a true hypothesis, the world shows."),
     _one("coq-motion-kept", "Embedding.mismatch_refutes", "true-hypothesis-kept",
@@ -122,7 +122,7 @@ STATEMENTS: tuple[Mechanised, ...] = (
 
 
 @dataclass(frozen=True, slots=True)
-class Library:
+class LibraryCheck:
     """What became of the library as a whole.
 
     Attributes:
@@ -137,21 +137,21 @@ class Library:
 
 
 @cache
-def library(timeout: float) -> Library:
+def library(timeout: float) -> LibraryCheck:
     """Compile and check everything, once; `timeout` is in seconds for each call of a program."""
     if why := toolchain.missing():
-        return Library(why=why)
+        return LibraryCheck(why=why)
     begin = perf_counter()
     with TemporaryDirectory() as name:
         try:
             found = examine(Path(name), timeout=timeout)
         except toolchain.TimeOut as error:
-            found = Library(why=str(error))
+            found = LibraryCheck(why=str(error))
     seconds = perf_counter() - begin
-    return Library(found.why, found.summary, seconds)
+    return LibraryCheck(found.why, found.summary, seconds)
 
 
-def examine(folder: Path, *, timeout: float) -> Library:
+def examine(folder: Path, *, timeout: float) -> LibraryCheck:
     """The check, in an empty folder.
 
     Raises:
@@ -161,16 +161,16 @@ def examine(folder: Path, *, timeout: float) -> Library:
     toolchain.copy_library(folder, names)
     for name in names:
         if words := toolchain.claims_unproved((folder / f"{name}.v").read_text(encoding="utf-8")):
-            return Library(why=f"{name}.v claims without proof: {', '.join(words)}")
+            return LibraryCheck(why=f"{name}.v claims without proof: {', '.join(words)}")
     ran = toolchain.compile_all(folder, names, timeout=timeout)
     if not ran.accepted:
-        return Library(why=f"coqc refuses {ran.said[-300:]}")
-    if (said := asked(folder, timeout=timeout)) != toolchain.NO_AXIOMS:
-        return Library(why=f"the theorems rest on more than their proofs: {said[-300:]}")
+        return LibraryCheck(why=f"coqc refuses {ran.output[-300:]}")
+    if (output := asked(folder, timeout=timeout)) != toolchain.NO_AXIOMS:
+        return LibraryCheck(why=f"the theorems rest on more than their proofs: {output[-300:]}")
     ran = toolchain.recheck(folder, names, timeout=timeout)
     if not ran.accepted:
-        return Library(why=f"coqchk does not say that there is no axiom: {ran.said[-300:]}")
-    return Library(summary=summary(ran.said))
+        return LibraryCheck(why=f"coqchk does not say that there is no axiom: {ran.output[-300:]}")
+    return LibraryCheck(summary=summary(ran.output))
 
 
 def asked(folder: Path, *, timeout: float) -> str:
@@ -179,18 +179,18 @@ def asked(folder: Path, *, timeout: float) -> str:
     theorems = ", ".join(f"@{one.file}.{one.theorem}" for one in STATEMENTS)
     text = f"From Topo Require {imports}.\nDefinition every := ({theorems}).\n"
     (folder / "asked.v").write_text(f"{text}Print Assumptions every.\n", encoding="utf-8")
-    return toolchain.compile_one(folder, "asked", timeout=timeout).said
+    return toolchain.compile_one(folder, "asked", timeout=timeout).output
 
 
-def summary(said: str) -> str:
+def summary(output: str) -> str:
     """coqchk's summary in one line: its theory, its axioms, and whatever else is not <none>."""
-    lines = said.partition("CONTEXT SUMMARY")[2].splitlines()
+    lines = output.partition("CONTEXT SUMMARY")[2].splitlines()
     points = [line.removeprefix("* ").strip() for line in lines if line.startswith("* ")]
-    told = (p for p in points if p.startswith("Axioms") or not p.endswith("<none>"))
-    return "; ".join(told)
+    worth_saying = (p for p in points if p.startswith("Axioms") or not p.endswith("<none>"))
+    return "; ".join(worth_saying)
 
 
-def theorem(statement: Mechanised) -> Theorem:
+def theorem(statement: MechanisedStatement) -> Theorem:
     """The statement as a theorem of the catalogue."""
     return Theorem(
         name=statement.name,
@@ -207,11 +207,11 @@ def theorem(statement: Mechanised) -> Theorem:
     )
 
 
-def _prover(statement: Mechanised) -> Callable[[Budget], Outcome]:
-    def prove(budget: Budget) -> Outcome:
-        budget.tell(f"{statement.name}: coqc and coqchk on the whole library", 0, 1)
+def _prover(statement: MechanisedStatement) -> Callable[[Budget], TheoremResult]:
+    def prove(budget: Budget) -> TheoremResult:
+        budget.progress(f"{statement.name}: coqc and coqchk on the whole library", 0, 1)
         found = library(budget.timeout * LONGER)
-        return Outcome(
+        return TheoremResult(
             verdict="UNKNOWN" if found.why else "PROVED",
             solver="coqc" if toolchain.missing() else toolchain.version(),
             seconds=found.seconds,

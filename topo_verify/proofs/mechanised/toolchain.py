@@ -40,11 +40,11 @@ class TimeOut(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Ran:
+class ProgramRun:
     """What a program said, and whether it accepted."""
 
     accepted: bool
-    said: str
+    output: str
 
 
 def missing() -> str:
@@ -56,11 +56,11 @@ def missing() -> str:
 @cache
 def version() -> str:
     """Name and version of the compiler."""
-    said = subprocess.run(
+    output = subprocess.run(
         ["coqc", "-print-version"],  # noqa: S607  the one on PATH is meant
         capture_output=True, text=True, check=True,
     ).stdout  # fmt: skip
-    return f"coqc {said.split()[0]}"
+    return f"coqc {output.split()[0]}"
 
 
 def files() -> tuple[str, ...]:
@@ -99,7 +99,7 @@ def copy_library(folder: Path, names: Iterable[str]) -> None:
 
 def compile_all(
     folder: Path, names: Iterable[str], *, timeout: float, flags: Sequence[str] = ()
-) -> Ran:
+) -> ProgramRun:
     """Compile these sources of the folder, one after the other, up to the first that is refused.
 
     Raises:
@@ -109,22 +109,24 @@ def compile_all(
         ran = compile_one(folder, name, timeout=timeout, flags=flags)
         if not ran.accepted:
             return ran
-    return Ran(accepted=True, said="")
+    return ProgramRun(accepted=True, output="")
 
 
-def compile_one(folder: Path, name: str, *, timeout: float, flags: Sequence[str] = ()) -> Ran:
+def compile_one(
+    folder: Path, name: str, *, timeout: float, flags: Sequence[str] = ()
+) -> ProgramRun:
     """Compile one source of the folder."""
     return run(["coqc", *flags, "-q", "-Q", ".", "Topo", f"{name}.v"], folder, timeout=timeout)
 
 
-def recheck(folder: Path, names: Iterable[str], *, timeout: float) -> Ran:
+def recheck(folder: Path, names: Iterable[str], *, timeout: float) -> ProgramRun:
     """Have coqchk check compiled files again; accepted only if it names no axiom."""
     library = [f"Topo.{name}" for name in names]
     ran = run(["coqchk", "-silent", "-o", "-Q", ".", "Topo", *library], folder, timeout=timeout)
-    return Ran(ran.accepted and "* Axioms: <none>" in ran.said, ran.said)
+    return ProgramRun(ran.accepted and "* Axioms: <none>" in ran.output, ran.output)
 
 
-def run(command: Sequence[str], folder: Path, *, timeout: float, stdin: str = "") -> Ran:
+def run(command: Sequence[str], folder: Path, *, timeout: float, stdin: str = "") -> ProgramRun:
     """Run a program in the folder.
 
     Raises:
@@ -137,4 +139,4 @@ def run(command: Sequence[str], folder: Path, *, timeout: float, stdin: str = ""
         )  # fmt: skip
     except subprocess.TimeoutExpired as error:
         raise TimeOut(f"{command[0]} took longer than {timeout:g} seconds") from error
-    return Ran(done.returncode == 0, f"{done.stdout}{done.stderr}".strip())
+    return ProgramRun(done.returncode == 0, f"{done.stdout}{done.stderr}".strip())

@@ -9,28 +9,32 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from topo_verify.proofs.mechanised.decision_evidence import Decided, Decisions, Fact
+from topo_verify.proofs.mechanised.decision_evidence import (
+    EntailedDecision,
+    EntailedDecisions,
+    Fact,
+)
 from topo_verify.proofs.mechanised.evidence import (
     Alone,
     Arc,
     Arrive,
     Conflict,
-    Folded,
+    FoldedLog,
     Illegal,
+    LogPlace,
     Marked,
     Meeting,
-    Place,
 )
 from topo_verify.robot.percept import Door, Percept
 
-Statement = Literal["map", "undetermined", "impossible"]
+CertifiedStatement = Literal["map", "undetermined", "impossible"]
 
 MANY = 50_000
 """Decisions whose evidence has more steps are not written for Coq: its kernel takes minutes."""
 
 
 @dataclass(frozen=True, slots=True)
-class Certificate:
+class CoqCertificate:
     """A statement about one log, with what a checker needs to see that it is true.
 
     Attributes:
@@ -40,11 +44,11 @@ class Certificate:
         decisions: those of the trace that follow, with evidence that is not trusted either.
     """
 
-    statement: Statement
+    statement: CertifiedStatement
     percepts: tuple[Percept, ...]
     doors: tuple[Door, ...]
-    fold: Folded
-    decisions: Decisions
+    fold: FoldedLog
+    decisions: EntailedDecisions
 
     @property
     def writes_decisions(self) -> bool:
@@ -54,7 +58,7 @@ class Certificate:
 
 # ---------------------------------------------------------------- as a file of Coq
 
-_THEOREM: dict[Statement, str] = {
+_THEOREM: dict[CertifiedStatement, str] = {
     "map": """\
 (* The map is a world; it shows the log; every world that shows the log is isomorphic to it. *)
 Theorem proved : world (map_of table) /\\ replays (map_of table) log /\\
@@ -85,7 +89,7 @@ Print Assumptions decisions_follow.
 """
 
 
-def coq_file(certificate: Certificate) -> str:
+def coq_file(certificate: CoqCertificate) -> str:
     """The certificate as a source of Coq: log, map, evidence, statements and proofs."""
     fold, percepts = certificate.fold, certificate.percepts
     moves = [
@@ -95,12 +99,12 @@ def coq_file(certificate: Certificate) -> str:
     rows = [f"({r.following}, {r.previous}, {_option(r.other)})" for r in fold.table]
     conflict = fold.conflict or Illegal()
     decisions = certificate.decisions
-    files, imports, told = "World.v and Log.v", "CheckerCorrect", ""
+    files, imports, decisions_text = "World.v and Log.v", "CheckerCorrect", ""
     if certificate.writes_decisions:
         files, imports = "World.v, Log.v and Decisions.v", f"{imports} Decisions"
-        told = _decisions(decisions)
+        decisions_text = _decisions(decisions)
     elif decisions.steps > MANY:
-        told = _TOO_LONG
+        decisions_text = _TOO_LONG
     return f"""\
 (* A certificate by topo-verify: {len(moves)} moves, {len(rows)} darts, {len(fold.meetings)} merges.
    It says what {files} define and nothing else; map and evidence are not trusted. *)
@@ -123,10 +127,10 @@ Definition conflict := {_conflict(conflict)}.
 {_THEOREM[certificate.statement]}
 
 Print Assumptions proved.
-{told}"""
+{decisions_text}"""
 
 
-def _decisions(decisions: Decisions) -> str:
+def _decisions(decisions: EntailedDecisions) -> str:
     facts = [fact for one in decisions.stated for fact in one.facts]
     return f"""
 (* What was decided, and at which visit: an edge leads from a place to another, or none does.
@@ -142,7 +146,7 @@ Definition reasons : list reason := {_lines(map(_reason, facts))}.
 {_DECISIONS_FOLLOW}"""
 
 
-def _declared(stated: Iterable[Decided]) -> Iterator[str]:
+def _declared(stated: Iterable[EntailedDecision]) -> Iterator[str]:
     for one in stated:
         for number, fact in enumerate(one.facts):
             comment = "" if number else f"(* event {one.when}, {one.words} *)\n  "
@@ -150,7 +154,7 @@ def _declared(stated: Iterable[Decided]) -> Iterator[str]:
             yield f"{comment}{verb} {fact.visit} {_place(fact.one)} {_place(fact.other)}"
 
 
-def _place(place: Place) -> str:
+def _place(place: LogPlace) -> str:
     return f"({place[0]}%positive, {place[1]})"
 
 
@@ -198,7 +202,7 @@ def _lines(entries: Iterable[str]) -> str:
 # ---------------------------------------------------------------- as numbers
 
 
-def numbers(certificate: Certificate) -> str:
+def numbers(certificate: CoqCertificate) -> str:
     """The certificate as the extracted program reads it; coq/driver.ml says how."""
     fold = certificate.fold
     moves = zip(certificate.doors, certificate.percepts[1:], strict=True)
@@ -214,7 +218,7 @@ def numbers(certificate: Certificate) -> str:
     return "\n".join(parts) + "\n"
 
 
-def numbers_of_decisions(certificate: Certificate) -> str:
+def numbers_of_decisions(certificate: CoqCertificate) -> str:
     """The decisions of a certificate as the extracted program reads them."""
     moves = zip(certificate.doors, certificate.percepts[1:], strict=True)
     decisions = certificate.decisions

@@ -1,10 +1,10 @@
-"""A second solver on the same question: cvc5 reads the SMT-LIB 2 script that Z3 was asked.
+"""cvc5, the second solver: it reads the very SMT-LIB 2 script that Z3 was asked.
 
-    agrees      both say the same
-    disagrees   one says sat, the other unsat: one of them is wrong, which is an error
-    unknown     cvc5 gave up, and that is said; it is neither
+    agrees      both give the same answer
+    disagrees   one answers sat, the other unsat: one of them is wrong, which is an error
+    unknown     cvc5 gave up; this counts neither for nor against Z3's answer
 
-Quantified questions that cvc5 leaves open are asked once more with `full-saturate-quant`.
+A question with quantifiers that cvc5 leaves open is asked once more, with `full-saturate-quant`.
 """
 
 from __future__ import annotations
@@ -16,38 +16,38 @@ from time import perf_counter
 from typing import Any, Literal
 
 from topo_verify.errors import InputError
-from topo_verify.proofs.theorem import Answer, Query
+from topo_verify.proofs.theorem import Budget, Query, SolverAnswer
 
-Standing = Literal["agrees", "disagrees", "unknown"]
+Agreement = Literal["agrees", "disagrees", "unknown"]
 
 
 @dataclass(frozen=True, slots=True)
-class Opinion:
-    """What cvc5 says of one question.
+class SecondAnswer:
+    """The answer of cvc5 to one question.
 
     Attributes:
-        solver: its name and version.
+        solver: name and version.
         answer: sat, unsat or unknown.
-        expected: what the theorem rests on.
-        why: why it is unknown, or which option it took.
+        expected: the answer that the theorem rests on.
+        why: the reason for `unknown`, or the option that the answer took.
     """
 
     query: str
     solver: str
-    answer: Answer
-    expected: Answer
+    answer: SolverAnswer
+    expected: SolverAnswer
     seconds: float
     why: str = ""
 
     @property
-    def standing(self) -> Standing:
-        """Do the two solvers agree?"""
+    def agreement(self) -> Agreement:
+        """Whether the answer is the one that the theorem rests on."""
         if self.answer == "unknown":
             return "unknown"
         return "agrees" if self.answer == self.expected else "disagrees"
 
     def __str__(self) -> str:
-        match self.standing:
+        match self.agreement:
             case "agrees":
                 return f"{self.query}: {self.solver} agrees: {self.answer}"
             case "unknown":
@@ -57,7 +57,7 @@ class Opinion:
 
 
 def require_tools() -> None:
-    """Refuse to begin where cvc5 is not to be had (`InputError`)."""
+    """Raise an `InputError` where cvc5 cannot be loaded."""
     try:
         import_module("cvc5")
     except (ImportError, OSError) as error:
@@ -67,11 +67,11 @@ def require_tools() -> None:
         ) from error
 
 
-def ask(query: Query, *, timeout: float = 60.0) -> Opinion:
-    """cvc5 on the question.
+def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
+    """The answer of cvc5 to the question.
 
     Args:
-        timeout: seconds, for each of the two ways in which it may be asked.
+        timeout: seconds, for each of the two times that it may be asked.
     Raises:
         InputError: cvc5 is not installed, or cannot read the script.
     """
@@ -81,14 +81,14 @@ def ask(query: Query, *, timeout: float = 60.0) -> Opinion:
     if answer == "unknown" and "forall" in query.smt2:
         answer, why = _check(query, timeout, {"full-saturate-quant": "true"})
         why = why or "full-saturate-quant"
-    return Opinion(query.name, _name(), answer, query.expected, perf_counter() - began, why)
+    return SecondAnswer(query.name, _name(), answer, query.expected, perf_counter() - began, why)
 
 
 def export(query: Query, folder: Path) -> Path:
-    """Write the script to `<folder>/<name>.smt2`, for any other solver; the path of the file.
+    """Write the script to `<folder>/<name>.smt2` for any other solver, and return the path.
 
     Raises:
-        InputError: it cannot be written.
+        InputError: the file cannot be written.
     """
     path = folder / f"{query.name}.smt2"
     try:
@@ -103,21 +103,22 @@ def _name() -> str:
     return f"cvc5 {import_module('cvc5').__version__}"
 
 
-def _check(query: Query, timeout: float, options: dict[str, str]) -> tuple[Answer, str]:
-    """The answer to the script's `check-sat`, and why it is unknown."""
+def _check(query: Query, timeout: float, options: dict[str, str]) -> tuple[SolverAnswer, str]:
+    """The answer to the script's `check-sat`, and the reason for `unknown`."""
     cvc5: Any = import_module("cvc5")
     solver = cvc5.Solver(cvc5.TermManager())
-    for option, value in {"tlimit-per": str(max(1, round(timeout * 1000))), **options}.items():
+    limit = str(Budget(timeout=timeout).milliseconds)
+    for option, value in {"tlimit-per": limit, **options}.items():
         solver.setOption(option, value)
     parser = cvc5.InputParser(solver)
     parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, query.smt2, query.name)
-    said = ""
+    output = ""
     try:
         while not (command := parser.nextCommand()).isNull():
-            said += str(command.invoke(solver, parser.getSymbolManager()))
+            output += str(command.invoke(solver, parser.getSymbolManager()))
     except RuntimeError as error:
         raise InputError(f"cvc5 cannot read the question {query.name}: {error}") from error
-    match said.split():
+    match output.split():
         case ["sat"]:
             return "sat", ""
         case ["unsat"]:
@@ -125,4 +126,4 @@ def _check(query: Query, timeout: float, options: dict[str, str]) -> tuple[Answe
         case ["unknown", *reason]:
             return "unknown", " ".join(reason).strip("()").lower() or "it gave up"
         case _:
-            raise InputError(f"cvc5 answers the question {query.name} with {said.strip()!r}")
+            raise InputError(f"cvc5 answers the question {query.name} with {output.strip()!r}")

@@ -1,26 +1,35 @@
-"""Asking Z3: a script in, one of three answers out.
+"""Z3: a script goes in, one of three answers comes out; every limit on Z3 is set here.
 
-Z3 is given SMT-LIB text, the same that `--smt2` writes to a file. Proofs over uninterpreted sorts
-are searched with E-matching alone: `auto_config` and `mbqi` are off, since with them questions that
-take milliseconds can come back unknown. An answer of `unknown` is handed on as such, with Z3's
-reason.
+Z3 reads SMT-LIB text, the same that `--smt2` writes to a file and that other solvers read. It is
+set up in one of three ways:
 
-Each question gets a context of its own: what was asked before leaves no trace in the answer.
+    quantified   E-matching alone: `auto_config` and `mbqi` are off, since with them questions that
+                 take milliseconds can come back unknown
+    ground       the theory of equality with no quantifier, which Z3 decides
+    clauses      the solver for finite domains: of those tried the fastest on clauses
 
-(The z3 package has no types; it is loaded here, as `Any`, and nowhere else in these files.)
+Each question has a context of its own, so no answer depends on what was asked before. An answer of
+`unknown`, a time-out among them, is passed on with Z3's reason and is never taken for another.
+
+What this does not show: that Z3 is right. cvc5 reads the same scripts (`cvc5_solver`), and a second
+program checks the refutations of clauses (`bounded/drup.py`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any
+from typing import Any, Literal
 
-from topo_verify.proofs.first_order.terms import BOOL, App, Term, declarations, script, text
-from topo_verify.proofs.theorem import Answer, Budget
+from topo_verify.proofs.theorem import Budget, SolverAnswer
 
+# The z3 package has no types. It is loaded here, as `Any`, and in no other file.
 _z3: Any = import_module("z3")
+
+Z3Setup = Literal["quantified", "ground", "clauses"]
+
+_LOGIC = {"ground": "QF_UF", "clauses": "QF_FD"}
 
 
 def name() -> str:
@@ -29,74 +38,121 @@ def name() -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Reply:
-    """What Z3 said.
+class Z3Reply:
+    """Z3's answer to one question.
 
     Attributes:
         why: the reason for `unknown`, in Z3's words.
-        core: the names of the assertions that cannot hold together (not a least set).
-        values: the constants of a model: name -> value as text.
+        core: the labels of assertions that cannot hold together (not a least set).
+        values: of a model, each constant that was asked for: name -> value as text.
     """
 
-    answer: Answer
+    answer: SolverAnswer
     why: str = ""
     core: tuple[str, ...] = ()
     values: dict[str, str] = field(default_factory=dict[str, str])
 
 
-def prove(assertions: dict[str, Term], budget: Budget) -> Reply:
-    """Can all of these hold at once? By E-matching: the answer is unsat or unknown."""
-    context = _z3.Context()
-    solver = _solver(context, budget)
-    parsed = _z3.parse_smt2_string(script(assertions), ctx=context)
-    for label, assertion in zip(assertions, parsed, strict=True):
-        solver.assert_and_track(assertion, label)
-    return _reply(solver)
-
-
-def satisfy(assertions: Sequence[Term], wanted: Sequence[App], budget: Budget) -> Reply:
-    """Can all of these hold at once? For formulas without quantifiers, where Z3 decides.
+def refute(smt2: str, labels: Iterable[str], budget: Budget) -> Z3Reply:
+    """Z3's reply to a script with quantifiers: `unsat` with a core, or `unknown`.
 
     Args:
-        wanted: constants whose values are wanted, if so.
+        labels: names for the core, one for each assertion of the script, in its order.
     """
-    context = _z3.Context()
-    solver = _z3.SolverFor("QF_UF", ctx=context)
-    _limit(solver, budget)
-    lines = [*declarations([*assertions, *wanted]), *(f"(assert {text(t)})" for t in assertions)]
-    solver.add(_z3.parse_smt2_string("\n".join(lines), ctx=context))
-    reply = _reply(solver)
-    if reply.answer != "sat":
-        return reply
-    model = solver.model()
-    values = {constant.symbol.name: _value(context, model, constant) for constant in wanted}
-    return Reply("sat", values=values)
+    question = Z3Question(smt2, budget, setup="quantified", labels=tuple(labels))
+    answer = question.check()
+    return Z3Reply(answer, why=question.why, core=question.core)
 
 
-def _value(context: Any, model: Any, constant: App) -> str:
-    name, of = constant.symbol.name, constant.sort
-    sort = _z3.BoolSort(context) if of == BOOL else _z3.DeclareSort(of, ctx=context)
-    return str(model.eval(_z3.Const(name, sort), model_completion=True))
+def find_values(smt2: str, wanted: Mapping[str, str], budget: Budget) -> Z3Reply:
+    """Z3's reply to a script without quantifiers, with the values of constants if it is `sat`.
+
+    Args:
+        wanted: the sort of each constant whose value is asked for.
+    """
+    question = Z3Question(smt2, budget, setup="ground")
+    answer = question.check()
+    values = question.values(wanted) if answer == "sat" else {}
+    return Z3Reply(answer, why=question.why, values=values)
 
 
-def _solver(context: Any, budget: Budget) -> Any:
-    solver = _z3.Solver(ctx=context)
-    solver.set(auto_config=False, mbqi=False, unsat_core=True)
-    _limit(solver, budget)
-    return solver
+class Z3Question:
+    """A script put to Z3, to be asked again with assumptions or with models forbidden.
 
+    `why`, `core`, `values` and `true` speak of the last call of `check`.
 
-def _limit(solver: Any, budget: Budget) -> None:
-    solver.set("timeout", max(1, round(budget.timeout * 1000)))
-    solver.set("random_seed", budget.seed)
-    if budget.rlimit:
-        solver.set("rlimit", budget.rlimit)
+    Args:
+        labels: one for each assertion, in their order; without them there is no core.
+    """
 
+    def __init__(
+        self, smt2: str, budget: Budget, *, setup: Z3Setup, labels: Sequence[str] = ()
+    ) -> None:
+        self._context = _z3.Context()
+        self._answer: SolverAnswer = "unknown"
+        if setup == "quantified":
+            self._solver = _z3.Solver(ctx=self._context)
+            self._solver.set(auto_config=False, mbqi=False, unsat_core=True)
+        else:
+            self._solver = _z3.SolverFor(_LOGIC[setup], ctx=self._context)
+        self._limit(budget)
+        assertions = _z3.parse_smt2_string(smt2, ctx=self._context)
+        if not labels:
+            self._solver.add(assertions)
+        for label, assertion in zip(labels, assertions if labels else (), strict=True):
+            # Z3 drops the names of a script when it parses it; tracking gives them back.
+            self._solver.assert_and_track(assertion, label)
 
-def _reply(solver: Any) -> Reply:
-    result = solver.check()
-    if result == _z3.unsat:
-        return Reply("unsat", core=tuple(sorted(map(str, solver.unsat_core()))))
-    if result == _z3.sat:
-        return Reply("sat")
-    return Reply("unknown", why=str(solver.reason_unknown()))
+    def _limit(self, budget: Budget) -> None:
+        self._solver.set("timeout", budget.milliseconds)
+        self._solver.set("random_seed", budget.seed)
+        if budget.rlimit:
+            self._solver.set("rlimit", budget.rlimit)
+
+    def check(self, assumed: Mapping[str, bool] | None = None) -> SolverAnswer:
+        """The answer, if the Booleans of these names have these values."""
+        result = self._solver.check(*(self._literal(*one) for one in (assumed or {}).items()))
+        if result == _z3.sat:
+            self._answer = "sat"
+        else:
+            self._answer = "unsat" if result == _z3.unsat else "unknown"
+        return self._answer
+
+    def forbid(self, values: Mapping[str, bool]) -> None:
+        """From now on, at least one of these Booleans has the other value."""
+        others = [self._literal(name, not value) for name, value in values.items()]
+        self._solver.add(_z3.Or(others))
+
+    @property
+    def why(self) -> str:
+        """The reason for `unknown`; "" for any other answer."""
+        return str(self._solver.reason_unknown()) if self._answer == "unknown" else ""
+
+    @property
+    def core(self) -> tuple[str, ...]:
+        """The labels of an `unsat` answer, sorted; () for any other answer."""
+        if self._answer != "unsat":
+            return ()
+        return tuple(sorted(map(str, self._solver.unsat_core())))
+
+    def true(self) -> frozenset[str]:
+        """The names of the Booleans that are true in the model of a `sat` answer."""
+        model = self._solver.model()
+        return frozenset(str(name) for name in model.decls() if _z3.is_true(model[name]))
+
+    def values(self, wanted: Mapping[str, str]) -> dict[str, str]:
+        """The values, as text, of constants given with their sorts, in the model of `sat`."""
+        model = self._solver.model()
+        return {
+            name: str(model.eval(_z3.Const(name, self._sort(sort)), model_completion=True))
+            for name, sort in wanted.items()
+        }
+
+    def _sort(self, name: str) -> Any:
+        if name == "Bool":
+            return _z3.BoolSort(self._context)
+        return _z3.DeclareSort(name, ctx=self._context)
+
+    def _literal(self, name: str, value: bool) -> Any:  # noqa: FBT001  a name and its value
+        boolean = _z3.Bool(name, ctx=self._context)
+        return boolean if value else _z3.Not(boolean)

@@ -8,7 +8,9 @@ what is false. A scene that does not play that way is a bug of ours, and is repo
 What is not asked: whether a mapper with reference policies would walk just there. Claims hold for
 every history, so any history that breaks one will do.
 
-    rejecting.py   recording.py   confirming.py   growing.py   folding.py
+    rejection.py      a true hypothesis is rejected      records.py      records are misplaced
+    confirmation.py   a false one is confirmed           fold_steps.py   what differs is identified
+    growth.py         S grows in the wrong place
 
 Source: docs/semantics.md, sections 4, 6, 7 and 8.
 """
@@ -22,24 +24,24 @@ from typing import Literal
 from topo_verify.errors import InternalError
 from topo_verify.proofs.first_order import scenes
 from topo_verify.proofs.first_order.mutants import (
-    confirming,
-    folding,
-    growing,
-    recording,
-    rejecting,
+    confirmation,
+    fold_steps,
+    growth,
+    records,
+    rejection,
 )
 from topo_verify.proofs.first_order.mutants.mutant import RuleMutant
-from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.terms import shown
 from topo_verify.proofs.solvers import z3_solver
-from topo_verify.proofs.theorem import Budget, Outcome, Query, Theorem
+from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult
 
 RULE_MUTANTS: tuple[RuleMutant, ...] = (
-    *rejecting.REJECTING,
-    *recording.RECORDING,
-    *confirming.CONFIRMING,
-    *growing.GROWING,
-    *folding.FOLDING,
+    *rejection.REJECTIONS,
+    *records.RECORDS,
+    *confirmation.CONFIRMATIONS,
+    *growth.GROWTH,
+    *fold_steps.FOLD_STEPS,
 )
 
 __all__ = ["MUTANTS", "PLANAR", "RULE_MUTANTS", "RuleMutant", "theorem"]
@@ -68,37 +70,37 @@ def theorem(mutant: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") 
     )
 
 
-def _refute(mutant: RuleMutant, budget: Budget) -> Outcome:
+def _refute(mutant: RuleMutant, budget: Budget) -> TheoremResult:
     begin = perf_counter()
     edges, known = mutant.size
     scene, answer, why = scenes.find(mutant.scene, budget, edges=edges, known=known)
     if scene is None:
-        told = f"{z3_solver.name()} answers {answer} with {edges} edges" + (
+        note = f"{z3_solver.name()} answers {answer} with {edges} edges" + (
             f": {why}" if why else ""
         )
-        return Outcome(
+        return TheoremResult(
             verdict="EXHAUSTED" if answer == "unsat" else "UNKNOWN",
             solver=z3_solver.name(),
             seconds=perf_counter() - begin,
-            note=told,
+            note=note,
         )
-    stage = Stage(scene, without=mutant.without)
-    if not mutant.plays(stage, mutant.rule):
+    replay = SceneReplay(scene, without=mutant.without)
+    if not mutant.plays(replay, mutant.rule):
         raise InternalError(
             f"the model of {mutant.name} does not replay: in world {scene.world.id} the doors"
-            f" {list(stage.history)} show nothing wrong"
+            f" {list(replay.history)} show nothing wrong"
         )
-    return Outcome(
+    return TheoremResult(
         verdict="REFUTED",
         solver=z3_solver.name(),
         seconds=perf_counter() - begin,
         replayed=(1, 1),
         counterexample=scene.world.id,
-        history=stage.history,
+        history=replay.history,
     )
 
 
 MUTANTS: tuple[Theorem, ...] = tuple(map(theorem, RULE_MUTANTS))
 
-PLANAR: Theorem = theorem(folding.PLANAR, "negative")
+PLANAR: Theorem = theorem(fold_steps.PLANAR, "negative")
 """The planar prior is not sound in all worlds: a torus of two edges."""

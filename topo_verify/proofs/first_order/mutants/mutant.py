@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from topo_verify.proofs.first_order import axioms as t
 from topo_verify.proofs.first_order import rules as r
 from topo_verify.proofs.first_order.obligations.obligation import OWN, E, H
-from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, forall, neg, substitute
 
 x, k, b, own, i = r.x, r.k, r.b, r.own, t.i
@@ -33,7 +33,7 @@ class RuleMutant:
     claims: tuple[str, ...]
     rule: Term
     scene: Mapping[str, Term]
-    plays: Callable[[Stage, Term], bool]
+    plays: Callable[[SceneReplay, Term], bool]
     size: tuple[int, int]
     without: tuple[str, ...] = ()
 

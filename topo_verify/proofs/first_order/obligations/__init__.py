@@ -1,29 +1,29 @@
 """The inductive obligations, by theme: each true in worlds of any size.
 
-doors.py       what turning keeps, the way back     growing.py   hypotheses, augmentations, the end
-tracing.py     no true hypothesis is rejected       folded.py    folding, sound and complete
-confirming.py  no false one is confirmed            records.py   records are true, and stay true
+doors.py         what turning keeps, the way back    growth.py    hypotheses, augmentations, the end
+traces.py        no true hypothesis is rejected      folds.py     folding, sound and complete
+confirmation.py  no false one is confirmed           records.py   records are true, and stay true
 """
 
 from __future__ import annotations
 
 from topo_verify.proofs.first_order.obligations import (
-    confirming,
+    confirmation,
     doors,
-    folded,
-    growing,
+    folds,
+    growth,
     records,
-    tracing,
+    traces,
 )
 from topo_verify.proofs.first_order.obligations.obligation import Obligation
 
 OBLIGATIONS: tuple[Obligation, ...] = (
     *doors.OBLIGATIONS,
-    *tracing.OBLIGATIONS,
-    *confirming.OBLIGATIONS,
+    *traces.OBLIGATIONS,
+    *confirmation.OBLIGATIONS,
     *records.OBLIGATIONS,
-    *growing.OBLIGATIONS,
-    *folded.OBLIGATIONS,
+    *growth.OBLIGATIONS,
+    *folds.OBLIGATIONS,
 )
 """All of them; a lemma comes before what uses it."""
 

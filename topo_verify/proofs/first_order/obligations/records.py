@@ -31,7 +31,7 @@ from topo_verify.proofs.first_order.obligations.obligation import (
     R,
     X,
 )
-from topo_verify.proofs.first_order.obligations.tracing import BY_WORDS, HERE, WORDS
+from topo_verify.proofs.first_order.obligations.traces import BY_WORDS, HERE, WORDS
 from topo_verify.proofs.first_order.rules import (
     LEAVES,
     TRUE_RECORDS,

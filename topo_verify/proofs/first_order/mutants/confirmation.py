@@ -14,52 +14,52 @@ from topo_verify.proofs.first_order.mutants.mutant import (
     x,
 )
 from topo_verify.proofs.first_order.obligations.obligation import CONFIRMED, ENTAILED, OWN, D, E, H
-from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.terms import Term, eq, forall, substitute
 
 _DEGREES = eq(t.mdeg(x), t.deg(b))
 
 
-def _plays_confirm(stage: Stage, rule: Term, doors: tuple[str, ...] = ()) -> bool:
+def _plays_confirm(replay: SceneReplay, rule: Term, doors: tuple[str, ...] = ()) -> bool:
     """Is the false h confirmed by its way home?"""
-    at, seen = stage.dart("h"), [stage.behind("e")]
-    matches = stage.says(rule, *seen, x=at, b=0)
+    at, seen = replay.dart("h"), [replay.behind("e")]
+    matches = replay.says(rule, *seen, x=at, b=0)
     for name in doors:
-        seen.append(stage.forward(name))
-        at = stage.chart.across(stage.chart.turn(at, stage.scene.constants[name]))
-        matches = matches and stage.says(rule, *seen, x=at, b=len(seen) - 1)
-    whole = len(stage.hypothesis("h").doors) == len(doors)
-    return matches and whole and not stage.truth("e", "h")
+        seen.append(replay.forward(name))
+        at = replay.chart.across(replay.chart.turn(at, replay.scene.constants[name]))
+        matches = matches and replay.says(rule, *seen, x=at, b=len(seen) - 1)
+    whole = len(replay.hypothesis("h").doors) == len(doors)
+    return matches and whole and not replay.truth("e", "h")
 
 
-def _plays_taken(stage: Stage, rule: Term) -> bool:
+def _plays_taken(replay: SceneReplay, rule: Term) -> bool:
     """Is the false h taken for true behind e, where the rule lets it?"""
-    vu = stage.behind("e")
-    darts = range(len(stage.chart.alpha))
-    posed = [h for h in darts if stage.says(r.POSED, vu, e=stage.dart("e"), h=h, b=0)]
-    taken = stage.says(rule, vu, x=stage.dart("h"), b=0)
-    return taken and stage.dart("h") in posed and not stage.truth("e", "h")
+    vu = replay.behind("e")
+    darts = range(len(replay.chart.alpha))
+    posed = [h for h in darts if replay.says(r.POSED, vu, e=replay.dart("e"), h=h, b=0)]
+    taken = replay.says(rule, vu, x=replay.dart("h"), b=0)
+    return taken and replay.dart("h") in posed and not replay.truth("e", "h")
 
 
-def _plays_only(stage: Stage, rule: Term) -> bool:
-    vu = stage.behind("e")
-    darts = range(len(stage.chart.alpha))
-    posed = [h for h in darts if stage.says(rule, vu, e=stage.dart("e"), h=h, b=0)]
-    return posed == [stage.dart("h")] and not stage.truth("e", "h")
+def _plays_only(replay: SceneReplay, rule: Term) -> bool:
+    vu = replay.behind("e")
+    darts = range(len(replay.chart.alpha))
+    posed = [h for h in darts if replay.says(rule, vu, e=replay.dart("e"), h=h, b=0)]
+    return posed == [replay.dart("h")] and not replay.truth("e", "h")
 
 
-def _plays_confirm_unturned(stage: Stage, rule: Term) -> bool:
-    vu = stage.behind("e")
-    stage.forward("d1")
-    stage.robot.move(0)
-    sensed = stage.take("own1")
-    at = stage.dart("h")
-    end = stage.chart.across(stage.chart.turn(at, stage.scene.constants["own1"]))
-    matches = stage.says(rule, vu, x=at, b=0) and stage.says(rule, vu, sensed, x=end, b=1)
-    return matches and not stage.truth("e", "h")
+def _plays_confirm_unturned(replay: SceneReplay, rule: Term) -> bool:
+    vu = replay.behind("e")
+    replay.forward("d1")
+    replay.robot.move(0)
+    sensed = replay.take("own1")
+    at = replay.dart("h")
+    end = replay.chart.across(replay.chart.turn(at, replay.scene.constants["own1"]))
+    matches = replay.says(rule, vu, x=at, b=0) and replay.says(rule, vu, sensed, x=end, b=1)
+    return matches and not replay.truth("e", "h")
 
 
-CONFIRMING: tuple[RuleMutant, ...] = (
+CONFIRMATIONS: tuple[RuleMutant, ...] = (
     RuleMutant(
         name="confirm-undirected",
         size=(2, 3),
@@ -83,7 +83,7 @@ CONFIRMING: tuple[RuleMutant, ...] = (
             **HOMEWARD,
             "matches": eq(t.mdeg(r.arrival(H, OWN)), t.deg(r.beyond(BEHIND, OWN))),
         },
-        plays=lambda stage, rule: _plays_confirm(stage, rule, ("own1",)),
+        plays=lambda replay, rule: _plays_confirm(replay, rule, ("own1",)),
     ),
     RuleMutant(
         name="confirm-before-home",

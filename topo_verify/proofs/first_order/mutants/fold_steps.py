@@ -8,45 +8,45 @@ from topo_verify.proofs.first_order import axioms as t
 from topo_verify.proofs.first_order import rules as r
 from topo_verify.proofs.first_order.mutants.mutant import AWAY, TRUE, RuleMutant, x
 from topo_verify.proofs.first_order.obligations.obligation import ENTAILED, KEPT, D, E, H
-from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.terms import BOOL, Symbol, Term, conj, differ, eq, forall, neg
 
 
-def _plays_fold(stage: Stage, doors: tuple[str | int, ...], one: str, other: str) -> bool:
+def _plays_fold(replay: SceneReplay, doors: tuple[str | int, ...], one: str, other: str) -> bool:
     """Walk from the start; are these two places, which the rule identifies, different darts?"""
-    world, at = stage.scene.world, stage.root
+    world, at = replay.scene.world, replay.root
     arrivals = [at]
     for door in doors:
-        percept = stage.robot.percept
-        taken = door if isinstance(door, int) else stage.door(door, percept.degree)
+        percept = replay.robot.percept
+        taken = door if isinstance(door, int) else replay.door(door, percept.degree)
         for _ in range(taken % percept.degree):
             at = world.sigma[at]
         at = world.alpha[at]
         arrivals.append(at)
-        stage.robot.move(taken % percept.degree)
-        if stage.robot.percept.degree != world.degrees[world.vertex_of[at]]:
+        replay.robot.move(taken % percept.degree)
+        if replay.robot.percept.degree != world.degrees[world.vertex_of[at]]:
             return False
     return arrivals[int(one)] != arrivals[int(other)]
 
 
-def _plays_ghost(stage: Stage, _rule: Term) -> bool:
-    vu = stage.behind("e")
+def _plays_ghost(replay: SceneReplay, _rule: Term) -> bool:
+    vu = replay.behind("e")
     sketch = Sketch()
-    nodes = [sketch.add(stage.chart.percepts[first], known=True) for first in stage.chart.first]
+    nodes = [sketch.add(replay.chart.percepts[first], known=True) for first in replay.chart.first]
     ghost = sketch.add(vu, known=True)  # the fault: it is not known to be a vertex of S
 
     def place(dart: int) -> tuple[int, int]:
-        v = stage.chart.vertex[dart]
-        return nodes[v], dart - stage.chart.first[v]
+        v = replay.chart.vertex[dart]
+        return nodes[v], dart - replay.chart.first[v]
 
-    sketch.join(place(stage.dart("e")), (ghost, 0))
-    refuted = sketch.join(place(stage.dart("e")), place(stage.dart("h")))
-    return bool(refuted) and stage.truth("e", "h")
+    sketch.join(place(replay.dart("e")), (ghost, 0))
+    refuted = sketch.join(place(replay.dart("e")), place(replay.dart("h")))
+    return bool(refuted) and replay.truth("e", "h")
 
 
 _LOOPED = r.beyond(t.root, D)
 
-FOLDING: tuple[RuleMutant, ...] = (
+FOLD_STEPS: tuple[RuleMutant, ...] = (
     RuleMutant(
         name="fold-marker-undirected",
         size=(1, 2),
@@ -55,7 +55,7 @@ FOLDING: tuple[RuleMutant, ...] = (
         claims=ENTAILED,
         rule=eq(_LOOPED, t.root),
         scene={"back-at-v0": conj(t.inv0(_LOOPED), differ(_LOOPED, t.root))},
-        plays=lambda stage, _: _plays_fold(stage, ("d1",), "0", "1"),
+        plays=lambda replay, _: _plays_fold(replay, ("d1",), "0", "1"),
     ),
     RuleMutant(
         name="fold-without-offset",
@@ -65,7 +65,7 @@ FOLDING: tuple[RuleMutant, ...] = (
         claims=ENTAILED,
         rule=eq(t.rot(t.root, D), t.root),
         scene={"turned": differ(t.rot(t.root, D), t.root)},
-        plays=lambda stage, _: _plays_fold(stage, ("d1", 0), "0", "2"),
+        plays=lambda replay, _: _plays_fold(replay, ("d1", 0), "0", "2"),
     ),
     RuleMutant(
         name="fold-next-partner",
@@ -75,7 +75,7 @@ FOLDING: tuple[RuleMutant, ...] = (
         claims=ENTAILED,
         rule=eq(_LOOPED, r.beyond(t.root, t.succ(D))),
         scene={"next": differ(_LOOPED, r.beyond(t.root, t.succ(D)))},
-        plays=lambda stage, _: _plays_fold(stage, ("d1", 0, 1), "1", "3"),
+        plays=lambda replay, _: _plays_fold(replay, ("d1", 0, 1), "1", "3"),
     ),
     RuleMutant(
         name="fold-ghost-known",
@@ -95,10 +95,10 @@ FOLDING: tuple[RuleMutant, ...] = (
 face = Symbol("face", ("M",), BOOL)
 
 
-def _plays_planar(stage: Stage, _rule: Term) -> bool:
-    stage.behind("e")
-    on_face = planar.face(stage.chart, stage.dart("e"))
-    return stage.dart("h") not in on_face and stage.truth("e", "h")
+def _plays_planar(replay: SceneReplay, _rule: Term) -> bool:
+    replay.behind("e")
+    on_face = planar.face(replay.chart, replay.dart("e"))
+    return replay.dart("h") not in on_face and replay.truth("e", "h")
 
 
 PLANAR = RuleMutant(

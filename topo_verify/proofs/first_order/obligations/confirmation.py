@@ -31,7 +31,7 @@ from topo_verify.proofs.first_order.obligations.obligation import (
     Obligation,
     X,
 )
-from topo_verify.proofs.first_order.obligations.tracing import ACROSS, BY_WORDS, WORDS
+from topo_verify.proofs.first_order.obligations.traces import ACROSS, BY_WORDS, WORDS
 from topo_verify.proofs.first_order.rules import alike, arrival, beyond, x
 from topo_verify.proofs.first_order.terms import Term, eq, forall
 

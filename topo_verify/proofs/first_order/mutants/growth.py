@@ -6,27 +6,27 @@ from topo_verify.proofs.first_order import axioms as t
 from topo_verify.proofs.first_order import rules as r
 from topo_verify.proofs.first_order.mutants.mutant import AWAY, TRUE, RuleMutant, x
 from topo_verify.proofs.first_order.obligations.obligation import MAPPED, POSED, E, H
-from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.scenes import mfirst
 from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, neg, substitute
 
 
-def _plays_not_posed(stage: Stage, rule: Term) -> bool:
-    vu = stage.behind("e")
-    posed = stage.says(rule, vu, e=stage.dart("e"), h=stage.dart("h"), b=0)
-    return not posed and stage.truth("e", "h")
+def _plays_not_posed(replay: SceneReplay, rule: Term) -> bool:
+    vu = replay.behind("e")
+    posed = replay.says(rule, vu, e=replay.dart("e"), h=replay.dart("h"), b=0)
+    return not posed and replay.truth("e", "h")
 
 
-def _plays_first_dart(stage: Stage, _rule: Term) -> bool:
-    stage.behind("e")
-    other = stage.first(stage.dart("h"))
-    return other != stage.dart("h") and stage.truth("e", "h")
+def _plays_first_dart(replay: SceneReplay, _rule: Term) -> bool:
+    replay.behind("e")
+    other = replay.first(replay.dart("h"))
+    return other != replay.dart("h") and replay.truth("e", "h")
 
 
 _NOT_AT_VK = conj(r.POSED, differ(mfirst(r.h), mfirst(r.e)))
 _WHOLE_PERCEPT = conj(r.POSED, substitute(r.ALIKE, {x: mfirst(r.h)}))
 
-GROWING: tuple[RuleMutant, ...] = (
+GROWTH: tuple[RuleMutant, ...] = (
     RuleMutant(
         name="posed-not-at-vk",
         size=(1, 2),

@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 from topo_verify.proofs.first_order import axioms as t
 from topo_verify.proofs.first_order import rules as r
-from topo_verify.proofs.first_order.conformance import Described
+from topo_verify.proofs.first_order.conformance import DescribedRule
 from topo_verify.proofs.first_order.mutants.mutant import AWAY, TRUE, RuleMutant, i, x
 from topo_verify.proofs.first_order.obligations.obligation import KEPT, OWN, D, H
-from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.scenes import mfirst
 from topo_verify.proofs.first_order.terms import Term, conj, constant, differ, eq, forall, neg
 
@@ -37,21 +37,23 @@ def _unlike(one: Term, other: Term) -> Term:
     )
 
 
-def _plays_records(stage: Stage, *, entry: Callable[[Stage], int], late: int, early: int) -> bool:
+def _plays_records(
+    replay: SceneReplay, *, entry: Callable[[SceneReplay], int], late: int, early: int
+) -> bool:
     """Record behind the edge before, then trace behind e; is the true h rejected?"""
-    vu = stage.behind("e_before")
-    sensed = stage.forward("d_before")
-    stage.close("e_before", "h_before")
+    vu = replay.behind("e_before")
+    sensed = replay.forward("d_before")
+    replay.close("e_before", "h_before")
     seen = [vu, vu if early else sensed]
-    described = Described("records", levels=1, trie=stage.trie)
-    doors = [stage.door("d_before", vu.degree)]
-    described.learn(stage.chart, stage.dart("e_before"), entry(stage), [(doors, seen)])
-    vu = stage.behind("e")
-    word, percepts = [stage.door("d1", vu.degree)], [vu, stage.forward("d1")]
+    described = DescribedRule("records", levels=1, trie=replay.trie)
+    doors = [replay.door("d_before", vu.degree)]
+    described.learn(replay.chart, replay.dart("e_before"), entry(replay), [(doors, seen)])
+    vu = replay.behind("e")
+    word, percepts = [replay.door("d1", vu.degree)], [vu, replay.forward("d1")]
     if late:
-        percepts[1] = stage.forward("own1")
-    decided = described.refuted(stage.chart, stage.hypothesis("h"), word, percepts)
-    return decided is not None and decided.rule == "records" and stage.truth("e", "h")
+        percepts[1] = replay.forward("own1")
+    decided = described.refuted(replay.chart, replay.hypothesis("h"), word, percepts)
+    return decided is not None and decided.rule == "records" and replay.truth("e", "h")
 
 
 def _recording(
@@ -60,9 +62,9 @@ def _recording(
     """A mutant of records: kept under this dart; what it shows; what is met later behind it."""
     stale = under != t.mrot(H1, D1)
 
-    def entry(stage: Stage) -> int:
-        h = stage.dart("h_before")
-        return stage.first(h) if stale else h
+    def entry(replay: SceneReplay) -> int:
+        h = replay.dart("h_before")
+        return replay.first(h) if stale else h
 
     return RuleMutant(
         name=name,
@@ -79,8 +81,8 @@ def _recording(
             "crosses-it": eq(t.mrot(H, D), under),
             "rejects": _unlike(kept, met),
         },
-        plays=lambda stage, _: _plays_records(
-            stage, entry=entry, late=how.get("late", 0), early=how.get("early", 0)
+        plays=lambda replay, _: _plays_records(
+            replay, entry=entry, late=how.get("late", 0), early=how.get("early", 0)
         ),
         without=("e_before", "h_before"),
     )
@@ -88,7 +90,7 @@ def _recording(
 
 _MET = r.beyond(t.phi(H), D)
 
-RECORDING: tuple[RuleMutant, ...] = (
+RECORDS: tuple[RuleMutant, ...] = (
     _recording(
         "records-stale-root",
         "records-written",

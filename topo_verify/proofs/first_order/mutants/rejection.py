@@ -17,18 +17,18 @@ from topo_verify.proofs.first_order.mutants.mutant import (
     x,
 )
 from topo_verify.proofs.first_order.obligations.obligation import KEPT, OWN, D, H
-from topo_verify.proofs.first_order.scene_replay import Stage
+from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.scenes import mfirst
 from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, forall, neg
 
 
-def _one(stage: Stage, rule: Term, door: str) -> bool:
+def _one(replay: SceneReplay, rule: Term, door: str) -> bool:
     """After one door behind e: does the rule reject h, though it is true?"""
-    vu = stage.behind("e")
-    sensed = stage.forward(door)
-    k_, own_ = (stage.scene.constants.get(name, 0) for name in (door, "own1"))
-    rejects = stage.says(rule, vu, sensed, x=stage.dart("h"), k=k_, own=own_, b=1)
-    return rejects and stage.truth("e", "h")
+    vu = replay.behind("e")
+    sensed = replay.forward(door)
+    k_, own_ = (replay.scene.constants.get(name, 0) for name in (door, "own1"))
+    rejects = replay.says(rule, vu, sensed, x=replay.dart("h"), k=k_, own=own_, b=1)
+    return rejects and replay.truth("e", "h")
 
 
 def _history(name: str, of: str, words: str, rule: Term) -> RuleMutant:
@@ -41,7 +41,7 @@ def _history(name: str, of: str, words: str, rule: Term) -> RuleMutant:
         size=(2, 4),
         rule=rule,
         scene={**TRUE, **AWAY, "rejects": at_h(rule, D, sensed)},
-        plays=lambda stage, rule: _one(stage, rule, "d1"),
+        plays=lambda replay, rule: _one(replay, rule, "d1"),
     )
 
 
@@ -55,28 +55,28 @@ _FROM_FIRST = conj(
 )
 
 
-def _plays_prefix(stage: Stage, rule: Term) -> bool:
-    rejected = _one(stage, rule, "d1")
-    (way,) = stage.hypothesis("h").doors
-    return rejected and way == stage.door("own1", stage.chart.percepts[stage.dart("h")].degree)
+def _plays_prefix(replay: SceneReplay, rule: Term) -> bool:
+    rejected = _one(replay, rule, "d1")
+    (way,) = replay.hypothesis("h").doors
+    return rejected and way == replay.door("own1", replay.chart.percepts[replay.dart("h")].degree)
 
 
-def _plays_unturned(stage: Stage, rule: Term) -> bool:
-    vu = stage.behind("e")
-    stage.forward("d1")
-    stage.robot.move(0)
-    sensed = stage.take("own1")
-    own_ = stage.scene.constants["own1"]
-    rejects = stage.says(rule, vu, sensed, x=stage.dart("h"), k=own_, b=1)
-    return rejects and stage.truth("e", "h")
+def _plays_unturned(replay: SceneReplay, rule: Term) -> bool:
+    vu = replay.behind("e")
+    replay.forward("d1")
+    replay.robot.move(0)
+    sensed = replay.take("own1")
+    own_ = replay.scene.constants["own1"]
+    rejects = replay.says(rule, vu, sensed, x=replay.dart("h"), k=own_, b=1)
+    return rejects and replay.truth("e", "h")
 
 
-def _plays_at_v0(stage: Stage, rule: Term) -> bool:
-    vu = stage.behind("e")
-    return not stage.says(rule, vu, x=stage.dart("h"), b=0) and stage.truth("e", "h")
+def _plays_at_v0(replay: SceneReplay, rule: Term) -> bool:
+    vu = replay.behind("e")
+    return not replay.says(rule, vu, x=replay.dart("h"), b=0) and replay.truth("e", "h")
 
 
-REJECTING: tuple[RuleMutant, ...] = (
+REJECTIONS: tuple[RuleMutant, ...] = (
     _history(
         "history-through-unexplored",
         "history-keeps",
@@ -131,7 +131,7 @@ REJECTING: tuple[RuleMutant, ...] = (
         claims=KEPT,
         rule=_SHIFTED,
         scene={**TRUE, **AWAY, **HOMEWARD, "rejects": at_h(_SHIFTED, OWN, r.beyond(t.phi(H), OWN))},
-        plays=lambda stage, rule: _one(stage, rule, "own1"),
+        plays=lambda replay, rule: _one(replay, rule, "own1"),
     ),
     RuleMutant(
         name="motion-forgets-turning",

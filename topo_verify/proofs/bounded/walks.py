@@ -27,12 +27,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal as OneOf
+from typing import Literal
 
-from topo_verify.proofs.bounded.cnf import REFUTED, Literal, Row
-from topo_verify.proofs.bounded.encoding import Map, Sense, Worlds
+from topo_verify.proofs.bounded.cnf import REFUTED, CnfLiteral, CnfRow
+from topo_verify.proofs.bounded.encoding import EncodedMap, EncodedPercept, Worlds
 
-Fault = OneOf[
+RuleFault = Literal[
     "", "through-unexplored", "absolute-doors", "shifted", "turned", "one-more", "first-dart"
 ]
 """One thing changed in a rule:
@@ -50,14 +50,14 @@ Fault = OneOf[
 class Walk:
     """Positions, the doors taken, and what is sensed at each position."""
 
-    at: tuple[Row, ...]
-    doors: tuple[Row, ...]
-    leave: tuple[Row, ...]
-    senses: tuple[Sense, ...]
+    at: tuple[CnfRow, ...]
+    doors: tuple[CnfRow, ...]
+    leave: tuple[CnfRow, ...]
+    senses: tuple[EncodedPercept, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class EdgeCrossing:
     """A world, a map of it, and the robot behind an unexplored dart.
 
     Attributes:
@@ -65,22 +65,22 @@ class Scene:
     """
 
     world: Worlds
-    chart: Map
-    e: Row
-    vu: Row
+    chart: EncodedMap
+    e: CnfRow
+    vu: CnfRow
 
 
-def behind_an_edge(edges: int, *, world_class: str = "any") -> Scene:
+def behind_an_edge(edges: int, *, world_class: str = "any") -> EdgeCrossing:
     """Any world of the class, any reachable map S, any unexplored dart e."""
     world = Worlds(edges)
     world.restrict(world_class)
     chart = world.map("S")
     world.number_the_rest(chart.known)
     e, vu = crossed(world, chart, "e")
-    return Scene(world, chart, e, vu)
+    return EdgeCrossing(world, chart, e, vu)
 
 
-def crossed(world: Worlds, chart: Map, name: str) -> tuple[Row, Row]:
+def crossed(world: Worlds, chart: EncodedMap, name: str) -> tuple[CnfRow, CnfRow]:
     """Any unexplored dart of a map, and the reference dart behind it."""
     e = open_dart(world, chart, name)
     vu = world.position(name, f"{name}.behind")
@@ -88,7 +88,7 @@ def crossed(world: Worlds, chart: Map, name: str) -> tuple[Row, Row]:
     return e, vu
 
 
-def open_dart(world: Worlds, chart: Map, name: str) -> Row:
+def open_dart(world: Worlds, chart: EncodedMap, name: str) -> CnfRow:
     """Any dart of a map that is unexplored."""
     dart = world.position(name, name)
     for d in world.darts:
@@ -97,7 +97,7 @@ def open_dart(world: Worlds, chart: Map, name: str) -> Row:
     return dart
 
 
-def hypothesis(scene: Scene) -> Row:
+def hypothesis(scene: EdgeCrossing) -> CnfRow:
     """Any hypothesis for e: another unexplored dart of S."""
     h = open_dart(scene.world, scene.chart, "h")
     for one, other in zip(scene.e, h, strict=True):
@@ -105,7 +105,7 @@ def hypothesis(scene: Scene) -> Row:
     return h
 
 
-def true_hypothesis(scene: Scene) -> Row:
+def true_hypothesis(scene: EdgeCrossing) -> CnfRow:
     """The hypothesis that is true: the other end of e, where S knows it."""
     h = hypothesis(scene)
     scene.world.equate("h", (), h, scene.vu)
@@ -115,12 +115,12 @@ def true_hypothesis(scene: Scene) -> Row:
 # ------------------------------------------------------------------ walks
 
 
-def doors(world: Worlds, name: str, steps: int) -> tuple[Row, ...]:
+def doors(world: Worlds, name: str, steps: int) -> tuple[CnfRow, ...]:
     """Any word of doors."""
     return tuple(world.row(name, f"{name}.{i}", len(world.darts)) for i in range(steps))
 
 
-def going(world: Worlds, name: str, steps: int) -> tuple[Literal, ...]:
+def going(world: Worlds, name: str, steps: int) -> tuple[CnfLiteral, ...]:
     """Per step: is it still made? A word may be shorter than the number of steps."""
     go = world.booleans(f"{name}.go", steps)
     for before, after in pairwise(go):
@@ -131,12 +131,12 @@ def going(world: Worlds, name: str, steps: int) -> tuple[Literal, ...]:
 def walk(
     world: Worlds,
     name: str,
-    start: Row,
-    word: tuple[Row, ...],
-    go: tuple[Literal, ...] | None = None,
+    start: CnfRow,
+    word: tuple[CnfRow, ...],
+    go: tuple[CnfLiteral, ...] | None = None,
 ) -> Walk:
     """Follow a word in the world; where `go` has ended, stay."""
-    at, leave, senses = [start], list[Row](), [world.sense(name, start, f"{name}.0")]
+    at, leave, senses = [start], list[CnfRow](), [world.sense(name, start, f"{name}.0")]
     for i, door in enumerate(word):
         guard = () if go is None else (go[i],)
         leave.append(world.position(name, f"{name}.leave.{i}"))
@@ -150,7 +150,7 @@ def walk(
 
 
 @dataclass(frozen=True, slots=True)
-class Traced:
+class TracedWalk:
     """A word followed on a map until it crosses an unexplored dart.
 
     Attributes:
@@ -159,22 +159,22 @@ class Traced:
     """
 
     walk: Walk
-    alive: tuple[Literal, ...]
-    ends: tuple[Literal, ...]
+    alive: tuple[CnfLiteral, ...]
+    ends: tuple[CnfLiteral, ...]
 
 
 def trace(
     world: Worlds,
     name: str,
-    chart: Map,
-    start: Row,
-    word: tuple[Row, ...],
+    chart: EncodedMap,
+    start: CnfRow,
+    word: tuple[CnfRow, ...],
     *,
-    fault: Fault = "",
-) -> Traced:
+    fault: RuleFault = "",
+) -> TracedWalk:
     """Follow a word on a map, over explored darts, as far as that goes."""
-    at, leave, senses = [start], list[Row](), [world.sense(name, start, f"{name}.0")]
-    alive, ends = [world.first[0]], list[Literal]()
+    at, leave, senses = [start], list[CnfRow](), [world.sense(name, start, f"{name}.0")]
+    alive, ends = [world.first[0]], list[CnfLiteral]()
     for i, door in enumerate(word):
         leave.append(world.position(name, f"{name}.leave.{i}"))
         at.append(world.position(name, f"{name}.at.{i + 1}"))
@@ -188,10 +188,12 @@ def trace(
         world.equate(name, (ends[i],), leave[i] if through else at[i], at[i + 1])
         alive.append(world.first[0] if through else on)
         senses.append(world.sense(name, at[i + 1], f"{name}.{i + 1}"))
-    return Traced(Walk(tuple(at), word, tuple(leave), tuple(senses)), tuple(alive), tuple(ends))
+    return TracedWalk(Walk(tuple(at), word, tuple(leave), tuple(senses)), tuple(alive), tuple(ends))
 
 
-def stay_explored(world: Worlds, chart: Map, walked: Walk, go: tuple[Literal, ...]) -> None:
+def stay_explored(
+    world: Worlds, chart: EncodedMap, walked: Walk, go: tuple[CnfLiteral, ...]
+) -> None:
     """Every door of a walk crosses an explored dart of the map."""
     for leave, on in zip(walked.leave, go, strict=True):
         for d in world.darts:
@@ -199,14 +201,14 @@ def stay_explored(world: Worlds, chart: Map, walked: Walk, go: tuple[Literal, ..
 
 
 def differ_somewhere(
-    world: Worlds, pairs: Sequence[tuple[Sense, Sense, tuple[Literal, ...]]]
+    world: Worlds, pairs: Sequence[tuple[EncodedPercept, EncodedPercept, tuple[CnfLiteral, ...]]]
 ) -> None:
     """Refuted if at one of these places all guards hold and the two percepts differ.
 
     The premises alone must let a place with guards be reached: else nothing would be compared.
     """
-    reached: list[Literal] = []
-    seen: list[Literal] = []
+    reached: list[CnfLiteral] = []
+    seen: list[CnfLiteral] = []
     for i, (one, other, guards) in enumerate(pairs):
         same = world.alike("percepts", one, other, f"compare.{i}")
         if guards:

@@ -38,7 +38,7 @@ from topo_verify.proofs.first_order.axioms import (
     succ,
     wraps,
 )
-from topo_verify.proofs.first_order.obligations.growing import BEHIND_E, is_posed
+from topo_verify.proofs.first_order.obligations.growth import BEHIND_E, is_posed
 from topo_verify.proofs.first_order.obligations.obligation import (
     CONFIRMED,
     ENTAILED,
