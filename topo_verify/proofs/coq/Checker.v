@@ -67,14 +67,14 @@ Definition unite (U : unions) (p q : pplace) : unions :=
   | None => U end.
 
 (** The two ends of an arc: where it leaves, where it arrives. *)
-Definition ends (a : arc) : option (pplace * pplace) :=
+Definition arc_ends (a : arc) : option (pplace * pplace) :=
   match PositiveMap.find (snd a) D with
   | Some (p, q) => Some (if fst a then (p, q) else (q, p))
   | None => None end.
 
 (** Two arcs that leave by the same dart arrive at the same dart: the two places of arrival. *)
 Definition meet (U : unions) (s : arc * arc) : option (pplace * pplace) :=
-  match ends (fst s), ends (snd s) with
+  match arc_ends (fst s), arc_ends (snd s) with
   | Some (p, q), Some (p', q') =>
       if pplace_eqb (rep fuel U p) (rep fuel U p') then Some (q, q') else None
   | _, _ => None end.
@@ -93,7 +93,7 @@ Definition offsets (C : PositiveMap.t (list nat)) x :=
   match PositiveMap.find x C with Some l => l | None => [] end.
 
 (** Note that the arc's dart was crossed. *)
-Definition cover U C (a : arc) := match ends a with
+Definition cover U C (a : arc) := match arc_ends a with
   | Some (p, _) => let (x, k) := rep fuel U p in
       if existsb (Nat.eqb k) (offsets C x) then C else PositiveMap.add x (k :: offsets C x) C
   | None => C end.
@@ -134,7 +134,7 @@ Definition check_conflict U c := match c with
   end.
 
 (** The arc joins these two places. *)
-Definition check_partners U p q a := match ends a with
+Definition check_partners U p q a := match arc_ends a with
   | Some (p', q') => pplace_eqb (rep fuel U p) (rep fuel U p') &&
                      pplace_eqb (rep fuel U q) (rep fuel U q')
   | None => false end.

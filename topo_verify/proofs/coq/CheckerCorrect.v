@@ -59,7 +59,7 @@ Let D := table_of (edges L extra).
 Hypothesis Known : forall p q, In (p, q) extra -> valid L (abs p) /\ valid L (abs q).
 Notation same := (same assumed L).
 Notation link := (link assumed L).
-Notation ends := (ends D).
+Notation arc_ends := (arc_ends D).
 Notation rep := (rep T fuel).
 
 (** The table of sights tells what was seen. *)
@@ -76,9 +76,9 @@ Proof.
 Qed.
 
 (** So are the ends of an arc. *)
-Lemma ends_sound a p q : ends a = Some (p, q) -> link (abs p) (abs q).
+Lemma arc_ends_sound a p q : arc_ends a = Some (p, q) -> link (abs p) (abs q).
 Proof.
-  unfold Checker.ends. destruct (PositiveMap.find (snd a) D) as [(r, s)|] eqn:E; [|discriminate].
+  unfold Checker.arc_ends. destruct (PositiveMap.find (snd a) D) as [(r, s)|] eqn:E; [|discriminate].
   apply table_of_spec, nth_error_In, edges_sound in E.
   destruct (fst a); intros Eq; injection Eq as <- <-; auto using link_sym.
 Qed.
@@ -137,11 +137,11 @@ Qed.
 (** Where arcs meet is the same. *)
 Lemma meet_sound U s p q : true_uf U -> meet T D U s = Some (p, q) -> same (abs p) (abs q).
 Proof.
-  intros HU. unfold meet. destruct (ends (fst s)) as [(p1, q1)|] eqn:E1; [|discriminate].
-  destruct (ends (snd s)) as [(p2, q2)|] eqn:E2; [|discriminate].
+  intros HU. unfold meet. destruct (arc_ends (fst s)) as [(p1, q1)|] eqn:E1; [|discriminate].
+  destruct (arc_ends (snd s)) as [(p2, q2)|] eqn:E2; [|discriminate].
   destruct (pplace_eqb (rep U p1) (rep U p2)) eqn:E; [|discriminate].
   intros Eq. injection Eq as <- <-. apply pplace_eqb_eq in E.
-  apply (same_link assumed L (abs p1) _ (abs p2) _); eauto using ends_sound.
+  apply (same_link assumed L (abs p1) _ (abs p2) _); eauto using arc_ends_sound.
   apply (rep_same U); auto.
 Qed.
 
@@ -186,11 +186,11 @@ Definition true_cover U (C : PositiveMap.t (list nat)) := true_uf U -> forall x 
 (** Noting keeps it true. *)
 Lemma cover_sound U C a : true_cover U C -> true_cover U (cover T D U C a).
 Proof.
-  intros HC. unfold cover. destruct (ends a) as [(p, q)|] eqn:E; auto.
+  intros HC. unfold cover. destruct (arc_ends a) as [(p, q)|] eqn:E; auto.
   destruct (rep U p) as (x, k) eqn:R. destruct (existsb _ _); auto.
   intros HU y l. unfold offsets at 1. destruct (Pos.eq_dec y x) as [->|N].
   - rewrite PositiveMap.gss. intros [<-|H]; [|apply HC; auto].
-    exists (abs p), (abs q). split; [apply ends_sound with a; auto|].
+    exists (abs p), (abs q). split; [apply arc_ends_sound with a; auto|].
     apply same_sym. change (num x, k) with (abs (x, k)). rewrite <- R. apply rep_sound; auto.
   - rewrite PositiveMap.gso by auto. apply HC; auto.
 Qed.
@@ -269,9 +269,9 @@ Qed.
 Theorem check_partners_sound U p q a : true_uf U -> check_partners T D U p q a = true ->
   exists p' q', link p' q' /\ same (abs p) p' /\ same (abs q) q'.
 Proof.
-  intros HU. unfold check_partners. destruct (ends a) as [(r, s)|] eqn:E; [|discriminate].
+  intros HU. unfold check_partners. destruct (arc_ends a) as [(r, s)|] eqn:E; [|discriminate].
   intros H. apply andb_true_iff in H as [A B]. apply pplace_eqb_eq in A, B.
-  exists (abs r), (abs s). split; [apply ends_sound with a; auto|].
+  exists (abs r), (abs s). split; [apply arc_ends_sound with a; auto|].
   split; apply (rep_same U); auto.
 Qed.
 End Sound.
@@ -340,7 +340,7 @@ Proof.
 Qed.
 
 (** A conflict under an assumed edge: in no world that shows the log does that edge exist. *)
-Lemma refuted_correct L p q U ev c : let T := table_of (sights L) in
+Lemma assumed_edge_refuted L p q U ev c : let T := table_of (sights L) in
   let D := table_of (edges L [(p, q)]) in
   PositiveMap.mem (fst p) T = true -> PositiveMap.mem (fst q) T = true -> true_uf L [(p, q)] U ->
   check_conflict T D (fold_left (glue T D) ev U) c = true ->
@@ -362,7 +362,7 @@ Theorem rejected_correct L p q ev c : rejected L p q ev c = true ->
   forall W v, world W -> visits W L v -> alpha W (dart W v (abs p)) <> Some (dart W v (abs q)).
 Proof.
   unfold rejected. intros H. apply andb_true_iff in H as [H C]. apply andb_true_iff in H as [P Q].
-  apply (refuted_correct L p q (markers (table_of (sights L)) (sights L)) ev c); auto.
+  apply (assumed_edge_refuted L p q (markers (table_of (sights L)) (sights L)) ev c); auto.
   apply markers_sound.
 Qed.
 

@@ -16,7 +16,7 @@ Proof.
 Qed.
 
 Section Quotient.
-Variables (L : Log) (assumed : assumption).
+Variables (L : Log) (assumed : assumed_edges).
 Hypothesis (Cons : consistent assumed L).
 
 (** Degrees are above 0. *)
@@ -114,15 +114,15 @@ Lemma next_same p q : same assumed L p q -> same assumed L (next_place p) (next_
 Proof. destruct p as (i, a), q as (j, b). apply (same_turn assumed L 1). Qed.
 
 (** Equal class numbers only for identified places. *)
-Definition sound (c : place -> nat) := forall p q, In p all_places -> In q all_places ->
+Definition sound_classes (c : place -> nat) := forall p q, In p all_places -> In q all_places ->
   c p = c q -> same assumed L p q.
 
 (** Two identified places still have different class numbers. *)
-Definition more (c : place -> nat) := exists p q, In p all_places /\ In q all_places /\
+Definition incomplete (c : place -> nat) := exists p q, In p all_places /\ In q all_places /\
   same assumed L p q /\ c p <> c q.
 
 (** The rules ask for no more merges. *)
-Record final (c : place -> nat) : Prop := {
+Record saturated (c : place -> nat) : Prop := {
   f_turn : forall p q, In p all_places -> In q all_places -> c p = c q ->
            c (normal (next_place p)) = c (normal (next_place q));
   f_mark : forall i d j, seen L i = Some (d, Some j) -> c (normal (i, j)) = c (normal (0, 0));
@@ -130,16 +130,16 @@ Record final (c : place -> nat) : Prop := {
     c (normal p) = c (normal p') ->
            c (normal q) = c (normal q') }.
 
-(** How to show [more]. *)
-Lemma more_of c p q : valid L p -> valid L q -> same assumed L p q ->
-  c (normal p) <> c (normal q) -> more c.
+(** How to show [incomplete]. *)
+Lemma incomplete_intro c p q : valid L p -> valid L q -> same assumed L p q ->
+  c (normal p) <> c (normal q) -> incomplete c.
 Proof.
   intros P Q S N. exists (normal p), (normal q). repeat split; auto using normal_listed.
   eapply same_trans; [apply same_sym, normal_same|]. eapply same_trans; [exact S|apply normal_same].
 Qed.
 
 (** One or the other. *)
-Lemma more_or_final c : sound c -> more c \/ final c.
+Lemma incomplete_or_saturated c : sound_classes c -> incomplete c \/ saturated c.
 Proof.
   intros HS.
   destruct (in_dec_exists (fun x => c (fst x) = c (snd x) /\ c (normal (next_place (fst x))) <> c
@@ -147,7 +147,8 @@ Proof.
     (list_prod all_places all_places)) as [((p, q) & I & E & N)|N1].
   { intros (p, q); simpl. destruct (Nat.eq_dec (c p) (c q)), (Nat.eq_dec (c (normal (next_place p)))
       (c (normal (next_place q)))); tauto. }
-  { apply in_prod_iff in I as [P Q]. left. apply (more_of c (next_place p) (next_place q)); auto.
+  { apply in_prod_iff in I as [P Q]. left.
+    apply (incomplete_intro c (next_place p) (next_place q)); auto.
     - apply (listed_valid p P).
     - apply (listed_valid q Q).
     - apply next_same, HS; auto. }
@@ -157,7 +158,7 @@ Proof.
   { intros i. destruct (seen L i) as [(d, [j|])|]; auto.
     destruct (Nat.eq_dec (c (normal (i, j))) (c (normal (0, 0)))); tauto. }
   { destruct (seen L i) as [(d, [j|])|] eqn:E; try contradiction. left.
-    apply (more_of c (i, j) (0, 0)); auto; [unfold valid; simpl; congruence|discriminate|].
+    apply (incomplete_intro c (i, j) (0, 0)); auto; [unfold valid; simpl; congruence|discriminate|].
     apply (same_mark assumed L i d j E). }
   destruct (in_dec_exists (fun x => c (normal (fst (fst x))) = c (normal (fst (snd x))) /\
       c (normal (snd (fst x))) <> c (normal (snd (snd x)))) (list_prod all_links all_links))
@@ -166,7 +167,7 @@ Proof.
     destruct (Nat.eq_dec (c (normal p)) (c (normal p'))), (Nat.eq_dec (c (normal q)) (c (normal
       q'))); tauto. }
   { apply in_prod_iff in I as [I I']. apply all_links_spec in I, I'. left. simpl in E, N.
-    apply (more_of c q q'); eauto using link_valid, link_sym.
+    apply (incomplete_intro c q q'); eauto using link_valid, link_sym.
     apply (same_link assumed L p q p' q'); auto. eapply same_trans; [apply normal_same|].
     eapply same_trans; [|apply same_sym, normal_same]. apply HS; eauto using normal_listed, link_valid. }
   right. split.
@@ -183,14 +184,14 @@ Proof.
 Qed.
 
 (** Merging ends, after fewer merges than classes. *)
-Lemma saturate m : forall c, (forall p, In p all_places -> c p < m) -> sound c ->
-  exists c, sound c /\ final c.
+Lemma saturate m : forall c, (forall p, In p all_places -> c p < m) -> sound_classes c ->
+  exists c, sound_classes c /\ saturated c.
 Proof.
   induction m as [|m IH]; intros c Hm HS.
   - assert (P : valid L (0, 0)) by discriminate. specialize (Hm _ (normal_listed _ P)). lia.
-  - destruct (more_or_final c HS) as [(p & q & P & Q & S & N)|F]; [|eauto].
+  - destruct (incomplete_or_saturated c HS) as [(p & q & P & Q & S & N)|F]; [|eauto].
     cut (forall p q, In p all_places -> In q all_places -> same assumed L p q -> c p < c q ->
-      exists c, sound c /\ final c).
+      exists c, sound_classes c /\ saturated c).
     { intros G. destruct (lt_eq_lt_dec (c p) (c q)) as [[X|X]|X]; [eauto|tauto|].
       apply (G q p); auto. apply same_sym; auto. }
     clear p q P Q S N. intros p q P Q Spq N.

@@ -19,13 +19,13 @@ Definition see_counted (s : St * nat) := see (fst s).
 (** It goes where the robot goes, and counts. *)
 Definition go_counted (s : St * nat) k := option_map (fun t => (t, S (snd s))) (go (fst s) k).
 
-Notation counted := ((St * nat) * nat)%type.
+Notation counting_robot := ((St * nat) * nat)%type.
 
 (** Claim 6: the cost is the number of moves. *)
-Definition cost (v : counted) := snd (fst v).
+Definition cost (v : counting_robot) := snd (fst v).
 
 (** The robot without its count. *)
-Definition uncounted (v : counted) : St * nat := (fst (fst v), snd v).
+Definition uncounted (v : counting_robot) : St * nat := (fst (fst v), snd v).
 
 Notation go_on' := (go_on (St * nat) see_counted go_counted).
 Notation go_back' := (go_back (St * nat) see_counted go_counted).
@@ -165,7 +165,7 @@ Let go := go_counted nat (move W).
 Let n := vertices W.
 
 (** All rounds together. *)
-Lemma explore_counted fuel : forall M p v, inv W (M, p, uncounted nat v) ->
+Lemma explore_counted fuel : forall M p v, invariant W (M, p, uncounted nat v) ->
   darts W <= 2 * fuel + known M ->
   exists M' p' v' r, explore (nat * nat) see go pick path order keep fuel (M, p, v) = Some (M', p',
     v') /\
@@ -204,13 +204,13 @@ Qed.
 (** Claim 7, for all policies with short ways: the map is right, and the cost within the bound; m is
     the number of edges, n of vertices. *)
 Theorem cost_within_bound : exists m M p v,
-  explore (nat * nat) see go pick path order keep (darts W) (start (nat * nat) see (root W, 0)) =
+  explore (nat * nat) see go pick path order keep (darts W) (initial_state (nat * nat) see (root W, 0)) =
     Some (M, p, v) /\
   isomorphic M W /\ darts W = 2 * m /\
   m <= cost nat v <= m * (n + (2 * m - 1) * (2 * (n - 1))).
 Proof.
   destruct (explore_counted (darts W) (initial (degree W (root W))) 0 (root W, 0, 0))
-    as (M & p & v & m & X & Iso & D & C); [apply (start_inv W HW)|lia|].
+    as (M & p & v & m & X & Iso & D & C); [apply (initial_invariant W HW)|lia|].
   exists m, M, p, v. split; [exact X|]. split; auto.
   assert (known (initial (degree W (root W))) = 0) as Z.
   { unfold known. generalize (darts (initial (degree W (root W)))). intros k.
@@ -223,7 +223,8 @@ End Bound.
 (** Claim 7 for [basic]. *)
 Theorem basic_cost W : world W -> exists m M p v,
   explore (nat * nat) (see_counted nat (percept W)) (go_counted nat (move W)) first_open bfs_path
-    (fun _ H => H) rule_none (darts W) (start (nat * nat) (see_counted nat (percept W)) (root W, 0)) =
+    (fun _ H => H) rule_none (darts W)
+    (initial_state (nat * nat) (see_counted nat (percept W)) (root W, 0)) =
     Some (M, p, v) /\
   isomorphic M W /\ darts W = 2 * m /\
   m <= cost nat v <= m * (vertices W + (2 * m - 1) * (2 * (vertices W - 1))).

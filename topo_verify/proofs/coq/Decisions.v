@@ -40,8 +40,8 @@ Definition onward m (a : nat * Percept) := let y := Pos.succ (here m) in
        | Some j => unite T (unified m) (1%positive, 0) (y, j) | None => unified m end |}.
 
 (** On to a visit, and the moves that are left. *)
-Fixpoint reach x m ms := if Pos.eqb (here m) x then Some (m, ms) else
-  match ms with [] => None | a :: ms => reach x (onward m a) ms end.
+Fixpoint advance x m ms := if Pos.eqb (here m) x then Some (m, ms) else
+  match ms with [] => None | a :: ms => advance x (onward m a) ms end.
 
 (** The merges of arcs that are there already, and the evidence that is left. *)
 Fixpoint settle m (ev : evidence) := match ev with [] => (m, []) | s :: rest =>
@@ -62,7 +62,7 @@ Definition supported m d r := match d, r with
 (** Decisions from this moment on, in their order. *)
 Fixpoint decided_from m ms ev ds rs := match ds, rs with
   | [], [] => true
-  | d :: ds, r :: rs => match reach (visit d) m ms with
+  | d :: ds, r :: rs => match advance (visit d) m ms with
       | Some (m, ms) => let (m, ev) := settle m ev in
           supported m d r && decided_from m ms ev ds rs
       | None => false end
@@ -115,12 +115,12 @@ Proof.
 Qed.
 
 (** At each moment the tables are those of the log so far, and the fold is true. *)
-Definition right L m ms := exists done, let P := {| start := start L; moves := done |} in
+Definition true_moment L m ms := exists done, let P := {| start := start L; moves := done |} in
   moves L = done ++ ms /\ num (here m) = length done /\ sighted m = table_of (sights P) /\
   crossed m = table_of (edges P []) /\ true_uf P [] (unified m).
 
 (** That log is the log up to the visit. *)
-Lemma right_cut L m ms : right L m ms -> let P := cut L (num (here m)) in
+Lemma true_moment_cut L m ms : true_moment L m ms -> let P := cut L (num (here m)) in
   num (here m) = length (moves P) /\ sighted m = table_of (sights P) /\
   crossed m = table_of (edges P []) /\ true_uf P [] (unified m).
 Proof.
@@ -129,13 +129,13 @@ Proof.
 Qed.
 
 (** It is so at the start. *)
-Lemma outset_right L : right L (outset L) (moves L).
+Lemma outset_true L : true_moment L (outset L) (moves L).
 Proof.
   exists []. do 4 (split; auto). apply (markers_sound {| start := start L; moves := [] |} []).
 Qed.
 
 (** It stays so. *)
-Lemma onward_right L m a ms : right L m (a :: ms) -> right L (onward m a) ms.
+Lemma onward_true L m a ms : true_moment L m (a :: ms) -> true_moment L (onward m a) ms.
 Proof.
   intros (done & E & N & HT & HD & HU). exists (done ++ [a]). intros P'.
   assert (Y : num (Pos.succ (here m)) = S (length done)) by (rewrite num_succ; auto).
@@ -158,18 +158,18 @@ Proof.
 Qed.
 
 (** Also on the way to a visit. *)
-Lemma reach_right L x : forall ms m m' ms', right L m ms -> reach x m ms = Some (m', ms') ->
-  right L m' ms' /\ here m' = x.
+Lemma advance_true L x : forall ms m m' ms', true_moment L m ms -> advance x m ms = Some (m', ms') ->
+  true_moment L m' ms' /\ here m' = x.
 Proof.
   intros ms. induction ms as [|a ms IH]; simpl; intros m m' ms' H E;
     match type of E with (if ?b then _ else _) = _ => destruct b eqn:B end.
   1, 3: apply Pos.eqb_eq in B; injection E as <- <-; auto.
   - discriminate.
-  - apply (IH (onward m a)); auto. apply onward_right, H.
+  - apply (IH (onward m a)); auto. apply onward_true, H.
 Qed.
 
 (** And when it is folded. *)
-Lemma settle_right L ms ev : forall m, right L m ms -> right L (fst (settle m ev)) ms.
+Lemma settle_true L ms ev : forall m, true_moment L m ms -> true_moment L (fst (settle m ev)) ms.
 Proof.
   induction ev as [|s ev IH]; simpl; auto. intros m H. destruct (_ && _); auto.
   apply IH. destruct H as (done & E & N & HT & HD & HU). exists done. do 4 (split; auto).
@@ -183,10 +183,10 @@ Proof.
 Qed.
 
 (** What is supported follows. *)
-Lemma supported_follows L m ms d r : right L m ms -> here m = visit d -> supported m d r = true ->
+Lemma supported_follows L m ms d r : true_moment L m ms -> here m = visit d -> supported m d r = true ->
   follows L d.
 Proof.
-  intros H V. apply right_cut in H as (N & HT & HD & HU). rewrite V in *.
+  intros H V. apply true_moment_cut in H as (N & HT & HD & HU). rewrite V in *.
   assert (Nil : forall a b, In (a, b) [] -> valid (cut L (num (visit d))) (abs a) /\
     valid (cut L (num (visit d))) (abs b)) by (intros a b []).
   unfold supported. rewrite V, HT, HD.
@@ -199,19 +199,19 @@ Proof.
       table_of (edges (cut L (num x)) [(p, q)])).
     { unfold edges. rewrite app_nil_r. symmetry. apply table_of_snoc.
       rewrite map_length, enum_length, map_length. auto. }
-    rewrite E in C. intros W v. apply (refuted_correct (cut L (num x)) p q (unified m) ev c); auto.
+    rewrite E in C. intros W v. apply (assumed_edge_refuted (cut L (num x)) p q (unified m) ev c); auto.
     apply (true_uf_grows (cut L (num x))); auto.
 Qed.
 
 (** Claim 10: decisions that the checker accepts follow from the log, each as far as it went. *)
 Theorem decided_correct L ev ds rs : decided L ev ds rs = true -> forall d, In d ds -> follows L d.
 Proof.
-  unfold decided. assert (H := outset_right L). revert H. generalize (outset L) (moves L).
+  unfold decided. assert (H := outset_true L). revert H. generalize (outset L) (moves L).
   intros m ms. revert m ms ev rs. induction ds as [|d ds IH]; simpl; intros m ms ev rs H C e I;
     [destruct I|]. destruct rs as [|r rs]; [discriminate|].
-  destruct (reach (visit d) m ms) as [(m1, ms1)|] eqn:R; [|discriminate].
-  apply (reach_right L) in R as [H1 Eh]; auto.
-  apply (settle_right L ms1 ev) in H1. assert (Sh := settle_here ev m1).
+  destruct (advance (visit d) m ms) as [(m1, ms1)|] eqn:R; [|discriminate].
+  apply (advance_true L) in R as [H1 Eh]; auto.
+  apply (settle_true L ms1 ev) in H1. assert (Sh := settle_here ev m1).
   destruct (settle m1 ev) as (m2, ev2). simpl in *. apply andb_true_iff in C as [S C].
   destruct I as [<-|I]; [|apply (IH m2 ms1 ev2 rs); auto].
   apply (supported_follows L m2 ms1 d r); auto. congruence.

@@ -12,7 +12,7 @@ Lemma fits_nothing W v : fits W v nothing.
 Proof. intros p q []. Qed.
 
 Section Sound.
-Variables (W : Map) (L : Log) (v : nat -> nat) (A : assumption).
+Variables (W : Map) (L : Log) (v : nat -> nat) (A : assumed_edges).
 Hypotheses (HW : world W) (V : visits W L v) (F : fits W v A).
 Let WW := world_is_map W HW.
 

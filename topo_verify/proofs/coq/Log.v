@@ -74,20 +74,20 @@ Definition place := (nat * nat)%type.
 Definition valid L (p : place) := seen L (fst p) <> None.
 
 (** Edges that are assumed: pairs of places. *)
-Definition assumption := list (place * place).
+Definition assumed_edges := list (place * place).
 
 (** No edge is assumed. *)
-Definition nothing : assumption := [].
+Definition nothing : assumed_edges := [].
 
 (** The two darts of an edge that was crossed, or is assumed. *)
-Inductive link (A : assumption) L : place -> place -> Prop :=
+Inductive link (A : assumed_edges) L : place -> place -> Prop :=
 | link_out i k : door L i = Some k -> link A L (i, k) (S i, 0)
 | link_back i k : door L i = Some k -> link A L (S i, 0) (i, k)
 | link_assumed p q : In (p, q) A -> valid L p -> valid L q -> link A L p q
 | link_assumed_back p q : In (p, q) A -> valid L p -> valid L q -> link A L q p.
 
 (** The forced identifications: turns; full turns; the marker; one dart has one partner. *)
-Inductive same (A : assumption) L : place -> place -> Prop :=
+Inductive same (A : assumed_edges) L : place -> place -> Prop :=
 | same_refl p : same A L p p
 | same_sym p q : same A L p q -> same A L q p
 | same_trans p q r : same A L p q -> same A L q r -> same A L p r
@@ -104,7 +104,7 @@ Definition closed L :=
 Definition dart W v (p : place) := turn W (snd p) (v (fst p)).
 
 (** The assumed edges are edges of the world. *)
-Definition fits W v (A : assumption) :=
+Definition fits W v (A : assumed_edges) :=
   forall p q, In (p, q) A -> alpha W (dart W v p) = Some (dart W v q).
 
 (** An edge has two directions. *)
@@ -135,7 +135,7 @@ Qed.
 (** No contradiction (section 11): a marker at the start, degrees above 0, doors that are there; in
     one class one degree, the marker at all or none, no vertex turned against itself, no dart its
     own partner. *)
-Record consistent (A : assumption) L : Prop := {
+Record consistent (A : assumed_edges) L : Prop := {
   c_start : exists d, seen L 0 = Some (d, Some 0);
   c_percept : forall i d m, seen L i = Some (d, m) -> 0 < d /\ forall j, m = Some j -> j < d;
   c_door : forall i k d m, door L i = Some k -> seen L i = Some (d, m) -> k < d;
@@ -149,5 +149,5 @@ Record consistent (A : assumption) L : Prop := {
   c_edge : forall p q, link A L p q -> ~ same A L p q }.
 
 (** A world shows the log and has the assumed edges. *)
-Definition possible (A : assumption) L :=
+Definition possible (A : assumed_edges) L :=
   exists W v, world W /\ visits W L v /\ fits W v A.

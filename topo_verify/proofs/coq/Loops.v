@@ -80,12 +80,12 @@ Proof.
 Qed.
 
 (** The last visit up to i that saw the marker. *)
-Fixpoint last i := match i with 0 => 0 | S j => if marked (S j) then S j else last j end.
+Fixpoint last_sight i := match i with 0 => 0 | S j => if marked (S j) then S j else last_sight j end.
 
 (** The trips up to visit i, from one sight of the marker to the next. *)
 Fixpoint trips i := match i with
   | 0 => []
-  | S j => if marked (S j) then (last j, S j) :: trips j else trips j end.
+  | S j => if marked (S j) then (last_sight j, S j) :: trips j else trips j end.
 
 (** The moves of a trip. *)
 Definition taken (t : nat * nat) := seq (fst t) (snd t - fst t).
@@ -98,18 +98,19 @@ Lemma counted_app l m : counted (l ++ m) = counted l + counted m.
 Proof. unfold counted. rewrite filter_app, app_length. auto. Qed.
 
 (** The last sight is one. *)
-Lemma last_ok i : last i <= i /\ marked (last i) = true.
+Lemma last_sight_ok i : last_sight i <= i /\ marked (last_sight i) = true.
 Proof.
   induction i as [|i [IH IH']]; simpl; [split; [lia|apply marked_start]|].
   destruct (marked (S i)) eqn:M; split; auto.
 Qed.
 
 (** The trips up to i have the moves up to the last sight. *)
-Lemma trips_total i : list_sum (map (fun t => counted (taken t)) (trips i)) = counted (seq 0 (last i)).
+Lemma trips_total i : list_sum (map (fun t => counted (taken t)) (trips i)) =
+  counted (seq 0 (last_sight i)).
 Proof.
   induction i as [|i IH]; simpl; auto. destruct (marked (S i)); auto. simpl map. simpl list_sum.
-  rewrite IH. destruct (last_ok i) as [Le _]. unfold taken. cbn [fst snd].
-  replace (S i) with (last i + (S i - last i)) at 2 by lia. rewrite seq_app, counted_app.
+  rewrite IH. destruct (last_sight_ok i) as [Le _]. unfold taken. cbn [fst snd].
+  replace (S i) with (last_sight i + (S i - last_sight i)) at 2 by lia. rewrite seq_app, counted_app.
   rewrite Nat.add_0_l. lia.
 Qed.
 
@@ -117,7 +118,7 @@ Qed.
 Lemma trips_ok i t : In t (trips i) ->
   marked (fst t) = true /\ marked (snd t) = true /\ fst t < snd t <= i.
 Proof.
-  induction i as [|i IH]; simpl; [intros []|]. intros I. destruct (last_ok i).
+  induction i as [|i IH]; simpl; [intros []|]. intros I. destruct (last_sight_ok i).
   destruct (marked (S i)) eqn:M; [destruct I as [<-|I]; [cbn [fst snd]; repeat split; auto; lia|]|].
   all: destruct (IH I) as (X & Y & Z); repeat split; auto; lia.
 Qed.
@@ -169,17 +170,17 @@ Definition label i := parity (fun i => c (out i)) (seq 0 i).
 (** It is 0 wherever the marker was seen. *)
 Lemma label_marked i : i <= n -> marked i = true -> label i = false.
 Proof.
-  enough (H : forall i, i <= n -> label (last i) = false).
+  enough (H : forall i, i <= n -> label (last_sight i) = false).
   { intros Hi M. specialize (H i Hi). destruct i; [auto|]. simpl in H. rewrite M in H. auto. }
   clear i. intros i. induction i as [|i IH]; intros Hi; [auto|]. simpl.
   destruct (marked (S i)) eqn:M; [|apply IH; lia].
-  assert (T : In (last i, S i) (trips n)).
+  assert (T : In (last_sight i, S i) (trips n)).
   { clear - Hi M. generalize dependent n. intros m Hi. induction Hi as [|m Hi IH]; simpl.
     - rewrite M. left; auto.
     - destruct (marked (S m)); [right|]; auto. }
   apply Vanishes in T. unfold taken in T. cbn [fst snd] in T.
-  destruct (last_ok i) as [Le _]. specialize (IH ltac:(lia)). unfold label in *.
-  replace (S i) with (last i + (S i - last i)) at 1 by lia.
+  destruct (last_sight_ok i) as [Le _]. specialize (IH ltac:(lia)). unfold label in *.
+  replace (S i) with (last_sight i + (S i - last_sight i)) at 1 by lia.
   rewrite seq_app, parity_app, IH, xorb_false_l. exact T.
 Qed.
 
@@ -319,10 +320,11 @@ Qed.
 Theorem loops_cost :
   list_sum (map (weight W depth) (chords W depth up)) + seat (v n) <= counted (seq 0 n).
 Proof.
-  destruct (last_ok n) as [Le M]. apply marked_seat in M.
-  destruct (seat_along (last n) (n - last n)) as [F _]; [lia|].
-  replace (last n + (n - last n)) with n in F by lia.
+  destruct (last_sight_ok n) as [Le M]. apply marked_seat in M.
+  destruct (seat_along (last_sight n) (n - last_sight n)) as [F _]; [lia|].
+  replace (last_sight n + (n - last_sight n)) with n in F by lia.
   assert (H := sum_by_level _ _ trips_above). rewrite trips_total in H.
-  replace n with (last n + (n - last n)) at 2 by lia. rewrite seq_app, counted_app, Nat.add_0_l. lia.
+  replace n with (last_sight n + (n - last_sight n)) at 2 by lia.
+  rewrite seq_app, counted_app, Nat.add_0_l. lia.
 Qed.
 End Loops.

@@ -113,7 +113,7 @@ Fixpoint explore fuel (st : state) : option state :=
   end.
 
 (** At the start the robot knows v0. *)
-Definition start s : state := (initial (fst (see s)), 0, (s, 0)).
+Definition initial_state s : state := (initial (fst (see s)), 0, (s, 0)).
 End Mapper.
 Arguments round : simpl never.
 

@@ -28,7 +28,7 @@ Definition current (v : nat * nat) := turn W (snd v) (fst v).
 Definition ok (v : nat * nat) := fst v < darts W /\ snd v < degree W (fst v).
 
 (** So it is turned to a dart. *)
-Lemma ok_cur v : ok v -> current v < darts W.
+Lemma ok_current v : ok v -> current v < darts W.
 Proof. intros [A _]. apply turn_lt; auto. Qed.
 
 (** Going on is a move in the world. *)
@@ -63,7 +63,7 @@ Proof.
 Qed.
 
 (** Taking doors is a walk. *)
-Lemma exec_spec w k : forall v b, ok v -> walk W (current v) (w ++ [k]) = Some b ->
+Lemma execute_spec w k : forall v b, ok v -> walk W (current v) (w ++ [k]) = Some b ->
   execute v (w ++ [k]) = Some (b, 0) /\ ok (b, 0).
 Proof.
   induction w as [|j w IH]; simpl; intros v b Hv Hw.
@@ -91,7 +91,7 @@ Proof.
     assert (Hy : y < darts M) by (eapply move_lt; eauto).
     assert (Back : forall v', ok v' -> current v' = s ->
       exists v2, go_back v' k = Some v2 /\ ok v2 /\ current v2 = current v).
-    { intros v' Hv' <-. apply go_back_spec; auto using ok_cur. }
+    { intros v' Hv' <-. apply go_back_spec; auto using ok_current. }
     destruct (percept_eqb_spec (percept M y) (percept W s)) as [Eq|Ne].
     + destruct (IH y (s, 0) r Hs Hy Eq Hw) as (b & qs & v' & -> & Hv' & Hq & Hb).
       change (current (s, 0)) with s in *. destruct b.
@@ -106,7 +106,7 @@ Proof.
 Qed.
 
 (** Testing finds the true hypothesis, or shows that none is true. *)
-Lemma try_spec M phi a (WM : is_map M) (CM : connected M) (E : embedded M W phi) : forall H log v,
+Lemma test_all_spec M phi a (WM : is_map M) (CM : connected M) (E : embedded M W phi) : forall H log v,
   ok v -> current v = a -> (forall h, In h H -> h < darts M) ->
   (forall w ps, In (w, ps) log -> percepts W a w = Some ps) ->
   exists o v', test_all M (percept W a) log v H = Some (o, v') /\ ok v' /\
@@ -143,7 +143,7 @@ Proof.
     destruct (marker_of M r _ Hk Er) as [j Hj].
     assert (Eh : current v = phi h).
     { apply (confirm M W phi WM WW E (current v) h (fst (path M h (root M))) (current v') r j);
-        auto using ok_cur. injection Hp as _ Hp. congruence. }
+        auto using ok_current. injection Hp as _ Hp. congruence. }
     repeat split; auto; try apply Hv'; [congruence|]. exists r. split; auto.
     apply (forward_walk M W phi) in Hr; auto. rewrite <- Eh, Hw in Hr. congruence.
   - destruct Hb as [Hc Hn]. apply Skip; auto; [rewrite <- Ha; auto|congruence|].
@@ -151,11 +151,11 @@ Proof.
 Qed.
 
 (** What is always so: S is a connected map, embedded, and the robot is where it believes. *)
-Definition inv (st : Map * nat * (nat * nat)) := let '(M, p, v) := st in
+Definition invariant (st : Map * nat * (nat * nat)) := let '(M, p, v) := st in
   is_map M /\ connected M /\ ok v /\ p < darts M /\ exists phi, embedded M W phi /\ current v = phi p.
 
 (** It is so at the start. *)
-Lemma start_inv : inv (start nat (percept W) (root W)).
+Lemma initial_invariant : invariant (initial_state nat (percept W) (root W)).
 Proof.
   assert (R := root_lt W WW). destruct (degree_spec W WW _ R) as (A & B & C).
   refine (conj (is_map_initial _ A) (conj (connected_initial _ A) (conj (conj R A) (conj A _)))).
@@ -163,8 +163,8 @@ Proof.
 Qed.
 
 (** One round keeps everything true and explores two more darts. *)
-Lemma round_spec M p v e : inv (M, p, v) -> e < darts M -> alpha M e = None ->
-  exists M' p' v', round (M, p, v) e = Some (M', p', v') /\ inv (M', p', v') /\
+Lemma round_spec M p v e : invariant (M, p, v) -> e < darts M -> alpha M e = None ->
+  exists M' p' v', round (M, p, v) e = Some (M', p', v') /\ invariant (M', p', v') /\
     known M' = 2 + known M.
 Proof.
   intros (WM & CM & Hv & Hp & phi & E & Hcur) He Oe. unfold Mapper.round.
@@ -178,7 +178,7 @@ Proof.
   { rewrite Hcur, walk_app, (forward_walk M W phi WM WW E w p q) by auto. simpl.
     unfold move. rewrite (embedded_degree M W phi) by auto.
     rewrite (proj2 (Nat.ltb_lt _ _) Hk), <- (embedded_turn M W phi), Eq, Ha by auto. auto. }
-  destruct (exec_spec w k v a Hv Hwk) as [-> Ok]. simpl fst.
+  destruct (execute_spec w k v a Hv Hwk) as [-> Ok]. simpl fst.
   set (H := hypotheses order M e (percept W a)).
   assert (HH : forall h, In h H <-> h < darts M /\ h <> e /\ alpha M h = None /\
                           same_signature (percept M h) (percept W a) = true).
@@ -186,7 +186,7 @@ Proof.
       (Permutation_in h (Permutation_sym (Gorder M l)))).
     unfold H, hypotheses. rewrite (P _ : In h (order M _) <-> In h _), filter_In, in_seq, !andb_true_iff.
     unfold explored. destruct (alpha M h), (Nat.eqb_spec h e); simpl; intuition (try lia; congruence). }
-  destruct (try_spec M phi a WM CM E H [] (a, 0) Ok eq_refl) as ([h|] & v' & -> & Hv' & Ho).
+  destruct (test_all_spec M phi a WM CM E H [] (a, 0) Ok eq_refl) as ([h|] & v' & -> & Hv' & Ho).
   { intros h Hh. apply HH, Hh. }
   { simpl. tauto. }
   - destruct Ho as (Hin & Eh & r & Hr & Er). rewrite Hr.
@@ -210,10 +210,10 @@ Proof.
 Qed.
 
 (** It is so to the end, which comes. *)
-Lemma explore_inv fuel : forall M p v, inv (M, p, v) -> darts W <= 2 * fuel + known M ->
+Lemma explore_invariant fuel : forall M p v, invariant (M, p, v) -> darts W <= 2 * fuel + known M ->
   exists st, explore fuel (M, p, v) = Some st /\ isomorphic (fst (fst st)) W.
 Proof.
-  assert (Size : forall M p v, inv (M, p, v) -> darts M <= darts W).
+  assert (Size : forall M p v, invariant (M, p, v) -> darts M <= darts W).
   { intros M p v (_ & _ & _ & _ & phi & E & _). apply (pigeon phi); apply E. }
   induction fuel as [|fuel IH]; simpl; intros M p v I Hf;
     assert (G := Gpick M p); destruct (pick M p) as [e|].
@@ -232,8 +232,9 @@ Qed.
 (** Claim 5: for every world of any size, and whatever the (good) policies, exploration ends
     after at most as many rounds as there are edges, with a map isomorphic to the world. *)
 Theorem explore_correct fuel : darts W <= 2 * fuel -> exists st,
-  explore fuel (start nat (percept W) (root W)) = Some st /\ isomorphic (fst (fst st)) W.
+  explore fuel (initial_state nat (percept W) (root W)) = Some st /\ isomorphic (fst (fst st)) W.
 Proof.
-  intros Hf. assert (I := start_inv). unfold start in *. eapply explore_inv; eauto. lia.
+  intros Hf. assert (I := initial_invariant). unfold initial_state in *.
+  eapply explore_invariant; eauto. lia.
 Qed.
 End Correct.

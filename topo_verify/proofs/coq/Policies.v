@@ -39,7 +39,7 @@ Qed.
 (** The map that exploring W ends with. *)
 Definition explores rule W := option_map (fun st => fst (fst st))
   (explore nat (percept W) (move W) first_open bfs_path (fun _ H => H) rule (darts W)
-    (start nat (percept W) (root W))).
+    (initial_state nat (percept W) (root W))).
 
 (** It is the world. *)
 Lemma explores_correct rule W : good_keep rule -> world W ->

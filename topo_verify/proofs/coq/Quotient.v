@@ -4,7 +4,7 @@ Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log Determined Undetermined Classes.
 
 Section Map.
-Variables (L : Log) (assumed : assumption).
+Variables (L : Log) (assumed : assumed_edges).
 Hypothesis (Cons : consistent assumed L).
 Notation same := (same assumed L).
 Notation link := (link assumed L).

@@ -38,12 +38,12 @@ Inductive run W : Map -> table -> Prop :=
     marker M r = Some j -> marker W c = Some j ->
     run W (augment_loop M e h) (drop T e h)
 | run_fold M T e h : run W M T -> e < darts M -> h <> e -> alpha M e = None -> alpha M h = None ->
-    same M T (fun _ _ => False) (Ghost e [], 0) (Known h, 0) ->
+    identified M T (fun _ _ => False) (Ghost e [], 0) (Known h, 0) ->
     run W (augment_loop M e h) (drop T e h)
 | run_new M T e a : run W M T -> behind M W e a ->
     (forall h, h < darts M -> h <> e -> alpha M h = None -> percept M h = percept W a ->
      (exists w ps, percepts W a w = Some ps /\ agrees M T h w ps = false) \/
-     absurd M T (fun x y => x = e /\ y = h)) ->
+     contradictory M T (fun x y => x = e /\ y = h)) ->
     run W (augment_new M e (degree W a)) (drop T e (darts M)).
 
 (** All that was built and recorded in a justified run is true: S is a connected map, embedded in
