@@ -22,7 +22,7 @@ SENTENCE = re.compile(
     r"\s+([\w']+)(.*)",
     re.DOTALL,
 )
-"""A sentence that declares a public name; which of the groups matched tells what else it declares."""
+"""A sentence that declares a public name; its first groups tell what else it declares."""
 
 SECTION = re.compile(r"(Section|End)\s+\w+")
 

@@ -1,14 +1,19 @@
-(** The rule folding (claims 3 and 4): what follows, by identifying places, from the assumption
-    that e leads to h.
+(** Rule folding: what follows from the assumption that e leads to h (docs/semantics.md, section 8;
+    claims 3 and 4).
 
-    A place is a known dart, or what was seen behind an open dart (a ghost). Whatever is identified
-    is one dart in the world, so a contradiction refutes the assumption. That the fold of a log is
-    complete as well is proved in Entailed.v. *)
+    M is the map, T its records, W the world, phi their correspondence. A place is a known dart, or
+    what was seen behind an open dart (a ghost). A corner is a place and an offset: one dart of the
+    place's vertex. A is a set of assumed edges.
+
+    Corners that are identified are one dart in every world with the assumed edges, so a
+    contradiction refutes the assumption. Entailed.v proves that folding a log is complete as
+    well. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Records.
 
-(** A place that the robot has seen: known, or behind an open dart d after doors w. *)
+(** A place that the robot has seen: a known dart, or what lies behind the open dart d after the
+    doors w. *)
 Inductive map_place := Known (x : nat) | Ghost (d : nat) (w : list nat).
 
 Section Fold.
@@ -21,7 +26,7 @@ Definition seen_at p := match p with
 
 Arguments seen_at : simpl never.
 
-(** A corner is a place and a turn; [joined b c]: b and c are the two darts of an edge. *)
+(** Two corners that are the two darts of an edge that was crossed. *)
 Inductive joined : map_place * nat -> map_place * nat -> Prop :=
 | joined_known x y : x < darts M -> alpha M x = Some y -> joined (Known x, 0) (Known y, 0)
 | joined_open d : d < darts M -> seen_at (Ghost d []) <> None -> joined (Known d, 0) (Ghost d [], 0)
@@ -29,7 +34,9 @@ Inductive joined : map_place * nat -> map_place * nat -> Prop :=
     seen_at (Ghost d (w ++ [k])) <> None -> joined (Ghost d w, k) (Ghost d (w ++ [k]), 0)
 | joined_sym b c : joined b c -> joined c b.
 
-(** Corners that are one dart if the assumed edges A are edges. *)
+(** Corners that are one dart if the assumed edges A are edges of the world: the closure, among
+    the places seen, under symmetry, transitivity, turning, the marker, the map, and crossing an
+    edge. *)
 Inductive identified (A : nat -> nat -> Prop) : map_place * nat -> map_place * nat -> Prop :=
 | identified_assumed e h : A e h -> seen_at (Ghost e []) <> None -> h < darts M ->
     identified A (Ghost e [], 0) (Known h, 0)
@@ -42,7 +49,8 @@ Inductive identified (A : nat -> nat -> Prop) : map_place * nat -> map_place * n
 | identified_cross b c b' c' : identified A b c -> joined b b' -> joined c c' -> identified A b' c'
 | identified_mark p g j : seen_at p = Some (g, Some j) -> identified A (p, j) (Known (root M), 0).
 
-(** The contradictions. *)
+(** The contradictions: one vertex with two degrees; the marker seen and not seen; two known
+    darts that are one; a vertex turned against itself; a dart that is its own partner. *)
 Inductive contradictory (A : nat -> nat -> Prop) : Prop :=
 | contradictory_degree p q i j g g' m m' : identified A (p, i) (q, j) ->
     seen_at p = Some (g, m) -> seen_at q = Some (g', m') -> g <> g' -> contradictory A
@@ -57,22 +65,22 @@ Inductive contradictory (A : nat -> nat -> Prop) : Prop :=
 Variables (W : Map) (phi : nat -> nat).
 Hypotheses (WM : is_map M) (HW : world W) (E : embedded M W phi) (HT : true_table M W phi T).
 
-(** The place is the vertex of dart a of the world, a its reference dart. *)
+(** The place p is the vertex of dart a of the world, with a as its reference dart. *)
 Definition at_ p a := match p with
   | Known x => x < darts M /\ a = phi x
   | Ghost d w => d < darts M /\ exists b, alpha W (phi d) = Some b /\ walk W b w = Some a end.
 
-(** The corner is dart b of the world. *)
+(** The corner c is dart b of the world. *)
 Definition is (c : map_place * nat) b := exists a, at_ (fst c) a /\ turn W (snd c) a = b.
 
-(** A place is one dart. *)
+(** A place has at most one reference dart. *)
 Lemma at_fun p a b : at_ p a -> at_ p b -> a = b.
 Proof.
   destruct p; simpl; [intros [_ ->] [_ ->]; auto|].
   intros (_ & x & Hx & Ha) (_ & y & Hy & Hb). congruence.
 Qed.
 
-(** It is a dart. *)
+(** The reference dart of a place is a dart of the world. *)
 Lemma at_lt p a : at_ p a -> a < darts W.
 Proof.
   assert (WW := world_is_map W HW). destruct p; simpl.
@@ -81,7 +89,7 @@ Proof.
     eapply walk_lt; [auto|apply Hb|eauto].
 Qed.
 
-(** What was seen there, the world shows there. *)
+(** The world shows at a place what was seen there. *)
 Lemma at_seen p q : seen_at p = Some q -> exists a, at_ p a /\ percept W a = q.
 Proof.
   assert (WW := world_is_map W HW).
@@ -92,11 +100,11 @@ Proof.
   - destruct (HT d w q) as (b & c & Hb & Hc & Hq); eauto 8.
 Qed.
 
-(** A corner is one dart. *)
+(** A corner is at most one dart. *)
 Lemma is_fun c a b : is c a -> is c b -> a = b.
 Proof. intros (x & Hx & <-) (y & Hy & <-). f_equal. eapply at_fun; eauto. Qed.
 
-(** Joined corners are the two darts of an edge. *)
+(** Joined corners are the two darts of an edge of the world. *)
 Lemma joined_true b c : joined b c -> exists x y, is b x /\ is c y /\ alpha W x = Some y.
 Proof.
   assert (WW := world_is_map W HW). unfold is.
@@ -117,7 +125,7 @@ Proof.
     apply (alpha_ok W WW) in Hxy; [apply Hxy|]. apply turn_lt; auto. eapply at_lt; eauto.
 Qed.
 
-(** If the assumption is true, identified corners are one dart. *)
+(** If the assumed edges are edges of the world, identified corners are one dart. *)
 Lemma identified_true (A : nat -> nat -> Prop) : (forall e h, A e h -> alpha W (phi e) = Some (phi h)) ->
   forall b c, identified A b c -> exists x, is b x /\ is c x.
 Proof.
@@ -149,7 +157,7 @@ Proof.
     exists (phi (root M)). repeat split; [apply root_lt; auto|apply (phi_root _ _ _ E)].
 Qed.
 
-(** Claim 3 for the rule folding: it never refutes a true hypothesis. *)
+(** Claim 3 for rule folding: true assumptions are never contradictory. *)
 Theorem folding_true (A : nat -> nat -> Prop) : (forall e h, A e h ->
   alpha W (phi e) = Some (phi h)) -> ~ contradictory A.
 Proof.
@@ -181,8 +189,8 @@ Proof.
     apply turn_lt; auto. eapply at_lt; eauto.
 Qed.
 
-(** Claim 4 for the rule folding: when the place behind e folds into a known one, with nothing
-    assumed, e leads there. *)
+(** Claim 4 for rule folding: if the place behind e is identified with a known dart h without an
+    assumed edge, e leads to h. *)
 Theorem folding_confirms e h : identified (fun _ _ => False) (Ghost e [], 0) (Known h, 0) ->
   h < darts M /\ alpha W (phi e) = Some (phi h).
 Proof.
