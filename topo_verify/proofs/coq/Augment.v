@@ -1,35 +1,40 @@
-(** The map S grows: the first vertex, a loop, a new vertex (claim 5).
+(** The map S grows: its first vertex, then loops and new vertices (docs/semantics.md, sections 3
+    and 4).
 
-    Each step keeps S a map, connected and embedded in the world, and explores two more darts, so
-    there are as many rounds as edges. *)
+    M is the map S, W the world, phi their correspondence; e is the open dart that was explored, h
+    the dart that it is joined with, a the dart of the world behind e, d the degree of a new vertex.
+
+    Each augmentation keeps the map well formed, connected and embedded in the world (claim 5).
+    Each explores two more darts, so there are as many rounds as edges. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding.
 
-(** alpha with e and h made partners. *)
+(** The partner function after e and h have become partners. *)
 Definition join (f : nat -> option nat) e h x :=
   if x =? e then Some h else if x =? h then Some e else f x.
 
-(** The darts of a new vertex are numbered n, n+1, ..., n+d-1 from its entry dart. *)
+(** The rotation after a new vertex: its darts are n, n+1, ..., n+d-1 in clockwise order, the
+    entry dart first. *)
 Definition grow (f : nat -> nat) n d x :=
   if x <? n then f x else if S x <? n + d then S x else n.
 
-(** The map at the start: v0 with nothing explored, its first dart the root. *)
+(** The map at the start: v0 of degree d without explored darts; dart 0 is the root. *)
 Definition initial d := {| darts := d; sigma := grow id 0 d; alpha := fun _ => None; root := 0 |}.
 
-(** Augmentation by a loop: e and h are joined. *)
+(** Augmentation by a loop: e and h become partners. *)
 Definition augment_loop M e h :=
   {| darts := darts M; sigma := sigma M; alpha := join (alpha M) e h; root := root M |}.
 
-(** Augmentation by a new vertex of degree d, entered by its first dart. *)
+(** Augmentation by a new vertex of degree d: e and its first dart become partners. *)
 Definition augment_new M e d :=
   {| darts := darts M + d; sigma := grow (sigma M) (darts M) d;
      alpha := join (fun x => if x <? darts M then alpha M x else None) e (darts M); root := root M |}.
 
-(** The correspondence after a new vertex: its darts go to those of a's vertex. *)
+(** The correspondence after a new vertex: its darts correspond to those of the vertex of a. *)
 Definition extend (phi : nat -> nat) n W a x := if x <? n then phi x else turn W (x - n) a.
 
-(** Look at every comparison of numbers. *)
+(** A tactic: split on every comparison of numbers, and close the goals that arithmetic closes. *)
 Ltac cases := repeat match goal with
   | H : Some _ = Some _ |- _ => injection H as H
   | |- context [?a =? ?b] => destruct (Nat.eqb_spec a b)
@@ -38,10 +43,10 @@ Ltac cases := repeat match goal with
   | H : context [?a <? ?b] |- _ => destruct (Nat.ltb_spec a b)
   end; subst; try lia; try discriminate.
 
-(** a is none of the known darts. *)
+(** Dart a of the world corresponds to no dart of the map. *)
 Definition is_new M (phi : nat -> nat) a := forall h, h < darts M -> phi h <> a.
 
-(** If a is not known, no dart of its vertex is. *)
+(** If a dart of the world is new to the map, so is every dart of its vertex. *)
 Lemma new_vertex M W phi a : is_map M -> is_map W -> embedded M W phi -> a < darts W -> is_new M phi a ->
   forall h k, h < darts M -> k < degree W a -> phi h <> turn W k a.
 Proof.
@@ -51,13 +56,13 @@ Proof.
   replace (degree W a - k + k) with (degree W a) by lia. auto.
 Qed.
 
-(** The first map is a map. *)
+(** The map at the start is well formed. *)
 Lemma is_map_initial d : 0 < d -> is_map (initial d).
 Proof.
   intros Hd. split; simpl; auto; unfold grow; intros; cases.
 Qed.
 
-(** It is embedded: v0 is known. *)
+(** The map at the start is embedded in the world at v0. *)
 Lemma embedded_initial W : is_map W -> embedded (initial (degree W (root W))) W (fun x => turn W x
   (root W)).
 Proof.
@@ -69,7 +74,7 @@ Proof.
     change (root W = turn W (S d) (root W)). replace (S d) with (degree W (root W)) by lia. auto.
 Qed.
 
-(** After a loop it is still a map. *)
+(** Joining two different open darts keeps the map well formed. *)
 Lemma is_map_loop M e h : is_map M -> e < darts M -> h < darts M -> h <> e ->
   alpha M e = None -> alpha M h = None -> is_map (augment_loop M e h).
 Proof.
@@ -78,7 +83,7 @@ Proof.
   all: apply (alpha_ok M WM) in Hx; auto; intuition congruence.
 Qed.
 
-(** Claim 5: a loop keeps the map embedded, if the edge is there. *)
+(** Claim 5: joining e and h keeps the map embedded if the world has that edge. *)
 Theorem embedded_loop M W phi e h : is_map W -> embedded M W phi -> e < darts M -> h < darts M ->
   alpha W (phi e) = Some (phi h) -> embedded (augment_loop M e h) W phi.
 Proof.
@@ -87,7 +92,7 @@ Proof.
   assert (H' := H). apply (alpha_ok W WW) in H'; auto. cases; try apply H'; auto.
 Qed.
 
-(** After a new vertex it is still a map. *)
+(** Adding a vertex behind an open dart keeps the map well formed. *)
 Lemma is_map_new M e d : is_map M -> e < darts M -> alpha M e = None -> 0 < d ->
   is_map (augment_new M e d).
 Proof.
@@ -101,7 +106,7 @@ Proof.
   - assert (R := root_lt M WM). lia.
 Qed.
 
-(** Claim 5: a new vertex keeps it embedded, if it is new. *)
+(** Claim 5: adding a vertex behind e keeps the map embedded if the vertex behind e is new to it. *)
 Theorem embedded_new M W phi e a : is_map M -> is_map W -> embedded M W phi -> e < darts M ->
   alpha W (phi e) = Some a -> is_new M phi a ->
   embedded (augment_new M e (degree W a)) W (extend phi (darts M) W a).
@@ -130,7 +135,7 @@ Proof.
   - assert (R := root_lt M WM). cases. apply (phi_root _ _ _ E).
 Qed.
 
-(** The first map is connected. *)
+(** The map at the start is connected. *)
 Lemma connected_initial d : 0 < d -> connected (initial d).
 Proof.
   intros Hd x. simpl. induction x as [|x IH]; intros Hx; [constructor|].
@@ -138,7 +143,7 @@ Proof.
   apply reach_sigma, IH. lia.
 Qed.
 
-(** After a loop it is still connected. *)
+(** Joining two open darts keeps the map connected. *)
 Lemma connected_loop M e h : alpha M e = None -> alpha M h = None -> connected M ->
   connected (augment_loop M e h).
 Proof.
@@ -148,7 +153,7 @@ Proof.
   - apply (reach_alpha _ _ d); auto. simpl. unfold join. cases; congruence.
 Qed.
 
-(** After a new vertex it is still connected. *)
+(** Adding a vertex behind an open dart keeps the map connected. *)
 Lemma connected_new M e d : is_map M -> e < darts M -> alpha M e = None -> connected M ->
   connected (augment_new M e d).
 Proof.
@@ -171,21 +176,21 @@ Proof.
   - replace x with (darts M + (x - darts M)) by lia. apply New. lia.
 Qed.
 
-(** How many of the numbers below n have p. *)
+(** How many numbers below n satisfy p. *)
 Fixpoint count (p : nat -> bool) n :=
   match n with 0 => 0 | S n => (if p n then 1 else 0) + count p n end.
 
 (** Is dart d explored? *)
 Definition explored M d := match alpha M d with Some _ => true | None => false end.
 
-(** How many darts are explored. *)
+(** The number of explored darts. *)
 Definition known M := count (explored M) (darts M).
 
-(** Counting asks nothing but the answers. *)
+(** The count depends on the values of p only. *)
 Lemma count_ext p q n : (forall x, x < n -> p x = q x) -> count p n = count q n.
 Proof. intros H. induction n as [|n IH]; simpl; auto. rewrite H, IH by auto. auto. Qed.
 
-(** One more that counts. *)
+(** If e < n does not satisfy p, adding e to p raises the count by one. *)
 Lemma count_more p e n : e < n -> p e = false ->
   count (fun x => (x =? e) || p x) n = S (count p n).
 Proof.
@@ -195,15 +200,15 @@ Proof.
   - rewrite IH by lia. simpl. lia.
 Qed.
 
-(** At most all count. *)
+(** At most n numbers below n satisfy p. *)
 Lemma count_le p n : count p n <= n.
 Proof. induction n as [|n IH]; simpl; auto. destruct (p n); simpl; lia. Qed.
 
-(** If one does not count, fewer than all do. *)
+(** If one number below n does not satisfy p, fewer than n do. *)
 Lemma count_lt p n e : e < n -> p e = false -> count p n < n.
 Proof. intros He Pe. apply (count_more p e n He) in Pe. unfold lt. rewrite <- Pe. apply count_le. Qed.
 
-(** A loop explores two more darts. *)
+(** A loop raises the number of explored darts by two. *)
 Theorem loop_two_more M e h : e < darts M -> h < darts M -> h <> e ->
   alpha M e = None -> alpha M h = None -> known (augment_loop M e h) = 2 + known M.
 Proof.
@@ -214,7 +219,7 @@ Proof.
   - rewrite Oh; auto.
 Qed.
 
-(** A new vertex explores two more darts. *)
+(** A new vertex raises the number of explored darts by two. *)
 Theorem new_two_more M e d : e < darts M -> alpha M e = None -> 0 < d ->
   known (augment_new M e d) = 2 + known M.
 Proof.
@@ -232,7 +237,7 @@ Proof.
   - unfold old. cases; auto.
 Qed.
 
-(** A map in which no dart is open has as many explored darts as darts. *)
+(** If no dart is open, all darts are explored. *)
 Lemma known_all M : (forall d, d < darts M -> alpha M d <> None) -> known M = darts M.
 Proof.
   intros T. unfold known. rewrite (count_ext _ (fun _ => true)).
@@ -240,7 +245,7 @@ Proof.
   - intros d Hd. unfold explored. destruct (alpha M d) eqn:E; auto. destruct (T d Hd E).
 Qed.
 
-(** Either a dart is open, or all are explored. *)
+(** Either some dart is open, or none is. *)
 Lemma open_or_closed M : (exists e, e < darts M /\ alpha M e = None) \/
   (forall d, d < darts M -> alpha M d <> None).
 Proof.

@@ -1,10 +1,18 @@
-(** What the checkers accept is true: certificates of maps and decisions (claims 9 and 10). *)
+(** What the programs of Checker.v accept is true: certificates of maps and of decisions (claims 9
+    and 10).
+
+    The letters are those of Checker.v; extra is the list of assumed edges, assumed the same list
+    with places of the log.
+
+    The invariant of the union-find is [true_uf]: what it has merged is identified in the log,
+    whatever the evidence says. [markers_sound] says that it holds at the beginning, [glue_sound]
+    that each merge keeps it, and [folded_sound] that it holds at the end. *)
 From Coq Require Import Arith Lia List Bool PArith FMapPositive.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log Determined Undetermined Classes
   Quotient Entailed Table TableCorrect Checker.
 
-(** What stands where in a numbered list. *)
+(** An entry (x, a) of a list numbered from y says that element x - y is a. *)
 Lemma enum_in {X} (l : list X) : forall y x a, In (x, a) (enum y l) ->
   Pos.to_nat y <= Pos.to_nat x /\ nth_error l (Pos.to_nat x - Pos.to_nat y) = Some a.
 Proof.
@@ -15,14 +23,14 @@ Proof.
       by lia. auto.
 Qed.
 
-(** Numbered from 1. *)
+(** An entry (x, a) of a list numbered from 1 says that element [num x] is a. *)
 Lemma enum_1 {X} (l : list X) x a : In (x, a) (enum 1 l) -> nth_error l (num x) = Some a.
 Proof.
   intros H. apply enum_in in H as [_ H]. unfold num. rewrite Pos2Nat.inj_1 in H.
   rewrite <- Nat.sub_1_r. auto.
 Qed.
 
-(** Everything is numbered. *)
+(** Every element of a list has an entry in the numbered list. *)
 Lemma in_enum {X} (l : list X) : forall y i a, nth_error l i = Some a ->
   exists x, In (x, a) (enum y l) /\ Pos.to_nat x = Pos.to_nat y + i.
 Proof.
@@ -33,7 +41,7 @@ Proof.
     exists x. split; [auto|lia].
 Qed.
 
-(** A table holds its list. *)
+(** The binary map of a list returns the elements of the list. *)
 Lemma table_of_spec {X} (l : list X) x a :
   PositiveMap.find x (table_of l) = Some a -> nth_error l (num x) = Some a.
 Proof.
@@ -47,7 +55,7 @@ Proof.
   apply G in H as [H|H]; auto. rewrite PositiveMap.gempty in H. discriminate.
 Qed.
 
-(** The next visit. *)
+(** The successor of a visit is the next visit of the log. *)
 Lemma num_succ x : num (Pos.succ x) = S (num x).
 Proof. unfold num. rewrite Pos2Nat.inj_succ. assert (H := Pos2Nat.is_pos x). lia. Qed.
 
@@ -59,14 +67,14 @@ Let D := table_of (edges L extra).
 Hypothesis Known : forall p q, In (p, q) extra -> valid L (abs p) /\ valid L (abs q).
 Notation same := (same assumed L).
 Notation link := (link assumed L).
-Notation ends := (ends D).
+Notation arc_ends := (arc_ends D).
 Notation rep := (rep T fuel).
 
-(** The table of sights tells what was seen. *)
+(** The binary map of percepts returns the percepts of the log. *)
 Lemma find_seen x p : PositiveMap.find x T = Some p -> seen L (num x) = Some p.
 Proof. apply (table_of_spec (sights L)). Qed.
 
-(** The edges are links. *)
+(** The listed edges are links of the log. *)
 Lemma edges_sound p q : In (p, q) (edges L extra) -> link (abs p) (abs q).
 Proof.
   unfold edges. rewrite in_app_iff, in_map_iff. intros [((x, k) & E & I)|I].
@@ -75,26 +83,27 @@ Proof.
     apply in_map_iff. exists (p, q). auto.
 Qed.
 
-(** So are the ends of an arc. *)
-Lemma ends_sound a p q : ends a = Some (p, q) -> link (abs p) (abs q).
+(** The two ends of an arc are linked. *)
+Lemma arc_ends_sound a p q : arc_ends a = Some (p, q) -> link (abs p) (abs q).
 Proof.
-  unfold Checker.ends. destruct (PositiveMap.find (snd a) D) as [(r, s)|] eqn:E; [|discriminate].
+  unfold Checker.arc_ends. destruct (PositiveMap.find (snd a) D) as [(r, s)|] eqn:E; [|discriminate].
   apply table_of_spec, nth_error_In, edges_sound in E.
   destruct (fst a); intros Eq; injection Eq as <- <-; auto using link_sym.
 Qed.
 
-(** What the union-find has made one is the same. *)
+(** The invariant of the union-find: a visit's reference dart is identified with the given offset
+    at its parent. *)
 Definition true_uf (U : unions) := forall x y o,
   PositiveMap.find x U = Some (y, o) -> same (num x, 0) (num y, o).
 
-(** Reducing changes nothing. *)
+(** A place is identified with its reduced form. *)
 Lemma reduced_sound p : same (abs p) (abs (reduced T p)).
 Proof.
   unfold reduced. destruct (PositiveMap.find (fst p) T) as [(d, m)|] eqn:E; [|constructor].
   apply (same_mod assumed L _ _ d m), find_seen; auto.
 Qed.
 
-(** A place is the same as what stands for it. *)
+(** A place is identified with its representative. *)
 Lemma rep_sound U n : true_uf U -> forall p, same (abs p) (abs (Checker.rep T n U p)).
 Proof.
   intros HU. induction n as [|n IH]; simpl; intros (x, i); [constructor|]. simpl.
@@ -103,7 +112,7 @@ Proof.
   unfold abs; simpl. rewrite <- (Nat.add_0_r i) at 1. apply same_turn, HU; auto.
 Qed.
 
-(** Making one what is the same keeps it true. *)
+(** Merging identified places keeps the invariant. *)
 Lemma unite_sound U p q : true_uf U -> same (abs p) (abs q) -> true_uf (unite T U p q).
 Proof.
   intros HU H. unfold unite. assert (A := rep_sound U fuel HU p). assert (B := rep_sound U fuel HU q).
@@ -120,39 +129,39 @@ Proof.
   - rewrite PositiveMap.gso by auto. apply HU.
 Qed.
 
-(** Equal is equal. *)
+(** What [pplace_eqb] accepts is equal. *)
 Lemma pplace_eqb_eq p q : pplace_eqb p q = true -> p = q.
 Proof.
   destruct p as (x, i), q as (y, j). unfold pplace_eqb. simpl. intros H.
   apply andb_true_iff in H as [A B]. apply Pos.eqb_eq in A. apply Nat.eqb_eq in B. congruence.
 Qed.
 
-(** One representative: the same. *)
+(** Places with the same representative are identified. *)
 Lemma rep_same U p q : true_uf U -> rep U p = rep U q -> same (abs p) (abs q).
 Proof.
   intros HU E. eapply same_trans; [apply (rep_sound U fuel HU)|]. rewrite E.
   apply same_sym, (rep_sound U fuel HU).
 Qed.
 
-(** Where arcs meet is the same. *)
+(** The places where two arcs from one dart arrive are identified. *)
 Lemma meet_sound U s p q : true_uf U -> meet T D U s = Some (p, q) -> same (abs p) (abs q).
 Proof.
-  intros HU. unfold meet. destruct (ends (fst s)) as [(p1, q1)|] eqn:E1; [|discriminate].
-  destruct (ends (snd s)) as [(p2, q2)|] eqn:E2; [|discriminate].
+  intros HU. unfold meet. destruct (arc_ends (fst s)) as [(p1, q1)|] eqn:E1; [|discriminate].
+  destruct (arc_ends (snd s)) as [(p2, q2)|] eqn:E2; [|discriminate].
   destruct (pplace_eqb (rep U p1) (rep U p2)) eqn:E; [|discriminate].
   intros Eq. injection Eq as <- <-. apply pplace_eqb_eq in E.
-  apply (same_link assumed L (abs p1) _ (abs p2) _); eauto using ends_sound.
+  apply (same_link assumed L (abs p1) _ (abs p2) _); eauto using arc_ends_sound.
   apply (rep_same U); auto.
 Qed.
 
-(** A step of evidence keeps it true, whatever it says. *)
+(** A step of evidence keeps the invariant, whatever it says. *)
 Lemma glue_sound U s : true_uf U -> true_uf (glue T D U s).
 Proof.
   intros HU. unfold glue. destruct (meet T D U s) as [(p, q)|] eqn:E; auto.
   apply unite_sound; auto. apply (meet_sound U s); auto.
 Qed.
 
-(** Where the marker is seen is v0. *)
+(** Where visit x saw the marker in direction j, the place (x, j) is identified with the start. *)
 Lemma marked_sound x d j : seen L (num x) = Some (d, Some j) ->
   same (abs (1%positive, 0)) (abs (x, j)).
 Proof.
@@ -160,7 +169,7 @@ Proof.
     j E).
 Qed.
 
-(** It is true at the beginning. *)
+(** The invariant holds at the beginning, when only visits that saw the marker are merged. *)
 Lemma markers_sound : true_uf (markers T (sights L)).
 Proof.
   unfold markers. assert (H := fun x a => @enum_1 Percept (sights L) x a). revert H.
@@ -171,31 +180,31 @@ Proof.
   destruct m as [j|]; auto. apply unite_sound; auto. apply marked_sound with d. apply Hl; auto.
 Qed.
 
-(** It stays true, merge by merge. *)
+(** A list of steps keeps the invariant. *)
 Lemma glues_sound ev : forall U, true_uf U -> true_uf (fold_left (glue T D) ev U).
 Proof. induction ev as [|s ev IH]; simpl; auto using glue_sound. Qed.
 
-(** It is true at the end. *)
+(** The invariant holds after all merges. *)
 Theorem folded_sound ev : true_uf (folded L extra ev).
 Proof. apply glues_sound, markers_sound. Qed.
 
-(** What is noted as crossed is the same as a dart crossed. *)
+(** The invariant of [cover]: every dart noted as crossed is identified with an end of a link. *)
 Definition true_cover U (C : PositiveMap.t (list nat)) := true_uf U -> forall x k,
   In k (offsets C x) -> exists p q, link p q /\ same (num x, k) p.
 
-(** Noting keeps it true. *)
+(** Adding the dart of an arc keeps the invariant of [cover]. *)
 Lemma cover_sound U C a : true_cover U C -> true_cover U (cover T D U C a).
 Proof.
-  intros HC. unfold cover. destruct (ends a) as [(p, q)|] eqn:E; auto.
+  intros HC. unfold cover. destruct (arc_ends a) as [(p, q)|] eqn:E; auto.
   destruct (rep U p) as (x, k) eqn:R. destruct (existsb _ _); auto.
   intros HU y l. unfold offsets at 1. destruct (Pos.eq_dec y x) as [->|N].
   - rewrite PositiveMap.gss. intros [<-|H]; [|apply HC; auto].
-    exists (abs p), (abs q). split; [apply ends_sound with a; auto|].
+    exists (abs p), (abs q). split; [apply arc_ends_sound with a; auto|].
     apply same_sym. change (num x, k) with (abs (x, k)). rewrite <- R. apply rep_sound; auto.
   - rewrite PositiveMap.gso by auto. apply HC; auto.
 Qed.
 
-(** So at the end. *)
+(** The invariant holds for all darts noted by [covered]. *)
 Lemma covered_sound U l : true_cover U (covered T D U l).
 Proof.
   unfold covered. assert (E : true_cover U (PositiveMap.empty _))
@@ -204,7 +213,7 @@ Proof.
   induction (enum 1 l) as [|m e IH]; simpl; auto using cover_sound.
 Qed.
 
-(** What [check_closed] accepts is closed. *)
+(** If [check_closed] accepts, every place is identified with an end of a link. *)
 Lemma check_closed_sound U l : true_uf U -> check_closed T D U (sights L) l = true ->
   forall p, valid L p -> exists q r, link q r /\ same p q.
 Proof.
@@ -223,7 +232,7 @@ Proof.
   replace (num x) with i in R by (unfold num; lia). auto.
 Qed.
 
-(** Places that are the same and apart: no world. *)
+(** If two identified places are apart, no world shows the log with the assumed edges. *)
 Lemma apart_sound U p q : true_uf U -> same (abs p) (abs q) -> apart T U p q = true ->
   ~ possible assumed L.
 Proof.
@@ -249,7 +258,7 @@ Proof.
     eapply same_trans; [apply same_sym; exact A|]. eapply same_trans; [exact S|exact B].
 Qed.
 
-(** A conflict that is accepted: no world shows the log with the assumed edges. *)
+(** If [check_conflict] accepts, no world shows the log with the assumed edges. *)
 Theorem check_conflict_sound U c : true_uf U -> check_conflict T D U c = true ->
   ~ possible assumed L.
 Proof.
@@ -265,18 +274,18 @@ Proof.
     apply (c_edge assumed L P _ _ E), (rep_same U); auto. apply pplace_eqb_eq, H.
 Qed.
 
-(** Partners that are accepted are partners. *)
+(** If [check_partners] accepts, the fold makes p and q partners. *)
 Theorem check_partners_sound U p q a : true_uf U -> check_partners T D U p q a = true ->
   exists p' q', link p' q' /\ same (abs p) p' /\ same (abs q) q'.
 Proof.
-  intros HU. unfold check_partners. destruct (ends a) as [(r, s)|] eqn:E; [|discriminate].
+  intros HU. unfold check_partners. destruct (arc_ends a) as [(r, s)|] eqn:E; [|discriminate].
   intros H. apply andb_true_iff in H as [A B]. apply pplace_eqb_eq in A, B.
-  exists (abs r), (abs s). split; [apply ends_sound with a; auto|].
+  exists (abs r), (abs s). split; [apply arc_ends_sound with a; auto|].
   split; apply (rep_same U); auto.
 Qed.
 End Sound.
 
-(** Evidence that is accepted proves the log closed. *)
+(** If [proves] accepts, the log is closed. *)
 Lemma proves_closed L ev : proves L ev = true -> closed L.
 Proof.
   intros H p V. apply (check_closed_sound L [] (fun _ _ I => match I with end)
@@ -284,8 +293,8 @@ Proof.
   apply (folded_sound L []). intros x y [].
 Qed.
 
-(** Claim 9, the verdict PROVED: the table is a world that shows the log, and every world that shows
-    it is isomorphic to it. *)
+(** Claim 9, the verdict PROVED: if [certified] accepts, the table is a world that shows the log,
+    and every world that shows the log is isomorphic to it. *)
 Theorem certified_correct L t ev : certified L t ev = true ->
   world (map_of t) /\ replays (map_of t) L /\
   forall W, world W -> replays W L -> isomorphic (map_of t) W.
@@ -298,7 +307,7 @@ Proof.
   apply (closed_determines L); auto. apply (proves_closed L ev P).
 Qed.
 
-(** What a world shows is legal. *)
+(** Every percept that a world shows is legal. *)
 Lemma legal_percept_shown W a : is_map W -> a < darts W -> legal_percept (percept W a) = true.
 Proof.
   intros WW La. unfold legal_percept, percept. simpl.
@@ -306,7 +315,7 @@ Proof.
   destruct (marker W a) as [j|] eqn:E; auto. apply find_seq in E as (J & _). apply Nat.ltb_lt. lia.
 Qed.
 
-(** So are the doors taken in it. *)
+(** Every list of moves that a world shows is legal. *)
 Lemma legal_moves_shown W : is_map W -> forall ms a, a < darts W ->
   percepts W a (map fst ms) = Some (map snd ms) -> legal_moves (degree W a) ms = true.
 Proof.
@@ -318,7 +327,7 @@ Proof.
   apply IH; auto.
 Qed.
 
-(** A log that some world shows is legal. *)
+(** Every log that a world shows is legal. *)
 Lemma legal_shown W L : world W -> replays W L -> legal L = true.
 Proof.
   intros HW [S M]. assert (WW := world_is_map W HW). assert (R := root_lt W WW).
@@ -328,7 +337,8 @@ Proof.
   destruct (degree W (root W)) as [|d]; [lia|]. simpl. rewrite Nat.eqb_refl. auto.
 Qed.
 
-(** Claim 9, the verdict REFUTED for want of any world: none shows this log. *)
+(** Claim 9, the verdict REFUTED where no world exists: if [impossible] accepts, no world shows
+    the log. *)
 Theorem impossible_correct L ev c : impossible L ev c = true ->
   forall W, world W -> ~ replays W L.
 Proof.
@@ -339,8 +349,9 @@ Proof.
   - exists W, v. split; auto. split; auto. intros x y [].
 Qed.
 
-(** A conflict under an assumed edge: in no world that shows the log does that edge exist. *)
-Lemma refuted_correct L p q U ev c : let T := table_of (sights L) in
+(** If the fold with an assumed edge from p to q has a conflict, no world that shows the log has
+    that edge. *)
+Lemma assumed_edge_refuted L p q U ev c : let T := table_of (sights L) in
   let D := table_of (edges L [(p, q)]) in
   PositiveMap.mem (fst p) T = true -> PositiveMap.mem (fst q) T = true -> true_uf L [(p, q)] U ->
   check_conflict T D (fold_left (glue T D) ev U) c = true ->
@@ -357,16 +368,17 @@ Proof.
   apply C. exists W, v. split; auto. split; auto. intros a b [I|[]]. injection I as <- <-. auto.
 Qed.
 
-(** Claim 10, reject: in no world that shows the log does an edge lead from p to q. *)
+(** Claim 10, reject: if [rejected] accepts, no world that shows the log has an edge from p to q. *)
 Theorem rejected_correct L p q ev c : rejected L p q ev c = true ->
   forall W v, world W -> visits W L v -> alpha W (dart W v (abs p)) <> Some (dart W v (abs q)).
 Proof.
   unfold rejected. intros H. apply andb_true_iff in H as [H C]. apply andb_true_iff in H as [P Q].
-  apply (refuted_correct L p q (markers (table_of (sights L)) (sights L)) ev c); auto.
+  apply (assumed_edge_refuted L p q (markers (table_of (sights L)) (sights L)) ev c); auto.
   apply markers_sound.
 Qed.
 
-(** Claim 10, confirm: in every world that shows the log an edge leads from p to q. *)
+(** Claim 10, confirm: if [confirmed] accepts, every world that shows the log has an edge from p
+    to q. *)
 Theorem confirmed_correct L p q ev a : confirmed L p q ev a = true ->
   forall W v, world W -> visits W L v -> alpha W (dart W v (abs p)) = Some (dart W v (abs q)).
 Proof.

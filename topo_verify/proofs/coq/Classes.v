@@ -1,12 +1,17 @@
-(** The classes of a fold are decidable, and one place can be chosen from each.
+(** The classes of a fold are decidable, and each has a representative (docs/semantics.md, section
+    11).
 
-    [same] is an inductive closure; that it is decidable needs no axiom, since only finitely many
-    places matter: merge classes until the rules ask for no more. *)
+    L is a log, assumed a list of assumed edges whose fold is consistent; p, q are places; c numbers
+    the classes: it gives each place a number.
+
+    [same] is an inductive closure. To decide it without an axiom, number all places differently,
+    and merge class numbers until the rules ask for no more merges. Only finitely many places
+    matter: those with offsets below the degree. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log Determined Undetermined.
 
-(** Is there one in the list? Decidable, if each is. *)
+(** Whether some element of a list satisfies P is decidable if P is. *)
 Lemma in_dec_exists {A} (P : A -> Prop) l : (forall x, P x \/ ~ P x) ->
   (exists x, In x l /\ P x) \/ forall x, In x l -> ~ P x.
 Proof.
@@ -16,14 +21,14 @@ Proof.
 Qed.
 
 Section Quotient.
-Variables (L : Log) (assumed : assumption).
+Variables (L : Log) (assumed : assumed_edges).
 Hypothesis (Cons : consistent assumed L).
 
-(** Degrees are above 0. *)
+(** The degree at every visit is positive. *)
 Lemma deg_pos i d m : seen L i = Some (d, m) -> 0 < d.
 Proof. apply (c_percept assumed L Cons). Qed.
 
-(** Turning back keeps identified places so. *)
+(** If the next darts of two places are identified, so are the places. *)
 Lemma back_place i a j b : valid L (i, a) -> valid L (j, b) ->
   same assumed L (i, S a) (j, S b) -> same assumed L (i, a) (j, b).
 Proof.
@@ -39,23 +44,23 @@ Proof.
   apply same_trans with (j, d - 1 + S b); [apply same_turn; auto|eauto].
 Qed.
 
-(** The finite list of places, up to full turns, and of links. *)
+(** All places of the log with offsets below the degree. *)
 Definition all_places := flat_map (fun i => map (pair i)
   (seq 0 (match seen L i with Some (d, _) => d | None => 0 end))) (seq 0 (S (length (moves L)))).
 
-(** Listed places are places. *)
+(** The places of that list are places of the log. *)
 Lemma listed_valid p : In p all_places -> valid L p.
 Proof.
   intros H. apply in_flat_map in H as (i & _ & H). apply in_map_iff in H as (k & <- & H).
   unfold valid; simpl. destruct (seen L i); [discriminate|destruct H].
 Qed.
 
-(** The finite list of edges, both ways. *)
+(** All edges crossed or assumed, in both directions. *)
 Definition all_links := flat_map (fun i => match door L i with
   | Some k => [((i, k), (S i, 0)); ((S i, 0), (i, k))] | None => [] end) (seq 0 (length (moves L)))
   ++ assumed ++ map (fun l => (snd l, fst l)) assumed.
 
-(** It lists them all. *)
+(** That list contains exactly the pairs in [link]. *)
 Lemma all_links_spec p q : link assumed L p q <-> In (p, q) all_links.
 Proof.
   unfold all_links. rewrite !in_app_iff, in_flat_map, in_map_iff. split.
@@ -73,21 +78,21 @@ Proof.
     + injection E as <- <-. apply link_assumed_back; auto; apply (c_assumed assumed L Cons x y H).
 Qed.
 
-(** The normal form of a place: its offset below the degree. *)
+(** The normal form of a place: its offset reduced modulo the degree. *)
 Definition normal (p : place) : place := match seen L (fst p) with
   | Some (d, _) => (fst p, snd p mod d) | None => p end.
 
-(** The place one turn on. *)
+(** The next dart clockwise at the same visit. *)
 Definition next_place (p : place) : place := (fst p, S (snd p)).
 
-(** A place is its normal form. *)
+(** A place is identified with its normal form. *)
 Lemma normal_same p : same assumed L p (normal p).
 Proof.
   destruct p as (i, k). unfold normal; simpl. destruct (seen L i) as [(d, m)|] eqn:E; [|constructor].
   apply (same_mod assumed L i k d m E).
 Qed.
 
-(** Normal forms are listed. *)
+(** The normal forms of places of the log are in [all_places]. *)
 Lemma normal_listed p : valid L p -> In (normal p) all_places.
 Proof.
   destruct p as (i, k). unfold valid, normal; simpl. intros A.
@@ -100,7 +105,7 @@ Proof.
     assert (H := Nat.mod_upper_bound k d). lia.
 Qed.
 
-(** Turning respects normal forms. *)
+(** Turning a place and turning its normal form give the same normal form. *)
 Lemma normal_next p : normal (next_place (normal p)) = normal (next_place p).
 Proof.
   destruct p as (i, k). unfold normal, next_place; simpl. destruct (seen L i) as [(d, m)|] eqn:E;
@@ -109,20 +114,20 @@ Proof.
   change (S (k mod d)) with (1 + k mod d). rewrite Nat.add_mod_idemp_r by lia. auto.
 Qed.
 
-(** Turning respects [same]. *)
+(** The next darts of identified places are identified. *)
 Lemma next_same p q : same assumed L p q -> same assumed L (next_place p) (next_place q).
 Proof. destruct p as (i, a), q as (j, b). apply (same_turn assumed L 1). Qed.
 
-(** Equal class numbers only for identified places. *)
-Definition sound (c : place -> nat) := forall p q, In p all_places -> In q all_places ->
+(** The numbering c is sound: places with equal class numbers are identified. *)
+Definition sound_classes (c : place -> nat) := forall p q, In p all_places -> In q all_places ->
   c p = c q -> same assumed L p q.
 
-(** Two identified places still have different class numbers. *)
-Definition more (c : place -> nat) := exists p q, In p all_places /\ In q all_places /\
+(** The numbering c is incomplete: two identified places have different class numbers. *)
+Definition incomplete (c : place -> nat) := exists p q, In p all_places /\ In q all_places /\
   same assumed L p q /\ c p <> c q.
 
-(** The rules ask for no more merges. *)
-Record final (c : place -> nat) : Prop := {
+(** The numbering c is closed under the rules of [same], so no rule asks for another merge. *)
+Record saturated (c : place -> nat) : Prop := {
   f_turn : forall p q, In p all_places -> In q all_places -> c p = c q ->
            c (normal (next_place p)) = c (normal (next_place q));
   f_mark : forall i d j, seen L i = Some (d, Some j) -> c (normal (i, j)) = c (normal (0, 0));
@@ -130,16 +135,17 @@ Record final (c : place -> nat) : Prop := {
     c (normal p) = c (normal p') ->
            c (normal q) = c (normal q') }.
 
-(** How to show [more]. *)
-Lemma more_of c p q : valid L p -> valid L q -> same assumed L p q ->
-  c (normal p) <> c (normal q) -> more c.
+(** Two identified places of the log whose normal forms have different class numbers make c
+    incomplete. *)
+Lemma incomplete_intro c p q : valid L p -> valid L q -> same assumed L p q ->
+  c (normal p) <> c (normal q) -> incomplete c.
 Proof.
   intros P Q S N. exists (normal p), (normal q). repeat split; auto using normal_listed.
   eapply same_trans; [apply same_sym, normal_same|]. eapply same_trans; [exact S|apply normal_same].
 Qed.
 
-(** One or the other. *)
-Lemma more_or_final c : sound c -> more c \/ final c.
+(** A sound numbering is incomplete or saturated. *)
+Lemma incomplete_or_saturated c : sound_classes c -> incomplete c \/ saturated c.
 Proof.
   intros HS.
   destruct (in_dec_exists (fun x => c (fst x) = c (snd x) /\ c (normal (next_place (fst x))) <> c
@@ -147,7 +153,8 @@ Proof.
     (list_prod all_places all_places)) as [((p, q) & I & E & N)|N1].
   { intros (p, q); simpl. destruct (Nat.eq_dec (c p) (c q)), (Nat.eq_dec (c (normal (next_place p)))
       (c (normal (next_place q)))); tauto. }
-  { apply in_prod_iff in I as [P Q]. left. apply (more_of c (next_place p) (next_place q)); auto.
+  { apply in_prod_iff in I as [P Q]. left.
+    apply (incomplete_intro c (next_place p) (next_place q)); auto.
     - apply (listed_valid p P).
     - apply (listed_valid q Q).
     - apply next_same, HS; auto. }
@@ -157,7 +164,7 @@ Proof.
   { intros i. destruct (seen L i) as [(d, [j|])|]; auto.
     destruct (Nat.eq_dec (c (normal (i, j))) (c (normal (0, 0)))); tauto. }
   { destruct (seen L i) as [(d, [j|])|] eqn:E; try contradiction. left.
-    apply (more_of c (i, j) (0, 0)); auto; [unfold valid; simpl; congruence|discriminate|].
+    apply (incomplete_intro c (i, j) (0, 0)); auto; [unfold valid; simpl; congruence|discriminate|].
     apply (same_mark assumed L i d j E). }
   destruct (in_dec_exists (fun x => c (normal (fst (fst x))) = c (normal (fst (snd x))) /\
       c (normal (snd (fst x))) <> c (normal (snd (snd x)))) (list_prod all_links all_links))
@@ -166,7 +173,7 @@ Proof.
     destruct (Nat.eq_dec (c (normal p)) (c (normal p'))), (Nat.eq_dec (c (normal q)) (c (normal
       q'))); tauto. }
   { apply in_prod_iff in I as [I I']. apply all_links_spec in I, I'. left. simpl in E, N.
-    apply (more_of c q q'); eauto using link_valid, link_sym.
+    apply (incomplete_intro c q q'); eauto using link_valid, link_sym.
     apply (same_link assumed L p q p' q'); auto. eapply same_trans; [apply normal_same|].
     eapply same_trans; [|apply same_sym, normal_same]. apply HS; eauto using normal_listed, link_valid. }
   right. split.
@@ -182,15 +189,16 @@ Proof.
     apply all_links_spec in K, K'. destruct (N3 ((p, q), (p', q'))); [apply in_prod_iff; auto|auto].
 Qed.
 
-(** Merging ends, after fewer merges than classes. *)
-Lemma saturate m : forall c, (forall p, In p all_places -> c p < m) -> sound c ->
-  exists c, sound c /\ final c.
+(** If a sound numbering uses numbers below m only, merging ends with a sound and saturated one.
+    Each merge frees one number. *)
+Lemma saturate m : forall c, (forall p, In p all_places -> c p < m) -> sound_classes c ->
+  exists c, sound_classes c /\ saturated c.
 Proof.
   induction m as [|m IH]; intros c Hm HS.
   - assert (P : valid L (0, 0)) by discriminate. specialize (Hm _ (normal_listed _ P)). lia.
-  - destruct (more_or_final c HS) as [(p & q & P & Q & S & N)|F]; [|eauto].
+  - destruct (incomplete_or_saturated c HS) as [(p & q & P & Q & S & N)|F]; [|eauto].
     cut (forall p q, In p all_places -> In q all_places -> same assumed L p q -> c p < c q ->
-      exists c, sound c /\ final c).
+      exists c, sound_classes c /\ saturated c).
     { intros G. destruct (lt_eq_lt_dec (c p) (c q)) as [[X|X]|X]; [eauto|tauto|].
       apply (G q p); auto. apply same_sym; auto. }
     clear p q P Q S N. intros p q P Q Spq N.
@@ -210,15 +218,15 @@ Proof.
       * destruct (Nat.eqb_spec (c x) m), (Nat.eqb_spec (c y) m); try lia; apply HS; auto; lia.
 Qed.
 
-(** Places are equal or not. *)
+(** Equality of places is decidable. *)
 Definition place_eq_dec (p q : place) : {p = q} + {p <> q}.
 Proof. repeat decide equality. Defined.
 
-(** The position in a list. *)
+(** The position of p in a list; the length of the list if p is not in it. *)
 Fixpoint index (l : list place) p := match l with
   | [] => 0 | q :: l => if place_eq_dec p q then 0 else S (index l p) end.
 
-(** It is the position. *)
+(** The position of an element is less than the length, and the element is there. *)
 Lemma index_spec l p : In p l -> index l p < length l /\ nth (index l p) l (0, 0) = p.
 Proof.
   induction l as [|q l IH]; simpl; [intros []|]. intros H.
@@ -226,7 +234,7 @@ Proof.
   destruct H as [->|H]; [tauto|]. apply IH in H as [A B]. split; auto; lia.
 Qed.
 
-(** [same] is decidable. *)
+(** Identification of places is decidable. *)
 Theorem same_dec p q : same assumed L p q \/ ~ same assumed L p q.
 Proof.
   destruct (saturate (length all_places) (index all_places)) as (c & HS & F).
@@ -262,7 +270,7 @@ Proof.
     apply HS; auto using normal_listed.
 Qed.
 
-(** One place of each class. *)
+(** From every list of places, one representative of each class can be chosen. *)
 Lemma representatives l : exists R, (forall r, In r R -> In r l) /\
   (forall p, In p l -> exists x, x < length R /\ same assumed L p (nth x R (0, 0))) /\
   (forall x y, x < length R -> y < length R -> same assumed L (nth x R (0, 0)) (nth y R (0, 0)) ->

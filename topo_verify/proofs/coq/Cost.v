@@ -1,8 +1,12 @@
 (** The bound of claim 7: m <= cost <= m * (n + (2m - 1) * 2(n - 1)).
 
-    The mapper is given a robot that counts its moves. It decides as with one that does not count,
-    since it sees the same. Each of the m rounds walks to e, which is at most n - 1 moves, crosses
-    it, and tests at most 2m - 1 hypotheses at up to 2(n - 1) moves. With n = 1 the bound is m. *)
+    m is the number of edges, n of vertices; M is the map, W the world, v a robot that counts its
+    moves, u the same robot without its count.
+
+    The mapper is given a robot that counts its moves. It decides as with one that does not
+    count, since both see the same. Each of the m rounds walks to e, which takes at most n - 1
+    moves, crosses it, and tests at most 2m - 1 hypotheses with at most 2(n - 1) moves each. With
+    n = 1 the bound is m. *)
 From Coq Require Import Arith Lia List Bool Permutation.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Vertices Augment Records Mapper MapperCorrect Search
@@ -16,16 +20,16 @@ Variables (path : Map -> nat -> nat -> list nat * nat) (order : Map -> list nat 
 (** A robot that counts sees what the robot sees. *)
 Definition see_counted (s : St * nat) := see (fst s).
 
-(** It goes where the robot goes, and counts. *)
+(** It goes where the robot goes, and adds 1 to its count. *)
 Definition go_counted (s : St * nat) k := option_map (fun t => (t, S (snd s))) (go (fst s) k).
 
-Notation counted := ((St * nat) * nat)%type.
+Notation counting_robot := ((St * nat) * nat)%type.
 
 (** Claim 6: the cost is the number of moves. *)
-Definition cost (v : counted) := snd (fst v).
+Definition cost (v : counting_robot) := snd (fst v).
 
 (** The robot without its count. *)
-Definition uncounted (v : counted) : St * nat := (fst (fst v), snd v).
+Definition uncounted (v : counting_robot) : St * nat := (fst (fst v), snd v).
 
 Notation go_on' := (go_on (St * nat) see_counted go_counted).
 Notation go_back' := (go_back (St * nat) see_counted go_counted).
@@ -58,7 +62,7 @@ Proof.
   intros E. injection E as <-. eauto.
 Qed.
 
-(** Doors cost 1 each. *)
+(** Taking the doors w costs their number. *)
 Lemma execute_counted w : forall v u, execute (uncounted v) w = Some u ->
   exists v', execute' v w = Some v' /\ uncounted v' = u /\ cost v' = length w + cost v.
 Proof.
@@ -69,7 +73,7 @@ Proof.
     exists v'. repeat split; auto. lia.
 Qed.
 
-(** Validating costs its way, and its way back if it fails. *)
+(** Validation by w costs at most its length, and twice that if it fails. *)
 Lemma follow_counted M w : forall x v b qs u, follow M x w (uncounted v) = Some (b, qs, u) ->
   exists v', follow' M x w v = Some (b, qs, v') /\ uncounted v' = u /\
   cost v <= cost v' <= (if b then 1 else 2) * length w + cost v.
@@ -92,7 +96,7 @@ Proof.
       exists v3. repeat split; auto; lia.
 Qed.
 
-(** Testing costs at most two ways a hypothesis. *)
+(** Testing costs at most twice the longest way for each hypothesis. *)
 Lemma test_all_counted M pu n : forall H log v o u,
   (forall h, In h H -> length (fst (path M h (root M))) <= n) ->
   test_all M pu log (uncounted v) H = Some (o, u) ->
@@ -116,7 +120,7 @@ Proof.
     + apply (IH _ v1 o u S') in E as (v' & -> & U & C). exists v'. repeat split; auto; nia.
 Qed.
 
-(** A round costs 1 to n + (darts - 1) * 2(n - 1). *)
+(** If no way is longer than n, a round costs at least 1 and at most n + 1 + (darts - 1) * 2n. *)
 Lemma round_counted M p v e n M' p' u : (forall q d, q < darts M -> d < darts M ->
     length (fst (path M q d)) <= n) -> p < darts M -> e < darts M -> root M < darts M ->
   (forall l, Permutation (order M l) l) ->
@@ -164,8 +168,8 @@ Let see := see_counted nat (percept W).
 Let go := go_counted nat (move W).
 Let n := vertices W.
 
-(** All rounds together. *)
-Lemma explore_counted fuel : forall M p v, inv W (M, p, uncounted nat v) ->
+(** The cost of all rounds: r rounds cost at least r and at most r times the bound of a round. *)
+Lemma explore_counted fuel : forall M p v, invariant W (M, p, uncounted nat v) ->
   darts W <= 2 * fuel + known M ->
   exists M' p' v' r, explore (nat * nat) see go pick path order keep fuel (M, p, v) = Some (M', p',
     v') /\
@@ -201,16 +205,16 @@ Proof.
     split; auto. split; auto. rewrite (known_all M G). lia.
 Qed.
 
-(** Claim 7, for all policies with short ways: the map is right, and the cost within the bound; m is
-    the number of edges, n of vertices. *)
+(** Claim 7, for all policies with short ways: the map is isomorphic to the world, and the cost
+    is within the bound; m is the number of edges, n of vertices. *)
 Theorem cost_within_bound : exists m M p v,
-  explore (nat * nat) see go pick path order keep (darts W) (start (nat * nat) see (root W, 0)) =
+  explore (nat * nat) see go pick path order keep (darts W) (initial_state (nat * nat) see (root W, 0)) =
     Some (M, p, v) /\
   isomorphic M W /\ darts W = 2 * m /\
   m <= cost nat v <= m * (n + (2 * m - 1) * (2 * (n - 1))).
 Proof.
   destruct (explore_counted (darts W) (initial (degree W (root W))) 0 (root W, 0, 0))
-    as (M & p & v & m & X & Iso & D & C); [apply (start_inv W HW)|lia|].
+    as (M & p & v & m & X & Iso & D & C); [apply (initial_invariant W HW)|lia|].
   exists m, M, p, v. split; [exact X|]. split; auto.
   assert (known (initial (degree W (root W))) = 0) as Z.
   { unfold known. generalize (darts (initial (degree W (root W)))). intros k.
@@ -223,7 +227,8 @@ End Bound.
 (** Claim 7 for [basic]. *)
 Theorem basic_cost W : world W -> exists m M p v,
   explore (nat * nat) (see_counted nat (percept W)) (go_counted nat (move W)) first_open bfs_path
-    (fun _ H => H) rule_none (darts W) (start (nat * nat) (see_counted nat (percept W)) (root W, 0)) =
+    (fun _ H => H) rule_none (darts W)
+    (initial_state (nat * nat) (see_counted nat (percept W)) (root W, 0)) =
     Some (M, p, v) /\
   isomorphic M W /\ darts W = 2 * m /\
   m <= cost nat v <= m * (vertices W + (2 * m - 1) * (2 * (vertices W - 1))).

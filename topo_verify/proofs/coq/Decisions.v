@@ -1,37 +1,43 @@
-(** Decisions of a mapper: each must follow from the log as it was at that moment (claim 10).
+(** Decisions of a mapper: each must follow from the log as it was when it was made (claim 10;
+    docs/mechanised.md).
 
-    The log is walked once. At a decision it is folded as far as it went; a rejection folds on from
-    there with its edge assumed, which the next decision does not see. The evidence is not trusted.
-    SCEPTICS READ [decision] and [follows]. *)
+    L is a log, d a decision, r the reason given for it; m is a moment of the walk along the log, ms
+    the moves after it; ev is evidence; the other letters are those of Checker.v.
+
+    The program walks the log once and folds it as it goes. For a rejection it assumes the edge,
+    continues the fold to a conflict, and forgets that part again. The evidence is not trusted.
+    The invariant of the walk is [true_moment]. SCEPTICS READ [decision] and [follows]. *)
 From Coq Require Import Arith Lia List Bool PArith FMapPositive.
 Import ListNotations.
 From Topo Require Import World Log Determined Table Checker CheckerCorrect.
 
-(** What was decided at a visit: an edge leads from one place to the other, or none does. *)
+(** A decision at visit x: an edge leads from place p to place q, or none does. *)
 Inductive decision := Leads (x : positive) (p q : pplace) | LeadsNot (x : positive) (p q : pplace).
 
-(** Claim 10: what was decided is so in every world that shows the log up to that visit. *)
+(** Claim 10: the decision is true in every world that shows the log up to its visit. *)
 Definition follows L d := match d with
   | Leads x p q => forall W v, world W -> visits W (cut L (num x)) v ->
       alpha W (dart W v (abs p)) = Some (dart W v (abs q))
   | LeadsNot x p q => forall W v, world W -> visits W (cut L (num x)) v ->
       alpha W (dart W v (abs p)) <> Some (dart W v (abs q)) end.
 
-(** When it was decided. *)
+(** The visit at which the decision was made. *)
 Definition visit d := match d with Leads x _ _ | LeadsNot x _ _ => x end.
 
-(** Why: this arc joins the two; or folding on as told, with an edge between them, contradicts. *)
+(** The reason for a decision: this arc joins the two places; or the fold with an edge between
+    them, continued by ev, has the conflict c. *)
 Inductive reason := Joined (a : arc) | Refuted (ev : evidence) (c : conflict).
 
-(** A log on the way: the visit, what was seen and crossed up to it, and the fold. *)
+(** A moment of the walk: the visit, the percepts and edges up to it, and the union-find. *)
 Record moment := { here : positive; sighted : PositiveMap.t Percept;
   crossed : PositiveMap.t (pplace * pplace); unified : unions }.
 
-(** At the start. *)
+(** The moment at the start. *)
 Definition outset L : moment := let T := table_of [start L] in
   {| here := 1; sighted := T; crossed := table_of []; unified := markers T [start L] |}.
 
-(** One move on: a visit, an edge, and the marker if it was seen. *)
+(** The moment one move later: one more visit, one more edge, and a merge if the visit saw the
+    marker. *)
 Definition onward m (a : nat * Percept) := let y := Pos.succ (here m) in
   let T := PositiveMap.add y (snd a) (sighted m) in
   {| here := y; sighted := T;
@@ -39,18 +45,19 @@ Definition onward m (a : nat * Percept) := let y := Pos.succ (here m) in
      unified := match snd (snd a) with
        | Some j => unite T (unified m) (1%positive, 0) (y, j) | None => unified m end |}.
 
-(** On to a visit, and the moves that are left. *)
-Fixpoint reach x m ms := if Pos.eqb (here m) x then Some (m, ms) else
-  match ms with [] => None | a :: ms => reach x (onward m a) ms end.
+(** Walk on to visit x: the moment there, and the moves that are left. *)
+Fixpoint advance x m ms := if Pos.eqb (here m) x then Some (m, ms) else
+  match ms with [] => None | a :: ms => advance x (onward m a) ms end.
 
-(** The merges of arcs that are there already, and the evidence that is left. *)
+(** Do the merges whose arcs exist already at this moment: the moment after them, and the
+    evidence that is left. *)
 Fixpoint settle m (ev : evidence) := match ev with [] => (m, []) | s :: rest =>
   if Pos.ltb (snd (fst s)) (here m) && Pos.ltb (snd (snd s)) (here m) then
     settle {| here := here m; sighted := sighted m; crossed := crossed m;
               unified := glue (sighted m) (crossed m) (unified m) s |} rest
   else (m, ev) end.
 
-(** Does the reason prove the decision at this moment? *)
+(** The reason proves the decision at this moment. *)
 Definition supported m d r := match d, r with
   | Leads _ p q, Joined a => check_partners (sighted m) (crossed m) (unified m) p q a
   | LeadsNot _ p q, Refuted ev c => let T := sighted m in
@@ -59,19 +66,20 @@ Definition supported m d r := match d, r with
       check_conflict T D (fold_left (glue T D) ev (unified m)) c
   | _, _ => false end.
 
-(** Decisions from this moment on, in their order. *)
+(** From this moment on, each reason proves its decision at its visit; the visits are in order. *)
 Fixpoint decided_from m ms ev ds rs := match ds, rs with
   | [], [] => true
-  | d :: ds, r :: rs => match reach (visit d) m ms with
+  | d :: ds, r :: rs => match advance (visit d) m ms with
       | Some (m, ms) => let (m, ev) := settle m ev in
           supported m d r && decided_from m ms ev ds rs
       | None => false end
   | _, _ => false end.
 
-(** The decisions of a log, to be checked: a reason for each, and the merges of the log itself. *)
+(** The check of the decisions ds of a log, with the merges ev of the log itself and a reason for
+    each decision. *)
 Definition decided L ev ds rs := decided_from (outset L) (moves L) ev ds rs.
 
-(** Numbering a list that has one more entry. *)
+(** Numbering a list with one more element adds one entry at the end. *)
 Lemma enum_snoc {X} (l : list X) : forall y x a, Pos.to_nat x = Pos.to_nat y + length l ->
   enum y (l ++ [a]) = enum y l ++ [(x, a)].
 Proof.
@@ -80,7 +88,7 @@ Proof.
   - rewrite (IH (Pos.succ y) x a); auto. rewrite Pos2Nat.inj_succ. lia.
 Qed.
 
-(** The table of a list that has one more entry. *)
+(** The binary map of a list with one more element has one more entry. *)
 Lemma table_of_snoc {X} (l : list X) x a : num x = length l ->
   table_of (l ++ [a]) = PositiveMap.add x a (table_of l).
 Proof.
@@ -88,11 +96,11 @@ Proof.
   rewrite Pos2Nat.inj_1. assert (P := Pos2Nat.is_pos x). lia.
 Qed.
 
-(** As many numbers as entries. *)
+(** The numbered list is as long as the list. *)
 Lemma enum_length {X} (l : list X) : forall y, length (enum y l) = length l.
 Proof. induction l; simpl; auto. Qed.
 
-(** What is known only grows: a longer log, more assumed edges. *)
+(** A longer log and more assumed edges identify at least as much. *)
 Lemma same_grows A B L L' p q : (forall i s, seen L i = Some s -> seen L' i = Some s) ->
   (forall i k, door L i = Some k -> door L' i = Some k) -> (forall e, In e A -> In e B) ->
   same A L p q -> same B L' p q.
@@ -107,20 +115,21 @@ Proof.
     same_mark, same_link.
 Qed.
 
-(** So does what the union-find has made one. *)
+(** The invariant of the union-find stays true for a longer log and for assumed edges. *)
 Lemma true_uf_grows L L' extra U : (forall i s, seen L i = Some s -> seen L' i = Some s) ->
   (forall i k, door L i = Some k -> door L' i = Some k) -> true_uf L [] U -> true_uf L' extra U.
 Proof.
   intros HS HD HU x y o E. apply (same_grows (map abs2 []) _ L L'); auto. intros e [].
 Qed.
 
-(** At each moment the tables are those of the log so far, and the fold is true. *)
-Definition right L m ms := exists done, let P := {| start := start L; moves := done |} in
+(** The invariant of the walk: the tables at moment m are those of the log up to its visit, and
+    the union-find is true of that log. *)
+Definition true_moment L m ms := exists done, let P := {| start := start L; moves := done |} in
   moves L = done ++ ms /\ num (here m) = length done /\ sighted m = table_of (sights P) /\
   crossed m = table_of (edges P []) /\ true_uf P [] (unified m).
 
-(** That log is the log up to the visit. *)
-Lemma right_cut L m ms : right L m ms -> let P := cut L (num (here m)) in
+(** By the invariant the tables at m are those of [cut] at its visit. *)
+Lemma true_moment_cut L m ms : true_moment L m ms -> let P := cut L (num (here m)) in
   num (here m) = length (moves P) /\ sighted m = table_of (sights P) /\
   crossed m = table_of (edges P []) /\ true_uf P [] (unified m).
 Proof.
@@ -128,14 +137,14 @@ Proof.
   simpl. rewrite app_nil_r. auto.
 Qed.
 
-(** It is so at the start. *)
-Lemma outset_right L : right L (outset L) (moves L).
+(** The invariant holds at the start. *)
+Lemma outset_true L : true_moment L (outset L) (moves L).
 Proof.
   exists []. do 4 (split; auto). apply (markers_sound {| start := start L; moves := [] |} []).
 Qed.
 
-(** It stays so. *)
-Lemma onward_right L m a ms : right L m (a :: ms) -> right L (onward m a) ms.
+(** One move keeps the invariant. *)
+Lemma onward_true L m a ms : true_moment L m (a :: ms) -> true_moment L (onward m a) ms.
 Proof.
   intros (done & E & N & HT & HD & HU). exists (done ++ [a]). intros P'.
   assert (Y : num (Pos.succ (here m)) = S (length done)) by (rewrite num_succ; auto).
@@ -157,36 +166,36 @@ Proof.
     rewrite map_app, nth_error_app2; rewrite map_length; [|lia]. rewrite Nat.sub_diag. auto.
 Qed.
 
-(** Also on the way to a visit. *)
-Lemma reach_right L x : forall ms m m' ms', right L m ms -> reach x m ms = Some (m', ms') ->
-  right L m' ms' /\ here m' = x.
+(** Walking on to visit x keeps the invariant and ends at x. *)
+Lemma advance_true L x : forall ms m m' ms', true_moment L m ms -> advance x m ms = Some (m', ms') ->
+  true_moment L m' ms' /\ here m' = x.
 Proof.
   intros ms. induction ms as [|a ms IH]; simpl; intros m m' ms' H E;
     match type of E with (if ?b then _ else _) = _ => destruct b eqn:B end.
   1, 3: apply Pos.eqb_eq in B; injection E as <- <-; auto.
   - discriminate.
-  - apply (IH (onward m a)); auto. apply onward_right, H.
+  - apply (IH (onward m a)); auto. apply onward_true, H.
 Qed.
 
-(** And when it is folded. *)
-Lemma settle_right L ms ev : forall m, right L m ms -> right L (fst (settle m ev)) ms.
+(** Merging keeps the invariant. *)
+Lemma settle_true L ms ev : forall m, true_moment L m ms -> true_moment L (fst (settle m ev)) ms.
 Proof.
   induction ev as [|s ev IH]; simpl; auto. intros m H. destruct (_ && _); auto.
   apply IH. destruct H as (done & E & N & HT & HD & HU). exists done. do 4 (split; auto).
   simpl. rewrite HT, HD. apply glue_sound; auto. intros p q [].
 Qed.
 
-(** Folding changes no visit. *)
+(** Merging does not change the visit. *)
 Lemma settle_here ev : forall m, here (fst (settle m ev)) = here m.
 Proof.
   induction ev as [|s ev IH]; simpl; auto. intros m. destruct (_ && _); auto. rewrite IH. auto.
 Qed.
 
-(** What is supported follows. *)
-Lemma supported_follows L m ms d r : right L m ms -> here m = visit d -> supported m d r = true ->
+(** Under the invariant, a decision with a reason that proves it follows from the log. *)
+Lemma supported_follows L m ms d r : true_moment L m ms -> here m = visit d -> supported m d r = true ->
   follows L d.
 Proof.
-  intros H V. apply right_cut in H as (N & HT & HD & HU). rewrite V in *.
+  intros H V. apply true_moment_cut in H as (N & HT & HD & HU). rewrite V in *.
   assert (Nil : forall a b, In (a, b) [] -> valid (cut L (num (visit d))) (abs a) /\
     valid (cut L (num (visit d))) (abs b)) by (intros a b []).
   unfold supported. rewrite V, HT, HD.
@@ -199,19 +208,19 @@ Proof.
       table_of (edges (cut L (num x)) [(p, q)])).
     { unfold edges. rewrite app_nil_r. symmetry. apply table_of_snoc.
       rewrite map_length, enum_length, map_length. auto. }
-    rewrite E in C. intros W v. apply (refuted_correct (cut L (num x)) p q (unified m) ev c); auto.
+    rewrite E in C. intros W v. apply (assumed_edge_refuted (cut L (num x)) p q (unified m) ev c); auto.
     apply (true_uf_grows (cut L (num x))); auto.
 Qed.
 
-(** Claim 10: decisions that the checker accepts follow from the log, each as far as it went. *)
+(** Claim 10: if [decided] accepts, each decision follows from the log up to its visit. *)
 Theorem decided_correct L ev ds rs : decided L ev ds rs = true -> forall d, In d ds -> follows L d.
 Proof.
-  unfold decided. assert (H := outset_right L). revert H. generalize (outset L) (moves L).
+  unfold decided. assert (H := outset_true L). revert H. generalize (outset L) (moves L).
   intros m ms. revert m ms ev rs. induction ds as [|d ds IH]; simpl; intros m ms ev rs H C e I;
     [destruct I|]. destruct rs as [|r rs]; [discriminate|].
-  destruct (reach (visit d) m ms) as [(m1, ms1)|] eqn:R; [|discriminate].
-  apply (reach_right L) in R as [H1 Eh]; auto.
-  apply (settle_right L ms1 ev) in H1. assert (Sh := settle_here ev m1).
+  destruct (advance (visit d) m ms) as [(m1, ms1)|] eqn:R; [|discriminate].
+  apply (advance_true L) in R as [H1 Eh]; auto.
+  apply (settle_true L ms1 ev) in H1. assert (Sh := settle_here ev m1).
   destruct (settle m1 ev) as (m2, ev2). simpl in *. apply andb_true_iff in C as [S C].
   destruct I as [<-|I]; [|apply (IH m2 ms1 ev2 rs); auto].
   apply (supported_follows L m2 ms1 d r); auto. congruence.

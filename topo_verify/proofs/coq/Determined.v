@@ -1,26 +1,31 @@
-(** A closed log proves the map (claim 9): all worlds that show it are isomorphic.
+(** A closed log proves the map: all worlds that show it are isomorphic (claim 9; docs/semantics.md,
+    section 11).
 
-    Identified places are one dart in every world that shows the log ([same_sound]). If nothing is
-    open, places that are one dart in some world are identified ([same_complete]): v0 is visited by
-    the walk wherever it is met, so the fold is a covering with one copy of v0. *)
+    L is a log, W and W' worlds that show it, v i the reference dart of visit i, A the assumed
+    edges, p and q places, b a dart.
+
+    [same_sound]: identified places are one dart in every world that shows the log.
+    [same_complete]: if the log is closed, places that are one dart in some world are identified.
+    The reason is that the fold is a covering with one copy of v0, since every visit of v0 saw
+    the marker. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log.
 
-(** Without assumptions everything fits. *)
+(** Every world fits the empty list of assumed edges. *)
 Lemma fits_nothing W v : fits W v nothing.
 Proof. intros p q []. Qed.
 
 Section Sound.
-Variables (W : Map) (L : Log) (v : nat -> nat) (A : assumption).
+Variables (W : Map) (L : Log) (v : nat -> nat) (A : assumed_edges).
 Hypotheses (HW : world W) (V : visits W L v) (F : fits W v A).
 Let WW := world_is_map W HW.
 
-(** A place is a dart. *)
+(** The dart of a place is a dart of the world. *)
 Lemma dart_lt p : dart W v p < darts W.
 Proof. apply turn_lt; [apply WW|apply V]. Qed.
 
-(** Linked places are the two darts of an edge. *)
+(** Linked places are the two darts of an edge of the world. *)
 Lemma link_sound p q : link A L p q -> alpha W (dart W v p) = Some (dart W v q).
 Proof.
   assert (H : forall i k, door L i = Some k -> alpha W (dart W v (i, k)) = Some (dart W v (S i, 0))).
@@ -29,14 +34,14 @@ Proof.
   intros [i k E|i k E|x y X _ _|x y X _ _]; auto; apply (alpha_ok W WW); auto using dart_lt.
 Qed.
 
-(** A full turn changes nothing. *)
+(** A full turn does not change the dart. *)
 Lemma full_sound i d m k : seen L i = Some (d, m) -> dart W v (i, d + k) = dart W v (i, k).
 Proof.
   intros E. apply (v_seen W L v V) in E. injection E as <- _. unfold dart; simpl.
   rewrite Nat.add_comm, turn_add. f_equal. apply degree_spec; [apply WW|apply V].
 Qed.
 
-(** In every world that replays the log, identified places are one dart. *)
+(** Identified places are one dart in every world that shows the log and has the assumed edges. *)
 Theorem same_sound p q : same A L p q -> dart W v p = dart W v q.
 Proof.
   induction 1 as [p|p q _ IH|p q r _ IH _ IH'|k i a j b _ IH|i d m E|i d j E
@@ -60,7 +65,8 @@ Notation link_sound := (link_sound W L v nothing HW V N).
 Notation same_sound := (same_sound W L v nothing HW V N).
 Notation full_sound := (full_sound W L v HW V).
 
-(** A place that is the root in the world is the start place: its visit saw the marker. *)
+(** A place that is the root in the world is identified with the place (0, 0): its visit saw the
+    marker. *)
 Lemma home p : valid L p -> dart W v p = root W -> same nothing L p (0, 0).
 Proof.
   destruct p as (i, k). intros P H. unfold valid in P; simpl in P.
@@ -78,10 +84,10 @@ Proof.
   subst. apply (same_mark nothing L i (degree W (v i))). auto.
 Qed.
 
-(** In a closed log every dart is met, and only identified places are one dart. *)
+(** From here on the log is closed. *)
 Hypothesis C : closed L.
 
-(** Every dart of the world is a place. *)
+(** If the log is closed, every dart of the world is the dart of a place. *)
 Lemma met b : b < darts W -> exists p, valid L p /\ dart W v p = b.
 Proof.
   intros Hb. apply (world_connected W HW) in Hb.
@@ -93,7 +99,7 @@ Proof.
     apply same_sound in B. apply link_sound in A. congruence.
 Qed.
 
-(** Places that are one dart are identified. *)
+(** If the log is closed, places that are one dart are identified. *)
 Theorem same_complete p q : valid L p -> valid L q -> dart W v p = dart W v q -> same nothing L p q.
 Proof.
   assert (R := world_connected W HW (dart W v q) (dart_lt q)). remember (dart W v q) as b eqn:Hq.
@@ -126,7 +132,7 @@ Proof.
 Qed.
 End Closed.
 
-(** Finitely many choices at once. *)
+(** Finitely many existential statements have a common choice function. *)
 Lemma choice {X} (x0 : X) (R : nat -> X -> Prop) n : (forall b, b < n -> exists x, R b x) ->
   exists f, forall b, b < n -> R b (f b).
 Proof.
@@ -136,7 +142,7 @@ Proof.
   destruct (Nat.eqb_spec b n) as [->|]; auto. apply Hf. lia.
 Qed.
 
-(** Claim 9: a log in which nothing is open proves the map. *)
+(** Claim 9: all worlds that show a closed log are isomorphic. *)
 Theorem closed_determines L W W' : closed L -> world W -> world W' ->
   replays W L -> replays W' L -> isomorphic W W'.
 Proof.

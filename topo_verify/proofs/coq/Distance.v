@@ -1,14 +1,19 @@
-(** Distances in a world, and breadth-first trees: every world has them (section 11).
+(** Distances in a world, and the breadth-first tree that every world has (docs/semantics.md,
+    section 11).
 
-    SCEPTICS READ [opposite] and [breadth_first]. *)
+    W is a world; a, b, d are darts; n is a distance; depth d is the distance of the vertex of d
+    from v0; up d is the dart at the vertex of d that leads to its parent in the tree. SCEPTICS
+    READ [opposite] and [breadth_first]. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Vertices Determined.
 
-(** The other dart of the edge; the dart itself where it is not known. *)
+(** The other dart of the edge; the dart itself if the edge is unexplored. *)
 Definition opposite W b := match alpha W b with Some a => a | None => b end.
 
-(** Distances from the root's vertex, and for each vertex but that the dart that leads nearer. *)
+(** depth and up describe a breadth-first tree: depth 0 is v0 alone; both are the same for all
+    darts of a vertex; an edge changes the depth by at most 1; at every other vertex up is one of
+    its darts and leads to a vertex whose depth is one less. *)
 Record breadth_first W (depth up : nat -> nat) : Prop := {
   bf_root : depth (root W) = 0;
   bf_home : forall b, b < darts W -> depth b = 0 -> exists k, b = turn W k (root W);
@@ -22,14 +27,14 @@ Variable W : Map.
 Hypothesis HW : world W.
 Let WW := world_is_map W HW.
 
-(** In a world every dart has an opposite. *)
+(** In a world alpha of every dart is its opposite. *)
 Lemma opposite_alpha b : b < darts W -> alpha W b = Some (opposite W b).
 Proof.
   intros Hb. unfold opposite. destruct (alpha W b) eqn:E; auto.
   destruct (world_total W HW b Hb E).
 Qed.
 
-(** Which is a dart, and another one, and whose opposite is the first. *)
+(** The opposite of a dart is another dart, whose opposite is the first one. *)
 Lemma opposite_ok b : b < darts W ->
   opposite W b < darts W /\ opposite W b <> b /\ opposite W (opposite W b) = b.
 Proof.
@@ -37,13 +42,13 @@ Proof.
   repeat split; auto. unfold opposite at 1. rewrite E. auto.
 Qed.
 
-(** Is the dart's vertex at most n edges away from the root's? *)
+(** Is the vertex of d at most n edges away from v0? *)
 Fixpoint within n d := match n with
   | 0 => at_vertex W (root W) d
   | S n => within n d ||
            existsb (fun b => within n b && at_vertex W (opposite W b) d) (seq 0 (darts W)) end.
 
-(** Turning does not move away. *)
+(** All darts of a vertex are within the same distances. *)
 Lemma within_turn n k d : d < darts W -> within n d = true -> within n (turn W k d) = true.
 Proof.
   intros Hd. assert (At : forall a, a < darts W -> at_vertex W a d = true ->
@@ -55,7 +60,7 @@ Proof.
   apply andb_true_iff in A as [A A']. rewrite A. apply At; auto. apply opposite_ok. lia.
 Qed.
 
-(** Crossing an edge moves away by 1 at most. *)
+(** The opposite of a dart within n is within n + 1. *)
 Lemma within_opposite n b : b < darts W -> within n b = true -> within (S n) (opposite W b) = true.
 Proof.
   intros Hb H. simpl. apply orb_true_iff. right. apply existsb_exists. exists b.
@@ -63,7 +68,7 @@ Proof.
   exists 0. auto.
 Qed.
 
-(** Every dart is at some least distance. *)
+(** Every dart has a least n that it is within. *)
 Lemma distance d : d < darts W ->
   exists n, within n d = true /\ forall m, within m d = true -> n <= m.
 Proof.

@@ -1,8 +1,12 @@
-(** One hypothesis, forwards and backwards (claims 2, 3, 4 and 5).
+(** One hypothesis, in both directions: claims 2, 3, 4 and 5 (docs/semantics.md, sections 6 and 9).
 
-    M is what is known, W the world, phi: M -> W the correspondence. Forwards: what M foretells, W
-    shows, so a true hypothesis is never contradicted. Backwards: walks are injective, so a walk
-    that ends at the marker, in the right direction, began where it was believed to begin. *)
+    M is the map so far (S in docs/semantics.md), W the world, phi: M -> W the correspondence of
+    their darts. e is an open dart, a the dart of the world behind it, h a hypothesis: the claim
+    that e leads to h, that is phi h = a.
+
+    From M to W: what M predicts, W shows, so a true hypothesis is never contradicted. From W to
+    M: walks are injective, so a walk that ends at the marker, facing in the right direction,
+    began at the dart where it was believed to begin. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation.
@@ -11,13 +15,13 @@ Section Embedding.
 Variables (M W : Map) (phi : nat -> nat).
 Hypotheses (WM : is_map M) (WW : is_map W) (E : embedded M W phi).
 
-(** phi keeps turns. *)
+(** The correspondence commutes with turning. *)
 Lemma embedded_turn k d : d < darts M -> phi (turn M k d) = turn W k (phi d).
 Proof.
   intros Hd. induction k as [|k IH]; simpl; auto. rewrite (phi_sigma _ _ _ E), IH; auto using turn_lt.
 Qed.
 
-(** phi keeps degrees. *)
+(** Corresponding darts have the same degree. *)
 Lemma embedded_degree d : d < darts M -> degree W (phi d) = degree M d.
 Proof.
   intros Hd. destruct (degree_spec M WM d Hd) as (A & B & C).
@@ -27,7 +31,7 @@ Proof.
     apply (C k Hk). apply (phi_inj _ _ _ E) in H; auto using turn_lt.
 Qed.
 
-(** Claim 1: corresponding darts show the same percept. *)
+(** Corresponding darts show the same percept (claim 1). *)
 Theorem percept_agree d : d < darts M -> percept W (phi d) = percept M d.
 Proof.
   intros Hd. unfold percept, marker. rewrite embedded_degree by auto. f_equal.
@@ -36,7 +40,7 @@ Proof.
   apply Nat.eqb_neq. intros H. apply N, (phi_inj _ _ _ E); auto using turn_lt, root_lt.
 Qed.
 
-(** A move on M is a move in W. *)
+(** A move on M is a move in W between the corresponding darts. *)
 Lemma embedded_move d k x : d < darts M -> move M d k = Some x -> move W (phi d) k = Some (phi x).
 Proof.
   unfold move. intros Hd H. rewrite embedded_degree by auto.
@@ -44,7 +48,7 @@ Proof.
   rewrite <- embedded_turn by auto. apply (phi_alpha _ _ _ E); auto using turn_lt.
 Qed.
 
-(** A walk on M is a walk in W. *)
+(** A walk on M is a walk in W between the corresponding darts. *)
 Theorem forward_walk w : forall d x, d < darts M ->
   walk M d w = Some x -> walk W (phi d) w = Some (phi x).
 Proof.
@@ -53,8 +57,8 @@ Proof.
   rewrite (embedded_move _ _ _ Hd Em). apply IH; auto. eapply move_lt; eauto.
 Qed.
 
-(** Claim 3: a true hypothesis is kept; as long as the walk stays on explored darts of the
-    map, the robot sees exactly what is expected. *)
+(** Claim 3: as long as the walk stays on explored darts of the map, the robot senses exactly
+    what the map predicts. So a true hypothesis is kept. *)
 Theorem forward w : forall d ps, d < darts M ->
   percepts M d w = Some ps -> percepts W (phi d) w = Some ps.
 Proof.
@@ -66,13 +70,14 @@ Proof.
   rewrite (IH _ _ Hy Eq). auto.
 Qed.
 
-(** Claim 3, by motion: a percept that differs from what M foretells refutes the hypothesis. *)
+(** Claim 3, by motion: if a percept differs from what M predicts for h, e does not lead to h. *)
 Corollary mismatch_refutes e h a w ps : h < darts M ->
   alpha W (phi e) = Some a -> percepts M h w = Some ps -> percepts W a w <> Some ps ->
   alpha W (phi e) <> Some (phi h).
 Proof. intros Hh Ha Hs Hw H. apply Hw. replace a with (phi h) by congruence. apply forward; auto. Qed.
 
-(** Claim 4: a confirmed hypothesis is true; only the marker's direction at the end is used. *)
+(** Claim 4: a confirmed hypothesis is true. Of the percepts only the last one is used: it shows
+    the marker in the predicted direction. *)
 Theorem confirm a h w c r j : a < darts W -> h < darts M ->
   walk W a w = Some c -> walk M h w = Some r ->
   marker M r = Some j -> marker W c = Some j -> a = phi h.
@@ -86,8 +91,8 @@ Proof.
   rewrite <- embedded_turn, Hr, Hc by auto. symmetry. apply (phi_root _ _ _ E).
 Qed.
 
-(** Claim 2: the true end of an open dart, if known at all, is another open dart that shows the
-    percept of the place reached: it is among the hypotheses. *)
+(** Claim 2: if the true end h of the open dart e is known, h is open, differs from e, and shows
+    the percept of the place where the robot arrived. So h is among the hypotheses. *)
 Theorem posed e a h : e < darts M -> alpha M e = None -> alpha W (phi e) = Some a ->
   h < darts M -> phi h = a -> h <> e /\ alpha M h = None /\ percept M h = percept W a.
 Proof.
@@ -101,7 +106,7 @@ Proof.
   - symmetry. apply percept_agree; auto.
 Qed.
 
-(** Claim 5: nothing open, and the map is the world. *)
+(** Claim 5: an embedded map without open darts is isomorphic to a connected world. *)
 Theorem closed_isomorphic : connected W -> (forall d, d < darts M -> alpha M d <> None) ->
   isomorphic M W.
 Proof.
@@ -129,7 +134,8 @@ Proof.
     intros i j Hi Hj Eij. destruct (Hinv i Hi) as [_ <-], (Hinv j Hj) as [_ <-]. congruence.
 Qed.
 End Embedding.
-(** Claim 5: a connected map has at most one correspondence: a rooted map has no automorphism. *)
+(** Claim 5: a connected map is embedded in a world in at most one way, since a rooted map has no
+    automorphism but the identity. *)
 Theorem embedded_unique M W phi psi : connected M -> is_map M -> embedded M W phi -> embedded M W psi ->
   forall d, d < darts M -> phi d = psi d.
 Proof.

@@ -1,13 +1,19 @@
-(** Folding is complete: what it does not contradict, some world shows (claims 9 and 10).
+(** Folding is complete: what the fold does not contradict, some world shows (claims 9 and 10;
+    docs/semantics.md, section 11).
 
-    A log and an assumption are [consistent] exactly if a world shows the log and has the assumed
-    edges. So a rejection is entailed exactly if the fold with its edge contradicts, a confirmation
-    exactly if the fold makes the two partners, and a log either proves the map or proves nothing. *)
+    L is a log, A a list of assumed edges, p and q are places, W a world, v i the reference dart of
+    visit i.
+
+    A log and assumed edges are [consistent] exactly if some world shows the log and has these
+    edges. So a rejection is entailed exactly if the fold with its edge contradicts; a
+    confirmation is entailed exactly if the fold makes the two darts partners; and a log either
+    proves the map or proves nothing. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log Determined Undetermined Classes Quotient.
 
-(** What a map shows, every world that it is part of shows, at the corresponding darts. *)
+(** If a map shows a log, every world in which it is embedded shows it at the corresponding
+    darts. *)
 Lemma embedded_visits M W L u : is_map M -> is_map W -> embedded M W id -> visits M L u ->
   visits W L u /\ forall p, dart W u p = dart M u p.
 Proof.
@@ -20,7 +26,8 @@ Proof.
   - intros (i, k). symmetry. apply (embedded_turn M W id WM E); auto.
 Qed.
 
-(** A hypothesis that folding keeps has its world: leaves hung on the quotient. *)
+(** If the fold of L with A is consistent, some world shows L and has the edges A: the quotient
+    with leaves hung on its open darts. *)
 Theorem consistent_possible A L : consistent A L -> possible A L.
 Proof.
   intros C. destruct (quotient_exists L A C) as (M & u & Q).
@@ -32,7 +39,7 @@ Proof.
   apply turn_lt; auto. apply (v_lt M L u (q_visits _ _ _ _ Q)).
 Qed.
 
-(** What some world shows does not contradict. *)
+(** If some world shows L and has the edges A, the fold of L with A is consistent. *)
 Theorem possible_consistent A L : (forall p q, In (p, q) A -> valid L p /\ valid L q) ->
   possible A L -> consistent A L.
 Proof.
@@ -63,7 +70,8 @@ Proof.
     apply (alpha_ok W WW) in K; [|apply dart_lt with L; auto]. destruct K as (_ & N & _). auto.
 Qed.
 
-(** Rejecting is entailed exactly if the fold with the assumption contradicts. *)
+(** Claim 10: no world that shows L has an edge from p to q exactly if the fold with that edge is
+    inconsistent. *)
 Theorem rejection_entailed_iff L p q : valid L p -> valid L q ->
   ((forall W v, world W -> visits W L v -> alpha W (dart W v p) <> Some (dart W v q)) <->
    ~ consistent [(p, q)] L).
@@ -76,7 +84,8 @@ Proof.
     + exists W, v. split; auto. split; auto. intros x y [I|[]]. injection I as <- <-. auto.
 Qed.
 
-(** Confirming is entailed exactly if the fold makes the two partners. *)
+(** Claim 10: every world that shows L has an edge from p to q exactly if the fold of L alone
+    makes p and q partners. *)
 Theorem confirmation_entailed_iff L p q : consistent nothing L -> valid L p -> valid L q ->
   ((forall W v, world W -> visits W L v -> alpha W (dart W v p) = Some (dart W v q)) <->
    exists p' q', link nothing L p' q' /\ same nothing L p p' /\ same nothing L q q').
@@ -102,7 +111,7 @@ Proof.
     apply (link_sound W L v nothing HW V (fits_nothing W v)); auto.
 Qed.
 
-(** A log that a world replays is closed or proves nothing, never both. *)
+(** Claim 9: a log that some world shows is closed or undetermined. *)
 Theorem closed_or_undetermined W L : world W -> replays W L -> closed L \/ undetermined L.
 Proof.
   intros HW R. apply replays_visits in R as [v V]; [|apply HW].

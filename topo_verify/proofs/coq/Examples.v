@@ -1,16 +1,18 @@
-(** Worlds given as lists; the mapper run by Coq; why the marker needs a direction. *)
+(** Worlds given as lists, the mapper run by Coq, and why the marker needs a direction.
+
+    The counterexample to claim 4 without the direction is in docs/semantics.md, section 10. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Records Mapper Search Policies.
 
-(** A map as lists of sigma and alpha, and its root. *)
+(** The map with sigma and alpha given as lists, and this root. *)
 Definition of_lists s a r := {| darts := length s; sigma := fun d => nth d s 0;
   alpha := fun d => nth_error a d; root := r |}.
 
-(** The lists of a map. *)
+(** The lists of sigma and alpha of a map, and its root. *)
 Definition to_lists M := (map (sigma M) (seq 0 (darts M)), map (alpha M) (seq 0 (darts M)), root M).
 
-(** Is it a world? As a program. *)
+(** The decision procedure for [world]; bfs decides whether the map is connected. *)
 Definition is_worldb W := (root W <? darts W) && forallb (fun d => (sigma W d <? darts W) &&
     forallb (fun e => negb (sigma W d =? sigma W e) || (d =? e)) (seq 0 (darts W)) &&
     match alpha W d with
@@ -29,7 +31,7 @@ Proof.
   apply (IH c); auto. apply (reach_alpha _ _ (turn M k a)); auto using reach_turn.
 Qed.
 
-(** The program is right. *)
+(** What [is_worldb] accepts is a world. *)
 Theorem is_worldb_true W : is_worldb W = true -> world W.
 Proof.
   unfold is_worldb. rewrite andb_true_iff, forallb_forall. intros [R H]. apply Nat.ltb_lt in R.
@@ -62,16 +64,16 @@ Qed.
 (** A torus: two vertices, three edges, sigma = (0 1 2)(3 4 5), alpha = (0 3)(1 4)(2 5). *)
 Definition torus := of_lists [1;2;0;4;5;3] [3;4;5;0;1;2] 0.
 
-(** It is a world. *)
+(** The torus is a world. *)
 Example torus_world : world torus. Proof. apply is_worldb_true; reflexivity. Qed.
 
-(** Coq runs the mapper in it: the map comes out. *)
+(** The mapper, run by Coq in the torus, delivers the torus. *)
 Example torus_built : option_map to_lists (explores rule_history torus) =
   Some ([1;2;0;4;5;3], [Some 3; Some 4; Some 5; Some 0; Some 1; Some 2], 0).
 Proof. reflexivity. Qed.
 
-(** The marker's direction is needed: with it dropped from the last percept, [confirm] fails
-    already in the world of one vertex and two loops (0 1)(2 3). *)
+(** The marker's direction is needed: if the last percept shows the marker without its direction,
+    [confirm] fails already in the world of one vertex and two loops (0 1)(2 3). *)
 Example undirected_fails : exists M W phi a h, world W /\ embedded M W phi /\ a < darts W /\ h <
   darts M /\
   degree M h = degree W a /\ marker M h <> None /\ marker W a <> None /\ a <> phi h.

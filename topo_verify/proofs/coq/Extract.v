@@ -1,6 +1,6 @@
-(** The checkers as a program in OCaml: certifier.ml, to which driver.ml gives a main.
+(** The checkers as a program in OCaml: certifier.ml, to which driver.ml adds the main program.
 
-    Natural numbers become OCaml's integers, which is right below 2^62 and is trusted. *)
+    Natural numbers become OCaml's integers. That is right below 2^62, and it is trusted. *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From Topo Require Import World Log Table Checker Decisions.
 

@@ -1,29 +1,35 @@
-(** The least cost of a proof, LB (section 11): nobody who is right in every world pays less.
+(** The least cost of a proof, LB: every mapper that is right in every world makes at least LB moves
+    (docs/semantics.md, section 11).
 
-    The loops cost what Loops.v says, in moves that cross no pendant tree; the moves that do come on
-    top. Each edge of a pendant tree is crossed, and once only if the robot ends above it. It then
-    ends as far from v0 as the tree is attached, and that was no loop. SCEPTICS READ [saved] and
-    [least_cost], and in Distance.v, Tree.v and Pendant.v what is named there. *)
+    L is a closed log, W a world that shows it, v i the reference dart of visit i, n the number of
+    moves; depth and up describe a breadth-first tree; b, c are darts, q is a stalk.
+
+    Loops.v bounds the number of moves outside of pendant trees from below. The moves inside are
+    added here: each edge of a pendant tree is crossed twice, or once if the robot ends below it.
+    A robot that ends in a pendant tree has also walked, outside of it, from v0 to where the tree
+    is attached, and that walk is part of no loop. SCEPTICS READ [saved] and [least_cost], and in
+    Distance.v, Tree.v and Pendant.v the definitions that they use. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Log Sound Parity Distance Tree Loops Pendant.
 
-(** What the last trip saves, which need not come back: the greatest height above where a pendant
-    tree is attached, less the distance of that place. *)
+(** What the last trip saves because it need not come back: the greatest difference, over the
+    vertices of pendant trees, between the height and the distance from v0 of the place where the
+    tree is attached. *)
 Definition saved W depth up :=
   list_max (map (fun b => height W depth up b - (depth b - height W depth up b)) (seq 0 (darts W))).
 
-(** LB: the loops of a breadth-first tree; the pendant trees, there and back; less what is saved. *)
+(** LB: the weights of the chords, twice the number of stalks, less what the last trip saves. *)
 Definition least_cost W depth up :=
   list_sum (map (weight W depth) (chords W depth up)) + 2 * length (stalks W depth up) -
   saved W depth up.
 
-(** So many have a property, so many have not. *)
+(** The elements that satisfy f and those that do not are together all elements. *)
 Lemma filter_split {X} (f : X -> bool) l :
   length (filter f l) + length (filter (fun x => negb (f x)) l) = length l.
 Proof. induction l as [|x l IH]; simpl; auto. destruct (f x); simpl; lia. Qed.
 
-(** A parity is that of a number. *)
+(** The parity is 1 exactly if the number of elements that satisfy f is odd. *)
 Lemma parity_odd {X} (f : X -> bool) l : parity f l = Nat.odd (length (filter f l)).
 Proof.
   induction l as [|x l IH]; simpl; auto. rewrite IH. destruct (f x); simpl length.
@@ -31,7 +37,7 @@ Proof.
   - apply xorb_false_l.
 Qed.
 
-(** One more element is counted under one key at most. *)
+(** One more element adds one to the count of at most one of several different keys. *)
 Lemma one_key x (h : nat -> nat) keys : NoDup keys ->
   list_sum (map (fun k => (if x =? k then 1 else 0) + h k) keys) <=
   (if existsb (Nat.eqb x) keys then 1 else 0) + list_sum (map h keys).
@@ -42,7 +48,8 @@ Proof.
   - simpl in IH. lia.
 Qed.
 
-(** What is counted by different keys is counted once. *)
+(** The counts for different keys add up to at most the number of elements that have one of the
+    keys. *)
 Lemma count_keys {X} (g : X -> nat) keys l : NoDup keys ->
   list_sum (map (fun k => length (filter (fun x => g x =? k) l)) keys) <=
   length (filter (fun x => existsb (Nat.eqb (g x)) keys) l).
@@ -56,7 +63,8 @@ Proof.
     + destruct (existsb (Nat.eqb (g x)) keys); simpl; lia.
 Qed.
 
-(** Two for each, one of which some may owe. *)
+(** If every element has f at least 2, or at least 1 where g holds, the sum of f is at least
+    twice the length, less the number of elements with g. *)
 Lemma two_each {X} (f : X -> nat) (g : X -> bool) l :
   (forall x, In x l -> 2 <= f x + (if g x then 1 else 0)) ->
   2 * length l <= list_sum (map f l) + length (filter g l).
@@ -78,13 +86,14 @@ Notation nearer := (nearer depth up).
 Notation stalks := (stalks W depth up).
 Notation out := (out W L v).
 
-(** The edge of a pendant tree. *)
+(** Is the edge of b in a pendant tree? *)
 Definition idle b := nearer b && pendant b || nearer (opposite W b) && pendant (opposite W b).
 
-(** The distance of where a pendant tree is attached; elsewhere the distance. *)
+(** The distance from v0 of the place where the pendant tree of b is attached; outside of pendant
+    trees the distance of b. *)
 Definition seat b := depth b - height b.
 
-(** An edge of the tree, seen from its dart that leads nearer. *)
+(** A tree edge changes the seat by 1, and not at all in a pendant tree. *)
 Lemma seat_nearer c : c < darts W -> nearer c = true ->
   if pendant c then seat (opposite W c) = seat c
   else seat c = depth c /\ S (seat (opposite W c)) = depth c.
@@ -97,7 +106,7 @@ Proof.
     apply (pendant_parent W depth up HW B) in E'; auto. congruence.
 Qed.
 
-(** Crossing an edge of a pendant tree does not change the seat, another edge by 1 at most. *)
+(** Crossing an edge changes the seat by at most 1, and not at all in a pendant tree. *)
 Lemma seat_cross b : b < darts W -> seat (opposite W b) <= (if idle b then 0 else 1) + seat b.
 Proof.
   intros Hb. destruct (opposite_ok b Hb) as (Ho & _ & Oo). unfold idle.
@@ -113,7 +122,8 @@ Proof.
       * apply chord_pendant; auto. rewrite in_tree_opposite; auto.
 Qed.
 
-(** Moves that cross no pendant tree. *)
+(** The weights of the chords, plus the seat of the last visit, are at most the number of moves
+    outside of pendant trees. *)
 Lemma loops_part : list_sum (map (weight W depth) (chords W depth up)) + seat (v n) <=
   counted W L v idle (seq 0 n).
 Proof.
@@ -132,7 +142,7 @@ Qed.
 (** How often the edge of a stalk is crossed. *)
 Definition crossings q := length (filter (fun i => edge W (out i) =? edge W q) (seq 0 n)).
 
-(** The robot is below a stalk if it has crossed it an odd number of times. *)
+(** The robot is below a stalk exactly after an odd number of crossings of it. *)
 Lemma below_parity q i : In q stalks -> i <= n ->
   below q (v i) = parity (fun i => edge W (out i) =? edge W q) (seq 0 i).
 Proof.
@@ -146,7 +156,7 @@ Proof.
     apply (below_turn W depth up HW B); auto. apply V.
 Qed.
 
-(** A stalk is crossed twice, or once if the robot ends below it. *)
+(** A stalk is crossed at least twice, or once if the robot ends below it. *)
 Lemma stalk_twice q : In q stalks -> 2 <= crossings q + (if below q (v n) then 1 else 0).
 Proof.
   intros I. assert (P := below_parity q n I (le_n n)). rewrite parity_odd in P.
@@ -165,7 +175,8 @@ Proof.
   rewrite P. destruct (crossings q) as [|[|k]]; simpl; lia.
 Qed.
 
-(** Moves in pendant trees. *)
+(** The moves in pendant trees are at least twice the number of stalks, less the height of the
+    last visit. *)
 Lemma stalks_part :
   2 * length stalks <= length (filter (fun i => idle (out i)) (seq 0 n)) + height (v n).
 Proof.
@@ -192,7 +203,7 @@ Proof.
     destruct X as [-> | ->]; rewrite P, N; auto. apply orb_true_r.
 Qed.
 
-(** A closed log costs LB at least. *)
+(** A closed log has at least LB moves. *)
 Theorem closed_least_cost : least_cost W depth up <= length (moves L).
 Proof.
   assert (A := loops_part). assert (S := stalks_part). unfold counted in A.
@@ -205,7 +216,7 @@ Proof.
 Qed.
 End LeastCost.
 
-(** Section 11: whoever is right in every world makes at least LB moves. *)
+(** Section 11: a mapper that is right in every world makes at least LB moves in each. *)
 Theorem sound_least_cost f depth up : sound f -> forall W L M, world W -> replays W L ->
   ends f L M -> breadth_first W depth up -> least_cost W depth up <= length (moves L).
 Proof.

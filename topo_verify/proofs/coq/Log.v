@@ -1,9 +1,12 @@
-(** Logs without a world: folding, and its contradictions (docs/semantics.md, section 11).
+(** Logs without a world: folding and its contradictions (docs/semantics.md, section 11).
 
-    A log is the first percept and a list of doors with the percepts behind them. A place of it is
-    (visit, offset): a dart of the visited vertex, counted from the reference dart. [same] is the
-    closure of the forced identifications, given edges that are assumed besides those crossed.
-    SCEPTICS READ [Log] and [replays], and for claim 10 [visits], [dart] and [possible]. *)
+    A log L is the percept at the start and a list of doors with the percepts behind them. Visit 0
+    is the start, visit i comes after i moves. A place p, q, r is a pair (visit, offset): a dart of
+    the visited vertex, counted from the reference dart of the visit. A is a list of assumed edges.
+    W is a world, v i the reference dart of visit i in it.
+
+    [same] is the least set of identifications that the log and A force. SCEPTICS READ [Log] and
+    [replays], and for claim 10 [visits], [dart] and [possible]. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation.
@@ -11,28 +14,29 @@ From Topo Require Import World Rotation.
 (** A log: the percept at the start, then doors and the percepts behind them. *)
 Record Log := { start : Percept; moves : list (nat * Percept) }.
 
-(** What was sensed at visit i; visit 0 is the start. *)
+(** The percept of visit i. *)
 Definition seen L i := nth_error (start L :: map snd (moves L)) i.
 
-(** The door taken from visit i. *)
+(** The door taken from visit i; None after the last move. *)
 Definition door L i := nth_error (map fst (moves L)) i.
 
 (** The log as it was after i moves. *)
 Definition cut L i := {| start := start L; moves := firstn i (moves L) |}.
 
-(** Claims 1 and 9: the world shows this log. The robot that starts at the root and takes these
+(** Claims 1 and 9: the world shows this log. A robot that starts at the root and takes these
     doors senses these percepts. *)
 Definition replays W L := percept W (root W) = start L /\
   percepts W (root W) (map fst (moves L)) = Some (map snd (moves L)).
 
-(** v i is the reference dart at visit i. *)
+(** v gives each visit its reference dart in W: the root at the start, the percepts of the log,
+    and the moves of the world by the doors of the log. *)
 Record visits W L (v : nat -> nat) : Prop := {
   v_lt : forall i, v i < darts W;
   v_0 : v 0 = root W;
   v_seen : forall i p, seen L i = Some p -> percept W (v i) = p;
   v_door : forall i k, door L i = Some k -> move W (v i) k = Some (v (S i)) }.
 
-(** A world that shows a log has a reference dart for each visit. *)
+(** If a world shows a log, each visit has a reference dart. *)
 Lemma replays_visits W L : is_map W -> replays W L -> exists v, visits W L v.
 Proof.
   intros WW [Hs Hp]. cut (forall ms a, a < darts W ->
@@ -55,7 +59,7 @@ Proof.
       * intros [|i] q E; [injection E as <-; rewrite B; auto|apply D; auto].
 Qed.
 
-(** And the other way round. *)
+(** If each visit has a reference dart, the world shows the log. *)
 Lemma visits_replays M L v : visits M L v -> replays M L.
 Proof.
   intros V. split; [rewrite <- (v_0 M L v V); apply (v_seen M L v V); auto|].
@@ -67,27 +71,28 @@ Proof.
   rewrite (IH (fun i => v (S i))); auto.
 Qed.
 
-(** A place: a visit and an offset from its reference dart. *)
+(** A place: a visit, and an offset from its reference dart. *)
 Definition place := (nat * nat)%type.
 
-(** The visit is one of the log. *)
+(** The visit of p is one of the log. *)
 Definition valid L (p : place) := seen L (fst p) <> None.
 
-(** Edges that are assumed: pairs of places. *)
-Definition assumption := list (place * place).
+(** Edges that are assumed, each as the pair of its places. *)
+Definition assumed_edges := list (place * place).
 
 (** No edge is assumed. *)
-Definition nothing : assumption := [].
+Definition nothing : assumed_edges := [].
 
-(** The two darts of an edge that was crossed, or is assumed. *)
-Inductive link (A : assumption) L : place -> place -> Prop :=
+(** p and q are the two darts of an edge that was crossed or is assumed. *)
+Inductive link (A : assumed_edges) L : place -> place -> Prop :=
 | link_out i k : door L i = Some k -> link A L (i, k) (S i, 0)
 | link_back i k : door L i = Some k -> link A L (S i, 0) (i, k)
 | link_assumed p q : In (p, q) A -> valid L p -> valid L q -> link A L p q
 | link_assumed_back p q : In (p, q) A -> valid L p -> valid L q -> link A L q p.
 
-(** The forced identifications: turns; full turns; the marker; one dart has one partner. *)
-Inductive same (A : assumption) L : place -> place -> Prop :=
+(** The forced identifications: the least equivalence that is closed under turning, under full
+    turns, under the marker, and under partners of one dart. *)
+Inductive same (A : assumed_edges) L : place -> place -> Prop :=
 | same_refl p : same A L p p
 | same_sym p q : same A L p q -> same A L q p
 | same_trans p q r : same A L p q -> same A L q r -> same A L p r
@@ -96,22 +101,23 @@ Inductive same (A : assumption) L : place -> place -> Prop :=
 | same_mark i d j : seen L i = Some (d, Some j) -> same A L (i, j) (0, 0)
 | same_link p q p' q' : link A L p q -> link A L p' q' -> same A L p p' -> same A L q q'.
 
-(** Nothing is open: each place is an end of an edge that was crossed. *)
+(** The log is closed: each place is identified with an end of an edge that was crossed, so no
+    dart is open. *)
 Definition closed L :=
   forall p, valid L p -> exists q r, link nothing L q r /\ same nothing L p q.
 
-(** The dart that a place is in a world. *)
+(** The dart of the world at place p. *)
 Definition dart W v (p : place) := turn W (snd p) (v (fst p)).
 
 (** The assumed edges are edges of the world. *)
-Definition fits W v (A : assumption) :=
+Definition fits W v (A : assumed_edges) :=
   forall p q, In (p, q) A -> alpha W (dart W v p) = Some (dart W v q).
 
-(** An edge has two directions. *)
+(** [link] is symmetric. *)
 Lemma link_sym A L p q : link A L p q -> link A L q p.
 Proof. intros []; auto using link_out, link_back, link_assumed, link_assumed_back. Qed.
 
-(** Its ends are places of the log. *)
+(** The ends of a link are places of the log. *)
 Lemma link_valid A L p q : link A L p q -> valid L p.
 Proof.
   assert (H : forall i k, door L i = Some k -> seen L i <> None /\ seen L (S i) <> None).
@@ -121,7 +127,7 @@ Proof.
   intros [i k E|i k E|x y _ X _|x y _ _ Y]; auto; unfold valid; simpl; apply (H i k E).
 Qed.
 
-(** Offsets are modulo the degree. *)
+(** Offsets count modulo the degree. *)
 Lemma same_mod A L i k d m : seen L i = Some (d, m) -> same A L (i, k) (i, k mod d).
 Proof.
   intros H. destruct (Nat.eq_dec d 0) as [->|N]; [constructor|].
@@ -132,10 +138,11 @@ Proof.
     rewrite <- (Nat.add_0_r (d * q + k mod d)) at 2. apply same_turn, (same_full A L i d m H).
 Qed.
 
-(** No contradiction (section 11): a marker at the start, degrees above 0, doors that are there; in
-    one class one degree, the marker at all or none, no vertex turned against itself, no dart its
-    own partner. *)
-Record consistent (A : assumption) L : Prop := {
+(** The fold of L with A has no contradiction (section 11): the marker is at door 0 at the start;
+    degrees are positive; every door taken and every direction seen exists; identified visits
+    have one degree and see the marker all or none; no vertex is turned against itself; no dart
+    is its own partner. *)
+Record consistent (A : assumed_edges) L : Prop := {
   c_start : exists d, seen L 0 = Some (d, Some 0);
   c_percept : forall i d m, seen L i = Some (d, m) -> 0 < d /\ forall j, m = Some j -> j < d;
   c_door : forall i k d m, door L i = Some k -> seen L i = Some (d, m) -> k < d;
@@ -148,6 +155,6 @@ Record consistent (A : assumption) L : Prop := {
            a < d -> b < d -> a = b;
   c_edge : forall p q, link A L p q -> ~ same A L p q }.
 
-(** A world shows the log and has the assumed edges. *)
-Definition possible (A : assumption) L :=
+(** Some world shows the log and has the assumed edges. *)
+Definition possible (A : assumed_edges) L :=
   exists W v, world W /\ visits W L v /\ fits W v A.

@@ -1,13 +1,21 @@
-(** What the loops of a world cost every mapper (section 11: the least cost of a proof).
+(** What the loops of a world cost every mapper (docs/semantics.md, section 11: the least cost of a
+    proof).
 
-    The trips of a closed log, from one sight of the marker to the next, generate all closed ways of
-    the world. Read modulo 2: a cochain, that is a parity on every edge, which vanishes on each trip
-    is the difference of a parity on the vertices; and if it vanishes on a spanning tree, it is 0. A
-    trip of t moves crosses only edges uv with d(u) + 1 + d(v) <= t, d being the distance from v0. So
-    above any length there are as many trips as there are edges outside of a breadth-first tree with
-    a greater d(u) + 1 + d(v): else there were fewer equations than unknowns, and a cochain that
-    vanishes and is not 0. Hence the sum of d(u) + 1 + d(v) over these edges is at most the number
-    of moves; and of those alone that count, where some edges of the tree do not (Pendant.v). *)
+    L is a closed log, W a world that shows it, v i the reference dart of visit i, n the number of
+    moves; depth and up describe a breadth-first tree; d(u) is the distance of vertex u from v0. A
+    trip is the moves from one visit that saw the marker to the next.
+
+    The trips of a closed log generate all closed ways of the world. Modulo 2 this says: a cochain
+    (a parity on every edge) that vanishes on each trip is the difference of a parity on the
+    vertices; if it also vanishes on a spanning tree, it is 0.
+
+    A trip of t moves crosses only edges uv with d(u) + 1 + d(v) <= t. So for every t there are at
+    least as many trips longer than t as chords with d(u) + 1 + d(v) > t: otherwise there were fewer
+    equations than unknowns, and a nonzero cochain would vanish on all trips and on the tree.
+
+    Hence the sum of d(u) + 1 + d(v) over the chords is at most the number of moves. The section
+    variables [idle] and [seat] make this hold for the moves that are not idle alone: LeastCost.v
+    lets the edges of pendant trees be idle. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Vertices Log Determined Sound Parity
@@ -17,8 +25,8 @@ Section Loops.
 Variables (W : Map) (L : Log) (v depth up : nat -> nat).
 Hypotheses (HW : world W) (V : visits W L v) (C : closed L) (B : breadth_first W depth up).
 
-(** Edges that do not count, all of them in the tree; and a distance [seat] of vertices from v0 that
-    takes no account of them. *)
+(** idle: tree edges whose crossings do not count. seat: for every vertex, a bound from below on how
+    many edges that are not idle lead to it from v0; at the ends of a chord it is the depth. *)
 Variables (idle : nat -> bool) (seat : nat -> nat).
 Hypothesis Seat_root : seat (root W) = 0.
 Hypothesis Seat_sigma : forall b, b < darts W -> seat (sigma W b) = seat b.
@@ -39,7 +47,7 @@ Let weight_opposite := weight_opposite W depth HW.
 Let in_tree_opposite := in_tree_opposite W depth up HW.
 Notation edge := (edge W).
 
-(** Turning does not change the seat. *)
+(** All darts of a vertex have the same seat. *)
 Lemma seat_turn k b : b < darts W -> seat (turn W k b) = seat b.
 Proof.
   intros Hb. induction k as [|k IH]; simpl; auto. rewrite <- IH. apply Seat_sigma, turn_lt; auto.
@@ -50,7 +58,7 @@ Qed.
 (** The dart by which move i leaves. *)
 Definition out i := turn W (nth i (map fst (moves L)) 0) (v i).
 
-(** It is a dart, at the vertex of visit i, and visit i + 1 is at its opposite. *)
+(** It is a dart with the seat of visit i, and its opposite is the reference dart of visit i + 1. *)
 Lemma out_ok i : i < n -> door L i = Some (nth i (map fst (moves L)) 0) /\ out i < darts W /\
   seat (out i) = seat (v i) /\ opposite W (out i) = v (S i).
 Proof.
@@ -61,17 +69,17 @@ Proof.
   unfold opposite, out. rewrite D. auto.
 Qed.
 
-(** Is the marker at visit i? *)
+(** Does visit i see the marker? *)
 Definition marked i := match marker W (v i) with Some _ => true | None => false end.
 
-(** There the seat is 0. *)
+(** The seat of a visit that sees the marker is 0. *)
 Lemma marked_seat i : marked i = true -> seat (v i) = 0.
 Proof.
   unfold marked. destruct (marker W (v i)) as [j|] eqn:E; [|discriminate]. intros _.
   apply marker_some in E. rewrite <- (seat_turn j (v i)), E; auto.
 Qed.
 
-(** The start is marked. *)
+(** The first visit sees the marker. *)
 Lemma marked_start : marked 0 = true.
 Proof.
   unfold marked. rewrite (v_0 W L v V).
@@ -80,49 +88,52 @@ Proof.
 Qed.
 
 (** The last visit up to i that saw the marker. *)
-Fixpoint last i := match i with 0 => 0 | S j => if marked (S j) then S j else last j end.
+Fixpoint last_sight i := match i with 0 => 0 | S j => if marked (S j) then S j else last_sight j end.
 
-(** The trips up to visit i, from one sight of the marker to the next. *)
+(** The trips up to visit i, each as its first and last visit. *)
 Fixpoint trips i := match i with
   | 0 => []
-  | S j => if marked (S j) then (last j, S j) :: trips j else trips j end.
+  | S j => if marked (S j) then (last_sight j, S j) :: trips j else trips j end.
 
 (** The moves of a trip. *)
 Definition taken (t : nat * nat) := seq (fst t) (snd t - fst t).
 
-(** How many of these moves count. *)
+(** How many of the moves l are not idle. *)
 Definition counted l := length (filter (fun i => negb (idle (out i))) l).
 
-(** Of two lists, one after the other. *)
+(** Counting is additive over concatenation. *)
 Lemma counted_app l m : counted (l ++ m) = counted l + counted m.
 Proof. unfold counted. rewrite filter_app, app_length. auto. Qed.
 
-(** The last sight is one. *)
-Lemma last_ok i : last i <= i /\ marked (last i) = true.
+(** The last sight is a visit up to i that saw the marker. *)
+Lemma last_sight_ok i : last_sight i <= i /\ marked (last_sight i) = true.
 Proof.
   induction i as [|i [IH IH']]; simpl; [split; [lia|apply marked_start]|].
   destruct (marked (S i)) eqn:M; split; auto.
 Qed.
 
-(** The trips up to i have the moves up to the last sight. *)
-Lemma trips_total i : list_sum (map (fun t => counted (taken t)) (trips i)) = counted (seq 0 (last i)).
+(** The moves of the trips up to i are the moves up to the last sight; those that are not idle
+    are counted once. *)
+Lemma trips_total i : list_sum (map (fun t => counted (taken t)) (trips i)) =
+  counted (seq 0 (last_sight i)).
 Proof.
   induction i as [|i IH]; simpl; auto. destruct (marked (S i)); auto. simpl map. simpl list_sum.
-  rewrite IH. destruct (last_ok i) as [Le _]. unfold taken. cbn [fst snd].
-  replace (S i) with (last i + (S i - last i)) at 2 by lia. rewrite seq_app, counted_app.
+  rewrite IH. destruct (last_sight_ok i) as [Le _]. unfold taken. cbn [fst snd].
+  replace (S i) with (last_sight i + (S i - last_sight i)) at 2 by lia. rewrite seq_app, counted_app.
   rewrite Nat.add_0_l. lia.
 Qed.
 
-(** A trip begins and ends at the marker. *)
+(** A trip begins and ends at visits that saw the marker, and has a move. *)
 Lemma trips_ok i t : In t (trips i) ->
   marked (fst t) = true /\ marked (snd t) = true /\ fst t < snd t <= i.
 Proof.
-  induction i as [|i IH]; simpl; [intros []|]. intros I. destruct (last_ok i).
+  induction i as [|i IH]; simpl; [intros []|]. intros I. destruct (last_sight_ok i).
   destruct (marked (S i)) eqn:M; [destruct I as [<-|I]; [cbn [fst snd]; repeat split; auto; lia|]|].
   all: destruct (IH I) as (X & Y & Z); repeat split; auto; lia.
 Qed.
 
-(** Each move that counts changes the seat by 1 at most, either way; the others do not. *)
+(** Along k moves the seat changes by at most the number of those that are not idle, in either
+    direction. *)
 Lemma seat_along a k : a + k <= n ->
   seat (v (a + k)) <= seat (v a) + counted (seq a k) /\
   seat (v a) <= seat (v (a + k)) + counted (seq a k).
@@ -136,7 +147,8 @@ Proof.
   unfold counted at 2 4. simpl. destruct (idle (out (a + k))); simpl in *; lia.
 Qed.
 
-(** In a trip at least as many moves count as the weight of a chord that it crosses. *)
+(** If a trip crosses a chord, at least as many of its moves as the weight of the chord are not
+    idle. *)
 Lemma trip_weight t i : In t (trips n) -> In i (taken t) -> in_tree W depth up (out i) = false ->
   idle (out i) = false -> weight W depth (out i) <= counted (taken t).
 Proof.
@@ -155,7 +167,7 @@ Proof.
   unfold counted at 2. simpl filter. rewrite K. simpl. lia.
 Qed.
 
-(* ---------------------------------------------------------------- a cochain that vanishes *)
+(* ---------------------------------------------------------------- cochains that vanish on trips *)
 
 Section Cochain.
 Variable c : nat -> bool.
@@ -163,27 +175,27 @@ Hypothesis Sym : forall b, b < darts W -> c (opposite W b) = c b.
 Hypothesis Vanishes : forall t, In t (trips n) -> parity (fun i => c (out i)) (taken t) = false.
 Hypothesis Tree : forall b, b < darts W -> in_tree W depth up b = true -> c b = false.
 
-(** Its sum over the moves before visit i. *)
+(** The label of visit i: the sum of the cochain c over the moves before it. *)
 Definition label i := parity (fun i => c (out i)) (seq 0 i).
 
-(** It is 0 wherever the marker was seen. *)
+(** The label of every visit that saw the marker is 0. *)
 Lemma label_marked i : i <= n -> marked i = true -> label i = false.
 Proof.
-  enough (H : forall i, i <= n -> label (last i) = false).
+  enough (H : forall i, i <= n -> label (last_sight i) = false).
   { intros Hi M. specialize (H i Hi). destruct i; [auto|]. simpl in H. rewrite M in H. auto. }
   clear i. intros i. induction i as [|i IH]; intros Hi; [auto|]. simpl.
   destruct (marked (S i)) eqn:M; [|apply IH; lia].
-  assert (T : In (last i, S i) (trips n)).
+  assert (T : In (last_sight i, S i) (trips n)).
   { clear - Hi M. generalize dependent n. intros m Hi. induction Hi as [|m Hi IH]; simpl.
     - rewrite M. left; auto.
     - destruct (marked (S m)); [right|]; auto. }
   apply Vanishes in T. unfold taken in T. cbn [fst snd] in T.
-  destruct (last_ok i) as [Le _]. specialize (IH ltac:(lia)). unfold label in *.
-  replace (S i) with (last i + (S i - last i)) at 1 by lia.
+  destruct (last_sight_ok i) as [Le _]. specialize (IH ltac:(lia)). unfold label in *.
+  replace (S i) with (last_sight i + (S i - last_sight i)) at 1 by lia.
   rewrite seq_app, parity_app, IH, xorb_false_l. exact T.
 Qed.
 
-(** Crossing an edge adds its value. *)
+(** The labels of linked places differ by the value of c on their edge. *)
 Lemma label_link p q : link nothing L p q -> label (fst q) = xorb (label (fst p)) (c (dart W v p)).
 Proof.
   assert (H : forall i k, door L i = Some k -> i < n /\ turn W k (v i) = out i).
@@ -198,7 +210,7 @@ Proof.
     destruct (label i), (c (out i)); auto.
 Qed.
 
-(** Places that are one dart have one label. *)
+(** Identified places have the same label. *)
 Lemma label_same p q : same nothing L p q -> label (fst p) = label (fst q).
 Proof.
   induction 1 as [p|p q _ IH|p q r _ IH _ IH'|k i a j b _ IH|i d m E|i d j E
@@ -212,24 +224,24 @@ Proof.
     congruence.
 Qed.
 
-(** The label of a dart's vertex. *)
+(** x is the label of a visit at whose vertex b is a dart. *)
 Definition potential b x := exists p, valid L p /\ dart W v p = b /\ label (fst p) = x.
 
-(** A dart has one. *)
+(** A dart has at most one label. *)
 Lemma potential_one b x y : potential b x -> potential b y -> x = y.
 Proof.
   intros (p & P & E & <-) (q & Q & F & <-). apply label_same.
   apply (same_complete W L v HW V C p q); auto. congruence.
 Qed.
 
-(** Turning keeps it. *)
+(** All darts of a vertex have the same label. *)
 Lemma potential_turn k b x : potential b x -> potential (turn W k b) x.
 Proof.
   intros ((i, j) & P & <- & E). exists (i, k + j). repeat split; auto.
   unfold dart. simpl. apply turn_add.
 Qed.
 
-(** Crossing an edge adds its value. *)
+(** The labels of the two ends of an edge differ by the value of c on it. *)
 Lemma potential_opposite b x : b < darts W -> potential b x -> potential (opposite W b) (xorb x (c b)).
 Proof.
   intros Hb (p & P & <- & <-). destruct (C p P) as (q & r & K & S). exists r.
@@ -239,7 +251,7 @@ Proof.
   - apply label_same in S. rewrite S. apply label_link. auto.
 Qed.
 
-(** Up the tree it stays 0. *)
+(** By induction on the depth: the label of every vertex is 0, since c vanishes on the tree. *)
 Lemma potential_false d : forall b, b < darts W -> depth b = d -> potential b false.
 Proof.
   assert (R : potential (root W) false).
@@ -260,7 +272,7 @@ Proof.
     apply potential_turn. auto.
 Qed.
 
-(** So it is 0 on all edges. *)
+(** A cochain that vanishes on every trip and on the tree vanishes on all edges. *)
 Lemma cochain_zero b : b < darts W -> c b = false.
 Proof.
   intros Hb. destruct (opposite_ok b Hb) as (Ho & _).
@@ -273,11 +285,12 @@ End Cochain.
 
 (* ---------------------------------------------------------------- the bound *)
 
-(** How many are above t, of the values of a function. *)
+(** How many values of f are greater than t. *)
 Lemma above_map {X} (f : X -> nat) t l : above t (map f l) = length (filter (fun x => t <? f x) l).
 Proof. unfold above. induction l as [|x l IH]; simpl; auto. destruct (t <? f x); simpl; auto. Qed.
 
-(** Above any length there are as many trips as chords. *)
+(** For every t, at least as many trips have more than t moves that are not idle as chords have a
+    weight greater than t. *)
 Lemma trips_above t : above t (map (weight W depth) (chords W depth up)) <=
   above t (map (fun t => counted (taken t)) (trips n)).
 Proof.
@@ -314,15 +327,17 @@ Proof.
   - intros b Hb T. destruct (z (edge b)) eqn:Zb; auto. destruct (Same b Hb Zb). congruence.
 Qed.
 
-(** The loops of a breadth-first tree together have no more edges than there are moves that count,
-    and what remains after the last sight of the marker leads at least as far as its end is. *)
+(** The weights of the chords, plus the seat of the last visit, are at most the number of moves
+    that are not idle. The last moves, after the last sight of the marker, lead from v0 to that
+    seat. *)
 Theorem loops_cost :
   list_sum (map (weight W depth) (chords W depth up)) + seat (v n) <= counted (seq 0 n).
 Proof.
-  destruct (last_ok n) as [Le M]. apply marked_seat in M.
-  destruct (seat_along (last n) (n - last n)) as [F _]; [lia|].
-  replace (last n + (n - last n)) with n in F by lia.
+  destruct (last_sight_ok n) as [Le M]. apply marked_seat in M.
+  destruct (seat_along (last_sight n) (n - last_sight n)) as [F _]; [lia|].
+  replace (last_sight n + (n - last_sight n)) with n in F by lia.
   assert (H := sum_by_level _ _ trips_above). rewrite trips_total in H.
-  replace n with (last n + (n - last n)) at 2 by lia. rewrite seq_app, counted_app, Nat.add_0_l. lia.
+  replace n with (last_sight n + (n - last_sight n)) at 2 by lia.
+  rewrite seq_app, counted_app, Nat.add_0_l. lia.
 Qed.
 End Loops.

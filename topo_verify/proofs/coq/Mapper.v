@@ -1,7 +1,14 @@
-(** A mapper that runs: the loop of docs/semantics.md, section 4, with retracing.
+(** An executable mapper: the loop of docs/semantics.md, section 4, with retracing (sections 5 to
+    7).
 
-    It is a function of [see] and [go] alone, so it cannot look at the world. Policies are
-    parameters: which dart next, which way, in which order, what the rule rejects. *)
+    The mapper is a function of [see] and [go] alone, so it cannot look at the world. The policies
+    are parameters: which dart is explored next, by which way, in which order hypotheses are tested,
+    and which of them the rule rejects.
+
+    M     the map S                      St    the states of the robot's surroundings
+    e     the dart being explored        v     the robot: a state, and how far it has turned
+    pu    the percept behind e           H     the hypotheses
+    h     a hypothesis                   k, w  a door, doors *)
 From Coq Require Import Arith Lia List Bool Permutation.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Vertices Augment.
@@ -9,15 +16,15 @@ From Topo Require Import World Rotation Embedding Vertices Augment.
 Section Mapper.
 Variables (St : Type) (see : St -> Percept) (go : St -> nat -> option St).
 
-(** Policies: which dart next, how to get there, in which order to test, what to reject. *)
+(** The policies: the dart explored next, the way to a dart, the order of the tests, what to keep. *)
 Variables (pick : Map -> nat -> option nat) (path : Map -> nat -> nat -> list nat * nat)
           (order : Map -> list nat -> list nat)
           (keep : Map -> list (list nat * list Percept) -> nat -> bool).
 
-(** The robot and how far it has turned away from its reference dart. *)
+(** The robot: its state, and how far it has turned away from its reference dart. *)
 Definition robot : Type := St * nat.
 
-(** Leave by door k, counted from where the robot is turned to. *)
+(** Leave by door k, counted from the direction in which the robot faces. *)
 Definition go_on (v : robot) k : option robot :=
   match go (fst v) ((snd v + k) mod fst (see (fst v))) with
   | Some s => Some (s, 0) | None => None end.
@@ -27,14 +34,16 @@ Definition go_back (v : robot) k : option robot :=
   match go (fst v) (snd v) with
   | Some s => Some (s, (fst (see s) - k) mod fst (see s)) | None => None end.
 
-(** Take these doors. *)
+(** Take the doors w one after the other. *)
 Fixpoint execute (v : robot) w : option robot :=
   match w with
   | [] => Some v
   | k :: w => match go_on v k with Some v => execute v w | None => None end
   end.
 
-(** Validation by motion: is this dart x? Execute w; at the first mismatch retrace. *)
+(** Validation by motion of the hypothesis that the robot is at dart x: execute w; at the first
+    percept that differs from the map's, retrace. Returns whether all percepts agreed, the
+    percepts, and the robot. *)
 Fixpoint follow M x w (v : robot) : option (bool * list Percept * robot) :=
   match w with
   | [] => Some (true, [], v)
@@ -53,7 +62,8 @@ Fixpoint follow M x w (v : robot) : option (bool * list Percept * robot) :=
     end
   end.
 
-(** Test hypotheses in their order until one is confirmed; the rule sees what was executed. *)
+(** Test the hypotheses H in their order until one is confirmed. The rule is told the doors
+    executed so far behind this edge, with their percepts (log). *)
 Fixpoint test_all M pu log v H : option (option nat * robot) :=
   match H with
   | [] => Some (None, v)
@@ -70,23 +80,24 @@ Fixpoint test_all M pu log v H : option (option nat * robot) :=
     else test_all M pu log v H
   end.
 
-(** Equal degrees, and the marker at both or neither. *)
+(** Do two percepts have the same signature: equal degrees, and the marker at both or at neither? *)
 Definition same_signature (p q : Percept) :=
   (fst p =? fst q) &&
   match snd p, snd q with Some _, Some _ => true | None, None => true | _, _ => false end.
 
-(** A percept has its own signature. *)
+(** Every percept has the same signature as itself. *)
 Lemma same_signature_refl p : same_signature p p = true.
 Proof. unfold same_signature. rewrite Nat.eqb_refl. destruct (snd p); auto. Qed.
 
-(** H: the open darts, except e, with the signature of what is seen. *)
+(** H: the open darts other than e whose vertices have the signature of the percept pu. *)
 Definition hypotheses M e pu := order M (filter (fun h => negb (h =? e) && negb (explored M h)
   && same_signature (percept M h) pu) (seq 0 (darts M))).
 
-(** The map, the dart of it that the robot is at, the robot. *)
+(** The state of an exploration: the map, the dart of it where the robot is, the robot. *)
 Definition state : Type := Map * nat * robot.
 
-(** Explore dart e: walk to it, cross it, validate, augment. *)
+(** Explore dart e: walk to it, cross it, validate, augment. None means that the robot could not
+    make a move that the map predicts. *)
 Definition round (st : state) e : option state :=
   let '(M, p, v) := st in
   let '(w, k) := path M p e in
@@ -101,7 +112,8 @@ Definition round (st : state) e : option state :=
     end
   end.
 
-(** Round after round, until nothing is open. *)
+(** Explore one dart after the other until none is open. None means that the fuel, a bound on the
+    number of rounds, was used up, or that a round failed. *)
 Fixpoint explore fuel (st : state) : option state :=
   let '(M, p, v) := st in
   match pick M p with
@@ -112,34 +124,34 @@ Fixpoint explore fuel (st : state) : option state :=
               end
   end.
 
-(** At the start the robot knows v0. *)
-Definition start s : state := (initial (fst (see s)), 0, (s, 0)).
+(** The state at the start: the map is v0, and the robot is at its first dart. *)
+Definition initial_state s : state := (initial (fst (see s)), 0, (s, 0)).
 End Mapper.
 Arguments round : simpl never.
 
-(** What the policies must satisfy. *)
+(** The contract of a pick policy: it returns an open dart, or None if no dart is open. *)
 Definition good_pick (pick : Map -> nat -> option nat) := forall M p,
   match pick M p with
   | Some e => e < darts M /\ alpha M e = None
   | None => forall d, d < darts M -> alpha M d <> None
   end.
 
-(** The ways lead where they should. *)
+(** The contract of a path policy: its doors and its last turn lead from p to e. *)
 Definition good_path (path : Map -> nat -> nat -> list nat * nat) :=
   forall M p e, is_map M -> connected M -> p < darts M -> e < darts M ->
   exists q, walk M p (fst (path M p e)) = Some q /\
             snd (path M p e) < degree M q /\ turn M (snd (path M p e)) q = e.
 
-(** Ways are shorter than there are vertices. *)
+(** The second contract of a path policy: its ways have fewer doors than the map has vertices. *)
 Definition short_path (path : Map -> nat -> nat -> list nat * nat) :=
   forall M p e, is_map M -> connected M -> p < darts M -> e < darts M ->
   length (fst (path M p e)) < vertices M.
 
-(** The order is one of the hypotheses: none lost, none twice. *)
+(** The contract of an order policy: it permutes the hypotheses. *)
 Definition good_order (order : Map -> list nat -> list nat) :=
   forall M l, Permutation (order M l) l.
 
-(** Claim 3, for a rule: it keeps the true hypothesis. *)
+(** The contract of a rule (claim 3): it keeps the true hypothesis. *)
 Definition good_keep (keep : Map -> list (list nat * list Percept) -> nat -> bool) :=
   forall M W phi a log h, is_map M -> is_map W -> embedded M W phi -> h < darts M ->
   (forall w ps, In (w, ps) log -> percepts W a w = Some ps) -> phi h = a -> keep M log h = true.

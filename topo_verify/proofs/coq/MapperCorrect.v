@@ -1,4 +1,12 @@
-(** The mapper is right in every world, whatever its (good) policies (claim 5). *)
+(** The mapper of Mapper.v ends with the world, whatever its policies (claim 5).
+
+    W is the world, M the map, phi their correspondence; v is the robot; e is the dart being
+    explored, a the dart of the world behind it, H the hypotheses. The policies fulfil the contracts
+    of Mapper.v, and nothing else is known of them.
+
+    The proof is the invariant [invariant]: [initial_invariant] says that it holds at the start,
+    [round_spec] that a round keeps it, [explore_invariant] that it holds at the end and implies
+    the claim. *)
 From Coq Require Import Arith Lia List Bool Permutation.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Mapper.
@@ -21,17 +29,17 @@ Notation test_all := (test_all nat (percept W) (move W) path keep).
 Notation round := (round nat (percept W) (move W) path order keep).
 Notation explore := (explore nat (percept W) (move W) pick path order keep).
 
-(** The dart that the robot is turned to. *)
+(** The dart of the world that the robot faces. *)
 Definition current (v : nat * nat) := turn W (snd v) (fst v).
 
-(** The robot stands at a dart and is turned by less than the degree. *)
+(** The robot is at a dart of the world and has turned by less than the degree. *)
 Definition ok (v : nat * nat) := fst v < darts W /\ snd v < degree W (fst v).
 
-(** So it is turned to a dart. *)
-Lemma ok_cur v : ok v -> current v < darts W.
+(** The robot faces a dart of the world. *)
+Lemma ok_current v : ok v -> current v < darts W.
 Proof. intros [A _]. apply turn_lt; auto. Qed.
 
-(** Going on is a move in the world. *)
+(** [go_on] makes the move of the world from the dart that the robot faces. *)
 Lemma go_on_spec v k : ok v -> k < degree W (current v) -> exists s,
   go_on v k = Some (s, 0) /\ ok (s, 0) /\ move W (current v) k = Some s.
 Proof.
@@ -46,7 +54,7 @@ Proof.
   repeat split; auto. apply degree_spec; auto.
 Qed.
 
-(** Going back undoes a move. *)
+(** [go_back] undoes a move: afterwards the robot faces the dart from which it left. *)
 Lemma go_back_spec v a k : ok v -> a < darts W -> move W a k = Some (current v) ->
   exists v', go_back v k = Some v' /\ ok v' /\ current v' = a.
 Proof.
@@ -62,8 +70,8 @@ Proof.
     replace (degree W a - k + k) with (degree W a) by lia. apply degree_spec; auto.
 Qed.
 
-(** Taking doors is a walk. *)
-Lemma exec_spec w k : forall v b, ok v -> walk W (current v) (w ++ [k]) = Some b ->
+(** [execute] makes the walk of the world. *)
+Lemma execute_spec w k : forall v b, ok v -> walk W (current v) (w ++ [k]) = Some b ->
   execute v (w ++ [k]) = Some (b, 0) /\ ok (b, 0).
 Proof.
   induction w as [|j w IH]; simpl; intros v b Hv Hw.
@@ -75,7 +83,9 @@ Proof.
     apply IH; auto. unfold current. simpl. congruence.
 Qed.
 
-(** What a validation by motion tells. *)
+(** Validation by motion returns the percepts of the world along w. If all agree with the map,
+    the robot is at the end of w; else it is back where it began, and the hypothesis is false for
+    every correspondence. *)
 Lemma follow_spec M (WM : is_map M) w : forall x v r, ok v -> x < darts M ->
   percept M x = percept W (current v) -> walk M x w = Some r ->
   exists b qs v', follow M x w v = Some (b, qs, v') /\ ok v' /\
@@ -91,7 +101,7 @@ Proof.
     assert (Hy : y < darts M) by (eapply move_lt; eauto).
     assert (Back : forall v', ok v' -> current v' = s ->
       exists v2, go_back v' k = Some v2 /\ ok v2 /\ current v2 = current v).
-    { intros v' Hv' <-. apply go_back_spec; auto using ok_cur. }
+    { intros v' Hv' <-. apply go_back_spec; auto using ok_current. }
     destruct (percept_eqb_spec (percept M y) (percept W s)) as [Eq|Ne].
     + destruct (IH y (s, 0) r Hs Hy Eq Hw) as (b & qs & v' & -> & Hv' & Hq & Hb).
       change (current (s, 0)) with s in *. destruct b.
@@ -105,8 +115,9 @@ Proof.
       rewrite <- (percept_agree M W phi) by auto. congruence.
 Qed.
 
-(** Testing finds the true hypothesis, or shows that none is true. *)
-Lemma try_spec M phi a (WM : is_map M) (CM : connected M) (E : embedded M W phi) : forall H log v,
+(** Testing returns the true hypothesis, and the robot is where the map says; or it returns None,
+    and no hypothesis is true. *)
+Lemma test_all_spec M phi a (WM : is_map M) (CM : connected M) (E : embedded M W phi) : forall H log v,
   ok v -> current v = a -> (forall h, In h H -> h < darts M) ->
   (forall w ps, In (w, ps) log -> percepts W a w = Some ps) ->
   exists o v', test_all M (percept W a) log v H = Some (o, v') /\ ok v' /\
@@ -143,28 +154,29 @@ Proof.
     destruct (marker_of M r _ Hk Er) as [j Hj].
     assert (Eh : current v = phi h).
     { apply (confirm M W phi WM WW E (current v) h (fst (path M h (root M))) (current v') r j);
-        auto using ok_cur. injection Hp as _ Hp. congruence. }
+        auto using ok_current. injection Hp as _ Hp. congruence. }
     repeat split; auto; try apply Hv'; [congruence|]. exists r. split; auto.
     apply (forward_walk M W phi) in Hr; auto. rewrite <- Eh, Hw in Hr. congruence.
   - destruct Hb as [Hc Hn]. apply Skip; auto; [rewrite <- Ha; auto|congruence|].
     intros w ps [Eq|Hin]; auto. injection Eq as <- <-. congruence.
 Qed.
 
-(** What is always so: S is a connected map, embedded, and the robot is where it believes. *)
-Definition inv (st : Map * nat * (nat * nat)) := let '(M, p, v) := st in
+(** The invariant of exploration: the map is well formed, connected and embedded in the world,
+    and the robot faces the dart of the world that corresponds to the map's dart p. *)
+Definition invariant (st : Map * nat * (nat * nat)) := let '(M, p, v) := st in
   is_map M /\ connected M /\ ok v /\ p < darts M /\ exists phi, embedded M W phi /\ current v = phi p.
 
-(** It is so at the start. *)
-Lemma start_inv : inv (start nat (percept W) (root W)).
+(** The invariant holds at the start. *)
+Lemma initial_invariant : invariant (initial_state nat (percept W) (root W)).
 Proof.
   assert (R := root_lt W WW). destruct (degree_spec W WW _ R) as (A & B & C).
   refine (conj (is_map_initial _ A) (conj (connected_initial _ A) (conj (conj R A) (conj A _)))).
   exists (fun x => turn W x (root W)). split; [apply embedded_initial|]; auto.
 Qed.
 
-(** One round keeps everything true and explores two more darts. *)
-Lemma round_spec M p v e : inv (M, p, v) -> e < darts M -> alpha M e = None ->
-  exists M' p' v', round (M, p, v) e = Some (M', p', v') /\ inv (M', p', v') /\
+(** A round keeps the invariant and explores two more darts. *)
+Lemma round_spec M p v e : invariant (M, p, v) -> e < darts M -> alpha M e = None ->
+  exists M' p' v', round (M, p, v) e = Some (M', p', v') /\ invariant (M', p', v') /\
     known M' = 2 + known M.
 Proof.
   intros (WM & CM & Hv & Hp & phi & E & Hcur) He Oe. unfold Mapper.round.
@@ -178,7 +190,7 @@ Proof.
   { rewrite Hcur, walk_app, (forward_walk M W phi WM WW E w p q) by auto. simpl.
     unfold move. rewrite (embedded_degree M W phi) by auto.
     rewrite (proj2 (Nat.ltb_lt _ _) Hk), <- (embedded_turn M W phi), Eq, Ha by auto. auto. }
-  destruct (exec_spec w k v a Hv Hwk) as [-> Ok]. simpl fst.
+  destruct (execute_spec w k v a Hv Hwk) as [-> Ok]. simpl fst.
   set (H := hypotheses order M e (percept W a)).
   assert (HH : forall h, In h H <-> h < darts M /\ h <> e /\ alpha M h = None /\
                           same_signature (percept M h) (percept W a) = true).
@@ -186,7 +198,7 @@ Proof.
       (Permutation_in h (Permutation_sym (Gorder M l)))).
     unfold H, hypotheses. rewrite (P _ : In h (order M _) <-> In h _), filter_In, in_seq, !andb_true_iff.
     unfold explored. destruct (alpha M h), (Nat.eqb_spec h e); simpl; intuition (try lia; congruence). }
-  destruct (try_spec M phi a WM CM E H [] (a, 0) Ok eq_refl) as ([h|] & v' & -> & Hv' & Ho).
+  destruct (test_all_spec M phi a WM CM E H [] (a, 0) Ok eq_refl) as ([h|] & v' & -> & Hv' & Ho).
   { intros h Hh. apply HH, Hh. }
   { simpl. tauto. }
   - destruct Ho as (Hin & Eh & r & Hr & Er). rewrite Hr.
@@ -209,11 +221,12 @@ Proof.
     + apply new_two_more; auto.
 Qed.
 
-(** It is so to the end, which comes. *)
-Lemma explore_inv fuel : forall M p v, inv (M, p, v) -> darts W <= 2 * fuel + known M ->
+(** From every state with the invariant, and with fuel for the edges left, exploration ends with
+    a map isomorphic to the world. *)
+Lemma explore_invariant fuel : forall M p v, invariant (M, p, v) -> darts W <= 2 * fuel + known M ->
   exists st, explore fuel (M, p, v) = Some st /\ isomorphic (fst (fst st)) W.
 Proof.
-  assert (Size : forall M p v, inv (M, p, v) -> darts M <= darts W).
+  assert (Size : forall M p v, invariant (M, p, v) -> darts M <= darts W).
   { intros M p v (_ & _ & _ & _ & phi & E & _). apply (pigeon phi); apply E. }
   induction fuel as [|fuel IH]; simpl; intros M p v I Hf;
     assert (G := Gpick M p); destruct (pick M p) as [e|].
@@ -229,11 +242,12 @@ Proof.
     apply (closed_isomorphic M W phi); auto. apply world_connected; auto.
 Qed.
 
-(** Claim 5: for every world of any size, and whatever the (good) policies, exploration ends
-    after at most as many rounds as there are edges, with a map isomorphic to the world. *)
+(** Claim 5: in every world, and for all policies that fulfil their contracts, exploration ends
+    after at most as many rounds as the world has edges, with a map isomorphic to the world. *)
 Theorem explore_correct fuel : darts W <= 2 * fuel -> exists st,
-  explore fuel (start nat (percept W) (root W)) = Some st /\ isomorphic (fst (fst st)) W.
+  explore fuel (initial_state nat (percept W) (root W)) = Some st /\ isomorphic (fst (fst st)) W.
 Proof.
-  intros Hf. assert (I := start_inv). unfold start in *. eapply explore_inv; eauto. lia.
+  intros Hf. assert (I := initial_invariant). unfold initial_state in *.
+  eapply explore_invariant; eauto. lia.
 Qed.
 End Correct.

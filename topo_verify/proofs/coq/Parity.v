@@ -1,29 +1,30 @@
-(** Parities: sums in which 1 + 1 = 0, and equations between them.
+(** Parities (sums modulo 2), linear equations modulo 2, and a comparison of two sums level by
+    level.
 
-    Fewer equations than unknowns have a solution that is not zero. And a way to compare two sums of
-    numbers: level by level. *)
+    f, g are predicates, l, m lists; a row r is an equation, a variable e an unknown, z a
+    solution; t is a level. LeastCost.v and Loops.v use these lemmas. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 
-(** The parity of how many elements have the property. *)
+(** The parity of the number of elements that satisfy f. *)
 Definition parity {X} (f : X -> bool) l := fold_right (fun x b => xorb (f x) b) false l.
 
-(** Of two lists, one after the other. *)
+(** The parity of a concatenation is the sum of the parities. *)
 Lemma parity_app {X} (f : X -> bool) l m : parity f (l ++ m) = xorb (parity f l) (parity f m).
 Proof.
   induction l as [|x l IH]; simpl; [symmetry; apply xorb_false_l|]. rewrite IH. symmetry.
   apply xorb_assoc.
 Qed.
 
-(** Only what holds of the elements counts. *)
+(** The parity depends only on the values of f on the elements. *)
 Lemma parity_ext {X} (f g : X -> bool) l : (forall x, In x l -> f x = g x) -> parity f l = parity g l.
 Proof. induction l as [|x l IH]; simpl; intros H; auto. rewrite H, IH; auto. Qed.
 
-(** Of nothing. *)
+(** If no element satisfies f, the parity is 0. *)
 Lemma parity_none {X} (f : X -> bool) l : (forall x, In x l -> f x = false) -> parity f l = false.
 Proof. induction l as [|x l IH]; simpl; intros H; auto. rewrite H, IH; auto. Qed.
 
-(** Of a sum. *)
+(** The parity of a sum of predicates is the sum of their parities. *)
 Lemma parity_xor {X} (f g : X -> bool) l :
   parity (fun x => xorb (f x) (g x)) l = xorb (parity f l) (parity g l).
 Proof.
@@ -31,11 +32,11 @@ Proof.
   destruct (f x), (g x), (parity f l), (parity g l); auto.
 Qed.
 
-(** Of a multiple. *)
+(** A constant factor can be moved out of the parity. *)
 Lemma parity_and {X} b (f : X -> bool) l : parity (fun x => b && f x) l = b && parity f l.
 Proof. destruct b; simpl; auto. apply parity_none; auto. Qed.
 
-(** Rows and columns. *)
+(** A double sum can be computed by rows or by columns. *)
 Lemma parity_swap {X Y} (f : X -> Y -> bool) l m :
   parity (fun x => parity (f x) m) l = parity (fun y => parity (fun x => f x y) l) m.
 Proof.
@@ -43,7 +44,7 @@ Proof.
   rewrite IH, <- parity_xor. auto.
 Qed.
 
-(** One element picked out. *)
+(** The sum of z over the elements that equal e is z e. *)
 Lemma parity_pick (z : nat -> bool) l e : NoDup l -> (z e = true -> In e l) ->
   parity (fun x => z x && (x =? e)) l = z e.
 Proof.
@@ -55,7 +56,7 @@ Proof.
     + rewrite andb_false_r, xorb_false_l. apply IH. intros E. destruct (H E); [destruct D|]; auto.
 Qed.
 
-(** Fewer equations than unknowns: values, not all 0, that fulfil them all. *)
+(** A homogeneous system modulo 2 with fewer equations than unknowns has a nonzero solution. *)
 Lemma solution k : forall rows (vars : list nat), length rows = k -> k < length vars -> NoDup vars ->
   exists z : nat -> bool, (exists e, In e vars /\ z e = true) /\
     (forall e, z e = true -> In e vars) /\
@@ -105,17 +106,17 @@ Proof.
       rewrite (find_none _ _ F x I). apply andb_false_r.
 Qed.
 
-(** So many elements are above t. *)
+(** How many elements are greater than t. *)
 Definition above t l := length (filter (fun x => t <? x) l).
 
-(** A sum is how many are above 0, and the sum of what is left of them. *)
+(** A sum of numbers is the number of positive ones plus the sum of the predecessors. *)
 Lemma sum_pred l : list_sum l = above 0 l + list_sum (map pred l).
 Proof.
   unfold above. induction l as [|x l IH]; simpl; auto.
   rewrite IH. destruct x; simpl; lia.
 Qed.
 
-(** What is left is one lower. *)
+(** As many predecessors are greater than t as elements are greater than t + 1. *)
 Lemma above_pred t l : above t (map pred l) = above (S t) l.
 Proof.
   unfold above. induction l as [|x l IH]; simpl; auto.
@@ -124,7 +125,8 @@ Proof.
   rewrite E. destruct (S t <? x); simpl; rewrite IH; auto.
 Qed.
 
-(** A list that has no more elements than another above any level has no greater sum. *)
+(** If, for every t, a has at most as many elements greater than t as b, the sum of a is at most
+    the sum of b. *)
 Lemma sum_by_level a b : (forall t, above t a <= above t b) -> list_sum a <= list_sum b.
 Proof.
   enough (H : forall T a b, (forall x, In x a -> x <= T) -> (forall t, above t a <= above t b) ->

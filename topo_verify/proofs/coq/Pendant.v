@@ -1,33 +1,38 @@
-(** Pendant trees: what hangs on a breadth-first tree and leads to no loop (section 11).
+(** Pendant trees: the parts of a breadth-first tree that hang on it and lead to no chord
+    (docs/semantics.md, section 11).
 
-    SCEPTICS READ [climb], [below], [pendant], [height] and [stalks]. *)
+    W is a world; b, c, x are darts, each standing for its vertex; depth and up describe a
+    breadth-first tree (Distance.v); q is a stalk, the dart by which an edge of a pendant tree
+    leads to the parent. SCEPTICS READ [parent], [climb], [below], [pendant], [hanging], [height]
+    and [stalks]. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Vertices Distance Tree.
 
-(** The dart by which one comes from a dart's vertex to the vertex nearer to the root's. *)
+(** The dart by which one arrives at the parent of the vertex of b. *)
 Definition parent W (up : nat -> nat) b := opposite W (up b).
 
-(** So many vertices nearer. *)
+(** The j-th ancestor of b in the tree. *)
 Fixpoint climb W up j b := match j with 0 => b | S j => climb W up j (parent W up b) end.
 
-(** Does the way from x to the root's vertex lead through the vertex of b? *)
+(** Is the vertex of b on the tree path from x to v0? Then x is below b. *)
 Definition below W (depth up : nat -> nat) b x :=
   (depth b <=? depth x) && at_vertex W b (climb W up (depth x - depth b) x).
 
-(** Is the vertex of b in a pendant tree: not the root's, and no end of a chord below it? *)
+(** Is the vertex of b in a pendant tree: not v0, and no end of a chord is below it? *)
 Definition pendant W depth up b := (0 <? depth b) &&
   negb (existsb (fun x => negb (in_tree W depth up x) && below W depth up b x) (seq 0 (darts W))).
 
-(** How many vertices of pendant trees are on the way, of at most n that are looked at. *)
+(** How many vertices of pendant trees are on the tree path from b to v0, among the first n. *)
 Fixpoint hanging W depth up n b := match n with
   | 0 => 0
   | S n => if pendant W depth up b then S (hanging W depth up n (parent W up b)) else 0 end.
 
-(** How high a dart's vertex is above where its pendant tree is attached; 0 if it is in none. *)
+(** How many edges the vertex of b is away from where its pendant tree is attached; 0 if it is in
+    no pendant tree. *)
 Definition height W depth up b := hanging W depth up (depth b) b.
 
-(** The edges of the pendant trees, each by its dart that leads nearer. *)
+(** The edges of the pendant trees, each given by its dart that leads to the parent. *)
 Definition stalks W depth up :=
   filter (fun q => pendant W depth up q && (up q =? q)) (seq 0 (darts W)).
 
@@ -46,7 +51,7 @@ Notation height := (height W depth up).
 Notation in_tree := (in_tree W depth up).
 Notation nearer := (nearer depth up).
 
-(** The parent is one nearer. *)
+(** The depth of the parent is one less, and up is a dart of the vertex. *)
 Lemma parent_ok b : b < darts W -> 0 < depth b ->
   up b < darts W /\ parent b < darts W /\ S (depth (parent b)) = depth b /\
   depth (up b) = depth b /\ up (up b) = up b.
@@ -57,15 +62,15 @@ Proof.
   destruct (depth_turn k b Hb) as [X Y]. rewrite <- U in X, Y. auto.
 Qed.
 
-(** Darts of one vertex have one parent. *)
+(** All darts of a vertex have the same parent. *)
 Lemma parent_turn k b : b < darts W -> parent (turn W k b) = parent b.
 Proof. intros Hb. unfold Pendant.parent. destruct (depth_turn k b Hb) as [_ ->]. auto. Qed.
 
-(** Climbing ends with a step as it begins with one. *)
+(** The parent of the j-th ancestor is the ancestor j + 1. *)
 Lemma climb_S j : forall b, climb (S j) b = parent (climb j b).
 Proof. induction j as [|j IH]; intros b; auto. simpl in *. rewrite <- IH. auto. Qed.
 
-(** Turning does not change what is below. *)
+(** All darts of a vertex are below the same vertices. *)
 Lemma below_turn k b x : b < darts W -> x < darts W -> below b (turn W k x) = below b x.
 Proof.
   intros Hb Hx. unfold Pendant.below. destruct (depth_turn k x Hx) as [-> _].
@@ -76,7 +81,7 @@ Proof.
   - exists (k + j). rewrite turn_add, E. auto.
 Qed.
 
-(** Nor below what it is. *)
+(** The same darts are below all darts of a vertex. *)
 Lemma turn_below k b x : b < darts W -> below (turn W k b) x = below b x.
 Proof.
   intros Hb. unfold Pendant.below. destruct (depth_turn k b Hb) as [-> _]. f_equal. symmetry.
@@ -90,11 +95,11 @@ Proof.
   apply (at_vertex_iff W WW); auto. exists 0. auto.
 Qed.
 
-(** What is nearer is not below. *)
+(** A vertex with a smaller depth than b is not below b. *)
 Lemma below_nearer b x : depth x < depth b -> below b x = false.
 Proof. intros L. unfold Pendant.below. rewrite (proj2 (Nat.leb_gt _ _) L). auto. Qed.
 
-(** What is farther is below if its parent is. *)
+(** A vertex with a greater depth than b is below b exactly if its parent is. *)
 Lemma below_parent b x : x < darts W -> depth b < depth x -> below b x = below b (parent x).
 Proof.
   intros Hx L. destruct (parent_ok x Hx) as (_ & _ & D & _); [lia|]. unfold Pendant.below.
@@ -114,7 +119,7 @@ Proof.
   apply (at_vertex_iff W WW); auto. exists 0. auto.
 Qed.
 
-(** Darts of one vertex are in a pendant tree together. *)
+(** All darts of a vertex are in a pendant tree, or none is. *)
 Lemma pendant_turn k b : b < darts W -> pendant (turn W k b) = pendant b.
 Proof.
   intros Hb. unfold Pendant.pendant. destruct (depth_turn k b Hb) as [-> _]. do 2 f_equal.
@@ -137,7 +142,7 @@ Proof.
   rewrite below_self in P; auto.
 Qed.
 
-(** What hangs on a pendant tree is part of it. *)
+(** A vertex whose parent is in a pendant tree is in a pendant tree. *)
 Lemma pendant_parent b : b < darts W -> 0 < depth b -> pendant (parent b) = true -> pendant b = true.
 Proof.
   intros Hb D P. unfold Pendant.pendant. apply andb_true_iff. split; [apply Nat.ltb_lt; auto|].
@@ -146,7 +151,7 @@ Proof.
   apply below_up in E; auto; [|lia]. rewrite pendant_chord in E; auto. lia.
 Qed.
 
-(** The height in a pendant tree is one more than that of the parent. *)
+(** In a pendant tree the height of a vertex is one more than that of its parent. *)
 Lemma height_pendant b : b < darts W -> pendant b = true -> height b = S (height (parent b)).
 Proof.
   intros Hb P. assert (D : 0 < depth b).
@@ -155,11 +160,11 @@ Proof.
   simpl Pendant.hanging. rewrite P. auto.
 Qed.
 
-(** Elsewhere it is 0. *)
+(** Outside of the pendant trees the height is 0. *)
 Lemma height_none b : pendant b = false -> height b = 0.
 Proof. intros P. unfold Pendant.height. destruct (depth b); simpl; auto. rewrite P. auto. Qed.
 
-(** It is the same for all darts of a vertex. *)
+(** All darts of a vertex have the same height. *)
 Lemma height_turn k b : b < darts W -> height (turn W k b) = height b.
 Proof.
   intros Hb. destruct (pendant b) eqn:P.
@@ -169,7 +174,7 @@ Proof.
   - rewrite (height_none (turn W k b)), (height_none b); auto. rewrite pendant_turn; auto.
 Qed.
 
-(** The edge of a dart that leads nearer leads to the parent. *)
+(** A dart that leads to the parent has the parent as its opposite, whose depth is one less. *)
 Lemma nearer_ok c : c < darts W -> nearer c = true ->
   0 < depth c /\ up c = c /\ opposite W c = parent c /\ S (depth (parent c)) = depth c.
 Proof.
@@ -178,7 +183,7 @@ Proof.
   repeat split; auto. unfold Pendant.parent. rewrite U. auto.
 Qed.
 
-(** Of an edge one dart only leads nearer. *)
+(** At most one dart of an edge leads to a parent. *)
 Lemma nearer_one c : c < darts W -> nearer c = true -> nearer (opposite W c) = false.
 Proof.
   intros Hc N. destruct (nearer (opposite W c)) eqn:N'; auto. exfalso.
@@ -187,7 +192,7 @@ Proof.
   rewrite Oo in O'. rewrite <- O' in D'. rewrite O in D'. lia.
 Qed.
 
-(** A stalk is a dart in a pendant tree that leads nearer. *)
+(** A stalk is a dart in a pendant tree that leads to the parent. *)
 Lemma stalk_ok q : In q (stalks W depth up) ->
   q < darts W /\ pendant q = true /\ up q = q /\ nearer q = true.
 Proof.
@@ -196,7 +201,7 @@ Proof.
   apply Nat.eqb_eq in U. repeat split; auto. lia.
 Qed.
 
-(** Two stalks are two edges. *)
+(** Different stalks are different edges: a dart that leads to a parent over the edge of q is q. *)
 Lemma stalk_edge q c : In q (stalks W depth up) -> c < darts W -> nearer c = true ->
   edge W c = edge W q -> c = q.
 Proof.
@@ -206,7 +211,8 @@ Proof.
   destruct (edge_or W c) as [A|A], (edge_or W q) as [A'|A']; rewrite A, A' in E; try congruence.
 Qed.
 
-(** Crossing an edge, one comes below a stalk or leaves it exactly if the edge is the stalk. *)
+(** Of the two ends of a tree edge exactly one is below the stalk q if the edge is that of q;
+    else both or neither are. *)
 Lemma below_nearer_edge q c : In q (stalks W depth up) -> c < darts W -> nearer c = true ->
   below q (opposite W c) = xorb (below q c) (edge W c =? edge W q).
 Proof.
@@ -224,7 +230,7 @@ Proof.
     + rewrite !below_nearer; auto; lia.
 Qed.
 
-(** The same for every edge. *)
+(** The same holds for every edge. *)
 Lemma below_edge q b : In q (stalks W depth up) -> b < darts W ->
   below q (opposite W b) = xorb (below q b) (edge W b =? edge W q).
 Proof.
@@ -241,7 +247,7 @@ Proof.
     destruct (edge_or W b) as [A|A], (edge_or W q) as [A'|A']; rewrite A, A' in E; congruence.
 Qed.
 
-(** So many stalks as the height are above a dart, at most. *)
+(** At most as many stalks have b below them as the height of b. *)
 Lemma stalks_above d : forall b, b < darts W -> depth b = d ->
   length (filter (fun q => below q b) (stalks W depth up)) <= height b.
 Proof.

@@ -1,14 +1,16 @@
-(** Policies that exist: the lowest open dart, breadth-first ways; rules none and history.
+(** Policies that fulfil the contracts of Mapper.v: the lowest open dart, breadth-first ways, rules
+    none and history (docs/semantics.md, sections 5 and 7).
 
-    With them the mapper is the algorithm [basic], and [basic] with the rule [history]. *)
+    With them the mapper is the algorithm [basic], and [basic] with the rule [history]. M is the
+    map, W the world. *)
 From Coq Require Import Arith Lia List Bool Permutation.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Records Mapper MapperCorrect Search.
 
-(** The lowest open dart. *)
+(** Pick the lowest open dart. *)
 Definition first_open M (p : nat) := find (fun d => negb (explored M d)) (seq 0 (darts M)).
 
-(** It is open, and there is one as long as any is. *)
+(** It is open, and it exists as long as a dart is open. *)
 Theorem first_open_good : good_pick first_open.
 Proof.
   intros M p. unfold first_open. destruct (find _ _) as [e|] eqn:F.
@@ -18,30 +20,31 @@ Proof.
     destruct (alpha M d); [discriminate|]. discriminate Q. apply in_seq; lia.
 Qed.
 
-(** Rule none rejects nothing without motion. *)
+(** Rule none rejects no hypothesis without motion. *)
 Definition rule_none (M : Map) (log : list (list nat * list Percept)) (h : nat) := true.
 
-(** Rule history traces what was executed. *)
+(** Rule history rejects h if percepts of doors that were executed behind this edge contradict
+    the map traced from h. *)
 Definition rule_history M (log : list (list nat * list Percept)) h :=
   forallb (fun l => agrees M (fun _ _ => None) h (fst l) (snd l)) log.
 
-(** Claim 3 for rule none. *)
+(** Rule none keeps the true hypothesis (claim 3). *)
 Theorem rule_none_good : good_keep rule_none.
 Proof. red; auto. Qed.
 
-(** Claim 3 for rule history. *)
+(** Rule history keeps the true hypothesis (claim 3). *)
 Theorem rule_history_good : good_keep rule_history.
 Proof.
   intros M W phi a log h WM WW E Hh Hlog Eh. apply forallb_forall. intros [w ps] Hin.
   apply (agrees_true M W phi); auto; [red; discriminate|]. subst a. apply Hlog; auto.
 Qed.
 
-(** The map that exploring W ends with. *)
+(** The map that exploring W with this rule ends with. *)
 Definition explores rule W := option_map (fun st => fst (fst st))
   (explore nat (percept W) (move W) first_open bfs_path (fun _ H => H) rule (darts W)
-    (start nat (percept W) (root W))).
+    (initial_state nat (percept W) (root W))).
 
-(** It is the world. *)
+(** With a rule that keeps the true hypothesis that map is isomorphic to W. *)
 Lemma explores_correct rule W : good_keep rule -> world W ->
   exists M, explores rule W = Some M /\ isomorphic M W.
 Proof.
@@ -50,7 +53,7 @@ Proof.
   exists (fst (fst st)). unfold explores. rewrite E. auto.
 Qed.
 
-(** Claim 5 for [basic]: in every world of any size it ends with the world. *)
+(** Claim 5 for [basic]: in every world it ends with a map isomorphic to the world. *)
 Theorem basic_correct W : world W -> exists M, explores rule_none W = Some M /\ isomorphic M W.
 Proof. apply explores_correct, rule_none_good. Qed.
 

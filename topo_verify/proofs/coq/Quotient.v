@@ -1,16 +1,21 @@
-(** A fold without contradiction is a map: its darts are the classes of places. *)
+(** A consistent fold is a map: its darts are the classes of places (docs/semantics.md, section 11).
+
+    L is a log, assumed a list of assumed edges whose fold is consistent; p, q, r are places; M
+    is the map, u i the reference dart of visit i in it. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log Determined Undetermined Classes.
 
 Section Map.
-Variables (L : Log) (assumed : assumption).
+Variables (L : Log) (assumed : assumed_edges).
 Hypothesis (Cons : consistent assumed L).
 Notation same := (same assumed L).
 Notation link := (link assumed L).
 Notation valid := (valid L).
 
-(** What a quotient is: the places are its darts, and nothing else is. *)
+(** M is the quotient of the places by [same]: it is a connected map that shows the log and has
+    the assumed edges; two places are one dart exactly if they are identified; every dart is a
+    place; every explored edge was crossed or assumed. *)
 Record quotient (M : Map) (u : nat -> nat) : Prop := {
   q_map : is_map M;
   q_connected : connected M;
@@ -21,7 +26,7 @@ Record quotient (M : Map) (u : nat -> nat) : Prop := {
   q_link : forall p, valid p -> alpha M (dart M u p) <> None -> exists q r, link q r /\ same p q /\
            alpha M (dart M u p) = Some (dart M u r) }.
 
-(** If its darts are the classes, the map shows what was seen. *)
+(** If its darts are the classes of places, a map shows at each visit the percept of the log. *)
 Lemma marker_percept M u : is_map M -> (forall i, u i < darts M) -> u 0 = root M ->
   (forall p q, valid p -> valid q -> dart M u p = dart M u q <-> same p q) ->
   forall i p, seen L i = Some p -> percept M (u i) = p.

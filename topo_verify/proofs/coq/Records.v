@@ -1,19 +1,25 @@
-(** Rejection without motion: rules history and records (claim 3), and that records stay true.
+(** Rejection without motion by the rules history and records (docs/semantics.md, section 7; claim
+    3).
 
-    T d w is what was seen behind the unexplored dart d after the further relative doors w. Rule
-    [prefix] compares less than [history], so it is covered. *)
+    M is the map, W the world, phi their correspondence. T is the table of records: T d w is what
+    was seen behind the open dart d after the further relative doors w. Rule [prefix] compares fewer
+    percepts than [history], so what is proved of [history] holds for it.
+
+    The theorems: true records never reject a true hypothesis, and records stay true. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment.
 
-(** What was seen behind dart d after the further relative doors w. *)
+(** A table of records: for a dart and relative doors, the percept seen there, if there was one. *)
 Definition table := nat -> list nat -> option Percept.
 
-(** All records are true in the world. *)
+(** Every record of T agrees with the world. *)
 Definition true_table M W phi (T : table) := forall d w q, d < darts M -> T d w = Some q ->
   exists b c, alpha W (phi d) = Some b /\ walk W b w = Some c /\ percept W c = q.
 
-(** Compare percepts seen after doors w with the table behind one dart (doors u done). *)
+(** The percepts ps were seen behind one open dart, the first after the doors u, the next ones
+    after each further door of w: do they agree with its records t? The comparison stops where
+    there is no record. *)
 Fixpoint deeper (t : list nat -> option Percept) u w ps : bool :=
   match t u, ps with
   | Some q, p :: ps => percept_eqb q p &&
@@ -21,7 +27,8 @@ Fixpoint deeper (t : list nat -> option Percept) u w ps : bool :=
   | _, _ => true
   end.
 
-(** Trace doors w from dart h of the map: may the percepts ps have been seen? *)
+(** Trace the doors w on the map from dart h: do the percepts ps agree with the map, and behind
+    an open dart with its records? *)
 Fixpoint agrees M (T : table) h w ps : bool :=
   match w, ps with
   | k :: w, p :: ps' =>
@@ -37,7 +44,7 @@ Section Rules.
 Variables (M W : Map) (phi : nat -> nat) (T : table).
 Hypotheses (WM : is_map M) (WW : is_map W) (E : embedded M W phi) (HT : true_table M W phi T).
 
-(** What was seen agrees with true records. *)
+(** Percepts that the world shows behind an open dart agree with true records of it. *)
 Lemma deeper_true d : d < darts M -> forall w u b c ps, alpha W (phi d) = Some b ->
   walk W b u = Some c -> percepts W c w = Some ps -> deeper (T d) u w (percept W c :: ps) = true.
 Proof.
@@ -51,7 +58,7 @@ Proof.
   apply IH with b; auto. rewrite walk_app, Hc. simpl. rewrite Em. auto.
 Qed.
 
-(** Claim 3: the rules history and records (hence prefix) never reject the true hypothesis. *)
+(** Claim 3: rules history and records, hence prefix, never reject the true hypothesis. *)
 Theorem agrees_true w : forall h ps, h < darts M ->
   percepts W (phi h) w = Some ps -> agrees M T h w ps = true.
 Proof.
@@ -70,8 +77,9 @@ Proof.
   - apply deeper_true with b; auto.
 Qed.
 
-(** A record made after validation is true: the executed word, traced from the now known
-    dart, crosses the open dart d = turn k x; what was seen after it is a record of d. *)
+(** A record made after validation is true. The doors executed from a known dart n lead on the
+    map to x and there through the open dart turn k x; what was seen at their end is a record of
+    that dart. *)
 Theorem record_true n u k v x c : n < darts M -> walk M n u = Some x ->
   walk W (phi n) (u ++ k :: v) = Some c ->
   exists b, alpha W (phi (turn M k x)) = Some b /\ walk W b v = Some c.
@@ -84,7 +92,7 @@ Proof.
 Qed.
 End Rules.
 
-(** Records stay true when a vertex is added: they are relative to a known dart. *)
+(** Records stay true when a vertex is added, since each is relative to a known dart. *)
 Theorem records_new M W phi T e d a : true_table M W phi T ->
   (forall x w, darts M <= x -> T x w = None) ->
   true_table (augment_new M e d) W (extend phi (darts M) W a) T.

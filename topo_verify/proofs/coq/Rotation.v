@@ -1,14 +1,17 @@
-(** Turning, degrees, doors and walks in any map, explored or not.
+(** Turning, degrees, doors and walks in any map, explored or not (docs/semantics.md, sections 1 and
+    2).
 
-    What the other files need of sigma: it is a permutation, so turning comes round after exactly
-    [degree] steps, and walks by one word of doors are injective, since each move can be undone.
-    At the beginning a little about lists and counting; at the end equality of percepts as a
-    program. *)
+    M is a map; a, b, c, d are darts; i, j, k are offsets; w is a list of doors. sigma is a
+    permutation, so turning returns to its dart after exactly [degree] steps. Every move can be
+    undone, so walks by one and the same list of doors are injective.
+
+    The file begins with lemmas on lists and counting and ends with the decidable equality of
+    percepts. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World.
 
-(** An injective image of a list without doubles has none. *)
+(** If f is injective on a list without duplicates, the mapped list has no duplicates. *)
 Lemma nodup_map (f : nat -> nat) l : NoDup l ->
   (forall i j, In i l -> In j l -> f i = f j -> i = j) -> NoDup (map f l).
 Proof.
@@ -18,7 +21,7 @@ Proof.
   - apply IH; intros; apply Hf; simpl; auto.
 Qed.
 
-(** Fewer holes than pigeons: no injection. *)
+(** The pigeonhole principle: an injection of n numbers into m numbers exists only if n <= m. *)
 Lemma pigeon (f : nat -> nat) n m : (forall i, i < n -> f i < m) ->
   (forall i j, i < n -> j < n -> f i = f j -> i = j) -> n <= m.
 Proof.
@@ -31,7 +34,7 @@ Proof.
     apply in_seq in Hi. apply in_seq. specialize (Hlt i). lia.
 Qed.
 
-(** What [find] finds in an interval is the least. *)
+(** What [find] returns on an interval is the least number that satisfies f. *)
 Lemma find_seq f n : forall s k, find f (seq s n) = Some k ->
   s <= k < s + n /\ f k = true /\ forall j, s <= j < k -> f j = false.
 Proof.
@@ -42,7 +45,7 @@ Proof.
     intros j Hj. destruct (Nat.eq_dec j s) as [->|]; auto. apply C; lia.
 Qed.
 
-(** [find] asks nothing but the answers. *)
+(** [find] depends on the values of f only. *)
 Lemma find_ext (f g : nat -> bool) l :
   (forall x, f x = g x) -> find f l = find g l.
 Proof. intros H; induction l as [|x l IH]; simpl; auto. rewrite H, IH; auto. Qed.
@@ -51,7 +54,7 @@ Section Rotation.
 Variable M : Map.
 Hypothesis WF : is_map M.
 
-(** Turning stays among the darts. *)
+(** Turning maps darts to darts. *)
 Lemma turn_lt k a : a < darts M -> turn M k a < darts M.
 Proof. induction k; simpl; auto. intros; apply sigma_lt; auto. Qed.
 
@@ -66,14 +69,14 @@ Qed.
 Lemma turn_add j k a : turn M (j + k) a = turn M j (turn M k a).
 Proof. induction j; simpl; congruence. Qed.
 
-(** Two turns that agree differ by a full turn. *)
+(** If two turns of a dart agree, turning by their difference returns to the dart. *)
 Lemma turn_period i j a : a < darts M -> i < j -> turn M i a = turn M j a -> turn M (j - i) a = a.
 Proof.
   intros Ha Hij E. apply (turn_inj i); auto using turn_lt.
   rewrite <- turn_add. replace (i + (j - i)) with j by lia. auto.
 Qed.
 
-(** The degree is the first turn that comes round. *)
+(** The degree is the least positive turn that returns to the dart. *)
 Lemma degree_spec a : a < darts M ->
   0 < degree M a /\ turn M (degree M a) a = a /\
   forall k, 0 < k < degree M a -> turn M k a <> a.
@@ -92,7 +95,7 @@ Proof.
     + apply (N (i - j)); [lia|]. apply turn_period; auto.
 Qed.
 
-(** Nothing else is the degree. *)
+(** A positive d that is the least turn returning to a is the degree. *)
 Lemma degree_unique a d : a < darts M -> 0 < d -> turn M d a = a ->
   (forall k, 0 < k < d -> turn M k a <> a) -> degree M a = d.
 Proof.
@@ -102,7 +105,7 @@ Proof.
   - apply (C d); auto.
 Qed.
 
-(** Below the degree, different turns are different darts. *)
+(** Different turns below the degree lead to different darts. *)
 Lemma turn_eq a i j : a < darts M -> i < degree M a -> j < degree M a ->
   turn M i a = turn M j a -> i = j.
 Proof.
@@ -112,7 +115,7 @@ Proof.
   - apply (C (i - j)); [lia|]. apply turn_period; auto.
 Qed.
 
-(** All darts of a vertex have its degree. *)
+(** All darts of a vertex have the same degree. *)
 Lemma degree_turn k a : a < darts M -> degree M (turn M k a) = degree M a.
 Proof.
   intros Ha. destruct (degree_spec a Ha) as (A & B & C).
@@ -122,7 +125,7 @@ Proof.
     rewrite <- turn_add, Nat.add_comm, turn_add. auto.
 Qed.
 
-(** Turning is modulo the degree. *)
+(** Offsets count modulo the degree. *)
 Lemma turn_mod k a : a < darts M -> turn M (k mod degree M a) a = turn M k a.
 Proof.
   intros Ha. destruct (degree_spec a Ha) as (A & B & _).
@@ -132,11 +135,11 @@ Proof.
   rewrite Nat.mul_succ_r, turn_add, B; auto.
 Qed.
 
-(** If the marker is seen at j, dart j is the root. *)
+(** If the marker is seen in direction j, the dart at offset j is the root. *)
 Lemma marker_some a j : marker M a = Some j -> turn M j a = root M.
 Proof. intros E. apply find_seq in E as (_ & E & _). apply Nat.eqb_eq; auto. Qed.
 
-(** At the root's vertex the marker is seen. *)
+(** From every dart of the root's vertex the marker is seen. *)
 Lemma marker_of a k : k < degree M a -> turn M k a = root M -> exists j, marker M a = Some j.
 Proof.
   intros Hk E. unfold marker.
@@ -145,7 +148,7 @@ Proof.
   rewrite E, Nat.eqb_refl in G. discriminate G. apply in_seq; lia.
 Qed.
 
-(** Darts of one vertex see the marker both or neither. *)
+(** If one dart of a vertex sees the marker, so does every other. *)
 Lemma same_vertex_mark i j a b m : a < darts M -> b < darts M ->
   turn M i a = turn M j b -> turn M m a = root M -> exists n, marker M b = Some n.
 Proof.
@@ -159,18 +162,19 @@ Proof.
     rewrite <- turn_mod, Nat.mul_comm, Nat.mod_mul by (auto || lia). auto.
 Qed.
 
-(** One can leave only by a door that is there. *)
+(** A move exists only for a door below the degree. *)
 Lemma move_door a k b : move M a k = Some b -> k < degree M a.
 Proof. unfold move. destruct (Nat.ltb_spec k (degree M a)); [auto|discriminate]. Qed.
 
-(** A move ends at a dart. *)
+(** A move leads to a dart. *)
 Lemma move_lt a k b : a < darts M -> move M a k = Some b -> b < darts M.
 Proof.
   unfold move. intros Ha E. destruct (k <? degree M a); [|discriminate].
   eapply alpha_ok in E; auto using turn_lt. apply E.
 Qed.
 
-(** Moves, hence walks by one and the same word, can be undone: they are injective. *)
+(** Walks are injective: if the same doors lead from a and from b to the same dart, a = b. The
+    reason is that every move can be undone. *)
 Lemma walk_inj w : forall a b c, a < darts M -> b < darts M ->
   walk M a w = Some c -> walk M b w = Some c -> a = b.
 Proof.
@@ -191,7 +195,7 @@ Proof.
   destruct (move M a k) eqn:Em; [|discriminate]. apply move_lt in Em; eauto.
 Qed.
 
-(** A walk in two parts. *)
+(** A walk by u ++ v is a walk by u, then a walk by v. *)
 Lemma walk_app u v a : walk M a (u ++ v) =
   match walk M a u with Some b => walk M b v | None => None end.
 Proof.
@@ -199,15 +203,15 @@ Proof.
   destruct (move M a k); auto.
 Qed.
 End Rotation.
-(** Connectivity of the known map. *)
+(** If d can be reached, so can every dart of its vertex. *)
 Lemma reach_turn M p k d : reach M p d -> reach M p (turn M k d).
 Proof. intros; induction k; simpl; auto using reach_sigma. Qed.
 
-(** Reaching is transitive. *)
+(** Reachability is transitive. *)
 Lemma reach_trans M a b c : reach M a b -> reach M b c -> reach M a c.
 Proof. intros H; induction 1; eauto using reach_sigma, reach_alpha. Qed.
 
-(** Reaching is symmetric, and ends at a dart. *)
+(** Reachability is symmetric, and what is reached from a dart is a dart. *)
 Lemma reach_sym M a b : is_map M -> a < darts M -> reach M a b -> b < darts M /\ reach M b a.
 Proof.
   intros WM Ha. induction 1 as [|d _ (Ld & IH)|d e _ (Ld & IH) He].
@@ -220,7 +224,7 @@ Proof.
     split; auto. apply reach_trans with d; auto. apply (reach_alpha _ _ e); auto. constructor.
 Qed.
 
-(** Are two percepts equal, degree and direction of the marker? As a program. *)
+(** The decision procedure for equality of percepts. *)
 Definition percept_eqb (p q : Percept) : bool :=
   (fst p =? fst q) &&
   match snd p, snd q with
@@ -228,7 +232,7 @@ Definition percept_eqb (p q : Percept) : bool :=
   end.
 Arguments percept_eqb : simpl never.
 
-(** The program is right. *)
+(** [percept_eqb] decides equality of percepts. *)
 Lemma percept_eqb_spec p q : reflect (p = q) (percept_eqb p q).
 Proof.
   destruct p as [d i], q as [c j]. unfold percept_eqb; simpl.

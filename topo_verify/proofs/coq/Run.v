@@ -1,31 +1,38 @@
-(** Justified runs: whatever the mapper, its motion, order and rules (claim 5).
+(** Justified runs: claim 5 for every mapper, motion, order and rule (docs/semantics.md, sections 4
+    and 9).
 
-    A run is a sequence of augmentations, each justified by observations. The world W is read only
-    through [walk] and [percept], as a robot reads it. SCEPTICS READ the definition of [run]. *)
+    M is the map so far, T the table of records, W the world; e is the open dart that is explored, a
+    the dart of the world behind it, h a hypothesis; u, v, w are doors.
+
+    A run is a sequence of augmentations, each justified by observations. The world W is read
+    only through [walk] and [percept], as a robot reads it. SCEPTICS READ the definition of
+    [run]. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Records Folding.
 
-(** One more record, and the records of a dart dropped when it is explored. *)
+(** The table T with one more record: q was seen behind dart d after the doors v. *)
 Definition record (T : table) d v q : table := fun x w =>
   if (x =? d) && (if list_eq_dec Nat.eq_dec w v then true else false) then Some q else T x w.
 
-(** The records of darts e and h are dropped when they are explored. *)
+(** The table T without the records of darts e and h, which are dropped when the two are
+    explored. *)
 Definition drop (T : table) e h : table := fun x w => if (x =? e) || (x =? h) then None else T x w.
 
-(** Dart e of the map is open, the robot can reach it on the map, and stands behind it at a. *)
+(** Dart e is open, the map has a way to it, and that way and then e lead to dart a of the world. *)
 Definition behind M W e a := alpha M e = None /\ exists u k q,
   walk M (root M) u = Some q /\ k < degree M q /\ turn M k q = e /\
   walk W (root W) (u ++ [k]) = Some a.
 
-(** What has been built and recorded so far, all decisions justified by observations:
-    - at the start the map is v0, and nothing is recorded;
+(** The pairs of a map and records that a justified run can build in W. Its steps:
+
+    - the start: the map is v0, and nothing is recorded;
     - a record: the doors u, k, v were taken; on the map the door k is open; what was seen at the
       end is a record of that dart;
-    - a loop by motion: behind e, the doors w led to the marker, in the direction foretold for h;
-    - a loop by folding: the place behind e folds into dart h with nothing assumed;
-    - a new vertex: each hypothesis h that looks alike was refuted, by doors w whose percepts ps do
-      not agree with the map and the records, or by folding. *)
+    - a loop by motion: behind e, the doors w led to the marker, in the direction predicted for h;
+    - a loop by folding: the place behind e is identified with dart h without an assumed edge;
+    - a new vertex: each hypothesis h that shows the same percept was refuted, by doors w whose
+      percepts ps do not agree with the map and the records, or by folding. *)
 Inductive run W : Map -> table -> Prop :=
 | run_start : run W (initial (degree W (root W))) (fun _ _ => None)
 | run_record M T u k x v c : run W M T ->
@@ -38,16 +45,16 @@ Inductive run W : Map -> table -> Prop :=
     marker M r = Some j -> marker W c = Some j ->
     run W (augment_loop M e h) (drop T e h)
 | run_fold M T e h : run W M T -> e < darts M -> h <> e -> alpha M e = None -> alpha M h = None ->
-    same M T (fun _ _ => False) (Ghost e [], 0) (Known h, 0) ->
+    identified M T (fun _ _ => False) (Ghost e [], 0) (Known h, 0) ->
     run W (augment_loop M e h) (drop T e h)
 | run_new M T e a : run W M T -> behind M W e a ->
     (forall h, h < darts M -> h <> e -> alpha M h = None -> percept M h = percept W a ->
      (exists w ps, percepts W a w = Some ps /\ agrees M T h w ps = false) \/
-     absurd M T (fun x y => x = e /\ y = h)) ->
+     contradictory M T (fun x y => x = e /\ y = h)) ->
     run W (augment_new M e (degree W a)) (drop T e (darts M)).
 
-(** All that was built and recorded in a justified run is true: S is a connected map, embedded in
-    the world. *)
+(** Everything built and recorded in a justified run is true: M is well formed, connected and
+    embedded in the world, and its records are true. *)
 Theorem run_true W M T : world W -> run W M T -> is_map M /\ connected M /\
   (forall x w, darts M <= x -> T x w = None) /\
   exists phi, embedded M W phi /\ true_table M W phi T.
@@ -106,7 +113,7 @@ Proof.
       apply (records_new M W phi T e (degree W a) a HT Out); auto.
 Qed.
 
-(** Claim 5: a justified run that ends with nothing unexplored ends with the world. *)
+(** Claim 5: a justified run that ends without open darts ends with the world. *)
 Theorem run_isomorphic W M T : world W -> run W M T ->
   (forall d, d < darts M -> alpha M d <> None) -> isomorphic M W.
 Proof.

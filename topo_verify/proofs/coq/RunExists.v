@@ -1,14 +1,16 @@
-(** Every world has a justified run: whatever is false can be refuted by walking (claim 8).
+(** Every world has a justified run to its end: every false hypothesis can be refuted by walking
+    (claim 8).
 
-    So [run_isomorphic] is not empty, and an exploration that rejects until one hypothesis or none
-    is left ends. *)
+    M is the map so far, T the table of records, W the world, phi their correspondence; h is a
+    hypothesis, a the dart of the world behind the open dart e.
+
+    So [run_isomorphic] is not vacuous, and an exploration that rejects until at most one
+    hypothesis is left ends. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Records Folding Run.
 
-(** Such a certificate exists for every world: every false hypothesis can be refuted. *)
-
-(** What can be reached can be walked to. *)
+(** Every dart that can be reached can be walked to: some doors lead to its vertex. *)
 Lemma reach_walk M p d : is_map M -> p < darts M -> reach M p d ->
   exists w q k, walk M p w = Some q /\ k < degree M q /\ turn M k q = d.
 Proof.
@@ -21,7 +23,8 @@ Proof.
     repeat split. apply degree_spec; auto. apply (alpha_ok M WM) in He; [apply He|apply turn_lt; auto].
 Qed.
 
-(** A false hypothesis that looks alike is refuted on any way home that the map knows. *)
+(** Claim 8: a false hypothesis h that shows the same percept is refuted on every way from h to
+    the marker that the map knows. *)
 Lemma refutable M W T phi : is_map M -> world W -> embedded M W phi -> forall w h a r j, h < darts M ->
   a < darts W -> percept M h = percept W a -> walk M h w = Some r -> marker M r = Some j -> a <> phi h ->
   exists w ps, percepts W a w = Some ps /\ agrees M T h w ps = false.
@@ -48,7 +51,7 @@ Proof.
       destruct (percept_eqb_spec (percept M y) (percept W b)); [contradiction|auto].
 Qed.
 
-(** As long as a dart is open, a justified run can go on. *)
+(** Progress: as long as a dart is open, a justified run has a next augmentation. *)
 Theorem run_step W M T e : world W -> run W M T -> e < darts M -> alpha M e = None ->
   exists M' T', run W M' T' /\ known M' = 2 + known M.
 Proof.
@@ -85,7 +88,7 @@ Proof.
     discriminate Q. apply in_seq; lia.
 Qed.
 
-(** Every world has a justified run to its end. *)
+(** Every world has a justified run that ends with the world. *)
 Theorem run_exists W : world W -> exists M T, run W M T /\ isomorphic M W.
 Proof.
   intros HW.

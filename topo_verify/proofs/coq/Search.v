@@ -1,4 +1,8 @@
-(** Breadth-first search on the map: a way to every dart, shorter than there are vertices. *)
+(** Breadth-first search on the map: a path policy that fulfils [good_path] and [short_path]
+    (docs/semantics.md, sections 4 and 5).
+
+    M is a map, p the dart where the search begins, e the dart that is looked for. A vertex that
+    was found is a pair: its dart x, and the doors that lead from p to x. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Vertices Augment Mapper.
@@ -8,22 +12,22 @@ Definition steps M (x : nat * list nat) :=
   flat_map (fun k => match move M (fst x) k with Some y => [(y, snd x ++ [k])] | None => [] end)
            (seq 0 (degree M (fst x))).
 
-(** A neighbour that was not found yet. *)
+(** The first neighbour, in order of discovery, whose vertex was not found before. *)
 Definition next M seen :=
   find (fun y => negb (existsb (fun x => at_vertex M (fst x) (fst y)) seen)) (flat_map (steps M) seen).
 
-(** Find vertices until there are no more. *)
+(** Add such neighbours until there are none, at most fuel times. *)
 Fixpoint bfs M fuel seen :=
   match fuel with
   | 0 => seen
   | S fuel => match next M seen with Some x => bfs M fuel (seen ++ [x]) | None => seen end
   end.
 
-(** The darts of a vertex that was found, with doors and last turn. *)
+(** The darts of a vertex that was found, each with the doors to the vertex and the last turn. *)
 Definition exits M (x : nat * list nat) :=
   map (fun k => (snd x, k, turn M k (fst x))) (seq 0 (degree M (fst x))).
 
-(** Doors from p, then a turn, to dart e. *)
+(** The doors from p to the vertex of e, and the turn from where they end to e. *)
 Definition bfs_path M p e :=
   match find (fun y => snd y =? e) (flat_map (exits M) (bfs M (darts M) [(p, [])])) with
   | Some y => fst y | None => ([], 0) end.
@@ -32,15 +36,15 @@ Section Search.
 Variables (M : Map) (p : nat).
 Hypotheses (WM : is_map M) (Hp : p < darts M).
 
-(** What has been found: vertices that differ, p among them, each with a way, each way shorter than
-    there are vertices found. *)
+(** The invariant of the search: the vertices found are pairwise different; p is one of them;
+    their doors lead to them; and each has fewer doors than there are vertices found. *)
 Record good_seen (seen : list (nat * list nat)) : Prop := {
   s_apart : NoDup (map (fun x => first_dart M (fst x)) seen);
   s_start : exists x, In x seen /\ fst x = p;
   s_walk : forall x, In x seen -> fst x < darts M /\ walk M p (snd x) = Some (fst x);
   s_short : forall x, In x seen -> length (snd x) < length seen }.
 
-(** p is found at the start. *)
+(** The invariant holds for p alone. *)
 Lemma good_seen_start : good_seen [(p, [])].
 Proof.
   split; simpl.
@@ -50,7 +54,7 @@ Proof.
   - intros x [<-|[]]. auto.
 Qed.
 
-(** No more are found than there are. *)
+(** The search finds at most as many vertices as the map has. *)
 Lemma seen_le seen : good_seen seen -> length seen <= vertices M.
 Proof.
   intros G. rewrite <- (map_length fst). apply vertices_most.
@@ -58,7 +62,7 @@ Proof.
   - rewrite map_map. apply G.
 Qed.
 
-(** One more vertex keeps it so. *)
+(** Adding a neighbour keeps the invariant. *)
 Lemma next_good seen y : good_seen seen -> next M seen = Some y -> good_seen (seen ++ [y]).
 Proof.
   intros G F. apply find_some in F as [Hy F]. apply negb_true_iff in F.
@@ -82,7 +86,7 @@ Proof.
     apply (s_short _ G) in H. lia.
 Qed.
 
-(** The search ends, with nothing left to find. *)
+(** With fuel for all darts the search ends: no neighbour is left, and the invariant holds. *)
 Lemma search_good fuel : forall seen, good_seen seen -> darts M <= fuel + length seen ->
   good_seen (bfs M fuel seen) /\ next M (bfs M fuel seen) = None.
 Proof.
@@ -92,7 +96,7 @@ Proof.
   - apply IH; [apply next_good; auto|]. rewrite app_length. simpl. lia.
 Qed.
 
-(** Then everything that can be reached was found. *)
+(** If no neighbour is left, every dart that can be reached is at a vertex that was found. *)
 Lemma search_covers seen d : good_seen seen -> next M seen = None -> reach M p d ->
   exists x k, In x seen /\ k < degree M (fst x) /\ turn M k (fst x) = d.
 Proof.
@@ -115,7 +119,8 @@ Proof.
 Qed.
 End Search.
 
-(** The ways found are ways, and short. *)
+(** The ways of breadth-first search lead to their dart and are shorter than the number of
+    vertices. *)
 Theorem bfs_path_good : good_path bfs_path /\ short_path bfs_path.
 Proof.
   enough (H : forall M p e, is_map M -> connected M -> p < darts M -> e < darts M ->

@@ -1,24 +1,29 @@
-(** Who is right in every world has proved it in each (claims 7 and 9; section 11).
+(** A mapper that is right in every world leaves a closed log in each (claims 7 and 9;
+    docs/semantics.md, section 11).
 
-    This is about every mapper, whatever it does. If it ends with a dart open there are two worlds
-    in which it does the same and delivers the same map: it is wrong in one of them. So whoever is
-    right everywhere pays what a closed log costs, which is at least a move for each edge.
-    SCEPTICS READ [Strategy], [ends] and [sound]. *)
+    f is a mapper, L a log, M the map that it delivers, W a world.
+
+    The theorems hold for every deterministic mapper. If it ends with an open dart, there are two
+    worlds in which it makes the same moves and delivers the same map, so it is wrong in one of
+    them. A mapper that is right in every world therefore pays for a closed log, which costs at
+    least one move for each edge. SCEPTICS READ [Strategy], [ends] and [sound]. *)
 From Coq Require Import Arith Lia List.
 Import ListNotations.
 From Topo Require Import World Rotation Log Determined Undetermined Entailed.
 
-(** A deterministic mapper: what it has seen so far decides the next door, or the map. *)
+(** A deterministic mapper: from the log so far it computes the next door, or the map that it
+    delivers. *)
 Definition Strategy := Log -> nat + Map.
 
-(** The mapper takes the doors of the log, one after the other, and then delivers M. *)
+(** In the worlds that show L, the mapper f takes the doors of L one after the other and then
+    delivers M. *)
 Definition ends (f : Strategy) L M :=
   (forall i k, door L i = Some k -> f (cut L i) = inl k) /\ f L = inr M.
 
-(** Right in every world in which it ends. *)
+(** The mapper f is right in every world in which it ends. *)
 Definition sound f := forall W L M, world W -> replays W L -> ends f L M -> isomorphic M W.
 
-(** Claim 9: who is right in every world leaves no dart open in any. *)
+(** Claim 9: a mapper that is right in every world ends with a closed log in every world. *)
 Theorem sound_closed f : sound f ->
   forall W L M, world W -> replays W L -> ends f L M -> closed L.
 Proof.
@@ -27,15 +32,15 @@ Proof.
   destruct N. rewrite <- (proj1 (S W1 L M H1 R1 E)). apply (S W2 L M H2 R2 E).
 Qed.
 
-(** And who goes on until no dart is open, and then delivers a world that shows what was seen, is
-    right in every world. *)
+(** Claim 9, the converse: a mapper that ends only with closed logs, and delivers worlds that
+    show them, is right in every world. *)
 Theorem closed_sound f :
   (forall L M, ends f L M -> closed L /\ world M /\ replays M L) -> sound f.
 Proof.
   intros H W L M HW R E. destruct (H L M E) as (C & HM & RM). apply (closed_determines L); auto.
 Qed.
 
-(** In a closed log every dart of the world is an end of an edge that was crossed. *)
+(** In a world that shows a closed log, every dart is an end of an edge that was crossed. *)
 Lemma closed_crossed W L v b : world W -> visits W L v -> closed L -> b < darts W ->
   exists i k, door L i = Some k /\ (b = turn W k (v i) \/ b = v (S i)).
 Proof.
@@ -45,8 +50,8 @@ Proof.
   destruct K as [i k K|i k K|x y []|x y []]; exists i, k; auto.
 Qed.
 
-(** Claim 7, its lower half, for every mapper that is right in every world: m moves at least; the
-    world has 2 m darts. *)
+(** Claim 7, the lower bound for every mapper that is right in every world: it makes at least m
+    moves, where the world has 2 m darts. *)
 Theorem sound_cost f : sound f -> forall W L M, world W -> replays W L -> ends f L M ->
   darts W <= 2 * length (moves L).
 Proof.

@@ -1,9 +1,12 @@
-(** What the checks of tables prove; the verdict REFUTED (claim 9). *)
+(** What the checks of Table.v prove: a table that passes is a connected map that shows the log
+    (claim 9).
+
+    t is a table, L a log. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log Undetermined Table.
 
-(** Turn tests that came out true into statements. *)
+(** A tactic: turn boolean tests that returned true into propositions. *)
 Ltac bools := repeat match goal with
   | H : (_ && _) = true |- _ => apply andb_true_iff in H as [? H]
   | H : (_ <? _) = true |- _ => apply Nat.ltb_lt in H
@@ -14,7 +17,7 @@ Ltac bools := repeat match goal with
       let Q := fresh "Eq" in destruct (percept_eqb_spec p q) as [Q|_]; [clear H|discriminate]
   end.
 
-(** What [check_map] accepts is so. *)
+(** A table that [check_map] accepts is a connected map that shows the log. *)
 Lemma check_map_spec t L : check_map t L = true ->
   is_map (map_of t) /\ connected (map_of t) /\ replays (map_of t) L.
 Proof.
@@ -45,7 +48,7 @@ Proof.
     destruct (move (map_of t) a k) as [b|]; [|discriminate]. bools. rewrite IH; simpl; congruence.
 Qed.
 
-(** Claim 9, the verdict REFUTED: two worlds of different size show this log. *)
+(** Claim 9, the verdict REFUTED: if [refute] accepts, two worlds of different size show the log. *)
 Theorem refute_correct L t : refute L t = true -> undetermined L.
 Proof.
   unfold refute. intros H. apply andb_true_iff in H as [E H].

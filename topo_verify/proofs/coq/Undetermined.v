@@ -1,12 +1,15 @@
-(** A log that a map with an open dart shows proves nothing (claim 9).
+(** A log that a map with an open dart shows proves nothing (claim 9; docs/semantics.md, section
+    11).
 
-    Hang a leaf on every open dart, or a path of two on one of them: two worlds that differ, and
-    both show the log. *)
+    M is a map, e an open dart of it, L a log, W a world.
+
+    Hang a leaf on every open dart; or a path of two edges on e and leaves on the others. The two
+    worlds differ in size, and both show the log. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log.
 
-(** A map is embedded in itself with a new vertex. *)
+(** A map is embedded in itself with a new vertex added. *)
 Lemma embedded_fresh M e d : is_map M -> e < darts M -> alpha M e = None ->
   embedded M (augment_new M e d) id.
 Proof.
@@ -16,7 +19,7 @@ Proof.
     cases; congruence.
 Qed.
 
-(** A leaf on every open dart. *)
+(** Every connected map is embedded in a world that has a leaf on each of its open darts. *)
 Lemma hang_leaves n : forall M, is_map M -> connected M -> darts M <= n + known M ->
   exists W, world W /\ embedded M W id /\ darts W + known M = 2 * darts M /\
   forall d, d < darts M -> alpha M d = None -> exists x, alpha W d = Some x /\ darts M <= x.
@@ -44,7 +47,7 @@ Proof.
            unfold join. cases. auto.
 Qed.
 
-(** What a map shows, a world that it is part of shows. *)
+(** If a map shows a log, every world in which it is embedded shows it. *)
 Lemma embedded_replays M W phi L : is_map M -> is_map W -> embedded M W phi -> replays M L ->
   replays W L.
 Proof.
@@ -53,11 +56,11 @@ Proof.
   - apply (forward M W phi); auto.
 Qed.
 
-(** Two worlds that replay the log and are not isomorphic: they differ in size. *)
+(** The log is undetermined: two worlds that differ in size, hence are not isomorphic, show it. *)
 Definition undetermined L := exists W1 W2, world W1 /\ world W2 /\
   replays W1 L /\ replays W2 L /\ darts W1 <> darts W2.
 
-(** Claim 9: leaves on all open darts, or a path of two on e and leaves on the others. *)
+(** Claim 9: a log that a map with an open dart shows is undetermined. *)
 Theorem open_undetermined M L e : is_map M -> connected M -> replays M L ->
   e < darts M -> alpha M e = None -> undetermined L.
 Proof.

@@ -1,23 +1,26 @@
-(** How many vertices a map has: vertices are told apart by their first darts. *)
+(** Counting the vertices of a map, each represented by its least dart (docs/semantics.md, section
+    1).
+
+    M is a map; a, b are darts; n is the number of vertices. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding.
 
-(** Is b a dart of a's vertex? *)
+(** Is b a dart of the vertex of a? *)
 Definition at_vertex M a b := existsb (fun k => turn M k a =? b) (seq 0 (degree M a)).
 
-(** The least dart of a's vertex. *)
+(** The least dart of the vertex of a. *)
 Definition first_dart M a :=
   match find (at_vertex M a) (seq 0 (darts M)) with Some x => x | None => a end.
 
-(** The number of vertices n. *)
+(** The number of vertices n: how many least darts there are. *)
 Definition vertices M := length (nodup Nat.eq_dec (map (first_dart M) (seq 0 (darts M)))).
 
 Section Vertices.
 Variable M : Map.
 Hypothesis WM : is_map M.
 
-(** The program is right. *)
+(** [at_vertex] decides whether b is a turn of a. *)
 Lemma at_vertex_iff a b : a < darts M -> at_vertex M a b = true <-> exists k, turn M k a = b.
 Proof.
   intros Ha. unfold at_vertex. rewrite existsb_exists. destruct (degree_spec M WM a Ha) as (D & _).
@@ -28,7 +31,7 @@ Proof.
     + rewrite turn_mod by auto. apply Nat.eqb_eq, E.
 Qed.
 
-(** Every turn can be undone by a turn. *)
+(** Every turn can be undone by another turn. *)
 Lemma turn_back k a : a < darts M -> exists j, turn M j (turn M k a) = a.
 Proof.
   intros Ha. destruct (degree_spec M WM a Ha) as (D & _).
@@ -37,7 +40,7 @@ Proof.
   rewrite <- turn_mod, Nat.mod_mul by (auto || lia). auto.
 Qed.
 
-(** Darts of one vertex have the same vertex. *)
+(** Darts of the same vertex have the same darts at their vertex. *)
 Lemma at_vertex_eq a b x : a < darts M -> at_vertex M a b = true ->
   at_vertex M a x = at_vertex M b x.
 Proof.
@@ -47,7 +50,7 @@ Proof.
   - exists (i + k). apply turn_add.
 Qed.
 
-(** The first dart is one of them. *)
+(** The first dart of a's vertex is a dart of that vertex. *)
 Lemma first_dart_at a : a < darts M -> first_dart M a < darts M /\ at_vertex M a (first_dart M a) = true.
 Proof.
   intros Ha. unfold first_dart. destruct (find _ _) as [x|] eqn:F.
@@ -55,7 +58,7 @@ Proof.
   - split; auto. apply at_vertex_iff; auto. exists 0. auto.
 Qed.
 
-(** Vertices are told apart by first darts. *)
+(** Two darts have the same first dart exactly if they are at the same vertex. *)
 Lemma first_dart_eq a b : a < darts M -> b < darts M ->
   first_dart M a = first_dart M b <-> at_vertex M a b = true.
 Proof.
@@ -70,7 +73,7 @@ Proof.
     discriminate N. apply in_seq. lia.
 Qed.
 
-(** Darts of different vertices are at most n. *)
+(** A list of darts at pairwise different vertices has at most n elements. *)
 Theorem vertices_most l : (forall a, In a l -> a < darts M) -> NoDup (map (first_dart M) l) ->
   length l <= vertices M.
 Proof.
@@ -82,7 +85,7 @@ Qed.
 (** The first darts of all vertices. *)
 Definition firsts := nodup Nat.eq_dec (map (first_dart M) (seq 0 (darts M))).
 
-(** Each is its own first dart. *)
+(** A dart in that list is its own first dart. *)
 Lemma firsts_own a : In a firsts -> a < darts M /\ first_dart M a = a.
 Proof.
   intros I. apply nodup_In, in_map_iff in I as (d & <- & I). apply in_seq in I.
@@ -90,7 +93,7 @@ Proof.
   symmetry. apply first_dart_eq; auto.
 Qed.
 
-(** At most as many vertices as darts. *)
+(** A map has at most as many vertices as darts. *)
 Lemma vertices_le : vertices M <= darts M.
 Proof.
   rewrite <- (seq_length (darts M) 0). apply (NoDup_incl_length (NoDup_nodup _ _)).
@@ -98,7 +101,7 @@ Proof.
 Qed.
 End Vertices.
 
-(** What is embedded has no more vertices. *)
+(** An embedded map has at most as many vertices as the world. *)
 Theorem embedded_vertices M W phi : is_map M -> is_map W -> embedded M W phi ->
   vertices M <= vertices W.
 Proof.
