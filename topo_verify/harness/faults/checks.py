@@ -213,7 +213,7 @@ def examples_to_detection(
     """
     import hypothesis
 
-    from topo_verify.strategies.resolve import strategy_from
+    from topo_verify.strategies.resolve import resolve_strategy
 
     tried = undecided = 0
     found: int | None = None
@@ -232,7 +232,7 @@ def examples_to_detection(
         ],
         report_multiple_bugs=False,
     )
-    @hypothesis.given(strategy_from(strategy))
+    @hypothesis.given(resolve_strategy(strategy))
     def every_claim_holds(world: World) -> None:
         nonlocal tried, found, failing, undecided
         if world == failing:  # the failing example comes once more, to be shown
