@@ -113,7 +113,7 @@ def test_our_bug_exits_70_and_says_how_to_report_it(
         ("world count", "missing option '--edges'"),
         ("world count --edges six", "'six' is no number of edges"),
         ("world count --edges 3..1", "numbers of edges go up"),
-        ("world count --edges 3 --class tidy", "'tidy' is no class"),
+        ("world count --edges 3 --class tidy", "class 'tidy': expected any, planar"),
         ("world sample --edges 300", "say with -o"),
         ("world sample --edges 5 -o mappers.py", "-o mappers.py: cannot make this folder"),
         ("replay nothing.jsonl", "no such world: 'nothing.jsonl'"),

@@ -11,7 +11,7 @@ import inspect
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import TypeVar, cast
 
 from topo_verify.errors import InputError
 from topo_verify.text import shown
@@ -110,4 +110,4 @@ def _literal(node: ast.expr, text: str, syntax: CallSyntax) -> Argument:
     if type(value) not in allowed:
         expected = "a literal" if syntax.words else "a number"
         raise TypeError(f"expected {expected}, got '{ast.get_source_segment(text, node)}'")
-    return value
+    return cast("Argument", value)
