@@ -18,7 +18,7 @@ from topo_verify.checkers import CLAIMS
 from topo_verify.checkers.findings import Verdict
 from topo_verify.checkers.replayed_trace import Case
 from topo_verify.faults import Fault
-from topo_verify.faults.fault import Told
+from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.harness.run import explore
 from topo_verify.harness.search.exhaustive import Size, search
 from topo_verify.harness.verify.parts import Tell
@@ -269,7 +269,7 @@ def fails(fault: Fault, world: World) -> bool | None:
     return run.map is None or any(True for claim, _ in CLAIMS.values() for _ in claim(case))
 
 
-class _Counting(Told):
+class _Counting(ForwardingRobot):
     """Counts the edges that the mapper declares to have explored."""
 
     def __init__(self, robot: Robot, edges: int) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from topo_verify.algorithms import planar
-from topo_verify.algorithms.folding import Sketch
+from topo_verify.algorithms.folding import PartialFold
 from topo_verify.proofs.first_order import axioms as t
 from topo_verify.proofs.first_order import rules as r
 from topo_verify.proofs.first_order.mutants.mutant import AWAY, TRUE, RuleMutant, x
@@ -31,16 +31,16 @@ def _plays_fold(stage: Stage, doors: tuple[str | int, ...], one: str, other: str
 
 def _plays_ghost(stage: Stage, _rule: Term) -> bool:
     vu = stage.behind("e")
-    sketch = Sketch()
-    nodes = [sketch.add(stage.chart.percepts[first], known=True) for first in stage.chart.first]
-    ghost = sketch.add(vu, known=True)  # the fault: it is not known to be a vertex of S
+    partial = PartialFold()
+    nodes = [partial.add(stage.chart.percepts[first], known=True) for first in stage.chart.first]
+    ghost = partial.add(vu, known=True)  # the fault: it is not known to be a vertex of S
 
     def place(dart: int) -> tuple[int, int]:
         v = stage.chart.vertex[dart]
         return nodes[v], dart - stage.chart.first[v]
 
-    sketch.join(place(stage.dart("e")), (ghost, 0))
-    refuted = sketch.join(place(stage.dart("e")), place(stage.dart("h")))
+    partial.join(place(stage.dart("e")), (ghost, 0))
+    refuted = partial.join(place(stage.dart("e")), place(stage.dart("h")))
     return bool(refuted) and stage.truth("e", "h")
 
 
