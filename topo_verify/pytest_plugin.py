@@ -369,6 +369,6 @@ def topo_examine() -> Callable[..., Report]:
 
 
 def _world(world: World | str) -> World:
-    from topo_verify.world.resolve import world_from
+    from topo_verify.world.resolve import resolve_world
 
-    return world_from(world) if isinstance(world, str) else world
+    return resolve_world(world) if isinstance(world, str) else world

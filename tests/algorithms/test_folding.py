@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from tests.helpers import any_world, of_type, trace_of, worlds
 from topo_verify import World, examine, explore, families
-from topo_verify.algorithms.folding import Sketch
+from topo_verify.algorithms.folding import PartialFold
 from topo_verify.checkers import Contradiction, Fold, decision_conclusions
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject, Start, Trace
 from topo_verify.robot.percept import Percept
@@ -98,9 +98,9 @@ NONSENSE = st.lists(
 
 
 def both(moves: Sequence[tuple[int, Percept]], first: Percept) -> tuple[list[bool], list[bool]]:
-    """At which moves the fold of the checkers and the sketch of the rule meet a contradiction."""
-    fold, sketch = Fold(first), Sketch()
-    sketch.add(first, known=True)
+    """At which moves the fold of the checkers and the partial of the rule meet a contradiction."""
+    fold, partial = Fold(first), PartialFold()
+    partial.add(first, known=True)
     theirs, ours = [False], [False]
     for before, (door, percept) in enumerate(moves):
         try:
@@ -109,10 +109,10 @@ def both(moves: Sequence[tuple[int, Percept]], first: Percept) -> tuple[list[boo
             theirs.append(True)
         else:
             theirs.append(False)
-        here = sketch.add(percept)
-        wrong = sketch.join((before, door), (here, 0))
+        here = partial.add(percept)
+        wrong = partial.join((before, door), (here, 0))
         if not wrong and percept.marker is not None:
-            wrong = sketch.identify((here, percept.marker), (0, first.marker or 0))
+            wrong = partial.identify((here, percept.marker), (0, first.marker or 0))
         ours.append(bool(wrong))
         if theirs[-1] or ours[-1]:
             break
@@ -177,14 +177,14 @@ def test_it_agrees_with_the_checker_at_every_rejection() -> None:
 
 
 def test_contradictions_of_the_sketch() -> None:
-    sketch = Sketch()
-    known = sketch.add(Percept(3, None), known=True)
-    other = sketch.add(Percept(3, None), known=True)
-    ghost = sketch.add(Percept(2, None))
-    marked = sketch.add(Percept(3, 0), known=True)
-    assert "own other end" in sketch.join((known, 0), (known, 3))
-    assert "vertices of S" in sketch.identify((known, 0), (other, 1))
-    assert "degrees" in sketch.identify((known, 0), (ghost, 0))
-    assert "degrees" in sketch.identify((known, 0), (marked, 0))
-    assert "turned" in sketch.identify((known, 0), (known, 1))
-    assert sketch.identify((known, 2), (known, 5)) == ""
+    partial = PartialFold()
+    known = partial.add(Percept(3, None), known=True)
+    other = partial.add(Percept(3, None), known=True)
+    ghost = partial.add(Percept(2, None))
+    marked = partial.add(Percept(3, 0), known=True)
+    assert "own other end" in partial.join((known, 0), (known, 3))
+    assert "vertices of S" in partial.identify((known, 0), (other, 1))
+    assert "degrees" in partial.identify((known, 0), (ghost, 0))
+    assert "degrees" in partial.identify((known, 0), (marked, 0))
+    assert "turned" in partial.identify((known, 0), (known, 1))
+    assert partial.identify((known, 2), (known, 5)) == ""

@@ -21,7 +21,7 @@ from topo_verify.algorithms.motion import (
     retrace,
 )
 from topo_verify.algorithms.policies import Order, nearest, shortest
-from topo_verify.faults.fault import Told
+from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.robot.events import Evidence
 from topo_verify.robot.percept import Door, Percept, Purpose
 from topo_verify.robot.simulator import SimulatedRobot
@@ -41,21 +41,21 @@ class Vague(Percept, frozen=True, gc=False):
     __hash__ = Percept.__hash__
 
 
-class Undirected(Told):
+class Undirected(ForwardingRobot):
     """Sees the marker, does not compare where it points."""
 
     def seen(self, percept: Percept) -> Percept:
         return Vague(percept.degree, percept.marker)
 
 
-class Blind(Told):
+class Blind(ForwardingRobot):
     """Does not see the marker."""
 
     def seen(self, percept: Percept) -> Percept:
         return Percept(percept.degree, None)
 
 
-class Wandering(Told):
+class Wandering(ForwardingRobot):
     """Walks every edge two hundred times more."""
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:

@@ -73,7 +73,7 @@ def test_several_mappers_are_told_apart(results: Results) -> None:
         ("conform basic --cmd ./mapper", "one of the two"),
         ("conform --cmd /no/such/program --worlds m1/0", "cannot start '/no/such/program'"),
         ('conform --cmd "\'" --worlds m1/0', "quote"),
-        ("conform basic --worlds nowhere", "names no world"),
+        ("conform basic --worlds nowhere", "no such world"),
         ("conform basic --like best", "no algorithm 'best'"),
         ("conform basic --batch --worlds m1/0", "for programs"),
         ("conform nothing --worlds m1/0", "no algorithm 'nothing'"),

@@ -71,7 +71,7 @@ def test_our_bug_exits_70_and_says_how_to_report_it(
     def broken(_text: str, *, stdin: object) -> object:
         raise KeyError("planted", stdin)
 
-    monkeypatch.setattr(runs, "world_from", broken)
+    monkeypatch.setattr(runs, "resolve_world", broken)
     done = call("explore m3/14 --algorithm basic")
     assert done.exit_code == 70
     assert done.stdout == ""
@@ -88,7 +88,7 @@ def test_our_bug_exits_70_and_says_how_to_report_it(
         ("", "name a command; topo-verify --help lists them"),
         ("nothing", "no such command 'nothing'"),
         ("explore", "missing argument 'WORLD...'"),
-        ("explore nowhere.json", "'nowhere.json' names no world"),
+        ("explore nowhere.json", "no such world: 'nowhere.json'"),
         ("explore - -", "'-' is given twice"),
         ("explore m3/14 --algorithm best", "no algorithm 'best'"),
         ("explore m3/14 --algorithm mappers.py:nothing", "has no attribute 'nothing'"),
@@ -113,10 +113,10 @@ def test_our_bug_exits_70_and_says_how_to_report_it(
         ("world count", "missing option '--edges'"),
         ("world count --edges six", "'six' is no number of edges"),
         ("world count --edges 3..1", "numbers of edges go up"),
-        ("world count --edges 3 --class tidy", "'tidy' is no class"),
+        ("world count --edges 3 --class tidy", "class 'tidy': expected any, planar"),
         ("world sample --edges 300", "say with -o"),
         ("world sample --edges 5 -o mappers.py", "-o mappers.py: cannot make this folder"),
-        ("replay nothing.jsonl", "'nothing.jsonl' names no world"),
+        ("replay nothing.jsonl", "no such world: 'nothing.jsonl'"),
         ("replay m3/14 --world m3/15", "m3/14 is no trace"),
         ("replay m3/14 --target all", "names 9 mappers"),
     ],

@@ -99,8 +99,14 @@ def test_options_that_mean_nothing_for_a_trace_are_refused(
         ('{"type": "move", "door": 0, "percept": {"degree": 1, "marker": null}}', "begins with"),
         ('{"type": "dance"}', "line 1"),
         ('{"type": "start", "version": 2, "percept": {"degree": 1, "marker": 0}}', "newer"),
-        ('{"type": "start", "world": "nyc", "percept": {"degree": 1, "marker": 0}}', "no world id"),
-        ('{"type": "start", "world": "-", "percept": {"degree": 1, "marker": 0}}', "no world id"),
+        (
+            '{"type": "start", "world": "nyc", "percept": {"degree": 1, "marker": 0}}',
+            "expected a world id",
+        ),
+        (
+            '{"type": "start", "world": "-", "percept": {"degree": 1, "marker": 0}}',
+            "expected a world id",
+        ),
         ("no JSON at all", "no valid JSON"),
         ("", "is empty"),
         ("[" * 100_000, "one JSON object"),

@@ -72,7 +72,7 @@ def test_a_mapper_out_of_time_exits_3(results: Call, call: Call) -> None:
         ("search --compare basic", "name two algorithms of the catalogue, as A,B"),
         ("search --compare basic,basic", "name two algorithms of the catalogue, as A,B"),
         ("search basic --edges 0", "invalid value for '--edges'"),
-        ("search basic --class tidy", "'tidy' is no class"),
+        ("search basic --class tidy", "class 'tidy': expected any, planar"),
         ("search basic --class simple,planar --edges 9", "there is no formula"),
         ("search basic,folding --ledger L", "a ledger is of one TARGET; basic,folding names 2"),
         ("search basic --ledger mappers.py", "it is no ledger: name another file"),

@@ -138,7 +138,7 @@ def test_sample_draws_from_a_strategy(call: Call, results: Call) -> None:
         ("world sample --strategy worlds --edges 3", "--edges beside --strategy"),
         ("world sample --strategy worlds --class planar", "--class beside --strategy"),
         ("world sample -n 3", "say with --edges how many, or with --strategy which worlds"),
-        ("world sample --strategy nothing", "'nothing' names no strategy"),
+        ("world sample --strategy nothing", "no such strategy: 'nothing'"),
         (
             "world sample --strategy 'worlds(min_edges=300,max_edges=300)'",
             "with 300 edges has no id",

@@ -98,7 +98,7 @@ def test_the_digest_names_the_worlds_and_nothing_else() -> None:
         ("generated", "'generated:N'"),
         ("generated:5:no_worlds", "no strategy"),
         ("-", "name a file"),
-        ("nowhere", "names no world"),
+        ("nowhere", "no such world"),
         ("m3/9999", "m3"),
     ],
 )

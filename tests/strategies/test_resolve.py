@@ -6,7 +6,7 @@ import pytest
 from hypothesis import find
 
 from topo_verify import InputError, strategies
-from topo_verify.strategies.resolve import WORLDS, strategy_from
+from topo_verify.strategies.resolve import WORLDS, resolve_strategy
 
 
 def test_every_exported_strategy_of_worlds_has_its_name() -> None:
@@ -16,7 +16,7 @@ def test_every_exported_strategy_of_worlds_has_its_name() -> None:
 
 
 def test_a_name_alone_is_the_strategy_with_its_widest_arguments() -> None:
-    assert find(strategy_from("nonplanar_worlds"), lambda _: True).id == "m2/8"
+    assert find(resolve_strategy("nonplanar_worlds"), lambda _: True).id == "m2/8"
 
 
 @pytest.mark.parametrize(
@@ -30,21 +30,21 @@ def test_a_name_alone_is_the_strategy_with_its_widest_arguments() -> None:
     ],
 )
 def test_arguments_are_numbers_words_and_truth_values(text: str, simplest: str) -> None:
-    assert find(strategy_from(text), lambda _: True).id == simplest
+    assert find(resolve_strategy(text), lambda _: True).id == simplest
 
 
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("planar", "'planar' names no strategy: expected one of worlds, planar_worlds"),
-        ("worlds(", "names no strategy"),
-        ("worlds(min_edges=__import__('os'))", "names no strategy"),
+        ("planar", "no such strategy: 'planar'; expected one of worlds, planar_worlds"),
+        ("worlds(", "'(' was never closed; the strategy is worlds(min_edges="),
+        ("worlds(min_edges=__import__('os'))", "expected a literal, got '__import__('os')'"),
         (
             "worlds(edges=3)",
             "unexpected keyword argument 'edges'; the strategy is worlds(min_edges=",
         ),
         ("worlds(3)", "too many positional arguments"),
-        ("worlds(simple=yes)", "'simple=yes' is no literal and no name=literal"),
+        ("worlds(simple=yes)", "expected a literal, got 'yes'; the strategy is worlds("),
         ("worlds(simple='yes')", "worlds: simple='yes', expected True or False"),
         ("worlds(loopless=1)", "worlds: loopless=1, expected True or False"),
         ("uniform_worlds", "argument: 'edges'; the strategy is uniform_worlds(edges)"),
@@ -54,5 +54,5 @@ def test_arguments_are_numbers_words_and_truth_values(text: str, simplest: str) 
 )
 def test_what_names_no_strategy_is_told_why(text: str, sentence: str) -> None:
     with pytest.raises(InputError) as refusal:
-        strategy_from(text)
+        resolve_strategy(text)
     assert sentence in str(refusal.value)

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
-from topo_verify.world.resolve import world_from
+from topo_verify.world.resolve import resolve_world
 
 EXAMPLES = [
     "lattice(1,1)",
@@ -59,9 +59,9 @@ def joined(world: World) -> set[frozenset[int]]:
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_a_world_is_called_exactly_what_makes_it_again(name: str) -> None:
-    world = world_from(f"family:{name}")
+    world = resolve_world(f"family:{name}")
     assert world.name == name
-    assert world_from(f"family:{world.name}").to_json() == world.to_json()
+    assert resolve_world(f"family:{world.name}").to_json() == world.to_json()
 
 
 def test_there_is_an_example_of_every_family() -> None:
@@ -228,8 +228,8 @@ def test_the_largest_piece_is_kept_and_of_equal_ones_the_first() -> None:
     "name", ["lattice(4,4,holes=0.1", "regular(8,3", "dense(8,0.5", "complete(4"]
 )
 def test_a_marker_that_is_named_changes_nothing_else(name: str) -> None:
-    drawn = world_from(f"family:{name},seed=3)")
-    named = world_from(f"family:{name},seed=3,marker=2)")
+    drawn = resolve_world(f"family:{name},seed=3)")
+    named = resolve_world(f"family:{name},seed=3,marker=2)")
     assert named == drawn.with_marker(2)
 
 

@@ -9,7 +9,7 @@ import pytest
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.formats import files, planar_code
-from topo_verify.world.resolve import world_from
+from topo_verify.world.resolve import resolve_world
 
 NET = (
     '<net><junction id="a" x="0" y="0"/><junction id="b" x="1" y="0"/>'
@@ -37,7 +37,7 @@ def test_a_file_is_read_as_its_name_says(name: str, tmp_path: Path) -> None:
     file = tmp_path / name
     file.write_bytes(FILES[name])
     world = World.load(file)
-    assert world == families.path(2) == world_from(str(file))
+    assert world == families.path(2) == resolve_world(str(file))
     assert world.name in {"w", "W", "path(2)"}
 
 

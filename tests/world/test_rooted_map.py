@@ -183,13 +183,13 @@ def test_an_id_and_its_world_name_each_other(pair: tuple[int, int]) -> None:
     ["", "5/17", "m5", "m5/", "m/17", "m5/-1", "m-5/1", "m5/1.0", "m5/1/2", "m\u0665/1", "m 5/1"],
 )
 def test_what_is_no_id_is_refused_with_an_example(text: str) -> None:
-    with pytest.raises(InputError, match=r"no world id: an id is m<edges>/<rank>, as m5/17"):
+    with pytest.raises(InputError, match=r"expected a world id m<edges>/<rank>, such as m5/17"):
         World.from_id(text)
 
 
 @pytest.mark.parametrize("text", ["m5/" + "9" * 5000, "m" + "9" * 5000 + "/5"])
 def test_an_id_with_thousands_of_digits_is_no_id(text: str) -> None:
-    with pytest.raises(InputError, match="no world id") as refusal:
+    with pytest.raises(InputError, match="expected a world id") as refusal:
         World.from_id(text)
     assert len(str(refusal.value)) < 200
 

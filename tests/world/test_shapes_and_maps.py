@@ -14,7 +14,7 @@ from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.families import MAX_DARTS, random_maps
-from topo_verify.world.resolve import world_from
+from topo_verify.world.resolve import resolve_world
 
 # ---------------------------------------------------------------- what each one is
 
@@ -52,7 +52,7 @@ from topo_verify.world.resolve import world_from
 def test_a_family_has_its_size_its_genus_its_degrees_and_its_faces(
     name: str, vertices: int, edges: int, genus: int, degrees: set[int], faces: set[int]
 ) -> None:
-    world = world_from(f"family:{name}")
+    world = resolve_world(f"family:{name}")
     assert (len(world.vertices), len(world.edges), world.genus) == (vertices, edges, genus)
     assert set(world.degrees) == degrees
     assert set(map(len, world.faces)) == faces
@@ -63,7 +63,7 @@ def test_a_family_has_its_size_its_genus_its_degrees_and_its_faces(
     ("name", "id"), [("path(3)", "m2/0"), ("cycle(1)", "m1/1"), ("star(1)", "m1/0")]
 )
 def test_a_small_one_is_pinned(name: str, id: str) -> None:  # noqa: A002  the id of the world
-    assert world_from(f"family:{name}").id == id
+    assert resolve_world(f"family:{name}").id == id
 
 
 @pytest.mark.parametrize("name", ["tetrahedron", "cube", "octahedron", "dodecahedron"])
@@ -155,8 +155,8 @@ def test_names_of_random_maps_are_promises_too() -> None:
 
 @pytest.mark.parametrize("name", ["random_tree(9", "random_planar(9", "random_genus(9,2"])
 def test_a_marker_that_is_named_changes_nothing_else_in_a_random_map(name: str) -> None:
-    drawn = world_from(f"family:{name},seed=3)")
-    assert world_from(f"family:{name},seed=3,marker=2)") == drawn.with_marker(2)
+    drawn = resolve_world(f"family:{name},seed=3)")
+    assert resolve_world(f"family:{name},seed=3,marker=2)") == drawn.with_marker(2)
 
 
 def test_a_large_planar_map_needs_no_recursion() -> None:
@@ -197,4 +197,4 @@ def test_a_large_planar_map_needs_no_recursion() -> None:
 )
 def test_arguments_out_of_range_are_refused_and_named(text: str, sentence: str) -> None:
     with pytest.raises(InputError, match=sentence):
-        world_from(f"family:{text}")
+        resolve_world(f"family:{text}")

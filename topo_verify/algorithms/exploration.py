@@ -92,7 +92,7 @@ def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Orde
             chart.join(e, entry)  # non-loop augmentation: A1.19 A2.27 A3.28
             robot.declare(Augment(e, "new", entry, percept.degree))
         rule.learn(chart, e, entry, sequences)
-        at = where(pilot, chart, entry)
+        at = localise(pilot, chart, entry)
     return chart.survey(pilot.cost)  # A1.20 A2.28 A3.30
 
 
@@ -171,7 +171,7 @@ def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
     return None
 
 
-def where(pilot: Pilot, chart: Chart, entry: Dart) -> Dart:
+def localise(pilot: Pilot, chart: Chart, entry: Dart) -> Dart:
     """Where the robot goes on from: its reference dart on S once vu's entry dart is known.
 
     After a confirmation it stays if it stands at v0, whose marker tells its reference dart;

@@ -34,14 +34,14 @@ from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.robot.events import Evidence
 from topo_verify.robot.percept import Door, Percept
 
-Place = tuple[int, Door]
+NodeDart = tuple[int, Door]
 
 
-class Sketch:
+class PartialFold:
     """Nodes, their identifications so far, and what lies behind their doors. Grows; can roll back.
 
     Every method that identifies returns "" or the contradiction it met. After a contradiction the
-    sketch is of use only for `roll_back`.
+    partial is of use only for `roll_back`.
     """
 
     def __init__(self) -> None:
@@ -50,7 +50,7 @@ class Sketch:
         self.leader: list[int] = []
         self.turned: list[Door] = []  # door k of a node is door k + turned of its leader
         self.weight: list[int] = []
-        self.behind: list[dict[Door, Place]] = []
+        self.behind: list[dict[Door, NodeDart]] = []
         self.done: list[tuple[int, Door | None, bool]] = []  # what `roll_back` takes back
 
     def add(self, percept: Percept, *, known: bool = False) -> int:
@@ -63,7 +63,7 @@ class Sketch:
         self.behind.append({})
         return len(self.leader) - 1
 
-    def resolve(self, place: Place) -> Place:
+    def resolve(self, place: NodeDart) -> NodeDart:
         """The place that stands for all that are the same dart."""
         node, door = place
         while (leader := self.leader[node]) != node:
@@ -71,12 +71,12 @@ class Sketch:
             node = leader
         return node, door % self.percepts[node].degree
 
-    def across(self, place: Place) -> Place | None:
+    def across(self, place: NodeDart) -> NodeDart | None:
         """What lies behind a dart, as far as it was seen."""
         node, door = self.resolve(place)
         return self.behind[node].get(door)
 
-    def join(self, one: Place, other: Place) -> str:
+    def join(self, one: NodeDart, other: NodeDart) -> str:
         """Make the two ends of one edge; fold."""
         one, other = self.resolve(one), self.resolve(other)
         if one == other:
@@ -88,7 +88,7 @@ class Sketch:
             self._put(other, one)
         return (had and self.identify(had, other)) or (has and self.identify(has, one)) or ""
 
-    def identify(self, one: Place, other: Place) -> str:
+    def identify(self, one: NodeDart, other: NodeDart) -> str:
         """Make the two one dart; fold."""
         waiting = [(one, other)]
         while waiting:
@@ -125,7 +125,7 @@ class Sketch:
         self.weight[large] += self.weight[small]
         self.known[large] |= self.known[small]
 
-    def _put(self, place: Place, beyond: Place) -> None:
+    def _put(self, place: NodeDart, beyond: NodeDart) -> None:
         self.behind[place[0]][place[1]] = beyond
         self.done.append((*place, False))
 
@@ -146,13 +146,13 @@ class FoldingRule(NoRule):
     """Rejects every hypothesis that no world allows. Remembers everything seen in the run."""
 
     def __init__(self) -> None:
-        self.sketch = Sketch()
-        self.entries: list[Place] = []  # of each vertex of S: the place of its first dart
+        self.partial = PartialFold()
+        self.entries: list[NodeDart] = []  # of each vertex of S: the place of its first dart
         self.percept = Percept(0, None)  # vu's
-        self.e: Place = (0, 0)
-        self.vu: Place = (0, 0)
+        self.e: NodeDart = (0, 0)
+        self.vu: NodeDart = (0, 0)
 
-    def place(self, chart: Chart, dart: Dart) -> Place:
+    def node_dart(self, chart: Chart, dart: Dart) -> NodeDart:
         """The place of a dart of S."""
         v = chart.vertex[dart]
         node, door = self.entries[v]
@@ -161,19 +161,19 @@ class FoldingRule(NoRule):
     def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
         """The robot has crossed e: vu is a place seen before, or a new ghost."""
         if not self.entries:
-            self.entries.append((self.sketch.add(chart.percepts[0], known=True), 0))
+            self.entries.append((self.partial.add(chart.percepts[0], known=True), 0))
         self.percept = percept
-        self.e = self.place(chart, e)
+        self.e = self.node_dart(chart, e)
         self.vu = self._cross(self.e, percept)
 
-    def _cross(self, exit_place: Place, percept: Percept) -> Place:
+    def _cross(self, exit_place: NodeDart, percept: Percept) -> NodeDart:
         """The place behind a dart that the robot has just crossed; what was seen there is kept."""
-        beyond = self.sketch.across(exit_place)
+        beyond = self.partial.across(exit_place)
         if beyond is None:
-            beyond = (self.sketch.add(percept), 0)
-            self.sketch.join(exit_place, beyond)
+            beyond = (self.partial.add(percept), 0)
+            self.partial.join(exit_place, beyond)
             if percept.marker is not None:
-                self.sketch.identify((beyond[0], percept.marker), (0, 0))
+                self.partial.identify((beyond[0], percept.marker), (0, 0))
         return beyond
 
     def observe(self, sequence: Executed) -> None:
@@ -186,9 +186,9 @@ class FoldingRule(NoRule):
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
         """Why no world allows the hypothesis, if none does."""
-        mark = len(self.sketch.done)
-        wrong = self.sketch.join(self.e, self.place(chart, hypothesis.dart))
-        self.sketch.roll_back(mark)
+        mark = len(self.partial.done)
+        wrong = self.partial.join(self.e, self.node_dart(chart, hypothesis.dart))
+        self.partial.roll_back(mark)
         if not wrong:
             return None
         percept = chart.percepts[hypothesis.dart]
@@ -196,13 +196,13 @@ class FoldingRule(NoRule):
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The last hypothesis, once vu is known to be a vertex of S."""
-        node, _ = self.sketch.resolve(self.vu)
-        return remaining[0] if len(remaining) == 1 and self.sketch.known[node] else None
+        node, _ = self.partial.resolve(self.vu)
+        return remaining[0] if len(remaining) == 1 and self.partial.known[node] else None
 
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
         """vu is a vertex of S from now on."""
         if len(self.entries) < len(chart.first):
             self.entries.append(self.vu)
-            self.sketch.known[self.sketch.resolve(self.vu)[0]] = True
+            self.partial.known[self.partial.resolve(self.vu)[0]] = True
         else:
-            self.sketch.join(self.e, self.place(chart, entry))
+            self.partial.join(self.e, self.node_dart(chart, entry))

@@ -19,7 +19,7 @@ from topo_verify.harness.run import Exploration, Report, judge, replay_line, und
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
-from topo_verify.world.resolve import world_from
+from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 
@@ -72,7 +72,7 @@ def place(text: str, marker: int | None = None, stdin: bytes | None = None) -> P
     Raises:
         InputError: no such world, no such dart.
     """
-    world = world_from(text, stdin=None if stdin is None else BytesIO(stdin))
+    world = resolve_world(text, stdin=None if stdin is None else BytesIO(stdin))
     if marker is not None:
         named_by_id = world.name == text
         try:

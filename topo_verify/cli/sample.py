@@ -135,10 +135,10 @@ def _by_strategy(
             f"{given} beside --strategy: a strategy is told by its own arguments which worlds,"
             " as in --strategy 'worlds(min_edges=5, max_edges=9, simple=True)'"
         )
-    from topo_verify.strategies.resolve import strategy_from
+    from topo_verify.strategies.resolve import resolve_strategy
     from topo_verify.strategies.sample import sample as draw
 
-    return iter(draw(strategy_from(text), number, start=seed))
+    return iter(draw(resolve_strategy(text), number, start=seed))
 
 
 def _folder(name: str) -> Path:

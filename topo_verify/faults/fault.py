@@ -25,8 +25,6 @@ PartName = Literal[
 ]
 """The part of a mapper that a mistake is in: also the file in which it stands."""
 
-Mapper = Callable[[Robot], object]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fault:
@@ -45,7 +43,7 @@ class Fault:
     part: PartName
     why: str
     claim: str | None
-    mapper: Mapper
+    mapper: Callable[[Robot], object]
     theorem: str | None = None
 
     def __call__(self, robot: Robot) -> object:
@@ -113,7 +111,7 @@ def rebound(**names: object) -> dict[str, Any]:
 # ---------------------------------------------------------------- what several mistakes need
 
 
-class Told:
+class ForwardingRobot:
     """A robot that passes everything on; what inherits from it bends one thing."""
 
     def __init__(self, robot: Robot) -> None:

@@ -5,24 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from topo_verify.algorithms.chart import Chart, Dart
-from topo_verify.algorithms.folding import FoldingRule, Place, Sketch
+from topo_verify.algorithms.folding import FoldingRule, NodeDart, PartialFold
 from topo_verify.algorithms.motion import Hypothesis
 from topo_verify.faults.fault import Fault, mapper
 from topo_verify.robot.percept import Door, Percept
 
 
-def _folding(sketch: type[Sketch]) -> Callable[[], FoldingRule]:
-    """The complete rule with another sketch."""
+def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
+    """The complete rule with another partial."""
 
     def rule() -> FoldingRule:
         made = FoldingRule()
-        made.sketch = sketch()
+        made.partial = partial()
         return made
 
     return rule
 
 
-class _StaysKnown(Sketch):
+class _StaysKnown(PartialFold):
     def roll_back(self, mark: int) -> None:
         known = {self.leader[node] for node, door, _ in self.done[mark:] if door is None}
         still = {node for node in known if self.known[node]}
@@ -40,7 +40,7 @@ keeps_an_assumption_for_good = Fault(
 )
 
 
-class _AllKnown(Sketch):
+class _AllKnown(PartialFold):
     def add(self, percept: Percept, *, known: bool = True) -> int:
         return super().add(percept, known=known)
 
@@ -55,7 +55,7 @@ takes_each_place_for_known = Fault(
 )
 
 
-class _Unturned(Sketch):
+class _Unturned(PartialFold):
     def _merge(self, small: int, large: int, turned: Door) -> None:
         super()._merge(small, large, 0 * turned)
 
@@ -86,7 +86,7 @@ enters_old_places_by_door_0 = Fault(
 
 
 class _MarkerMirrored(FoldingRule):
-    def _cross(self, exit_place: Place, percept: Percept) -> Place:
+    def _cross(self, exit_place: NodeDart, percept: Percept) -> NodeDart:
         if percept.marker is not None:
             percept = Percept(percept.degree, -percept.marker % percept.degree)
         return super()._cross(exit_place, percept)

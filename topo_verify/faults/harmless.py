@@ -17,7 +17,7 @@ from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Executed, Hypothesis, Pilot
 from topo_verify.algorithms.policies import Order, last, newest
-from topo_verify.faults.fault import Fault, Told, mapper
+from topo_verify.faults.fault import Fault, ForwardingRobot, mapper
 from topo_verify.robot.events import Decision, Robot
 from topo_verify.robot.percept import Percept
 
@@ -175,7 +175,7 @@ reports_no_cost = Fault(
 )
 
 
-class _Silent(Told):
+class _Silent(ForwardingRobot):
     def declare(self, event: Decision) -> None:
         """Nobody is told."""
 

@@ -10,7 +10,7 @@ from topo_verify.algorithms.exploration import hypotheses
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.algorithms.planar import PlanarRule
 from topo_verify.algorithms.policies import Order, shortest
-from topo_verify.faults.fault import Fault, Told, crossed, mapper
+from topo_verify.faults.fault import Fault, ForwardingRobot, crossed, mapper
 from topo_verify.robot.events import Robot
 from topo_verify.robot.percept import Percept
 
@@ -93,7 +93,7 @@ class _Coarse(Percept, frozen=True, gc=False):
     __hash__ = Percept.__hash__
 
 
-class _CoarseSight(Told):
+class _CoarseSight(ForwardingRobot):
     def seen(self, percept: Percept) -> Percept:
         return _Coarse(percept.degree, percept.marker)
 

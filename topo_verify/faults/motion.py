@@ -98,7 +98,7 @@ goes_on_as_if_just_come_in = Fault(
     part="motion",
     why="after the last way back the robot is entered on S with the dart by which it came to vu",
     claim="map-isomorphic",
-    mapper=mapper("basic", where=_as_it_came_in),
+    mapper=mapper("basic", localise=_as_it_came_in),
 )
 
 

@@ -33,7 +33,7 @@ import msgspec
 from topo_verify.errors import InputError
 from topo_verify.text import shown
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.resolve import world_from
+from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 DEFAULT = ("corpus",)
@@ -208,13 +208,13 @@ def _generated(text: str, seed: int) -> Part:
 def _drawn(text: str, strategy: str, number: int, seed: int) -> list[World]:
     from hypothesis.errors import HypothesisException
 
-    from topo_verify.strategies.resolve import strategy_from
+    from topo_verify.strategies.resolve import resolve_strategy
     from topo_verify.strategies.sample import sample
 
     if number == 0:
         return []
     try:
-        return sample(strategy_from(strategy), number, start=seed)
+        return sample(resolve_strategy(strategy), number, start=seed)
     except HypothesisException as error:
         raise InputError(f"--worlds {text!r}: {strategy} draws no worlds: {error}") from error
 
@@ -227,7 +227,7 @@ def _listed(text: str, worlds: Sequence[Named]) -> Part:
 
 
 def _by_name(name: str, group: str) -> Named:
-    return Named(name, world_from(name), group, ("--worlds", name))
+    return Named(name, resolve_world(name), group, ("--worlds", name))
 
 
 def _named(name: str, world: World, group: str, again: tuple[str, ...]) -> Named:

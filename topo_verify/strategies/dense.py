@@ -15,7 +15,7 @@ from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.draws import worlds_of
 from topo_verify.strategies.growth import CROWDED
-from topo_verify.strategies.shapes import WIDEST, Marker, grown_shape
+from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape
 from topo_verify.world.rooted_map import World
 
 
@@ -28,7 +28,7 @@ def dense_worlds(  # noqa: PLR0913  one argument a bound, and every one is optio
     simple: bool = False,
     loopless: bool = False,
     max_degree: int | None = None,
-    marker: Marker = "any",
+    marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
     """Every world within the bounds with 2m >= n(n-1)/2. Shrinks to few edges, then few handles.
 

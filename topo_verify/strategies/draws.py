@@ -17,8 +17,8 @@ from hypothesis import reject
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from topo_verify.strategies.growth import BALANCED, ONE_STRING, Kinds, grow, nth
-from topo_verify.strategies.shapes import Marker, Shape, edge_bounds
+from topo_verify.strategies.growth import BALANCED, ONE_STRING, EdgeKinds, grow, nth
+from topo_verify.strategies.shapes import MarkerPlace, Shape, edge_bounds
 from topo_verify.world.rooted_map import Dart, World
 
 _AT_LEAST = (0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16)
@@ -37,8 +37,8 @@ def worlds_of(
     *,
     min_edges: object,
     max_edges: object,
-    marker: Marker,
-    kinds: Kinds = BALANCED,
+    marker: MarkerPlace,
+    kinds: EdgeKinds = BALANCED,
 ) -> SearchStrategy[World]:
     """Worlds of this shape, for the strategy of this name.
 
@@ -51,7 +51,7 @@ def worlds_of(
 
 @st.composite
 def _grown(
-    draw: st.DrawFn, shape: Shape, kinds: Kinds, least: int, most: int, marker: Marker
+    draw: st.DrawFn, shape: Shape, kinds: EdgeKinds, least: int, most: int, marker: MarkerPlace
 ) -> World:
     """Worlds that grow from bytes, with `least` to `most` edges."""
     steps = draw_bytes(draw, least, most)
@@ -90,7 +90,7 @@ def scaled(length: int, *drawn: int) -> int:
     return int.from_bytes(drawn) * length >> 8 * len(drawn)
 
 
-def marked_darts(vertex: Sequence[int], marker: Marker) -> Sequence[Dart]:
+def marked_darts(vertex: Sequence[int], marker: MarkerPlace) -> Sequence[Dart]:
     """The darts at which the marker may point, given the vertex of each dart."""
     if marker != "hub":
         return range(len(vertex))

@@ -14,7 +14,7 @@ from hypothesis.strategies import SearchStrategy
 
 from topo_verify.errors import InputError
 from topo_verify.strategies.draws import worlds_of
-from topo_verify.strategies.shapes import WIDEST, Marker, grown_shape, integer
+from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape, integer
 from topo_verify.world.rooted_map import World
 
 
@@ -27,7 +27,7 @@ def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     simple: bool = False,
     loopless: bool = False,
     max_degree: int | None = None,
-    marker: Marker = "any",
+    marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
     """Every world within the bounds. Shrinks to few edges, genus 0, and stars.
 
@@ -58,7 +58,7 @@ def planar_worlds(
     simple: bool = False,
     loopless: bool = False,
     max_degree: int | None = None,
-    marker: Marker = "any",
+    marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
     """Every world of genus 0 within the bounds. Shrinks to few edges, and stars.
 
@@ -85,7 +85,7 @@ def nonplanar_worlds(
     simple: bool = False,
     loopless: bool = False,
     max_degree: int | None = None,
-    marker: Marker = "any",
+    marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
     """Every world of this genus within the bounds; of any genus above 0 if None.
 

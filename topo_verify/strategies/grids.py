@@ -68,7 +68,7 @@ def _lattices(draw: st.DrawFn, least: int, most: int, marker: LatticeMarker) -> 
 
 
 @dataclass(frozen=True, slots=True)
-class _Sizes:
+class _RectangleSizes:
     """How large a rectangle may be.
 
     Attributes:
@@ -81,7 +81,7 @@ class _Sizes:
 
 
 @lru_cache(maxsize=256)
-def _sizes(least: int, bound: int) -> _Sizes:
+def _sizes(least: int, bound: int) -> _RectangleSizes:
     """The rectangles with enough edges and not too many too many: what is taken out helps.
 
     Too many are a quarter more, and one column more: so any number of edges can be had, in several
@@ -92,7 +92,7 @@ def _sizes(least: int, bound: int) -> _Sizes:
         for c in range(1, bound * 5 // 4 + 4)
     }
     columns = [c for c, fitting in rows.items() for _ in fitting]
-    return _Sizes(one_of(columns), {c: one_of(rows[c]) for c in columns})
+    return _RectangleSizes(one_of(columns), {c: one_of(rows[c]) for c in columns})
 
 
 def _rectangle(rows: int, columns: int) -> Grid:

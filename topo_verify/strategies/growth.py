@@ -40,12 +40,12 @@ from typing import Any, Literal
 from topo_verify.strategies.shapes import MANY, Shape
 from topo_verify.world.rooted_map import Dart
 
-Kind = Literal["leaf", "split", "cross"]
-Kinds = tuple[Kind, Kind, Kind, Kind]
+EdgeKind = Literal["leaf", "split", "cross"]
+EdgeKinds = tuple[EdgeKind, EdgeKind, EdgeKind, EdgeKind]
 """What the two highest bits of a byte ask for, simplest first."""
 
-BALANCED: Kinds = ("leaf", "leaf", "split", "cross")
-CROWDED: Kinds = ("leaf", "split", "split", "cross")
+BALANCED: EdgeKinds = ("leaf", "leaf", "split", "cross")
+CROWDED: EdgeKinds = ("leaf", "split", "split", "cross")
 
 PLACES = 64
 """How many places a byte can tell apart."""
@@ -53,7 +53,7 @@ PLACES = 64
 ONE_STRING = PLACES // 2
 """Up to so many edges, a byte can tell all corners apart."""
 
-_INSTEAD: dict[Kind, tuple[Kind, Kind, Kind]] = {
+_INSTEAD: dict[EdgeKind, tuple[EdgeKind, EdgeKind, EdgeKind]] = {
     "leaf": ("leaf", "split", "cross"),
     "split": ("split", "cross", "leaf"),
     "cross": ("cross", "split", "leaf"),
@@ -83,7 +83,7 @@ class Grown:
         return tuple(dart ^ 1 for dart in range(len(self.sigma)))
 
 
-def grow(shape: Shape, kinds: Kinds, steps: bytes, further: bytes = b"\0") -> Grown | None:
+def grow(shape: Shape, kinds: EdgeKinds, steps: bytes, further: bytes = b"\0") -> Grown | None:
     """The map that these bytes mean; None if it came to a dead end, and so did all its shuffles.
 
     Guarantees that the map has len(steps) edges and keeps the bounds, and that None can happen only
@@ -121,7 +121,7 @@ class _Sapling:
         self._faces = 1
         self._labels = 1
 
-    def grow(self, kinds: Kinds, steps: bytes, further: bytes) -> Grown | None:
+    def grow(self, kinds: EdgeKinds, steps: bytes, further: bytes) -> Grown | None:
         """All the edges, one a byte; None at a dead end."""
         for step, more in zip(steps, cycle(further), strict=False):
             place = step % PLACES + PLACES * more
@@ -132,7 +132,7 @@ class _Sapling:
                 return None
         return Grown(tuple(self._sigma), tuple(self._vertex), tuple(self._closings))
 
-    def _add(self, kind: Kind, place: int) -> bool:
+    def _add(self, kind: EdgeKind, place: int) -> bool:
         """Add an edge of this kind, if there is one and the rest can still be done after it."""
         if kind == "leaf":
             possible = self._can_finish(1, 0, 0, self._shape.max_degree - 2)
@@ -166,7 +166,7 @@ class _Sapling:
 
     # ------------------------------------------------------------ where an edge may go
 
-    def _moves(self, kind: Kind, place: int) -> Iterator[tuple[Dart, Dart]]:
+    def _moves(self, kind: EdgeKind, place: int) -> Iterator[tuple[Dart, Dart]]:
         """The corners where an edge of this kind may begin and end, those at this place first."""
         darts = len(self._sigma)
         if not darts:

@@ -27,7 +27,7 @@ from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.rooted_map import World
 
 
-class Run(Protocol):
+class ObservedRun(Protocol):
     """A run of a mapper, as `topo_verify.explore` returns it."""
 
     @property
@@ -56,7 +56,7 @@ class Run(Protocol):
         ...
 
 
-def observe(run: Run) -> None:
+def observe(run: ObservedRun) -> None:
     """Tell Hypothesis what this run was. Outside of a test of Hypothesis: nothing."""
     if not currently_in_test_context():
         return
@@ -66,7 +66,7 @@ def observe(run: Run) -> None:
             event(feature, value)
 
 
-def describe(run: Run) -> str:
+def describe(run: ObservedRun) -> str:
     """Algorithm, policies, world and cost in one line.
 
     A world that has an id is called by it; a larger one by its JSON, which `World.from_json` reads.
@@ -77,7 +77,7 @@ def describe(run: Run) -> str:
     return f"{run.algorithm}{how} in {world}: {run.cost} edge traversals"
 
 
-def features(run: Run) -> dict[str, int]:
+def features(run: ObservedRun) -> dict[str, int]:
     """What the viewers of Hypothesis's observations can sort runs by."""
     loops = sum(isinstance(event, Augment) and event.kind == "loop" for event in run.trace)
     return {

@@ -37,17 +37,17 @@ WORLDS: MappingProxyType[str, Callable[..., SearchStrategy[World]]] = MappingPro
 )
 """Every strategy that draws worlds, by its name."""
 
-_KIND = calls.Kind("strategy", "", "'planar_worlds(max_edges=20)'", words=True)
+_KIND = calls.CallSyntax("strategy", "", "'planar_worlds(max_edges=20)'", words=True)
 
 
-def strategy_from(text: str) -> SearchStrategy[World]:
+def resolve_strategy(text: str) -> SearchStrategy[World]:
     """The strategy that the text names.
 
     Raises:
         InputError: there is none of that name, its arguments do not fit, or no world keeps them.
     Example:
         >>> from hypothesis import find
-        >>> find(strategy_from("nonplanar_worlds(genus=2)"), lambda world: True).genus
+        >>> find(resolve_strategy("nonplanar_worlds(genus=2)"), lambda world: True).genus
         2
     """
     return calls.call(text, WORLDS, _KIND, bare=True)

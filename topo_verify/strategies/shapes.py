@@ -38,7 +38,7 @@ from typing import Any, Literal, SupportsIndex, get_args
 from topo_verify.errors import InputError
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 
-Marker = Literal["any", "leaf", "hub"]
+MarkerPlace = Literal["any", "leaf", "hub"]
 
 WIDEST = MAX_ID_EDGES
 """max_edges where nothing is said."""
@@ -209,7 +209,7 @@ def grown_shape(
     least = integer(strategy, "min_genus", min_genus)
     most = MANY if max_genus is None else integer(strategy, "max_genus", max_genus)
     _in_order(strategy, "genus", least, most)
-    require_marker(strategy, marker, get_args(Marker))
+    require_marker(strategy, marker, get_args(MarkerPlace))
     for name, value in (("simple", simple), ("loopless", loopless)):
         if not isinstance(value, bool):
             raise InputError(f"{strategy}: {name}={value!r}, expected True or False")

@@ -39,7 +39,7 @@ from topo_verify.strategies.growth import BALANCED, Grown, grow
 from topo_verify.strategies.shapes import (
     MANY,
     WIDEST,
-    Marker,
+    MarkerPlace,
     Shape,
     edge_bounds,
     grown_shape,
@@ -55,7 +55,7 @@ _NUMBERS = 8
 
 
 @dataclass(frozen=True, slots=True)
-class _Sizes:
+class _CoverSizes:
     """How large rosettes or necklaces may be.
 
     Attributes:
@@ -92,7 +92,7 @@ def symmetric_worlds(
     simple: bool = False,
     loopless: bool = False,
     max_degree: int | None = None,
-    marker: Marker = "any",
+    marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
     """Rosettes, in which all vertices look alike, and necklaces, in which all beads do.
 
@@ -116,7 +116,7 @@ def symmetric_worlds(
 
 
 @st.composite
-def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Marker) -> World:
+def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: MarkerPlace) -> World:
     bound, is_necklace = draw(_FIRST)
     kinds = _kinds(shape, least, max(least, at_most(most, bound)))
     if not any(kinds):
@@ -154,7 +154,7 @@ def cover(small: Small, sheets: int, root: Dart) -> World:
 
 
 @lru_cache(maxsize=256)
-def _kinds(shape: Shape, least: int, most: int) -> tuple[_Sizes | None, _Sizes | None]:
+def _kinds(shape: Shape, least: int, most: int) -> tuple[_CoverSizes | None, _CoverSizes | None]:
     """The sizes of rosettes and of necklaces within the bounds; None where there are none."""
     rosettes = {0: [1] * (least == 0 and not shape.leaf)}
     for darts in range(1, min(2 * most, shape.max_degree) + 1):
@@ -167,11 +167,11 @@ def _kinds(shape: Shape, least: int, most: int) -> tuple[_Sizes | None, _Sizes |
     return _drawn(rosettes), _drawn(necklaces)
 
 
-def _drawn(sheets: dict[int, list[int]]) -> _Sizes | None:
+def _drawn(sheets: dict[int, list[int]]) -> _CoverSizes | None:
     smalls = [small for small, numbers in sheets.items() for _ in numbers]
     if not smalls:
         return None
-    return _Sizes(one_of(smalls), {small: one_of(sheets[small]) for small in smalls})
+    return _CoverSizes(one_of(smalls), {small: one_of(sheets[small]) for small in smalls})
 
 
 def _is_rosette(shape: Shape, sheets: int, darts: int) -> bool:

@@ -13,7 +13,7 @@ from dataclasses import replace
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.draws import worlds_of
-from topo_verify.strategies.shapes import WIDEST, Marker, grown_shape
+from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape
 from topo_verify.world.rooted_map import World
 
 
@@ -22,7 +22,7 @@ def tree_worlds(
     min_edges: int = 0,
     max_edges: int = WIDEST,
     max_degree: int | None = None,
-    marker: Marker = "any",
+    marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
     """Every plane tree within the bounds. Shrinks to few edges, and stars.
 

@@ -4,7 +4,7 @@ A robot and a mapper never see this package; checkers, searches and commands all
 `World`.
 """
 
-from topo_verify.world import families
+from topo_verify.world import families, io
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
@@ -16,5 +16,7 @@ from topo_verify.world.rooted_map import World
 # io.py                 which format a file has
 # resolve.py            WORLD on a command line: a path, an id, family:…, nyc, -
 # data/                 the street network that comes with the package
+
+World.formats = io
 
 __all__ = ["World", "families", "rank_order"]

@@ -1,45 +1,38 @@
-"""Calls on a command line: `lattice(10, 10, holes=0.2)`, taken apart here and never run by Python.
+"""Calls on a command line: `lattice(10, 10, holes=0.2)`, parsed and never run as Python.
 
-A call is a name with literal arguments, by place or by name: numbers, for families of worlds; for
-strategies also `True`, `False`, `None` and words in quotes.
+A call is a name with literal arguments, by position or by name: numbers, for families of worlds;
+for strategies also `True`, `False`, `None` and quoted words.
 """
 
 from __future__ import annotations
 
+import ast
 import inspect
-import re
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import TypeVar, cast
 
 from topo_verify.errors import InputError
 from topo_verify.text import shown
 
 T = TypeVar("T")
 
-Literal = int | float | bool | str | None
+Argument = int | float | str | bool | None
 
-_CALL = re.compile(r"(\w+)\(([^()]*)\)")
-_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-_WORDS: dict[str, Literal] = {"True": True, "False": False, "None": None}
-_QUOTED = r"'[a-z]*'|\"[a-z]*\""
-_ARGUMENT = re.compile(
-    rf"\s*(?:([a-z_]+)\s*=\s*)?(?:({_NUMBER})|({'|'.join(_WORDS)})|({_QUOTED}))\s*"
-)
-
-_LONGEST = 200
-"""Letters in a call: more than any needs, and too few for a number that takes long."""
+MAX_LENGTH = 200
+"""Characters in a call: more than any needs, too few to nest deeply or to hold a long number."""
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
-    """What is called, for the sentences.
+class CallSyntax:
+    """What is called, for the error messages.
 
     Attributes:
         kind: "family of worlds", say.
         before: what stands before the call on a command line.
         example: a whole text that is right.
-        words: are arguments other than numbers allowed?
+        words: may arguments be words and truth values, too?
     """
 
     kind: str
@@ -48,7 +41,9 @@ class Kind:
     words: bool = False
 
 
-def call(text: str, known: Mapping[str, Callable[..., T]], kind: Kind, *, bare: bool = False) -> T:
+def call(
+    text: str, known: Mapping[str, Callable[..., T]], syntax: CallSyntax, *, bare: bool = False
+) -> T:
     """What the call returns.
 
     Args:
@@ -56,63 +51,63 @@ def call(text: str, known: Mapping[str, Callable[..., T]], kind: Kind, *, bare: 
         known: what may be called.
         bare: a name alone is a call without arguments.
     Raises:
-        InputError: the text is no such call, or its arguments do not fit; also whatever the called
-            one raises.
+        InputError: the name is unknown or the arguments do not fit; also whatever is raised by the
+            function that is called.
     """
-    text = f"{text}()" if bare and text in known else text
-    found = _CALL.fullmatch(text) if len(text) <= _LONGEST else None
-    make = known.get(found[1]) if found else None
-    if found is None or make is None:
+    name = text.partition("(")[0]
+    if name not in known:
+        expected = f"expected after '{syntax.before}'" if syntax.before else "expected"
         raise InputError(
-            f"'{shown(kind.before + text, limit=60)}' names no {kind.kind}:"
-            f" {_expected(kind)} one of {', '.join(known)} with {_kinds(kind)}s for arguments,"
-            f" as in {kind.example}"
+            f"no such {syntax.kind}: '{shown(syntax.before + text, limit=60)}'; {expected} one of"
+            f" {', '.join(known)} with {'literals' if syntax.words else 'numbers'} for arguments,"
+            f" as in {syntax.example}"
         )
-    signature = inspect.signature(make)
+    signature = inspect.signature(known[name])
     try:
-        places, options = _arguments(found[2], kind)
-        bound = signature.bind(*places, **options)
+        positional, named = _arguments(f"{name}()" if bare and text == name else text, syntax)
+        bound = signature.bind(*positional, **named)
     except TypeError as error:
         parameters = ", ".join(
-            name if one.default is one.empty else f"{name}={one.default}"
-            for name, one in signature.parameters.items()
+            parameter if one.default is one.empty else f"{parameter}={one.default}"
+            for parameter, one in signature.parameters.items()
         )
         raise InputError(
-            f"'{shown(kind.before + text)}': {shown(str(error))}; the {kind.kind.split()[0]} is"
-            f" {found[1]}({parameters})"
+            f"'{shown(syntax.before + text, limit=60)}': {shown(str(error))};"
+            f" the {syntax.kind.split()[0]} is {name}({parameters})"
         ) from error
-    return make(*bound.args, **bound.kwargs)
+    return known[name](*bound.args, **bound.kwargs)
 
 
-def _expected(kind: Kind) -> str:
-    return f"after '{kind.before}' stands" if kind.before else "expected"
+def _arguments(text: str, syntax: CallSyntax) -> tuple[list[Argument], dict[str, Argument]]:
+    """The call's arguments by position and by name; TypeError, as from a call, if it is none."""
+    if len(text) > MAX_LENGTH:
+        raise TypeError(f"expected at most {MAX_LENGTH} characters, got {len(text)}")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # Python's on sloppy literals: one message is enough
+            parsed = ast.parse(text, mode="eval").body
+    except SyntaxError as error:
+        raise TypeError(error.msg) from error
+    except (ValueError, RecursionError, MemoryError) as error:  # the others that ast.parse raises
+        raise TypeError("expected a call without nested brackets or control characters") from error
+    if not isinstance(parsed, ast.Call) or not isinstance(parsed.func, ast.Name):
+        raise TypeError("expected one call, with its arguments in brackets")
+    named: dict[str, Argument] = {}
+    for word in parsed.keywords:
+        if word.arg is None or word.arg in named:
+            given = ast.get_source_segment(text, word)
+            raise TypeError(f"expected name=value and each name once, got '{given}'")
+        named[word.arg] = _literal(word.value, text, syntax)
+    return [_literal(node, text, syntax) for node in parsed.args], named
 
 
-def _kinds(kind: Kind) -> str:
-    return "literal" if kind.words else "number"
-
-
-def _arguments(text: str, kind: Kind) -> tuple[list[Literal], dict[str, Literal]]:
-    """Arguments by place and by name; where they are none, a TypeError, as from a call."""
-    places: list[Literal] = []
-    options: dict[str, Literal] = {}
-    for part in text.split(",") if text.strip() else ():
-        found = _ARGUMENT.fullmatch(part)
-        if not found or not (kind.words or found[2]):
-            wanted = _kinds(kind)
-            raise TypeError(f"'{part.strip()}' is no {wanted} and no name={wanted}")
-        key, number, word, quoted = found.groups()
-        value: Literal = _WORDS[word] if word else quoted[1:-1] if quoted else _number(number)
-        if key is None and options:
-            raise TypeError(f"{part.strip()} stands behind an argument with a name")
-        if key in options:
-            raise TypeError(f"{key} is given twice")
-        if key is None:
-            places.append(value)
-        else:
-            options[key] = value
-    return places, options
-
-
-def _number(text: str) -> int | float:
-    return int(text) if text.lstrip("+-").isdigit() else float(text)
+def _literal(node: ast.expr, text: str, syntax: CallSyntax) -> Argument:
+    allowed = {int, float, str, bool, type(None)} if syntax.words else {int, float}
+    try:
+        value = ast.literal_eval(node)
+    except (ValueError, RecursionError):
+        value = ...  # an Ellipsis is a literal, too, and never allowed
+    if type(value) not in allowed:
+        expected = "a literal" if syntax.words else "a number"
+        raise TypeError(f"expected {expected}, got '{ast.get_source_segment(text, node)}'")
+    return cast("Argument", value)

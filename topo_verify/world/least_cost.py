@@ -1,7 +1,8 @@
-"""The least cost of a proof: what every mapper pays that is right in all worlds.
+"""The least cost of a proof: a lower bound for every mapper that is right in all worlds.
 
-To prove its map, a mapper's closed trips from v0 must generate the fundamental group (else the fold
-of its history has an open dart), even with the map in hand. Write d for the distance from v0.
+A mapper has proved its map only if its closed trips from v0 generate the fundamental group (else
+the fold of its history has an open dart). That holds even for a mapper that was given the map.
+Write d for the distance from v0.
 
 - The classes of the trips span the cycle space. A closed trip of length at most t uses only edges
   uv with d(u) + 1 + d(v) <= t, so the loops that a breadth-first tree closes with the edges outside
@@ -20,35 +21,39 @@ Source: docs/semantics.md, section 11.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from itertools import accumulate
 
-if TYPE_CHECKING:
-    from topo_verify.world.rooted_map import World
+from topo_verify.world.enumeration.rank_order import Table
 
 
-def least_cost(world: World) -> int:
-    """LB in edge traversals; 0 for the world without edges. O(m)."""
-    vertex = world.vertex_of
-    depth, parent = {world.marker_vertex: 0}, {world.marker_vertex: -1}
-    order = [world.marker_vertex]
-    tree: set[int] = set()
-    for v in order:  # grows as it goes: a queue
-        for dart in world.vertices[v]:
-            u = vertex[world.alpha[dart]]
-            if u not in depth:
-                depth[u], parent[u] = depth[v] + 1, v
-                tree.add(min(dart, world.alpha[dart]))
-                order.append(u)
-    loops = [(vertex[a], vertex[b]) for a, b in world.edges if a not in tree]
-    core = {world.marker_vertex}  # the vertices on tree paths from v0 to the ends of loops
-    for end in {end for loop in loops for end in loop}:
-        v = end
+def least_cost(table: Table) -> int:
+    """The least cost LB, in edge traversals, of the world with this canonical code. O(m)."""
+    degrees, alpha = table
+    vertex = [v for v, degree in enumerate(degrees) for _ in range(degree)]
+    # The code numbers vertices breadth-first and the darts of each from the one it was entered by.
+    # So the first darts lead to the parents, and every parent stands before its children.
+    entry = list(accumulate(degrees, initial=0))[:-1]
+    parent = [vertex[alpha[dart]] if dart else 0 for dart in entry]
+    depth = [0] * len(degrees)
+    for v in range(1, len(degrees)):
+        depth[v] = depth[parent[v]] + 1
+    in_tree = set(
+        entry[1:]
+    )  # an edge of the tree is its child's first dart, the greater of its two
+    loops = [
+        (vertex[dart], vertex[other])
+        for dart, other in enumerate(alpha)
+        if dart < other and other not in in_tree
+    ]
+    core = {0}  # the vertices on tree paths from v0 to the ends of loops
+    for v in {end for loop in loops for end in loop}:
         while v not in core:
             core.add(v)
-            v = parent[v]
-    attached = {v: depth[v] for v in core}  # per vertex: the depth of the core vertex above it
-    for v in order:
-        attached.setdefault(v, attached.get(parent[v], 0))
-    saved = max((depth[v] - 2 * attached[v] for v in order if v not in core), default=0)
-    pendant = len(order) - len(core)
-    return sum(depth[u] + 1 + depth[v] for u, v in loops) + 2 * pendant - max(0, saved)
+            v = parent[v]  # noqa: PLW2901  climbs towards v0
+    attached = depth.copy()  # per vertex: the depth of the core vertex above it
+    for v in range(len(degrees)):
+        if v not in core:
+            attached[v] = attached[parent[v]]
+    pendant = [v for v in range(len(degrees)) if v not in core]
+    saved = max((depth[v] - 2 * attached[v] for v in pendant), default=0)
+    return sum(depth[u] + 1 + depth[v] for u, v in loops) + 2 * len(pendant) - max(0, saved)

@@ -1,15 +1,15 @@
-"""What a WORLD may be called on a command line, and the world that is meant.
+"""Resolves a WORLD argument of the command line to the world that it names.
 
 | text | world |
 | --- | --- |
 | `-` | world JSON from standard input |
 | `nyc` | the street network that comes with the package |
 | `m5/17` | the world of that id |
-| `family:lattice(10,10,holes=0.2,seed=7)` | of a family, arguments being numbers |
-| anything else | a file, by its path; its ending says its format (formats/loading.py) |
+| `family:lattice(10,10,holes=0.2,seed=7)` | the world of that family; arguments are numbers |
+| anything else | the world in the file at that path; its ending says its format (io.py) |
 
-The first line that fits counts; a file that is called like one of the others is named with `./`
-before it. The text behind `family:` is taken apart in calls.py and never handed to Python.
+The first row that fits counts. A file whose name fits an earlier row is named with `./` before it.
+The text behind `family:` is parsed by calls.py and never run as Python.
 
 Source: docs/semantics.md, section 16.
 """
@@ -30,17 +30,17 @@ from topo_verify.world.formats import files, world_json
 from topo_verify.world.rooted_map import World
 
 _ID = re.compile(r"m[0-9]+/[0-9]+")
-_FAMILY = calls.Kind("family of worlds", "family:", "family:lattice(3,4,seed=7)")
+_FAMILY = calls.CallSyntax("family of worlds", "family:", "family:lattice(3,4,seed=7)")
 
 
-def world_from(text: str, *, stdin: BinaryIO | None = None) -> World:
+def resolve_world(text: str, *, stdin: BinaryIO | None = None) -> World:
     """The world that the text names.
 
     Args:
         text: a path, `-`, a world id, `family:…` or `nyc`.
         stdin: what `-` reads; default: standard input.
     Raises:
-        InputError: no world is called so, or it cannot be read; one sentence says why.
+        InputError: there is no such world, or it cannot be read.
     """
     if text == "-":
         return _from_stream(sys.stdin.buffer if stdin is None else stdin)
@@ -52,9 +52,9 @@ def world_from(text: str, *, stdin: BinaryIO | None = None) -> World:
         return calls.call(text.removeprefix("family:"), FAMILIES, _FAMILY)
     if not _exists(text):
         raise InputError(
-            f"'{shown(text)}' names no world: no file of that name is to be seen; a world is"
-            " a path, an id (m5/17), a family (family:lattice(10,10,holes=0.2,seed=7)), nyc (the"
-            " street network of the package) or - (world JSON on standard input)"
+            f"no such world: '{shown(text)}' is not a file; give a path, an id (m5/17), a family"
+            " (family:lattice(10,10,holes=0.2,seed=7)), nyc (the street network of the package) or"
+            " - (world JSON on standard input)"
         )
     return World.load(text)
 
@@ -72,5 +72,5 @@ def _street_network() -> World:
 def _exists(path: str) -> bool:
     try:
         return bool(path) and Path(path).exists()
-    except (OSError, ValueError):  # where nobody may look; a name that no file can have
+    except (OSError, ValueError):  # a folder without permission; a name that no file can have
         return False

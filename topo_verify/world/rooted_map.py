@@ -20,20 +20,30 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Self
+from os import PathLike
+from typing import Any, ClassVar, Protocol, Self, TypeVar
 
 from topo_verify.errors import InputError
 from topo_verify.world import validation
 from topo_verify.world.enumeration import rank_order
+from topo_verify.world.least_cost import least_cost
 
-if TYPE_CHECKING:
-    from os import PathLike
+W = TypeVar("W", bound="World")
 
 Dart = int
 """One of the numbers 0 … 2m-1; an edge is two of them."""
 
 Code = tuple[tuple[int, ...], tuple[Dart, ...]]
 """Degrees and `alpha` in the breadth-first numbering from the root: equal iff isomorphic."""
+
+
+class _Formats(Protocol):
+    """What reads and writes worlds: `io.py`. `World` calls it and knows no file format."""
+
+    def load(self, cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W: ...
+    def decode(self, cls: type[W], text: str | bytes) -> W: ...
+    def encode(self, world: World) -> str: ...
+    def save(self, world: World, path: str | PathLike[str]) -> None: ...
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -55,6 +65,10 @@ class World:
     Complexity: O(m).
     """
 
+    # Set by the package (`world/__init__.py`), which runs before anyone can import this class. An
+    # import of io.py here would close a circle, because every format makes worlds.
+    formats: ClassVar[_Formats]
+
     alpha: tuple[Dart, ...]
     sigma: tuple[Dart, ...]
     root: Dart | None
@@ -73,13 +87,7 @@ class World:
                 f"the world is not connected: no way leads from the marker (dart {self.root}) to"
                 f" dart {lost}; give one world a file, or join the parts"
             )
-        for row, what in ((self.vertex_names, "vertex_names"), (self.positions, "positions")):
-            if row and len(row) != len(self.vertices):
-                raise InputError(
-                    f"{what} has {len(row)} entries for {len(self.vertices)} vertices:"
-                    " give one a vertex, in the order of the vertices, or leave it out"
-                )
-        validation.require_finite(self.positions)
+        validation.require_one_each(len(self.vertices), self.vertex_names, self.positions)
 
     # ------------------------------------------------------------ other ways to make one
 
@@ -161,9 +169,7 @@ class World:
         Raises:
             InputError: the file cannot be read, or is no world; one sentence says where and why.
         """
-        from topo_verify.world import io
-
-        return io.load(cls, path, graph=graph)
+        return cls.formats.load(cls, path, graph=graph)
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Self:
@@ -172,21 +178,15 @@ class World:
         Raises:
             InputError: as `load`.
         """
-        from topo_verify.world.formats import world_json
-
-        return world_json.decode(cls, text)
+        return cls.formats.decode(cls, text)
 
     def to_json(self) -> str:
         """World JSON, one line, the same bytes for the same world."""
-        from topo_verify.world.formats import world_json
-
-        return world_json.encode(self)
+        return self.formats.encode(self)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write world JSON; what the file held before is replaced at once or not at all."""
-        from topo_verify.world.formats import world_json
-
-        world_json.save(self, path)
+        self.formats.save(self, path)
 
     # ------------------------------------------------------------ what it is made of
 
@@ -271,9 +271,7 @@ class World:
 
     def least_cost(self) -> int:
         """The fewest edge traversals of a mapper that is right in all worlds: `least_cost.py`."""
-        from topo_verify.world.least_cost import least_cost
-
-        return least_cost(self)
+        return least_cost(self.code)
 
     # ------------------------------------------------------------ which world it is
 

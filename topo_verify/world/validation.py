@@ -14,8 +14,6 @@ from typing import Any, SupportsIndex, cast
 
 from topo_verify.errors import InputError
 
-Dart = int
-
 
 def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int | None) -> None:
     """Are these an involution without fixed point, a permutation and one of their darts?"""
@@ -58,8 +56,16 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
         )
 
 
-def require_finite(positions: Sequence[Sequence[float]]) -> None:
-    """Is every position a pair of numbers that a file could hold?"""
+def require_one_each(
+    vertices: int, names: Sequence[str], positions: Sequence[Sequence[float]]
+) -> None:
+    """Refuse names or positions unless there is one a vertex, or none; positions are finite."""
+    for what, row in (("vertex_names", names), ("positions", positions)):
+        if row and len(row) != vertices:
+            raise InputError(
+                f"{what} has {len(row)} entries for {vertices} vertices:"
+                " give one a vertex, in the order of the vertices, or leave it out"
+            )
     for vertex, position in enumerate(positions):
         if len(position) != 2 or not all(map(isfinite, position)):
             raise InputError(

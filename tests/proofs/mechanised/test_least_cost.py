@@ -11,7 +11,7 @@ from tests.helpers import worlds
 from tests.proofs.mechanised.conftest import LIMIT
 from topo_verify import World, families
 from topo_verify.proofs.mechanised import toolchain
-from topo_verify.world.resolve import world_from
+from topo_verify.world.resolve import resolve_world
 
 HEAD = """\
 From Coq Require Import Arith List Bool.
@@ -69,17 +69,17 @@ def accepted(place: Path, cases: Sequence[str]) -> bool:
 
 
 def test_coq_and_python_agree_on_the_least_cost(place: Path) -> None:
-    some = [*worlds(range(1, 4)), *map(world_from, PENDANT), families.lattice(3, 3)]
+    some = [*worlds(range(1, 4)), *map(resolve_world, PENDANT), families.lattice(3, 3)]
     assert accepted(place, [case(world, world.least_cost()) for world in some])
 
 
 @pytest.mark.parametrize("world", ["m3/8", PENDANT[0]])
 @pytest.mark.parametrize("more", [-1, 1])
 def test_another_number_is_refused(place: Path, world: str, more: int) -> None:
-    found = world_from(world)
+    found = resolve_world(world)
     assert not accepted(place, [case(found, found.least_cost() + more)])
 
 
 def test_what_the_last_trip_saves_matters() -> None:
     """A path is walked one way only, and a star's last edge is."""
-    assert [world_from(world).least_cost() for world in PENDANT[:2]] == [4, 7]
+    assert [resolve_world(world).least_cost() for world in PENDANT[:2]] == [4, 7]

@@ -19,7 +19,7 @@ from topo_verify.world.formats.nx import (
     from_positions,
     to_planar_embedding,
 )
-from topo_verify.world.resolve import world_from
+from topo_verify.world.resolve import resolve_world
 
 NX: Any = nx
 """NetworkX where its stubs leave types open."""
@@ -137,7 +137,7 @@ def test_a_lattice_drawn_is_that_lattice(make: Any) -> None:
 
 
 def test_the_street_network_of_the_package_follows_from_its_positions() -> None:
-    nyc = world_from("nyc")
+    nyc = resolve_world("nyc")
     graph: nx.Graph[int] = nx.Graph()
     graph.add_nodes_from(range(len(nyc.vertices)))
     graph.add_edges_from((nyc.vertex_of[a], nyc.vertex_of[b]) for a, b in nyc.edges)

@@ -18,7 +18,7 @@ from topo_verify.checkers import CLAIMS
 from topo_verify.checkers.findings import Verdict
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.faults import Fault
-from topo_verify.faults.fault import Told
+from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.harness.run import explore
 from topo_verify.harness.search.exhaustive import Size, search
 from topo_verify.harness.verify.parts import Tell
@@ -212,7 +212,7 @@ def examples_to_detection(
     """
     import hypothesis
 
-    from topo_verify.strategies.resolve import strategy_from
+    from topo_verify.strategies.resolve import resolve_strategy
 
     tried = undecided = 0
     found: int | None = None
@@ -231,7 +231,7 @@ def examples_to_detection(
         ],
         report_multiple_bugs=False,
     )
-    @hypothesis.given(strategy_from(strategy))
+    @hypothesis.given(resolve_strategy(strategy))
     def every_claim_holds(world: World) -> None:
         nonlocal tried, found, failing, undecided
         if world == failing:  # the failing example comes once more, to be shown
@@ -268,7 +268,7 @@ def fails(fault: Fault, world: World) -> bool | None:
     return run.map is None or any(True for claim, _ in CLAIMS.values() for _ in claim(replayed))
 
 
-class _Counting(Told):
+class _Counting(ForwardingRobot):
     """Counts the edges that the mapper declares to have explored."""
 
     def __init__(self, robot: Robot, edges: int) -> None:

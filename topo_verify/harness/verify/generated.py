@@ -18,10 +18,10 @@ from topo_verify.world.rooted_map import World
 @cache
 def generated_worlds(each: int, seed: int) -> tuple[World, ...]:
     """So many worlds of each strategy, smallest first."""
-    from topo_verify.strategies.resolve import strategy_from
+    from topo_verify.strategies.resolve import resolve_strategy
     from topo_verify.strategies.sample import sample
 
     worlds = [
-        world for text in STRATEGIES for world in sample(strategy_from(text), each, start=seed)
+        world for text in STRATEGIES for world in sample(resolve_strategy(text), each, start=seed)
     ]
     return tuple(sorted(worlds, key=lambda world: (len(world.edges), world.code)))

@@ -28,7 +28,7 @@ from topo_verify.harness.verify.trials import PATIENCE, Costs, Trials
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.resolve import world_from
+from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 SEED = 0
@@ -90,7 +90,7 @@ def _jobs(targets: Sequence[Target], seed: int, limits: Limits, *, quick: bool) 
         limits=limits,
         patience=PATIENCE,
     )
-    yield Costs("street-network", "nyc", world_from("nyc"), targets, limits)
+    yield Costs("street-network", "nyc", resolve_world("nyc"), targets, limits)
 
 
 def sampled_worlds(number: int, seed: int) -> Iterator[World]:

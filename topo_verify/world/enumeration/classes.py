@@ -1,4 +1,4 @@
-"""Classes of worlds: `planar`, `genus:1`, `simple,max-degree:4` …, and how many worlds are in them.
+"""Classes of worlds, such as `planar` or `simple,max-degree:4`: membership, counts and samples.
 
 A class is written as terms joined with commas, in any order; a world is in it if it has all of
 the properties. They are properties of the map, so where the marker lies never matters.
@@ -12,8 +12,8 @@ the properties. They are properties of the map, so where the marker lies never m
 | `simple` | loopless, and no two edges join the same two vertices |
 | `max-degree:D` | no vertex has more than D exits |
 
-What `sample` does not do: a class other than `any` is drawn by rejection, exactly uniform, but
-hopeless where hardly a world is in the class; then it says so instead of running on.
+What `sample` does not do: it draws from a class other than `any` by rejection. That is exactly
+uniform, but hopeless where hardly a world is in the class; then an error says so.
 
 Source: docs/semantics.md, section 16.
 """
@@ -72,12 +72,14 @@ class WorldClass:
         if most == 0:
             exact.add(0)
         if len(exact) > 1 or (exact and most is not None and max(exact) > most):
-            raise InputError(f"class {text!r} contradicts itself: a world has one genus")
+            raise InputError(
+                f"class {text!r} contradicts itself: a world has one genus; name one or one bound"
+            )
         genus = max(exact, default=None)
         if degree == 0 or (genus and degree in (1, 2)):
             raise InputError(
                 f"class {text!r} is empty: with at most {degree} exits a vertex there is no world"
-                f" {f'of genus {genus}' if degree else 'with an edge'}"
+                f" {f'of genus {genus}' if degree else 'with an edge'}; raise max-degree"
             )
         return cls(
             genus=genus,
@@ -105,21 +107,13 @@ class WorldClass:
         return self.admits(world.code)
 
     def admits(self, table: rank_order.Table) -> bool:
-        """Is the world with this table in the class? For long lists: no `World` is made."""
-        return self._admits_graph(table) and self._admits_genus(table)
-
-    def _admits_graph(self, table: rank_order.Table) -> bool:
-        degrees, alpha = table
-        if self.most_degree is not None and max(degrees) > self.most_degree:
+        """Is the world with this table in the class? Makes no `World`: long lists ask this."""
+        if self.most_degree is not None and max(table[0]) > self.most_degree:
             return False
-        if not (self.loopless or self.simple):
-            return True
-        vertex = [v for v, degree in enumerate(degrees) for _ in range(degree)]
-        ways = [(vertex[dart], vertex[other]) for dart, other in enumerate(alpha)]
-        has_loop = any(a == b for a, b in ways)
-        return not has_loop and not (self.simple and len(set(ways)) < len(ways))
-
-    def _admits_genus(self, table: rank_order.Table) -> bool:
+        if self.loopless or self.simple:
+            ends = _ends(table)
+            if any(a == b for a, b in ends) or (self.simple and len(set(ends)) < len(ends)):
+                return False
         if self.genus is not None:
             return _genus(table) == self.genus
         return self.most_genus is None or _genus(table) <= self.most_genus
@@ -129,10 +123,10 @@ class WorldClass:
     def count(self, edges: int) -> int:
         """How many worlds with this many edges are in the class.
 
-        By a formula for `any`, `planar` and the genus; for classes of graphs by their degrees, up
-        to 16 edges. Where a genus is combined with a property of the graph neither reaches: then
-        all worlds are listed and looked at one by one. None of these knows how a class is searched
-        (`growing.py`), so a search that meets the number has left nothing out.
+        A formula counts `any`, `planar` and the genus; `degree_counts` counts properties of the
+        graph, up to 16 edges. A genus together with a property of the graph has neither: then all
+        worlds are listed and looked at one by one. None of the three knows how a class is searched
+        (`pruned.py`), so a search that meets the number has left nothing out.
         Raises:
             InputError: more edges than can be counted.
         """
@@ -188,16 +182,16 @@ class WorldClass:
 
 
 def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
-    """The terms of a class: words as they stand, and the numbers that follow each bound."""
+    """The words in the text of a class, and the numbers behind each kind of bound."""
     words: set[str] = set()
     bounds: dict[str, list[int]] = {"genus:": [], "genus<=": [], "max-degree:": []}
     for term in text.split(","):
         found = _TERM.fullmatch(term.strip())
         if not found:
             raise InputError(
-                f"class {text!r}: {term.strip()!r} is no class; a class is any, planar,"
-                " genus:G, genus<=G, simple, loopless or max-degree:D, or several of them"
-                " joined with commas, all of which hold"
+                f"class {text!r}: expected any, planar, genus:G, genus<=G, simple, loopless or"
+                " max-degree:D, or several of them joined with commas, all of which hold; got"
+                f" {term.strip()!r}"
             )
         word, bound, number = found.groups()
         if bound:
@@ -205,6 +199,13 @@ def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
         else:
             words.add(word)
     return words, bounds
+
+
+def _ends(table: rank_order.Table) -> list[tuple[int, int]]:
+    """The two vertices of each edge, once from each of its darts."""
+    degrees, alpha = table
+    vertex = [v for v, degree in enumerate(degrees) for _ in range(degree)]
+    return [(vertex[dart], vertex[other]) for dart, other in enumerate(alpha)]
 
 
 def _genus(table: rank_order.Table) -> int:

@@ -1,4 +1,4 @@
-"""How many worlds have a property of their graph: loopless, simple, no vertex above a degree.
+"""Counts the worlds whose graph has a property: loopless, simple, or a bound on the degrees.
 
 Where the property says nothing of the rotations, every graph counts with all of its rotations. Give
 the vertices labels and let the darts of each be 0 … d-1. There are
@@ -53,12 +53,12 @@ def count_graphs(
         InputError: a negative number of edges; more than `MAX_EDGES`, unless no degree is above 2.
     """
     if edges < 0:
-        raise InputError(f"edges={edges}: the number of edges is 0 or more")
+        raise InputError(f"expected 0 or more edges, got {edges}")
     highest = 2 * edges if most_degree is None else min(most_degree, 2 * edges)
     if edges > MAX_EDGES and highest > 2:
         raise InputError(
-            f"edges={edges}: worlds with a property of their graph are counted up to {MAX_EDGES}"
-            " edges only"
+            f"expected at most {MAX_EDGES} edges, got {edges}: with more, worlds with a property of"
+            " their graph are too many to count; ask for fewer edges"
         )
     total = [_all_maps(m, highest, loopless=loopless, simple=simple) for m in range(edges + 1)]
     connected = [Fraction(0)]
@@ -66,12 +66,12 @@ def count_graphs(
         known = sum((k * connected[k] * total[m - k] for k in range(1, m)), Fraction(0))
         connected.append(total[m] - known / m)
     rooted = 2 * edges * connected[edges] if edges else Fraction(1)
-    assert rooted.denominator == 1, "a number of worlds"
+    assert rooted.denominator == 1, "the number of worlds is an integer"
     return rooted.numerator
 
 
 def _all_maps(edges: int, highest: int, *, loopless: bool, simple: bool) -> Fraction:
-    """[x^m] T(x)."""
+    """[x^m] T(x): all maps with m edges, connected or not, each 1 / (its symmetries) times."""
     number = Fraction(0)
     for degrees in _partitions(2 * edges, highest):
         ways = _simple_wirings(degrees) if simple else _wirings(degrees, loopless=loopless)
@@ -81,6 +81,7 @@ def _all_maps(edges: int, highest: int, *, loopless: bool, simple: bool) -> Frac
 
 
 def _partitions(total: int, highest: int) -> Iterator[Degrees]:
+    """Every multiset of numbers 1 … highest with this sum."""
     if total == 0:
         yield ()
     for first in range(min(total, highest), 0, -1):
@@ -90,7 +91,7 @@ def _partitions(total: int, highest: int) -> Iterator[Degrees]:
 
 @cache
 def _wirings(degrees: Degrees, *, loopless: bool) -> int:
-    """In how many ways all darts are joined in pairs."""
+    """The number of ways to join all darts in pairs; no two of one vertex, if loopless."""
     if not degrees:
         return 1
     first, rest = degrees[0], degrees[1:]
@@ -107,7 +108,7 @@ def _wirings(degrees: Degrees, *, loopless: bool) -> int:
 
 @cache
 def _simple_wirings(degrees: Degrees) -> int:
-    """The same, where all darts of a vertex meet different other vertices."""
+    """The number of ways to join all darts such that the graph is simple."""
     if not degrees:
         return 1
     met = _meetings(degrees[0], tuple(Counter(degrees[1:]).items()))
@@ -115,7 +116,11 @@ def _simple_wirings(degrees: Degrees) -> int:
 
 
 def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple[int, Degrees]]:
-    """Which vertices so many darts meet, from groups (degree, how many): ways, and what is left."""
+    """Each choice of different vertices for so many darts: its number of ways, and what is left.
+
+    Args:
+        groups: the other vertices, as (degree, how many have it).
+    """
     if not groups:
         if darts == 0:
             yield 1, ()

@@ -1,4 +1,4 @@
-"""Rooted maps counted by edges and genus.
+"""Counts rooted maps by edges and genus.
 
 The letters: `m` edges, `g` genus, `Q[g][m]` the number of rooted maps with both. For m >= 1,
 
@@ -25,7 +25,7 @@ def count_genus(edges: int, genus: int) -> int:
         InputError: a negative number.
     """
     if edges < 0 or genus < 0:
-        raise InputError(f"edges={edges}, genus={genus}: both are 0 or more")
+        raise InputError(f"expected 0 or more edges and genus, got edges={edges}, genus={genus}")
     if 2 * genus > edges:
         return 0
     known: list[list[int]] = []  # known[g][m], the Q of the module's docstring
@@ -38,6 +38,7 @@ def count_genus(edges: int, genus: int) -> int:
 
 def _next(known: list[list[int]], g: int, m: int) -> int:
     """Q[g][m] from what is known for lower g, or for the same g and lower m."""
+    # The recurrence times 6, so that every term is an integer; the division leaves no remainder.
     total = 4 * (2 * m - 1) * known[g][m - 1]
     if g and m >= 2:
         total += (2 * m - 3) * (m - 1) * (2 * m - 1) * known[g - 1][m - 2]

@@ -1,23 +1,23 @@
-"""The worlds of a class, listed in the order of their ranks: grown with pruning, not filtered.
+"""Lists the worlds of a class in rank order: it grows them with pruning and filters nothing out.
 
-Worlds grow as in `counting`: the smallest open dart is joined with another open dart, or a new
-vertex is hung on it. A **rein** follows the growth for one property and stops a branch as soon as
-no completion can have the property. What it remembers is a value, so branches do not disturb each
-other:
+Worlds grow as in `rank_order`: the smallest open dart is joined with another open dart, or a new
+vertex is hung on it. A **pruner** follows the growth for one property and stops a branch as soon as
+no completion can have the property. Pruners are values, so branches do not disturb each other:
 
-    Words       genus: the open darts along each boundary of the partial map, one cyclic word each.
-                Joining two darts of one word cuts it in two, and the genus stays; joining darts of
-                two words makes one of them, and the genus grows by one; a new vertex puts its other
-                darts in the place of the dart that it hangs on. A word of even length can be closed
-                in the plane; one of odd length needs a leaf or another odd word at the price of a
-                handle. So: odd words <= darts still to create + 2·(genus left).
-    Neighbours  loopless and simple: the open darts of each vertex, and (simple) a mask of its
-                neighbours. Each open dart needs an end elsewhere: at a vertex with open darts that
-                is no neighbour, or at one still to come.
-    Degrees     max-degree: the new vertex itself.
+    GenusPruner      genus: the open darts along each boundary of the partial map, one cyclic word
+                     each. Joining two darts of one word cuts the word in two and keeps the genus;
+                     joining darts of two words makes one word of them and raises the genus by one;
+                     a new vertex puts its other darts in the place of the dart that it hangs on. A
+                     word of even length can be closed in the plane; a word of odd length needs a
+                     leaf, or another odd word at the price of a handle.
+                     So: odd words <= darts still to create + 2·(genus left).
+    NeighbourPruner  loopless and simple: the open darts of each vertex, and (simple) a mask of its
+                     neighbours. Each open dart needs an end elsewhere: at a vertex with open darts
+                     that is no neighbour, or at a vertex still to come.
+    DegreePruner     max-degree: looks at the new vertex alone.
 
-The rank among ALL worlds comes for free: a branch that is not taken is passed over with the number
-of its completions. So parts of the list are cut by rank, in every class.
+Each world comes with its rank among ALL worlds, because a branch that is pruned is counted with all
+its completions. So the list is cut into shards by rank in every class.
 
 Cost: every world costs its path in the tree. For `planar`, `genus<=G` and `loopless` alone no
 branch ends without a world (a test says so); elsewhere some do: that costs time, and nothing else.
@@ -32,21 +32,22 @@ from typing import NamedTuple, Protocol
 
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
-from topo_verify.world.enumeration.rank_order import Row, Table
+from topo_verify.world.enumeration.rank_order import IntTuple, Table
 
 
-class Rein(Protocol):
-    """What one property still allows. The answer to a step: the rein behind it, None: impossible.
+class Pruner(Protocol):
+    """Follows one property while a map grows.
 
-    `left` is the number of darts still to create behind the step.
+    Each step returns the pruner for what comes after it, or None where no completion can have the
+    property. `left` is the number of darts still to create after the step.
     """
 
-    def join(self, dart: int, partner: int, left: int) -> Rein | None:
-        """Two open darts become an edge."""
+    def join(self, dart: int, partner: int, left: int) -> Pruner | None:
+        """The pruner once these two open darts are joined to an edge."""
         ...
 
-    def hang(self, dart: int, first: int, degree: int, left: int) -> Rein | None:
-        """A new vertex of this degree; `first` is its first dart, the one joined with `dart`."""
+    def hang(self, dart: int, first: int, degree: int, left: int) -> Pruner | None:
+        """The pruner once a new vertex hangs on `dart` by its first dart, `first`."""
         ...
 
 
@@ -73,10 +74,10 @@ class _Partial(NamedTuple):
     """A partial map; `rank` is that of its first completion in class `any`."""
 
     rank: int
-    degrees: Row
-    opened: Row
-    alpha: Row  # -1: open
-    reins: tuple[Rein, ...]
+    degrees: IntTuple
+    opened: IntTuple
+    alpha: IntTuple  # -1: open
+    pruners: tuple[Pruner, ...]
 
 
 def _grown(edges: int, kind: WorldClass, start: int, stop: int) -> Iterator[tuple[int, Table]]:
@@ -97,96 +98,102 @@ def _grown(edges: int, kind: WorldClass, start: int, stop: int) -> Iterator[tupl
 def _roots(edges: int, kind: WorldClass) -> Iterator[_Partial]:
     rank = 0
     for degree in range(1, 2 * edges + 1):
-        reins = _reins(kind, edges, degree)
-        if reins is not None:
-            yield _Partial(rank, (degree,), tuple(range(degree)), (-1,) * degree, reins)
+        pruners = _pruners(kind, edges, degree)
+        if pruners is not None:
+            yield _Partial(rank, (degree,), tuple(range(degree)), (-1,) * degree, pruners)
         rank += rank_order.completions(degree, 2 * edges - degree)
 
 
 def _children(partial: _Partial, r: int) -> Iterator[_Partial]:
-    """What can become of the smallest open dart: joins, then new vertices, as far as allowed."""
-    rank, degrees, opened, alpha, reins = partial
+    """Maps one step later, in rank order: joins at the smallest open dart, then new vertices."""
+    rank, degrees, opened, alpha, pruners = partial
     dart, u, created = opened[0], len(opened), len(alpha)
     ways = rank_order.completions(u - 2, r) if u > 1 else 0
     for place in range(1, u) if ways else ():
         partner = opened[place]
-        held = _all(rein.join(dart, partner, r) for rein in reins)
-        if held is not None:
+        kept = _all(pruner.join(dart, partner, r) for pruner in pruners)
+        if kept is not None:
             row = list(alpha)
             row[dart], row[partner] = partner, dart
             rest = opened[1:place] + opened[place + 1 :]
-            yield _Partial(rank, degrees, rest, tuple(row), held)
+            yield _Partial(rank, degrees, rest, tuple(row), kept)
         rank += ways
     for degree in range(1, r + 1):
         ways = rank_order.completions(u + degree - 2, r - degree)
         if ways:
-            held = _all(rein.hang(dart, created, degree, r - degree) for rein in reins)
-            if held is not None:
+            kept = _all(pruner.hang(dart, created, degree, r - degree) for pruner in pruners)
+            if kept is not None:
                 row = [*alpha, dart, *[-1] * (degree - 1)]
                 row[dart] = created
                 rest = opened[1:] + tuple(range(created + 1, created + degree))
-                yield _Partial(rank, (*degrees, degree), rest, tuple(row), held)
+                yield _Partial(rank, (*degrees, degree), rest, tuple(row), kept)
         rank += ways
 
 
-def _all(reins: Iterator[Rein | None]) -> tuple[Rein, ...] | None:
-    """All of them, or None as soon as one is."""
-    held: list[Rein] = []
-    for rein in reins:
-        if rein is None:
+def _all(pruners: Iterator[Pruner | None]) -> tuple[Pruner, ...] | None:
+    """All the pruners, or None if one of them found the step impossible."""
+    kept: list[Pruner] = []
+    for pruner in pruners:
+        if pruner is None:
             return None
-        held.append(rein)
-    return tuple(held)
+        kept.append(pruner)
+    return tuple(kept)
 
 
-# ---------------------------------------------------------------- the reins
+# ---------------------------------------------------------------- one pruner a property
 
 
-def _reins(kind: WorldClass, edges: int, degree: int) -> tuple[Rein, ...] | None:
-    """What holds a growth from a root of this degree; None: no world of the class has one."""
-    reins: list[Rein] = []
+def _pruners(kind: WorldClass, edges: int, degree: int) -> tuple[Pruner, ...] | None:
+    """The pruners for a root of this degree; None if no world of the class has such a root."""
+    pruners: list[Pruner] = []
     left = 2 * edges - degree
     if kind.most_degree is not None:
         if degree > kind.most_degree:
             return None
-        reins.append(Degrees(kind.most_degree))
+        pruners.append(DegreePruner(kind.most_degree))
     if kind.loopless or kind.simple:
-        neighbours = Neighbours(kind.simple, (0,) * degree, (degree,), (0,))
+        neighbours = NeighbourPruner(kind.simple, (0,) * degree, (degree,), (0,))
         if not neighbours.feasible(left):
             return None
-        reins.append(neighbours)
+        pruners.append(neighbours)
     most = kind.most_genus if kind.genus is None else kind.genus
     if most is not None:
-        words = Words((tuple(range(degree)),), most, kind.genus is not None)
+        words = GenusPruner((tuple(range(degree)),), most, kind.genus is not None)
         if not words.feasible(left):
             return None
-        reins.append(words)
-    return tuple(reins)
+        pruners.append(words)
+    return tuple(pruners)
 
 
-class Degrees(NamedTuple):
-    """No vertex has more darts."""
+class DegreePruner(NamedTuple):
+    """Allows vertices of at most this degree."""
 
     most: int
 
-    def join(self, dart: int, partner: int, left: int) -> Degrees | None:  # noqa: ARG002  see Rein
-        """Changes no degree."""
+    def join(self, dart: int, partner: int, left: int) -> DegreePruner | None:  # noqa: ARG002  see Pruner
+        """A join changes no degree."""
         return self
 
-    def hang(self, dart: int, first: int, degree: int, left: int) -> Degrees | None:  # noqa: ARG002
-        """Unless the new vertex has too many."""
+    def hang(self, dart: int, first: int, degree: int, left: int) -> DegreePruner | None:  # noqa: ARG002
+        """Impossible if the new vertex has more darts than allowed."""
         return self if degree <= self.most else None
 
 
-class Words(NamedTuple):
-    """The boundaries' open darts; handles left; are all of them wanted?"""
+class GenusPruner(NamedTuple):
+    """Allows so many more handles.
 
-    words: tuple[Row, ...]
+    Attributes:
+        words: the open darts along each boundary, in cyclic order.
+        handles: by how much the genus may still grow.
+        exact: must it grow by all of that?
+    """
+
+    words: tuple[IntTuple, ...]
     handles: int
     exact: bool
 
-    def join(self, dart: int, partner: int, left: int) -> Words | None:
-        """Cut a word in two, or make one of two."""
+    def join(self, dart: int, partner: int, left: int) -> GenusPruner | None:
+        """Cuts the darts' word in two; if they have two, makes them one, which takes a handle."""
         with_dart = next(word for word in self.words if dart in word)
         others = [word for word in self.words if word is not with_dart]
         ahead = _turned(with_dart, dart)
@@ -198,61 +205,63 @@ class Words(NamedTuple):
             others.remove(with_partner)
             parts, handles = [ahead + _turned(with_partner, partner)], self.handles - 1
         words = (*others, *(part for part in parts if part))
-        return self._if_feasible(Words(words, handles, self.exact), left)
+        return self._if_feasible(GenusPruner(words, handles, self.exact), left)
 
-    def hang(self, dart: int, first: int, degree: int, left: int) -> Words | None:
-        """Put the new darts in the place of the one that they hang on."""
+    def hang(self, dart: int, first: int, degree: int, left: int) -> GenusPruner | None:
+        """Puts the new vertex's other darts in the place of the dart that it hangs on."""
         fresh = tuple(range(first + 1, first + degree))
         grown = (_turned(word, dart) + fresh if dart in word else word for word in self.words)
-        return self._if_feasible(Words(tuple(filter(None, grown)), self.handles, self.exact), left)
+        return self._if_feasible(
+            GenusPruner(tuple(filter(None, grown)), self.handles, self.exact), left
+        )
 
-    def _if_feasible(self, words: Words, left: int) -> Words | None:
+    def _if_feasible(self, words: GenusPruner, left: int) -> GenusPruner | None:
         return words if words.feasible(left) else None
 
     def feasible(self, left: int) -> bool:
-        """Can the words be closed with this many darts to come, and with the handles left?"""
+        """Can the words be closed with this many darts to create and the handles that are left?"""
         odd = sum(len(word) % 2 for word in self.words)
         if self.handles < 0 or odd > left + 2 * self.handles:
             return False
         if not self.exact:
             return True
-        # Of the joins to come, as many as cut a word in two must undo those that make one of two,
-        # but for the words there are now and the one that is left at the end.
+        # Each handle takes a join that makes one word of two; every other join adds a word, perhaps
+        # an empty one. One at least is there at the end, because every map has a face.
         joins = (sum(map(len, self.words)) + left) // 2 - (left > 0)
         return 2 * self.handles <= max(0, len(self.words) + joins - 1)
 
 
-def _turned(word: Row, dart: int) -> Row:
-    """What follows the dart in a cyclic word, up to it."""
+def _turned(word: IntTuple, dart: int) -> IntTuple:
+    """The cyclic word without the dart, read from behind it."""
     place = word.index(dart)
     return word[place + 1 :] + word[:place]
 
 
-class Neighbours(NamedTuple):
-    """No loops and, if `simple`, no two edges between the same two vertices."""
+class NeighbourPruner(NamedTuple):
+    """Allows no loops and, if `simple`, no two edges between the same two vertices."""
 
     simple: bool
-    vertex: Row  # of each dart
-    opened: Row  # how many open darts each vertex has
-    near: Row  # the neighbours of each vertex, as a mask (simple alone)
+    vertex: IntTuple  # of each dart
+    opened: IntTuple  # how many open darts each vertex has
+    near: IntTuple  # the neighbours of each vertex, as a mask (simple alone)
 
-    def join(self, dart: int, partner: int, left: int) -> Neighbours | None:
-        """Not with the own vertex; simple: nor with a neighbour."""
+    def join(self, dart: int, partner: int, left: int) -> NeighbourPruner | None:
+        """Impossible within one vertex and, if `simple`, between neighbours."""
         a, b = self.vertex[dart], self.vertex[partner]
         if a == b or self.near[a] >> b & 1:
             return None
         return self._joined(self.vertex, self.opened, self.near, (a, b), left)
 
-    def hang(self, dart: int, first: int, degree: int, left: int) -> Neighbours | None:  # noqa: ARG002
-        """A new vertex is nobody's neighbour yet."""
+    def hang(self, dart: int, first: int, degree: int, left: int) -> NeighbourPruner | None:  # noqa: ARG002
+        """A new vertex has no neighbour but the one that it hangs on."""
         fresh = len(self.opened)
         vertex = self.vertex + (fresh,) * degree
         opened, near = (*self.opened, degree), (*self.near, 0)
         return self._joined(vertex, opened, near, (self.vertex[dart], fresh), left)
 
     def _joined(
-        self, vertex: Row, opened: Row, near: Row, ends: tuple[int, int], left: int
-    ) -> Neighbours | None:
+        self, vertex: IntTuple, opened: IntTuple, near: IntTuple, ends: tuple[int, int], left: int
+    ) -> NeighbourPruner | None:
         a, b = ends
         darts, masks = list(opened), list(near)
         darts[a] -= 1
@@ -260,11 +269,11 @@ class Neighbours(NamedTuple):
         if self.simple:
             masks[a] |= 1 << b
             masks[b] |= 1 << a
-        grown = Neighbours(self.simple, vertex, tuple(darts), tuple(masks))
+        grown = NeighbourPruner(self.simple, vertex, tuple(darts), tuple(masks))
         return grown if grown.feasible(left) else None
 
     def feasible(self, left: int) -> bool:
-        """Is there an end elsewhere for each open dart?"""
+        """Can each open dart still end at another vertex, if `simple` at another one each?"""
         if not self.simple:
             return 2 * max(self.opened) <= sum(self.opened) + left
         waiting = sum(1 << v for v, darts in enumerate(self.opened) if darts)

@@ -1,10 +1,10 @@
-"""Rooted maps counted, numbered, listed and sampled, as bare tables.
+"""Counts, ranks, lists and samples rooted maps, each a bare table of degrees and partners.
 
 The letters: `m` edges; `u` open darts (known, their edge not yet); `r` darts still to create.
 
 A rooted map grows from its root vertex: take the smallest open dart; either join it with another
 open dart, or hang a new vertex of degree `d` on it, whose darts are numbered consecutively from
-the one that is hung. A step that leaves no open dart while darts remain is a dead end and is
+the dart by which it hangs. A step that leaves no open dart while darts remain is a dead end and is
 forbidden. What can still happen depends on `u` and `r` alone, so completions are counted by
 
     F(u, r) = (u-1)·F(u-2, r) + Σ_{1<=d<=r} F(u+d-2, r-d),   F(0, 0) = 1,   F(0, r>0) = 0,
@@ -33,15 +33,16 @@ from random import Random
 
 from topo_verify.errors import InputError
 
-Row = tuple[int, ...]
-Table = tuple[Row, Row]
+IntTuple = tuple[int, ...]
+Table = tuple[IntTuple, IntTuple]
+"""`(degrees, alpha)`, as above."""
 
 MAX_ID_EDGES = 200
 """World ids are promised up to this many edges; the counts below work beyond, only slower."""
 
 
 def completions(open_darts: int, to_create: int) -> int:
-    """F(u, r): in how many ways a partial map with u open darts and r darts to come is completed.
+    """F(u, r), the number of completions of a partial map: u darts are open, r still to create.
 
     Zero where u + r is odd (darts come in pairs). Complexity: the first call for a given u + r
     fills a table of O((u + r)²) integers, every later one looks it up.
@@ -55,7 +56,7 @@ def completions(open_darts: int, to_create: int) -> int:
 
 
 _rows: list[tuple[int, ...]] = [(1,)]
-"""Row t holds F(2t - r, r) for r = 0 … 2t; each row follows from the one before it."""
+"""IntTuple t holds F(2t - r, r) for r = 0 … 2t; each row follows from the one before it."""
 
 
 def _next_row(before: tuple[int, ...]) -> tuple[int, ...]:
@@ -105,6 +106,8 @@ def rank(table: Table) -> int:
     degrees, alpha = table
     if not alpha:
         return 0
+    # `before` counts the maps that come first: for each step taken, all completions of the steps
+    # that stand before it.
     m2 = len(alpha)
     before = sum(completions(d, m2 - d) for d in range(1, degrees[0]))
     opened = list(range(degrees[0]))
@@ -162,7 +165,11 @@ def unrank(edges: int, rank: int) -> Table:
 
 
 def _choose(rank: int, ways: Iterator[int]) -> tuple[int, int]:
-    """The index of the block that the rank falls into, and the rank within that block."""
+    """The index of the block that the rank falls into, and the rank within that block.
+
+    Args:
+        ways: the sizes of the blocks, which together are more than the rank.
+    """
     index, size = 0, next(ways)
     while rank >= size:
         index, rank, size = index + 1, rank - size, next(ways)
@@ -173,19 +180,19 @@ def id_parts(text: str) -> tuple[int, int]:
     """Edges and rank of a world id, `m<edges>/<rank>`.
 
     Raises:
-        InputError: the text is no id, or has more than 200 edges.
+        InputError: the text is not an id, or names more than 200 edges.
     """
     edges, slash, rank = text.removeprefix("m").partition("/")
     # Not more digits than Python turns into an integer; the longest rank has 437.
     digits = all(part.isascii() and part.isdigit() and len(part) < 1000 for part in (edges, rank))
     if not (text.startswith("m") and slash and digits):
-        raise InputError(f"{text[:60]!r} is no world id: an id is m<edges>/<rank>, as m5/17")
+        raise InputError(f"expected a world id m<edges>/<rank>, such as m5/17, got {text[:60]!r}")
     require_id_edges(int(edges))
     return int(edges), int(rank)
 
 
 def require_id_edges(edges: int) -> None:
-    """Refuse what is too large for an id (`InputError`)."""
+    """Raise `InputError` for a number of edges that is too large for an id."""
     if edges > MAX_ID_EDGES:
         raise InputError(
             f"a world with {edges} edges has no id (ids go up to {MAX_ID_EDGES} edges):"
@@ -221,7 +228,8 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
         return
     m2 = 2 * edges
     # One entry a partial map: degrees, open darts, darts joined so far and their partners, in step.
-    stack: list[tuple[Row, Row, Row, Row]]
+    # It is a stack, last in first out: the steps are pushed in reverse, so that they come in order.
+    stack: list[tuple[IntTuple, IntTuple, IntTuple, IntTuple]]
     stack = [((d,), tuple(range(d)), (), ()) for d in range(m2, 0, -1)]
     while stack:
         degrees, opened, joined, partners = stack.pop()
@@ -243,8 +251,8 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
                 stack.append((degrees + more, rest, joined + pair, partners + pair[::-1]))
 
 
-def _steps(opened: Row, created: int, r: int) -> Iterator[tuple[int, int, Row]]:
-    """What can become of the smallest open dart: its partner's place and number, new degrees."""
+def _steps(opened: IntTuple, created: int, r: int) -> Iterator[tuple[int, int, IntTuple]]:
+    """Each step at the smallest open dart: its partner's place and number, and new degrees."""
     u = len(opened)
     if u > 2 or r == 0:
         for j in range(1, u):
@@ -254,22 +262,22 @@ def _steps(opened: Row, created: int, r: int) -> Iterator[tuple[int, int, Row]]:
             yield u, created, (d,)
 
 
-def _inverse(darts: Row) -> itemgetter[Row]:
+def _inverse(darts: IntTuple) -> itemgetter[IntTuple]:
     """A getter that puts a row given in the order `darts` into the order of the darts."""
     return itemgetter(*sorted(range(len(darts)), key=darts.__getitem__))
 
 
 @cache
-def _endings(u: int, r: int) -> tuple[tuple[Row, itemgetter[Row]], ...]:
+def _endings(u: int, r: int) -> tuple[tuple[IntTuple, itemgetter[IntTuple]], ...]:
     """All completions over slots: 0 … u-1 are the open darts, u … u+r-1 the darts to come.
 
     Each is (further degrees, getter of every slot's partner). At most 8 slots: recursion depth 4.
     """
-    found: list[tuple[Row, itemgetter[Row]]] = []
+    found: list[tuple[IntTuple, itemgetter[IntTuple]]] = []
     slots = tuple(range(u + r))
     for _, partner, more in _steps(slots[:u], u, r):
         rest = tuple(s for s in slots if s not in (0, partner))
-        if not rest:
+        if not rest:  # two slots are left, and this is the only way to join them
             return ((more, itemgetter(1, 0)),)
         place = _inverse((0, partner, *rest))
         for further, partners in _endings(u - 2 + sum(more), r - sum(more)):
@@ -280,4 +288,4 @@ def _endings(u: int, r: int) -> tuple[tuple[Row, itemgetter[Row]], ...]:
 
 def _require_edges(edges: int) -> None:
     if edges < 0:
-        raise InputError(f"edges={edges}: the number of edges is 0 or more")
+        raise InputError(f"expected 0 or more edges, got {edges}")

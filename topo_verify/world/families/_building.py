@@ -10,7 +10,7 @@ from topo_verify.errors import InputError
 from topo_verify.world.rooted_map import Dart, World
 
 
-class End(NamedTuple):
+class EdgeEnd(NamedTuple):
     """One end of an edge, as seen from its node."""
 
     to: int  # the node at the other end
@@ -18,14 +18,14 @@ class End(NamedTuple):
     side: int  # 0 or 1: which end of the edge; a loop has both at one node
 
 
-Graph = dict[int, list[End]]
+Graph = dict[int, list[EdgeEnd]]
 """The exits of each node in clockwise order; nodes ascending."""
 
 
 def from_neighbours(rows: Iterable[Sequence[int]]) -> Graph:
     """The simple graph whose nodes have these neighbours, in clockwise order."""
     return {
-        node: [End(to, (min(node, to), max(node, to)), int(node > to)) for to in row]
+        node: [EdgeEnd(to, (min(node, to), max(node, to)), int(node > to)) for to in row]
         for node, row in enumerate(rows)
     }
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from random import Random
 
 from topo_verify.world.families import _arguments as arguments
-from topo_verify.world.families._building import End, Graph, as_world, with_holes
+from topo_verify.world.families._building import EdgeEnd, Graph, as_world, with_holes
 from topo_verify.world.rooted_map import Dart, World
 
 _NORTH, _NORTH_EAST, _EAST, _SOUTH_EAST = (-1, 0), (-1, 1), (0, 1), (1, 1)
@@ -81,7 +81,7 @@ def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> W
                 row * columns + (column + step) % columns,
             )
             graph[2 * cell + side] = [
-                End(2 * other + 1 - side, ((cell, other)[side], way), side)
+                EdgeEnd(2 * other + 1 - side, ((cell, other)[side], way), side)
                 for way, other in enumerate(others)
             ]
     name = arguments.name(family, rows, columns, marker=marker)
@@ -133,5 +133,5 @@ def _grid(rows: int, columns: int, steps: Sequence[tuple[int, int]], *, wrapped:
                 column = node % columns + (right, -right)[side]
                 if wrapped or (0 <= row < rows and 0 <= column < columns):
                     to = row % rows * columns + column % columns
-                    exits.append(End(to, ((node, to)[side], way), side))
+                    exits.append(EdgeEnd(to, ((node, to)[side], way), side))
     return graph

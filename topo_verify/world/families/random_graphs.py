@@ -8,7 +8,13 @@ from random import Random
 
 from topo_verify.errors import InputError
 from topo_verify.world.families import _arguments as arguments
-from topo_verify.world.families._building import End, Graph, as_world, largest_component, with_holes
+from topo_verify.world.families._building import (
+    EdgeEnd,
+    Graph,
+    as_world,
+    largest_component,
+    with_holes,
+)
 from topo_verify.world.rooted_map import Dart, World
 
 
@@ -138,8 +144,8 @@ def _some_fit(ends: Sequence[int], edges: Mapping[tuple[int, int], None]) -> boo
 def _graph(nodes: int, edges: Iterable[tuple[int, int]]) -> Graph:
     graph: Graph = {node: [] for node in range(nodes)}
     for a, b in edges:
-        graph[a].append(End(b, (a, b), 0))
-        graph[b].append(End(a, (a, b), 1))
+        graph[a].append(EdgeEnd(b, (a, b), 0))
+        graph[b].append(EdgeEnd(a, (a, b), 1))
     return graph
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from topo_verify.world.families import _arguments as arguments
-from topo_verify.world.families._building import End, Graph, as_world, from_neighbours
+from topo_verify.world.families._building import EdgeEnd, Graph, as_world, from_neighbours
 from topo_verify.world.rooted_map import Dart, World
 
 
@@ -36,7 +36,7 @@ def cycle(nodes: int, *, marker: Dart | None = None) -> World:
 
     def graph(n: int) -> Graph:
         return {
-            i: [End((i + 1) % n, (i, 0), 0), End((i - 1) % n, ((i - 1) % n, 0), 1)]
+            i: [EdgeEnd((i + 1) % n, (i, 0), 0), EdgeEnd((i - 1) % n, ((i - 1) % n, 0), 1)]
             for i in range(n)
         }
 

@@ -43,14 +43,14 @@ FARTHEST = 1e12
 """The largest coordinate, either way: products of two differences are far from overflowing."""
 
 
-class Place(NamedTuple):
+class DrawnVertex(NamedTuple):
     """A vertex to be."""
 
     name: str
     at: Point
 
 
-class Way(NamedTuple):
+class DrawnEdge(NamedTuple):
     """An edge to be: from one place to another, by their numbers."""
 
     start: int
@@ -60,7 +60,7 @@ class Way(NamedTuple):
     name: str = ""  # what to call it in messages
 
 
-class End(NamedTuple):
+class DrawnEnd(NamedTuple):
     """One end of a way: side 0 is its start, side 1 its end."""
 
     way: int
@@ -69,12 +69,12 @@ class End(NamedTuple):
 
 def as_world(
     cls: type[W],
-    places: Sequence[Place],
-    ways: Sequence[Way],
+    places: Sequence[DrawnVertex],
+    ways: Sequence[DrawnEdge],
     *,
     source: str,
     name: str = "",
-    marker: End | None = None,
+    marker: DrawnEnd | None = None,
 ) -> W:
     """The world of the drawing.
 
@@ -97,7 +97,7 @@ def as_world(
         dart = {end: n for n, end in enumerate(end for row in rotations for end in row)}
         return cls.from_rotations(
             [[dart[end] for end in row] for row in rotations],
-            [(dart[End(way, 0)], dart[End(way, 1)]) for way in kept],
+            [(dart[DrawnEnd(way, 0)], dart[DrawnEnd(way, 1)]) for way in kept],
             dart[_survivor(marker, same)] if marker else 0 if dart else None,
             name=name,
             vertex_names=tuple(place.name for place in places),
@@ -110,7 +110,7 @@ def as_world(
 # ---------------------------------------------------------------- courses
 
 
-def _course(way: Way, places: Sequence[Place]) -> tuple[Point, ...]:
+def _course(way: DrawnEdge, places: Sequence[DrawnVertex]) -> tuple[Point, ...]:
     """The way's points from its start to its end, none twice in a row."""
     start, end = places[way.start], places[way.end]
     points = list(way.course) or [start.at, end.at]
@@ -131,7 +131,7 @@ def _apart(a: Point, b: Point) -> float:
 
 
 def _merged(
-    ways: Sequence[Way], courses: Sequence[tuple[Point, ...]]
+    ways: Sequence[DrawnEdge], courses: Sequence[tuple[Point, ...]]
 ) -> tuple[list[int], dict[int, int]]:
     """The ways that stay, and for each that goes the one that it is, backwards."""
     kept: list[int] = []
@@ -148,17 +148,17 @@ def _merged(
     return kept, same
 
 
-def _survivor(end: End, same: dict[int, int]) -> End:
-    return End(same[end.way], 1 - end.side) if end.way in same else end
+def _survivor(end: DrawnEnd, same: dict[int, int]) -> DrawnEnd:
+    return DrawnEnd(same[end.way], 1 - end.side) if end.way in same else end
 
 
 # ---------------------------------------------------------------- directions
 
 
-class _Exit(NamedTuple):
+class _LeavingEnd(NamedTuple):
     """An end of a way and the two points that say where it leaves to."""
 
-    end: End
+    end: DrawnEnd
     origin: Point
     toward: Point
 
@@ -179,16 +179,16 @@ class _Exit(NamedTuple):
 
 
 def _exits(
-    places: Sequence[Place],
-    ways: Sequence[Way],
+    places: Sequence[DrawnVertex],
+    ways: Sequence[DrawnEdge],
     courses: Sequence[tuple[Point, ...]],
     kept: Sequence[int],
-) -> list[list[_Exit]]:
-    exits: list[list[_Exit]] = [[] for _ in places]
+) -> list[list[_LeavingEnd]]:
+    exits: list[list[_LeavingEnd]] = [[] for _ in places]
     for number in kept:
         way, course = ways[number], courses[number]
-        exits[way.start].append(_Exit(End(number, 0), course[0], course[1]))
-        exits[way.end].append(_Exit(End(number, 1), course[-1], course[-2]))
+        exits[way.start].append(_LeavingEnd(DrawnEnd(number, 0), course[0], course[1]))
+        exits[way.end].append(_LeavingEnd(DrawnEnd(number, 1), course[-1], course[-2]))
     for place, row in zip(places, exits, strict=True):
         if not row and len(places) > 1:
             raise InputError(
@@ -198,7 +198,7 @@ def _exits(
     return exits
 
 
-def _require_connected(places: Sequence[Place], ways: Sequence[Way]) -> None:
+def _require_connected(places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge]) -> None:
     """Refuse a drawing in several parts, with a place that shows it."""
     beside: list[list[int]] = [[] for _ in places]
     for way in ways:
@@ -219,7 +219,9 @@ def _require_connected(places: Sequence[Place], ways: Sequence[Way]) -> None:
             )
 
 
-def _clockwise(place: Place, exits: Sequence[_Exit], ways: Sequence[Way]) -> list[End]:
+def _clockwise(
+    place: DrawnVertex, exits: Sequence[_LeavingEnd], ways: Sequence[DrawnEdge]
+) -> list[DrawnEnd]:
     row = sorted(exits, key=cmp_to_key(_compared))
     for one, other in pairwise(row):
         if _compared(one, other) == 0:
@@ -232,7 +234,7 @@ def _clockwise(place: Place, exits: Sequence[_Exit], ways: Sequence[Way]) -> lis
     return [one.end for one in row]
 
 
-def _compared(one: _Exit, other: _Exit) -> int:
+def _compared(one: _LeavingEnd, other: _LeavingEnd) -> int:
     """Negative where `one` comes first clockwise from the north, 0 for the very same direction."""
     if one.westward != other.westward:
         return 1 if one.westward else -1

@@ -22,7 +22,7 @@ from typing import TypeVar
 from topo_verify.errors import InputError
 from topo_verify.text import shown
 from topo_verify.world.formats import embedding, files, markup
-from topo_verify.world.formats.embedding import Place, Way
+from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -69,7 +69,7 @@ class _Reader:
         self.directed: bool | None = None  # None until the graph begins
         self.keys: dict[str, str] = {}  # the names of the data by their keys
         self.defaults: dict[str, str] = {}  # likewise, their defaults
-        self.places: dict[str, Place] = {}
+        self.places: dict[str, DrawnVertex] = {}
         self.edges: list[tuple[dict[str, str], dict[str, str]]] = []
         self.attributes: dict[str, str] = {}
         self.element: dict[str, str] = {}
@@ -143,7 +143,7 @@ class _Reader:
                 " node has its x and y as data"
             )
         at = [embedding.number(data[axis], f"{self._what()}, {axis}") for axis in ("x", "y")]
-        self.places[name] = Place(name, (at[0], at[1]))
+        self.places[name] = DrawnVertex(name, (at[0], at[1]))
 
     def _name(self) -> str:
         """What the open node or edge is called in messages."""
@@ -154,10 +154,10 @@ class _Reader:
         kind = "edge" if "source" in self.attributes else "node"
         return f"{self.name}: {kind} '{shown(self._name(), limit=60)}'"
 
-    def ways(self) -> list[Way]:
+    def ways(self) -> list[DrawnEdge]:
         """The edges, once all nodes are known."""
         number = {name: place for place, name in enumerate(self.places)}
-        ways: list[Way] = []
+        ways: list[DrawnEdge] = []
         for attributes, data in self.edges:
             self.attributes = attributes
             ends = [number.get(attributes.get(key, "")) for key in ("source", "target")]
@@ -170,5 +170,5 @@ class _Reader:
             course = embedding.line(text, f"{self._what()}, geometry") if text else ()
             own = attributes.get("directed")
             directed = bool(self.directed) if own is None else own == "true"
-            ways.append(Way(start, end, course, directed, self._name()))
+            ways.append(DrawnEdge(start, end, course, directed, self._name()))
         return ways

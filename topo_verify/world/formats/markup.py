@@ -23,14 +23,14 @@ DEEPEST = 64
 _SEPARATOR = "\x01"
 """What stands between a namespace and a name; no document can hold this character."""
 
-Start = Callable[[tuple[str, ...], dict[str, str]], None]
+OnStart = Callable[[tuple[str, ...], dict[str, str]], None]
 """Called with the names from the root to an element that begins, and its attributes."""
 
-End = Callable[[tuple[str, ...], str], None]
+OnEnd = Callable[[tuple[str, ...], str], None]
 """Called with the names from the root to an element that ends, and the text just before its end."""
 
 
-def read(data: bytes, *, name: str, start: Start, end: End) -> None:
+def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
     """Go through the document.
 
     Args:

@@ -24,14 +24,14 @@ from typing import TYPE_CHECKING, Any, cast
 from topo_verify.errors import InputError
 from topo_verify.text import shown
 from topo_verify.world.formats import embedding
-from topo_verify.world.formats.embedding import End, Place, Point, Way
+from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex, Point
 from topo_verify.world.formats.planar_code import require_simple_and_planar
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
     import networkx as nx
 
-Marker = tuple[Any, ...]
+MarkerEnds = tuple[Any, ...]
 """The node where the marker lies, the node that it points to, and perhaps the edge's key."""
 
 
@@ -39,7 +39,7 @@ Marker = tuple[Any, ...]
 
 
 def from_planar_embedding(
-    embedding: nx.PlanarEmbedding[Any], *, marker: Marker | None = None, name: str = ""
+    embedding: nx.PlanarEmbedding[Any], *, marker: MarkerEnds | None = None, name: str = ""
 ) -> World:
     """The world with the embedding's rotations.
 
@@ -59,7 +59,7 @@ def from_planar_embedding(
     except (nx.NetworkXException, KeyError, TypeError) as error:
         raise InputError(f"{source} is broken: {shown(str(error))}") from error
     ends = [(node, other) for node, row in rows.items() for other in row]
-    dart: dict[Marker, int] = {end: number for number, end in enumerate(ends)}
+    dart: dict[MarkerEnds, int] = {end: number for number, end in enumerate(ends)}
     if marker is not None and marker not in dart:
         raise InputError(f"{source} has no edge for marker={shown(repr(marker))}")
     try:
@@ -104,7 +104,7 @@ def from_positions(
     graph: nx.Graph[Any],
     positions: Mapping[Any, Sequence[float]] | None = None,
     *,
-    marker: Marker | None = None,
+    marker: MarkerEnds | None = None,
     name: str = "",
 ) -> World:
     """The world of a drawn graph, directed or not, multigraph or not.
@@ -123,10 +123,10 @@ def from_positions(
     """
     given = cast("Any", graph)
     nodes: dict[Any, int] = {node: number for number, node in enumerate(given)}
-    places = [Place(str(node), _at(given.nodes[node], node, positions)) for node in nodes]
+    places = [DrawnVertex(str(node), _at(given.nodes[node], node, positions)) for node in nodes]
     labels = list(given.edges(keys=True)) if given.is_multigraph() else list(given.edges())
     ways = [
-        Way(
+        DrawnEdge(
             *(nodes[label[0]], nodes[label[1]]),
             course=_geometry(given, label),
             directed=given.is_directed(),
@@ -171,7 +171,7 @@ def _row(value: Any, what: str) -> list[Any]:
     return list(cast("Any", value))
 
 
-def _marked(marker: Marker, labels: Sequence[tuple[Any, ...]]) -> End:
+def _marked(marker: MarkerEnds, labels: Sequence[tuple[Any, ...]]) -> DrawnEnd:
     """The one end of an edge that the marker's name fits; in a loop, its start.
 
     In a directed graph an edge in the direction of the name goes before one against it.
@@ -180,7 +180,7 @@ def _marked(marker: Marker, labels: Sequence[tuple[Any, ...]]) -> End:
     for side, ends in ((0, near), (1, near[::-1])):
         fits = [n for n, label in enumerate(labels) if label[:2] == ends and key in ((), label[2:])]
         if len(fits) == 1:
-            return End(fits[0], side)
+            return DrawnEnd(fits[0], side)
         if fits:
             raise InputError(
                 f"the graph has {len(fits)} edges for marker={shown(repr(marker))}: name its"

@@ -24,7 +24,7 @@ from typing import TypeVar
 from topo_verify.errors import InputError
 from topo_verify.text import shown
 from topo_verify.world.formats import embedding, files, markup
-from topo_verify.world.formats.embedding import Place, Point, Way
+from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Point
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -49,7 +49,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
     Raises:
         InputError: no SUMO network, or a drawing that is no world.
     """
-    places: dict[str, Place] = {}
+    places: dict[str, DrawnVertex] = {}
     edges: dict[str, dict[str, str]] = {}
 
     def start(path: tuple[str, ...], attributes: dict[str, str]) -> None:
@@ -67,7 +67,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
             if path[1] == "edge":
                 edges[key] = attributes
             else:
-                places[key] = Place(key, _at(attributes, what))
+                places[key] = DrawnVertex(key, _at(attributes, what))
 
     def end(_path: tuple[str, ...], _text: str) -> None:
         """Everything is in the attributes."""
@@ -82,9 +82,11 @@ def _at(attributes: dict[str, str], what: str) -> Point:
     return x, y
 
 
-def _ways(places: dict[str, Place], edges: dict[str, dict[str, str]], name: str) -> list[Way]:
+def _ways(
+    places: dict[str, DrawnVertex], edges: dict[str, dict[str, str]], name: str
+) -> list[DrawnEdge]:
     number = {key: place for place, key in enumerate(places)}
-    ways: dict[str, Way] = {}
+    ways: dict[str, DrawnEdge] = {}
     for key, attributes in edges.items():
         what = f"{name}: edge '{shown(key, limit=60)}'"
         start, end = (number.get(attributes.get(side, "")) for side in ("from", "to"))
@@ -94,5 +96,5 @@ def _ways(places: dict[str, Place], edges: dict[str, dict[str, str]], name: str)
         course = embedding.points(rows, f"{what}, shape")
         other = ways.get(key[1:] if key.startswith("-") else f"-{key}")
         if other is None or (other.start, other.end) != (end, start):
-            ways[key] = Way(start, end, course, directed=True, name=key)
+            ways[key] = DrawnEdge(start, end, course, directed=True, name=key)
     return list(ways.values())

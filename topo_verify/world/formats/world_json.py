@@ -41,7 +41,7 @@ VERSION: Final = 1
 _SAFE = 2**53
 """Up to here every reader of JSON agrees on integers."""
 
-Dart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
+_FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 
 
 class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -53,15 +53,15 @@ class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     version: Annotated[Literal[1], Meta(description="the version of this format, 1")]
     name: Annotated[str, Meta(description="a text, what the world is called")] | UnsetType = UNSET
     vertices: Annotated[
-        tuple[tuple[Dart, ...], ...],
+        tuple[tuple[_FileDart, ...], ...],
         Meta(description="one list a vertex, its darts (integers) in clockwise order"),
     ]
     edges: Annotated[
-        tuple[tuple[Dart, Dart], ...],
+        tuple[tuple[_FileDart, _FileDart], ...],
         Meta(description="one list an edge, its two darts (integers)"),
     ]
     marker: Annotated[
-        Dart | None,
+        _FileDart | None,
         Meta(description="the dart that the marker points at, null only where there is no dart"),
     ]
     vertex_names: (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from topo_verify.algorithms import planar
-from topo_verify.algorithms.folding import Sketch
+from topo_verify.algorithms.folding import PartialFold
 from topo_verify.proofs.first_order import axioms as t
 from topo_verify.proofs.first_order import rules as r
 from topo_verify.proofs.first_order.mutants.mutant import AWAY, TRUE, RuleMutant, x
@@ -31,16 +31,16 @@ def _plays_fold(replay: SceneReplay, doors: tuple[str | int, ...], one: str, oth
 
 def _plays_ghost(replay: SceneReplay, _rule: Term) -> bool:
     vu = replay.behind("e")
-    sketch = Sketch()
-    nodes = [sketch.add(replay.chart.percepts[first], known=True) for first in replay.chart.first]
-    ghost = sketch.add(vu, known=True)  # the fault: it is not known to be a vertex of S
+    partial = PartialFold()
+    nodes = [partial.add(replay.chart.percepts[first], known=True) for first in replay.chart.first]
+    ghost = partial.add(vu, known=True)  # the fault: it is not known to be a vertex of S
 
     def place(dart: int) -> tuple[int, int]:
         v = replay.chart.vertex[dart]
         return nodes[v], dart - replay.chart.first[v]
 
-    sketch.join(place(replay.dart("e")), (ghost, 0))
-    refuted = sketch.join(place(replay.dart("e")), place(replay.dart("h")))
+    partial.join(place(replay.dart("e")), (ghost, 0))
+    refuted = partial.join(place(replay.dart("e")), place(replay.dart("h")))
     return bool(refuted) and replay.truth("e", "h")
 
 
