@@ -14,12 +14,12 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
 from topo_verify.errors import InputError
-from topo_verify.harness import target_texts
 from topo_verify.harness.conform.conform import Books, Standing
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import Found, Job
 from topo_verify.harness.corpus import Corpus, corpus_from
 from topo_verify.harness.search.workers import processors
+from topo_verify.harness.targets import target_arguments, target_text, targets
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -101,7 +101,7 @@ def conform(  # noqa: PLR0913  an argument an option
     """
 
     def standings() -> Iterator[Result[Standing]]:
-        text = target_texts.target_text(target, command)
+        text = target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
         asked = _Asked(
             corpus_from(texts, seed=seed), processors() if workers is None else workers, batch
@@ -109,7 +109,7 @@ def conform(  # noqa: PLR0913  an argument an option
         if transcript is not None:
             _make_folder(transcript)
         output.note(f"seed {seed}")
-        for one in [text] if command else [found.text for found in target_texts.targets(text)]:
+        for one in [text] if command else [found.text for found in targets(text)]:
             job = Job(
                 target=one,
                 like=like,
@@ -158,7 +158,7 @@ def _again(
     validate: bool,
 ) -> tuple[str, ...]:
     """The words that ask for the same again; the world comes behind them."""
-    words = ["topo-verify", "conform", *target_texts.words(target)]
+    words = ["topo-verify", "conform", *target_arguments(target)]
     for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
         words += [name, value] if value is not None else []
     words += ["--batch"] if batch else []

@@ -27,7 +27,7 @@ from topo_verify.harness.baseline.file import Baseline, Entry, Header
 from topo_verify.harness.corpus import Corpus
 from topo_verify.harness.run import Exploration, Report, explore, judge, replay_line
 from topo_verify.harness.run import undecided as is_undecided
-from topo_verify.harness.target_texts import words
+from topo_verify.harness.targets import target_arguments
 from topo_verify.programs.loading import Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject
@@ -136,7 +136,7 @@ def _recorded(target: Target, name: str, world: World, limits: Limits) -> Record
 def again(target: Target, where: str, limits: Limits) -> str:
     """The command line that shows the mapper in this world again."""
     if isinstance(target.mapper, Program):
-        told = ("conform", *words(target.text), "--worlds", where, *limits.options)
+        told = ("conform", *target_arguments(target.text), "--worlds", where, *limits.options)
         return shlex.join(["topo-verify", *told])
     policies = target.mapper.policies if isinstance(target.mapper, Algorithm) else None
     return replay_line(where, target.text, policies, limits.options)

@@ -11,11 +11,9 @@ from typing import Self
 
 import msgspec
 
-from topo_verify.errors import InputError
 from topo_verify.harness.conform.outcome import Job, Outcome, outcome
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.run import Exploration, explore, judge
-from topo_verify.harness.target_texts import targets
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.loading import Target
 from topo_verify.programs.program import Line, Program
@@ -35,11 +33,9 @@ class Examiner:
 
     def __init__(self, job: Job) -> None:
         self.reference = reference(job)
-        found = targets(job.target)
-        if len(found) != 1:
-            raise InputError(f"{job.target!r} names {len(found)} mappers: name one")
-        self.job, self.target = job, found[0]
-        self.program = found[0].mapper if isinstance(found[0].mapper, Program) else None
+        self.job, self.target = job, one_target(job.target)
+        mapper = self.target.mapper
+        self.program = mapper if isinstance(mapper, Program) else None
         if self.program is not None:
             self.program.validate = job.validate
             self.program.record = job.transcript is not None
