@@ -10,7 +10,7 @@ from tests.harness.conform.test_conform import standings
 from tests.programs.programs import HERE, python
 from topo_verify import World, explore
 from topo_verify.errors import InputError
-from topo_verify.harness.conform.batch import Replay
+from topo_verify.harness.conform.batch import BatchReplay
 from topo_verify.harness.conform.outcome import Job
 from topo_verify.programs import protocol as ms
 from topo_verify.robot.events import Augment, Confirm, Move, Pose, Reject, Trace
@@ -84,21 +84,21 @@ def test_what_was_said_is_kept(tmp_path: Path) -> None:
     assert '"cost\\":999' in file.read_text()
 
 
-def as_run(trace: Trace, world: World) -> ms.Run:
+def as_run(trace: Trace, world: World) -> ms.BatchRun:
     doors: list[int] = []
-    declared: list[ms.Declared] = []
+    declared: list[ms.BatchDecision] = []
     for event in trace:
         if isinstance(event, Move):
             doors.append(event.door)
         elif isinstance(event, Pose | Reject | Confirm | Augment):
-            declared.append(ms.Declared(len(doors), event))
+            declared.append(ms.BatchDecision(len(doors), event))
     found = explore(world, "basic").map
-    return ms.Run("x", tuple(doors), tuple(declared), found, len(doors))
+    return ms.BatchRun("x", tuple(doors), tuple(declared), found, len(doors))
 
 
 def test_a_replay_is_the_run_again() -> None:
     world = World.from_id("m4/41")
     trace = explore(world, "basic").trace
-    again = explore(world, Replay(as_run(trace, world))).trace
+    again = explore(world, BatchReplay(as_run(trace, world))).trace
     bare = [Move(e.door, e.percept) if isinstance(e, Move) else e for e in trace[1:]]
     assert list(again[1:]) == bare

@@ -16,7 +16,7 @@ from topo_verify.harness.corpus import Named
 from topo_verify.harness.run import Exploration, explore, judge
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.loading import Target
-from topo_verify.programs.program import Line, Program
+from topo_verify.programs.program import Program, TranscriptLine
 from topo_verify.robot.events import write_trace
 from topo_verify.world.formats import files
 
@@ -86,7 +86,9 @@ def reference(job: Job) -> Target:
     return one_target(job.reference, pick=job.policies.pick, order=job.policies.order)
 
 
-def keep(folder: str, at: Named, run: Exploration, made: Outcome, lines: list[Line] | None) -> Path:
+def keep(
+    folder: str, at: Named, run: Exploration, made: Outcome, lines: list[TranscriptLine] | None
+) -> Path:
     """Write down what was said in a world: the messages of a program, the trace of a mapper."""
     path = Path(folder) / f"{file_name(at.name)}.jsonl"
     if lines is None:
