@@ -226,7 +226,7 @@ class Child:
             self._output_ended = True
             self._poll.unregister(self._out)
             return
-        # `_rest` holds the bytes after the last line end. It is a bytearray because every chunk of a
+        # `_rest` holds the bytes after the last line end. It is a bytearray because each chunk of a
         # long line would copy `bytes` whole.
         first, *more = chunk.split(b"\n")
         if self._rest or not more:

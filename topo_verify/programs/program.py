@@ -243,7 +243,7 @@ class Program:
         self._idle = True
 
     def close(self) -> None:
-        """Send `stop`, then end a process that does not end by itself. A later call starts afresh."""
+        """Send `stop`, then end a process that does not obey. A later call starts another one."""
         self.settle()
         if self._child is not None:
             try:

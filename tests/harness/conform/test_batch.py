@@ -11,7 +11,7 @@ from tests.programs.programs import HERE, python
 from topo_verify import World, explore
 from topo_verify.errors import InputError
 from topo_verify.harness.conform.batch import BatchReplay
-from topo_verify.harness.conform.outcome import Job
+from topo_verify.harness.conform.outcome import ConformJob
 from topo_verify.programs import protocol as ms
 from topo_verify.robot.events import Augment, Confirm, Move, Pose, Reject, Trace
 from topo_verify.robot.limits import Limits
@@ -22,7 +22,7 @@ def batch(way: str = "right") -> str:
 
 
 def test_runs_are_judged_on_every_level() -> None:
-    found = standings(Job(target=batch(), like="basic"), "edges<=3", "nyc", batch=True)
+    found = standings(ConformJob(target=batch(), like="basic"), "edges<=3", "nyc", batch=True)
     assert [(s.level, s.passed, s.verdict) for s in found.values()] == [
         (level, 87, "SAMPLED") for level in ("result", "claims", "decisions", "cost")
     ]
@@ -49,7 +49,7 @@ def test_runs_are_judged_on_every_level() -> None:
     ],
 )
 def test_what_goes_wrong_in_one_world_is_found_there_alone(way: str, kind: str, words: str) -> None:
-    job = Job(target=batch(way), limits=Limits(world_timeout=0.7))
+    job = ConformJob(target=batch(way), limits=Limits(world_timeout=0.7))
     result = standings(job, "edges<=2", batch=True)["result"]
     assert result.passed == 11
     assert {found.world for found in result.findings} == {"m2/5"}
@@ -59,27 +59,27 @@ def test_what_goes_wrong_in_one_world_is_found_there_alone(way: str, kind: str, 
 
 def test_a_world_may_be_skipped_or_given_up() -> None:
     for way in ("skip", "error"):
-        result = standings(Job(target=batch(way)), "edges<=2", batch=True)["result"]
+        result = standings(ConformJob(target=batch(way)), "edges<=2", batch=True)["result"]
         assert (result.passed, result.skipped + result.errored) == (11, 1)
         assert result.verdict == "UNKNOWN"
 
 
 def test_runs_may_come_in_any_order_and_all_at_the_end() -> None:
-    found = standings(Job(target=batch("backwards"), like="basic"), "edges<=3", batch=True)
+    found = standings(ConformJob(target=batch("backwards"), like="basic"), "edges<=3", batch=True)
     assert found["decisions"].passed == 86
 
 
 def test_a_world_that_stands_twice_in_the_corpus_is_run_twice() -> None:
-    assert standings(Job(target=batch()), "m1/0", "m1/0", batch=True)["result"].passed == 2
+    assert standings(ConformJob(target=batch()), "m1/0", "m1/0", batch=True)["result"].passed == 2
 
 
 def test_batch_is_for_programs() -> None:
     with pytest.raises(InputError, match="name one with --cmd"):
-        standings(Job(target="basic"), "m1/0", batch=True)
+        standings(ConformJob(target="basic"), "m1/0", batch=True)
 
 
 def test_what_was_said_is_kept(tmp_path: Path) -> None:
-    standings(Job(target=batch("lies"), transcript=str(tmp_path)), "edges<=2", batch=True)
+    standings(ConformJob(target=batch("lies"), transcript=str(tmp_path)), "edges<=2", batch=True)
     (file,) = tmp_path.iterdir()
     assert '"cost\\":999' in file.read_text()
 

@@ -72,7 +72,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
     limits: Limits
 
 
-class Entry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """A line: one world, and what the mapper did there.
 
     Attributes:
@@ -112,7 +112,7 @@ class Baseline:
     """What was recorded: one entry a world, in the order of the corpus."""
 
     header: Header
-    entries: tuple[Entry, ...]
+    entries: tuple[BaselineEntry, ...]
 
 
 # ---------------------------------------------------------------- writing
@@ -175,7 +175,7 @@ def decode(data: bytes, *, name: str = "baseline") -> Baseline:
         raise InputError(f"{name} is empty: name a file that topo-verify record wrote")
     header = _line(first, Header, f"{name}, line 1")
     entries = tuple(
-        _line(line, Entry, f"{name}, line {number}") for number, line in enumerate(lines, 2)
+        _line(line, BaselineEntry, f"{name}, line {number}") for number, line in enumerate(lines, 2)
     )
     if len(entries) != header.total:
         raise InputError(
@@ -185,7 +185,7 @@ def decode(data: bytes, *, name: str = "baseline") -> Baseline:
     return Baseline(header, entries)
 
 
-def world_of(entry: Entry, *, name: str, line: int) -> World:
+def world_of(entry: BaselineEntry, *, name: str, line: int) -> World:
     """The world of an entry, called as its corpus called it.
 
     Raises:
@@ -276,8 +276,8 @@ def _line(line: bytes, kind: type[S], where: str) -> S:
 
 def schema() -> dict[str, Any]:
     """The JSON Schema of a line; `schemas/baseline.schema.json` holds the same."""
-    made, components = msgspec.json.schema_components([Header, Entry])
-    for name in ("Header", "Entry"):
+    made, components = msgspec.json.schema_components([Header, BaselineEntry])
+    for name in ("Header", "BaselineEntry"):
         components[name]["properties"]["sum"] = {"type": "string", "pattern": "^[0-9a-f]{16}$"}
         components[name]["required"].append("sum")
     components["Header"]["required"] += ["format", "version"]

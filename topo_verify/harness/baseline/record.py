@@ -23,8 +23,9 @@ import msgspec
 
 from topo_verify.algorithms import Algorithm
 from topo_verify.errors import InputError
-from topo_verify.harness.baseline.file import Baseline, Entry, Header
+from topo_verify.harness.baseline.file import Baseline, BaselineEntry, Header
 from topo_verify.harness.corpus import Corpus
+from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import Exploration, Report, explore, judge, replay_line
 from topo_verify.harness.run import undecided as is_undecided
 from topo_verify.harness.targets import target_arguments
@@ -35,11 +36,8 @@ from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
-PATIENCE = 3
+MAX_TIMEOUTS = 3
 """After so many time-outs a mapper is not run in the worlds that are left."""
-
-Tell = Callable[[str, int, int], None]
-"""Called as work goes on: (mapper, worlds done, worlds in all)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +46,7 @@ class Recorded:
 
     world: World
     report: Report
-    entry: Entry
+    entry: BaselineEntry
     timed_out: bool
 
 
@@ -59,19 +57,19 @@ def record(
     worlds: Sequence[str] = (),
     seed: int = 0,
     limits: Limits | None = None,
-    tell: Tell | None = None,
+    tell: Progress | None = None,
     note: Callable[[Recorded], None] | None = None,
 ) -> Baseline:
     """Run the mapper in every world of the corpus.
 
-    After `PATIENCE` time-outs it stops: then there are fewer entries than the header says.
+    After `MAX_TIMEOUTS` time-outs it stops: then there are fewer entries than the header says.
 
     Args:
         worlds, seed: what the corpus was made from, to be told in the header.
         note: told of every world.
     """
     limits = limits or Limits()
-    entries: list[Entry] = []
+    entries: list[BaselineEntry] = []
     named = ((at.name, at.world) for at in corpus)
     for seen in runs(target, named, corpus.total, limits, tell):
         entries.append(seen.entry)
@@ -96,7 +94,7 @@ def runs(
     worlds: Iterable[tuple[str, World]],
     total: int,
     limits: Limits,
-    tell: Tell | None = None,
+    tell: Progress | None = None,
 ) -> Iterator[Recorded]:
     """One named world after the other, until they end or time-outs have used up the patience."""
     timeouts = 0
@@ -106,7 +104,7 @@ def runs(
         seen = _recorded(target, name, world, limits)
         yield seen
         timeouts += seen.timed_out
-        if timeouts == PATIENCE:
+        if timeouts == MAX_TIMEOUTS:
             return
 
 
@@ -116,11 +114,11 @@ def _recorded(target: Target, name: str, world: World, limits: Limits) -> Record
     report = judge(run, where=name, options=limits.options)
     if isinstance(target.mapper, Program):
         target.mapper.settle()  # it may have been run in a witness world, too
-    replay = again(target, name, limits)
+    replay = replay_command(target, name, limits)
     findings = tuple(msgspec.structs.replace(f, replay=replay) for f in report.findings)
     report = msgspec.structs.replace(report, findings=findings)
     undecided = declined or is_undecided(run, report)
-    entry = Entry(
+    entry = BaselineEntry(
         world=world.text,
         name="" if name == world.text else name,
         cost=run.cost,
@@ -133,7 +131,7 @@ def _recorded(target: Target, name: str, world: World, limits: Limits) -> Record
     return Recorded(world, report, entry, run.limit in ("move-timeout", "world-timeout"))
 
 
-def again(target: Target, where: str, limits: Limits) -> str:
+def replay_command(target: Target, where: str, limits: Limits) -> str:
     """The command line that shows the mapper in this world again."""
     if isinstance(target.mapper, Program):
         told = ("conform", *target_arguments(target.text), "--worlds", where, *limits.options)

@@ -27,7 +27,7 @@ import msgspec
 
 from topo_verify.errors import InputError
 from topo_verify.harness.conform.examiner import keep, reference
-from topo_verify.harness.conform.outcome import Job, Outcome, outcome
+from topo_verify.harness.conform.outcome import ConformJob, WorldResult, world_result
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.run import explore, judge
 from topo_verify.programs import protocol as ms
@@ -111,7 +111,7 @@ class BatchExaminer:
         InputError: the target is no program, or there is no such algorithm or policy.
     """
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: ConformJob) -> None:
         if not job.target.startswith(PREFIX):
             raise InputError(f"--batch with {job.target}: it is for programs, name one with --cmd")
         self.job = job
@@ -120,7 +120,7 @@ class BatchExaminer:
         self._reaper = ReaperProcess()
         self._child: Child | None = None
 
-    def examine(self, worlds: Iterable[Named]) -> Iterator[Outcome]:
+    def examine(self, worlds: Iterable[Named]) -> Iterator[WorldResult]:
         """What becomes of the worlds, in their order."""
         todo = iter(worlds)
         while chunk := list(islice(todo, CHUNK)):
@@ -191,17 +191,17 @@ class BatchExaminer:
 
     # ------------------------------------------------------------ a run
 
-    def _judged(self, at: Named, answer: BatchAnswer) -> Outcome:
+    def _judged(self, at: Named, answer: BatchAnswer) -> WorldResult:
         player = BatchReplay(answer)
         run = explore(at.world, Target(self.job.target, player), limits=self.job.limits)
-        made = outcome(
+        made = world_result(
             run,
             judge(run, where=at.name),
             at,
             self.job,
             reference=explore(at.world, self._reference),
             misbehaved=player.misbehaved,
-            replay=shlex.join([*self.job.again, *at.again]),
+            replay=shlex.join([*self.job.replay_arguments, *at.replay_arguments]),
         )
         if self.job.transcript is not None and any(made.findings.values()):
             lines: list[TranscriptLine] = [(">", msgspec.json.encode(world_json.to_data(at.world)))]

@@ -11,7 +11,7 @@ from typing import Self
 
 import msgspec
 
-from topo_verify.harness.conform.outcome import Job, Outcome, outcome
+from topo_verify.harness.conform.outcome import ConformJob, WorldResult, world_result
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.run import Exploration, explore, judge
 from topo_verify.harness.targets import one_target
@@ -31,7 +31,7 @@ class Examiner:
         InputError: there is no such mapper, algorithm or policy, or the job names several.
     """
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: ConformJob) -> None:
         self.reference = reference(job)
         self.job, self.target = job, one_target(job.target)
         mapper = self.target.mapper
@@ -41,7 +41,7 @@ class Examiner:
             self.program.record = job.transcript is not None
             self.program.start()
 
-    def examine(self, at: Named) -> Outcome:
+    def examine(self, at: Named) -> WorldResult:
         """What becomes of one world."""
         job, program = self.job, self.program
         run = explore(at.world, self.target, limits=job.limits)
@@ -51,14 +51,14 @@ class Examiner:
         report = judge(run, where=at.name)
         if program is not None:
             program.settle()  # it may have been run in a witness world, too
-        made = outcome(
+        made = world_result(
             run,
             report,
             at,
             job,
             reference=explore(at.world, self.reference),
             misbehaved=misbehaved,
-            replay=shlex.join([*job.again, *at.again]),
+            replay=shlex.join([*job.replay_arguments, *at.replay_arguments]),
         )
         if job.transcript is not None and any(made.findings.values()):
             keep(job.transcript, at, run, made, lines if program else None)
@@ -77,7 +77,7 @@ class Examiner:
             self.program.close()
 
 
-def reference(job: Job) -> Target:
+def reference(job: ConformJob) -> Target:
     """The algorithm that an implementation is compared with.
 
     Raises:
@@ -87,7 +87,7 @@ def reference(job: Job) -> Target:
 
 
 def keep(
-    folder: str, at: Named, run: Exploration, made: Outcome, lines: list[TranscriptLine] | None
+    folder: str, at: Named, run: Exploration, made: WorldResult, lines: list[TranscriptLine] | None
 ) -> Path:
     """Write down what was said in a world: the messages of a program, the trace of a mapper."""
     path = Path(folder) / f"{file_name(at.name)}.jsonl"
