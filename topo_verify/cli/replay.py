@@ -143,7 +143,7 @@ def _judged(
     output.progress(f"judging {name}", 0, 1)
     again = shlex.join(["topo-verify", "replay", what, "--world", at.again, *at.options])
     target = start.algorithm or "unknown"
-    report = judge_trace(at.world, trace, target=target, where=at.again, again=again)
+    report = judge_trace(at.world, trace, target=target, where=at.again, replay_command=again)
     if report.claims["percepts-true"] == "failed":
         output.note(
             f"{name} diverges from {at.again}: it was left in another world (--world names it), by"

@@ -164,11 +164,11 @@ def packed(data: bytes) -> bytes:
     ("data", "told"),
     [
         (b"", "is empty"),
-        (b"{}", "not as gzip wrote it"),
+        (b"{}", "expected gzip data"),
         (packed(b""), "is empty"),
-        (packed(b"{}"), "no line of a baseline"),
-        (packed(b"\xff"), "no line of a baseline"),
-        (packed(b"[" * 100_000), "no line of a baseline"),
+        (packed(b"{}"), "expected a line of a baseline"),
+        (packed(b"\xff"), "expected a line of a baseline"),
+        (packed(b"[" * 100_000), "expected a line of a baseline"),
         (packed(b'{"format":"topo-verify/world","version":1}'), "'topo-verify/world'"),
     ],
 )
