@@ -15,9 +15,9 @@ from pathlib import Path
 from time import perf_counter, process_time
 
 from topo_verify import explore, families
-from topo_verify.harness.conform.batch import Replay
+from topo_verify.harness.conform.batch import BatchReplay
 from topo_verify.programs.program import Program
-from topo_verify.programs.protocol import Run
+from topo_verify.programs.protocol import BatchRun
 from topo_verify.robot.events import Move
 from topo_verify.robot.simulator import SimulatedRobot
 
@@ -47,7 +47,7 @@ def piped() -> float | None:
 def replayed() -> float:
     """Moves a second that a run of the batch is replayed with."""
     doors = [event.door for event in explore(WORLD, "basic").trace if isinstance(event, Move)]
-    player = Replay(Run("lattice", tuple(doors), map=explore(WORLD, "basic").map))
+    player = BatchReplay(BatchRun("lattice", tuple(doors), map=explore(WORLD, "basic").map))
     robot = SimulatedRobot(WORLD, len(doors))
     start = process_time()
     player(robot)

@@ -173,7 +173,7 @@ MISTAKES = {
     'target="nix"': "no algorithm 'nix'",
     'target="mappers:nix"': "mappers has no attribute 'nix'",
     'target="nowhere:nix"': "cannot import 'nowhere'",
-    "target=17": "17 is no mapper",
+    "target=17": "expected a callable that takes a robot, got 17",
     "": "names no mapper: write @pytest.mark.topo(target=",
     '"basic"': "does not take 'basic'",
     'target="basic", worlds=3': "does not take worlds=…",

@@ -33,7 +33,7 @@ import pytest
 
 if TYPE_CHECKING:
     from topo_verify.harness.run import Report
-    from topo_verify.harness.verify.by_claim import Outcome
+    from topo_verify.harness.verify.by_claim import ClaimResults
     from topo_verify.programs.loading import Mapper, Target
     from topo_verify.robot.simulator import SimulatedRobot
     from topo_verify.world.rooted_map import World
@@ -46,7 +46,7 @@ _CASE = "_topo_case"
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class ClaimTest:
     """What one test asks: does this claim hold of the mapper in every world of 1 … edges edges?"""
 
     target: Target
@@ -59,7 +59,7 @@ class _Session:
     """What is kept from configuration to summary, in one process."""
 
     targets: dict[str, tuple[Target, ...]] = field(default_factory=dict[str, Any])
-    outcomes: dict[tuple[int, int], Outcome] = field(default_factory=dict[Any, Any])
+    outcomes: dict[tuple[int, int], ClaimResults] = field(default_factory=dict[Any, Any])
     """By the mapper's identity (the cases keep it alive) and the number of edges."""
 
 
@@ -136,7 +136,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         metafunc.parametrize(_CASE, cases, ids=names)
 
 
-def _cases(config: pytest.Config, mark: pytest.Mark) -> list[Case]:
+def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
     """The tests that a mark asks for.
 
     Raises:
@@ -162,7 +162,7 @@ def _cases(config: pytest.Config, mark: pytest.Mark) -> list[Case]:
     return list(_of_targets(config, target, edges))
 
 
-def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Iterator[Case]:
+def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Iterator[ClaimTest]:
     """One test a mapper and claim.
 
     Raises:
@@ -190,7 +190,7 @@ def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Itera
         raise pytest.Collector.CollectError(str(error)) from error
     for target in found:
         for claim in CLAIMS:
-            yield Case(target, edges, claim)
+            yield ClaimTest(target, edges, claim)
 
 
 @pytest.hookimpl(wrapper=True)
@@ -221,7 +221,7 @@ class MapperCollector(pytest.Collector):
 class ClaimItem(pytest.Item):
     """One claim of one mapper, with no function behind it."""
 
-    def __init__(self, *, case: Case, **kwargs: Any) -> None:
+    def __init__(self, *, case: ClaimTest, **kwargs: Any) -> None:
         super().__init__(**kwargs)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
         self.case = case
         self.add_marker(pytest.mark.topo)
@@ -245,7 +245,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             )
 
 
-def _case(item: pytest.Item) -> Case | None:
+def _case(item: pytest.Item) -> ClaimTest | None:
     """What a marked function is to judge in this test."""
     callspec = getattr(item, "callspec", None)
     return None if callspec is None else callspec.params.get(_CASE)
@@ -263,7 +263,7 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Generator[None, object, o
     return (yield)
 
 
-def _judge(item: pytest.Item, case: Case) -> None:
+def _judge(item: pytest.Item, case: ClaimTest) -> None:
     """Pass, fail or skip: what became of the claim."""
     from topo_verify.harness.verify.by_claim import by_claim
     from topo_verify.robot.limits import Limits
@@ -277,9 +277,9 @@ def _judge(item: pytest.Item, case: Case) -> None:
     item.user_properties += _properties(case, known[key])
     match known[key].status(case.claim):
         case "fails" | "undecided":
-            pytest.fail(known[key].told(case.claim), pytrace=False)
+            pytest.fail(known[key].text(case.claim), pytrace=False)
         case "not-declared":
-            pytest.skip(known[key].told(case.claim))
+            pytest.skip(known[key].text(case.claim))
         case "holds":
             pass
 
@@ -287,7 +287,7 @@ def _judge(item: pytest.Item, case: Case) -> None:
 # ---------------------------------------------------------------- what is reported
 
 
-def _properties(case: Case, outcome: Outcome) -> list[tuple[str, object]]:
+def _properties(case: ClaimTest, outcome: ClaimResults) -> list[tuple[str, object]]:
     """What the report of a test carries, also to another process and to a JUnit file."""
     part = outcome.part
     facts: dict[str, object] = {

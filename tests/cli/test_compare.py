@@ -135,7 +135,7 @@ def test_a_changed_baseline_is_refused(call: Call, folder: Path) -> None:
     ("line", "told"),
     [
         ("compare nowhere.gz basic", "cannot read nowhere.gz"),
-        ("compare mappers.py basic", "not as gzip wrote it"),
+        ("compare mappers.py basic", "expected gzip data"),
         ("compare basic.gz", "name a TARGET, or a program"),
         ("compare basic.gz nix", "no algorithm 'nix'"),
         ("compare basic.gz basic --tolerance -1", "'-1' is no number of percent"),

@@ -16,7 +16,6 @@ from typing import Any
 import pytest
 
 from topo_verify.cli import main, runs
-from topo_verify.harness import target_texts
 
 Call = Callable[..., Any]
 COMMANDS = (
@@ -311,7 +310,7 @@ def test_ctrl_c_before_any_work_exits_3(call: Call, monkeypatch: pytest.MonkeyPa
     def interrupt(_text: str) -> object:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(target_texts, "targets", interrupt)
+    monkeypatch.setattr(sys.modules["topo_verify.cli.verify"], "targets", interrupt)
     done = call("verify")
     assert done.exit_code == 3
     assert done.stderr == "topo-verify: interrupted; nothing came out before\n"

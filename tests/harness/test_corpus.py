@@ -49,13 +49,13 @@ def test_so_many_worlds_are_generated_as_are_asked_for() -> None:
 def test_generated_worlds_are_called_by_ids_that_name_them() -> None:
     for at in corpus_from(["generated:24"]):
         assert World.from_id(at.name).code == at.world.code
-        assert at.again == ("--worlds", at.name)
+        assert at.replay_arguments == ("--worlds", at.name)
 
 
 def test_worlds_too_large_for_an_id_are_called_by_what_drew_them() -> None:
     (at,) = corpus_from(["generated:1:tree_worlds(min_edges=201, max_edges=210)"], seed=4)
     assert at.name == "generated:1:tree_worlds(min_edges=201, max_edges=210)#0"
-    assert at.again == ("--worlds", at.group, "--seed", "4")
+    assert at.replay_arguments == ("--worlds", at.group, "--seed", "4")
 
 
 def test_a_folder_is_the_world_files_in_it_by_name(tmp_path: Path) -> None:

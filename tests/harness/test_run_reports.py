@@ -112,7 +112,7 @@ def test_a_trace_from_elsewhere_is_judged_like_a_run() -> None:
     report = judge_trace(WORLD, run.trace, target="basic")
     assert report == judge(run) == examine("basic", WORLD)
     assert isinstance(report, Report)
-    again = judge_trace(WORLD, run.trace[:-1], target="basic", again="look at it")
+    again = judge_trace(WORLD, run.trace[:-1], target="basic", replay_command="look at it")
     assert {finding.replay for finding in again.findings} == {"look at it"}
 
 

@@ -13,7 +13,7 @@ import pytest
 
 from topo_verify import World
 from topo_verify.harness.conform.examiner import Examiner
-from topo_verify.harness.conform.outcome import Job, Outcome
+from topo_verify.harness.conform.outcome import ConformJob, WorldResult
 from topo_verify.harness.corpus import Named, corpus_from
 from topo_verify.robot.limits import Limits
 
@@ -61,19 +61,21 @@ def named(*ids: str) -> list[Named]:
     return [Named(text, World.from_id(text), text, ("--worlds", text)) for text in ids]
 
 
-def outcomes(target: str, *ids: str, limits: Limits | None = None, **more: Any) -> list[Outcome]:
+def outcomes(
+    target: str, *ids: str, limits: Limits | None = None, **more: Any
+) -> list[WorldResult]:
     """What becomes of these worlds, or of WORLDS that are no ids, one after the other."""
-    job = Job(target=target, limits=limits or Limits(), **more)
+    job = ConformJob(target=target, limits=limits or Limits(), **more)
     worlds = named(*ids) if ids and ids[0].startswith("m") else corpus_from(ids)
     with Examiner(job) as examiner:
         return [examiner.examine(at) for at in worlds]
 
 
-def kinds(made: Outcome) -> list[str]:
+def kinds(made: WorldResult) -> list[str]:
     """The kinds of what is wrong, level by level."""
     return [found.kind for level in made.findings.values() for found in level]
 
 
-def messages(made: Outcome) -> str:
+def messages(made: WorldResult) -> str:
     """All that is said of what is wrong."""
     return "\n".join(found.message for level in made.findings.values() for found in level)

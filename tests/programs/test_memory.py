@@ -15,14 +15,14 @@ import resource, sys
 from topo_verify.harness.conform.conform import Books
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.harness.conform.examiner import Examiner
-from topo_verify.harness.conform.outcome import Job
+from topo_verify.harness.conform.outcome import ConformJob
 
 def size():
     with open("/proc/self/statm") as file:
         return int(file.read().split()[1]) * resource.getpagesize()
 
 corpus = corpus_from(["edges<=5", "generated:1046"])
-job = Job(target=sys.argv[1], like="basic")
+job = ConformJob(target=sys.argv[1], like="basic")
 books = Books(job, corpus)
 with Examiner(job) as examiner:
     for at in corpus:

@@ -19,7 +19,7 @@ from tests.programs.programs import ROOT, misbehaving, python, served
 from topo_verify import World, examine, explore
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
-from topo_verify.harness.target_texts import fingerprint, target_text, targets, words
+from topo_verify.harness.targets import fingerprint, target_arguments, target_text, targets
 from topo_verify.programs.program import Misbehaved, Program
 from topo_verify.robot.events import Move
 from topo_verify.robot.limits import Limits
@@ -199,6 +199,16 @@ def test_a_program_object_that_is_forgotten_ends_its_program(tells: str) -> None
     assert gone(process)
 
 
+def test_a_text_names_a_program_in_python_too(tells: str) -> None:
+    run = explore(EDGE, tells)
+    assert run.algorithm == tells
+    process = int(str(run.stopped).split()[-1])
+    assert alive(process)
+    del run
+    assert gone(process)
+    assert examine(served("basic"), World.from_id("m3/14")).ok
+
+
 # ---------------------------------------------------------------- --validate
 
 
@@ -233,9 +243,9 @@ def test_a_program_is_named_by_its_command() -> None:
     assert isinstance(target.mapper, Program)
     assert target.mapper.command == ("./my mapper", "--fast")
     assert target.text == "--cmd './my mapper' --fast"
-    assert words(target.text) == ("--cmd", "'./my mapper' --fast")
+    assert target_arguments(target.text) == ("--cmd", "'./my mapper' --fast")
     assert [found.text for found in targets("basic,folding")] == ["basic", "folding"]
-    assert words("basic") == ("basic",)
+    assert target_arguments("basic") == ("basic",)
 
 
 def test_one_target_is_named_and_not_two() -> None:
@@ -262,7 +272,7 @@ def test_a_program_that_cannot_be_started_is_bad_input(tmp_path: Path) -> None:
 
 
 def test_a_program_has_no_policies_of_ours() -> None:
-    with pytest.raises(InputError, match="its own policies"):
+    with pytest.raises(InputError, match="has no policies"):
         targets("--cmd ./mapper", pick="last")
 
 

@@ -14,12 +14,12 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
 from topo_verify.errors import InputError
-from topo_verify.harness import target_texts
 from topo_verify.harness.conform.conform import Books, Standing
 from topo_verify.harness.conform.conform import conform as try_all
-from topo_verify.harness.conform.outcome import Found, Job
+from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
 from topo_verify.harness.corpus import Corpus, corpus_from
 from topo_verify.harness.search.workers import processors
+from topo_verify.harness.targets import target_arguments, target_text, targets
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -101,7 +101,7 @@ def conform(  # noqa: PLR0913  an argument an option
     """
 
     def standings() -> Iterator[Result[Standing]]:
-        text = target_texts.target_text(target, command)
+        text = target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
         asked = _Asked(
             corpus_from(texts, seed=seed), processors() if workers is None else workers, batch
@@ -109,22 +109,24 @@ def conform(  # noqa: PLR0913  an argument an option
         if transcript is not None:
             _make_folder(transcript)
         output.note(f"seed {seed}")
-        for one in [text] if command else [found.text for found in target_texts.targets(text)]:
-            job = Job(
+        for one in [text] if command else [found.text for found in targets(text)]:
+            job = ConformJob(
                 target=one,
                 like=like,
                 policies=policies,
                 limits=limits,
                 validate=validate,
                 transcript=transcript,
-                again=_again(one, like, pick, order, limits, batch=batch, validate=validate),
+                replay_arguments=_again(
+                    one, like, pick, order, limits, batch=batch, validate=validate
+                ),
             )
             yield from _tried(output, job, asked)
 
     return output.run("conform", standings, _show, seed=seed, corpus=list(texts) or ["corpus"])
 
 
-def _tried(output: Output, job: Job, asked: _Asked) -> Iterator[Result[Standing]]:
+def _tried(output: Output, job: ConformJob, asked: _Asked) -> Iterator[Result[Standing]]:
     """One implementation, also where it is interrupted."""
     books = Books(job, asked.corpus)
     try:
@@ -158,7 +160,7 @@ def _again(
     validate: bool,
 ) -> tuple[str, ...]:
     """The words that ask for the same again; the world comes behind them."""
-    words = ["topo-verify", "conform", *target_texts.words(target)]
+    words = ["topo-verify", "conform", *target_arguments(target)]
     for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
         words += [name, value] if value is not None else []
     words += ["--batch"] if batch else []
@@ -229,7 +231,7 @@ def _findings(level: Standing) -> Iterator[Block]:
         yield Command(found.replay, "again: ")
 
 
-def _difference(found: Found, level: Standing) -> Iterator[Block]:
+def _difference(found: WorldFinding, level: Standing) -> Iterator[Block]:
     """A finding; two runs that part, side by side with what was known then."""
     parted = found.difference
     if parted is None:

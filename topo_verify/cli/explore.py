@@ -23,10 +23,10 @@ from topo_verify.cli.runs import (
     undeclared,
 )
 from topo_verify.errors import InputError
-from topo_verify.harness import target_texts
 from topo_verify.harness.gap import gap as measure
 from topo_verify.harness.run import Exploration
 from topo_verify.harness.run import explore as run_mapper
+from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
@@ -143,8 +143,8 @@ def explore(  # noqa: PLR0913  an argument an option
     """
 
     def runs() -> Iterator[Result[Explored]]:
-        text = target_texts.target_text(algorithm, command, "all")
-        found = target_texts.targets(text, pick=pick, order=order)
+        text = target_text(algorithm, command, "all")
+        found = targets(text, pick=pick, order=order)
         where = places(worlds, marker)
         if trace is not None:
             _require_one_run(trace, found, where)

@@ -21,8 +21,7 @@ from topo_verify.harness.baseline import file
 from topo_verify.harness.baseline.record import Recorded
 from topo_verify.harness.baseline.record import record as run_all
 from topo_verify.harness.corpus import DEFAULT, Corpus, corpus_from
-from topo_verify.harness.target_texts import target_text, targets
-from topo_verify.harness.targets import one_target
+from topo_verify.harness.targets import one_target, target_text
 from topo_verify.programs.loading import Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Policies
@@ -99,12 +98,8 @@ def _opened(
     usual: Policies | None,
 ) -> Generator[Target]:
     """The one mapper that is meant; a program runs as long as the block."""
-    text = target_text(name, cmd)
     pick, order = asked
-    if cmd is None:
-        target = one_target(text, pick=pick, order=order)
-    else:
-        (target,) = targets(text, pick=pick, order=order)
+    target = one_target(target_text(name, cmd), pick=pick, order=order)
     if usual is not None and isinstance(target.mapper, Algorithm):
         target = one_target(target, pick=pick or usual.pick, order=order or usual.order)
     try:

@@ -18,9 +18,9 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import Place, finding_line, held, judged, place, silent
 from topo_verify.errors import InputError
-from topo_verify.harness import target_texts
 from topo_verify.harness.run import Report, judge_trace
 from topo_verify.harness.run import explore as run_mapper
+from topo_verify.harness.targets import one_target, target_text
 from topo_verify.robot.events import Start, read_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -92,8 +92,8 @@ def replay(  # noqa: PLR0913  an argument an option
         if where is not None:
             raise InputError(f"--world {where}: {what} is no trace, and --world is for a trace")
         at = place(what, marker, data)
-        text = target_texts.target_text(target, command, "basic")
-        mapper = target_texts.one_target(text, pick=pick, order=order)
+        text = target_text(target, command, "basic")
+        mapper = one_target(text, pick=pick, order=order)
         output.progress(f"{mapper.text} in {at.name}", 0, 1)
         run = run_mapper(at.world, mapper, limits=limits)
         report, incomplete = judged(run, at, limits)
@@ -143,7 +143,7 @@ def _judged(
     output.progress(f"judging {name}", 0, 1)
     again = shlex.join(["topo-verify", "replay", what, "--world", at.again, *at.options])
     target = start.algorithm or "unknown"
-    report = judge_trace(at.world, trace, target=target, where=at.again, again=again)
+    report = judge_trace(at.world, trace, target=target, where=at.again, replay_command=again)
     if report.claims["percepts-true"] == "failed":
         output.note(
             f"{name} diverges from {at.again}: it was left in another world (--world names it), by"

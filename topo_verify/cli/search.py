@@ -16,12 +16,12 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
 from topo_verify.errors import InputError
-from topo_verify.harness import target_texts
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.search.exhaustive import Found, Search, Size
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
 from topo_verify.harness.search.workers import processors
 from topo_verify.harness.tally import Compared, Costs, Failure
+from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -196,12 +196,12 @@ def _mappers(
     if (target is None and command is None) == (compare is None):
         raise InputError("name a TARGET, or two mappers with --compare A,B: one of the two")
     if compare is not None:
-        pair = target_texts.targets(compare)
+        pair = targets(compare)
         if len(pair) != 2 or pair[0] == pair[1]:
             raise InputError(f"--compare {compare}: name two algorithms of the catalogue, as A,B")
         return [pair]
-    text = target_texts.target_text(target, command)
-    found: list[tuple[Target, ...]] = [(mapper,) for mapper in target_texts.targets(text)]
+    text = target_text(target, command)
+    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(text)]
     if ledger is not None and len(found) != 1:
         raise InputError(f"--ledger {ledger}: a ledger is of one TARGET; {text} names {len(found)}")
     return found

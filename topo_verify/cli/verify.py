@@ -13,7 +13,7 @@ from topo_verify.cli.layout import Block, Table, Text
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks, undeclared
-from topo_verify.harness import target_texts
+from topo_verify.harness.targets import target_text, targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.parts import Part
 from topo_verify.programs.loading import Target
@@ -52,8 +52,8 @@ def verify(
     TARGET is `all` (the default), names of the catalogue with commas, package.module:attribute or
     path/file.py:attribute. A mapper takes a robot and returns a map.
     """
-    text = target_texts.target_text(target, command, "all")
-    mappers = target_texts.targets(text)
+    text = target_text(target, command, "all")
+    mappers = targets(text)
 
     def parts() -> Iterator[Result[Part]]:
         tell = output.progress

@@ -1,7 +1,7 @@
 """A mapper in many worlds: run, judged, tallied.
 
 run.py        the one way to run a mapper in a world, and to judge the run
-targets.py    what a TARGET means; target_texts.py adds programs
+targets.py    what a TARGET means
 corpus.py     what WORLDS means
 tally.py      what was found, as values that add up
 ledger.py     what a search has done, kept in a file

@@ -76,17 +76,17 @@ class Named:
         name: how the command line names it: a WORLD, wherever it has an id or a file.
         world: the world.
         group: the text that led to it.
-        again: the words of the command line that lead to it again.
+        replay_arguments: the arguments of a command line that name this world.
     """
 
     name: str
     world: World
     group: str
-    again: tuple[str, ...]
+    replay_arguments: tuple[str, ...]
 
 
 @dataclass(frozen=True)
-class Part:
+class CorpusPart:
     """The worlds that one text names; `finite`: all of their kind, to be exhausted."""
 
     text: str
@@ -99,7 +99,7 @@ class Part:
 class Corpus:
     """Worlds, in an order that is always the same; go through them as often as you like."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[CorpusPart, ...]
 
     def __iter__(self) -> Iterator[Named]:
         for part in self.parts:
@@ -146,7 +146,7 @@ def corpus_from(texts: Sequence[str] = DEFAULT, *, seed: int = 0) -> Corpus:
     return Corpus(tuple(parts))
 
 
-def _parts(text: str, seed: int) -> Iterator[Part]:
+def _parts(text: str, seed: int) -> Iterator[CorpusPart]:
     if text == "corpus":
         yield _enumerated(SMALL)
         yield _generated(f"generated:{GENERATED}", seed)
@@ -167,7 +167,7 @@ def _parts(text: str, seed: int) -> Iterator[Part]:
 # ---------------------------------------------------------------- all of a size
 
 
-def _enumerated(text: str) -> Part:
+def _enumerated(text: str) -> CorpusPart:
     found = re.fullmatch(r"edges<=([0-9]{1,3})", text)
     most = int(found[1]) if found else 0
     if not 1 <= most <= MOST_ENUMERATED:
@@ -182,13 +182,13 @@ def _enumerated(text: str) -> Part:
                 name = f"m{edges}/{rank}"
                 yield Named(name, World.from_code(table), text, ("--worlds", name))
 
-    return Part(text, sum(map(rank_order.count, range(1, most + 1))), listed, finite=True)
+    return CorpusPart(text, sum(map(rank_order.count, range(1, most + 1))), listed, finite=True)
 
 
 # ---------------------------------------------------------------- drawn
 
 
-def _generated(text: str, seed: int) -> Part:
+def _generated(text: str, seed: int) -> CorpusPart:
     found = re.fullmatch(r"generated:([0-9]{1,9})(?::(.+))?", text, re.DOTALL)
     number = int(found[1]) if found else 0
     if found is None or not 1 <= number <= MOST_GENERATED:
@@ -201,8 +201,9 @@ def _generated(text: str, seed: int) -> Part:
     worlds: list[World] = []
     for place, strategy in enumerate(strategies):
         worlds += _drawn(text, strategy, each + (place < more), seed)
-    again = ("--worlds", text, "--seed", str(seed))
-    return _listed(text, [_named(f"{text}#{i}", w, text, again) for i, w in enumerate(worlds)])
+    arguments = ("--worlds", text, "--seed", str(seed))
+    named = [_named(f"{text}#{i}", world, text, arguments) for i, world in enumerate(worlds)]
+    return _listed(text, named)
 
 
 def _drawn(text: str, strategy: str, number: int, seed: int) -> list[World]:
@@ -222,18 +223,18 @@ def _drawn(text: str, strategy: str, number: int, seed: int) -> list[World]:
 # ---------------------------------------------------------------- named
 
 
-def _listed(text: str, worlds: Sequence[Named]) -> Part:
-    return Part(text, len(worlds), lambda: iter(worlds))
+def _listed(text: str, worlds: Sequence[Named]) -> CorpusPart:
+    return CorpusPart(text, len(worlds), lambda: iter(worlds))
 
 
 def _by_name(name: str, group: str) -> Named:
     return Named(name, resolve_world(name), group, ("--worlds", name))
 
 
-def _named(name: str, world: World, group: str, again: tuple[str, ...]) -> Named:
+def _named(name: str, world: World, group: str, arguments: tuple[str, ...]) -> Named:
     """Called by its id, if it is small enough to have one."""
     if len(world.edges) > rank_order.MAX_ID_EDGES:
-        return Named(name, world, group, again)
+        return Named(name, world, group, arguments)
     return Named(world.id, world, group, ("--worlds", world.id))
 
 
@@ -244,7 +245,7 @@ def _is_folder(text: str) -> bool:
         return False
 
 
-def _folder(text: str) -> Part:
+def _folder(text: str) -> CorpusPart:
     names = sorted(_world_files(Path(text)))
     if not names:
         raise InputError(

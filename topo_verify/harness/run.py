@@ -1,8 +1,8 @@
-"""The one way to run a mapper: `explore` runs it, `examine` runs and judges it.
+"""The one way to run a mapper in a world: `explore` runs it, `examine` runs and judges it.
 
 A **mapper** is any callable that takes a robot and returns a map: an object with the attributes, or
 a mapping with the keys, `vertices`, `edges`, `marker`, and optionally `cost`. It is not trusted: if
-it raises, returns nonsense, walks past its budget or loops without moving, that is a finding.
+it raises, returns something else, exceeds its budget or loops without moving, that is a finding.
 
     run    = explore(world, "enhancement-ii")      # -> Exploration: map, cost, trace
     report = examine(my_mapper, world)             # -> Report: ok, claims, findings
@@ -26,6 +26,7 @@ from topo_verify.checkers import Finding, Status, check
 from topo_verify.errors import ClaimFailed, InputError
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.loading import Mapper, Target
+from topo_verify.programs.program import PREFIX, Program
 from topo_verify.robot.events import (
     Confirm,
     Event,
@@ -48,17 +49,17 @@ class Exploration:
     """One run of a mapper in a world.
 
     Attributes:
-        world: where.
+        world: the world in which the mapper ran.
         algorithm: the mapper's name, as a TARGET of the command line.
         policies: its policies, or None where they are not known.
-        trace: everything that happened; with the world it is a certificate.
+        trace: all events, in order; together with the world it is a certificate.
         map: the map that it delivered, or None.
         stopped: why it delivered none, or None.
-        cost: the number of moves, in edge traversals, as counted by the simulator.
         error: the exception that it raised, if it did.
-        limit: which limit ended it, if one did.
-        mapper: what was run.
-        limits: what it was allowed.
+        cost: the number of moves, in edge traversals, as counted by the simulator.
+        limit: the limit that stopped it, if one did.
+        mapper: the mapper itself; a program's process lives as long as it.
+        limits: the moves and the time that it was allowed.
     """
 
     world: World
@@ -90,14 +91,14 @@ class Exploration:
 
 
 class Report(msgspec.Struct, frozen=True):
-    """What the checkers say of one run.
+    """The judgement of every claim on one run.
 
     Attributes:
-        world, target: what was run where, as the command line names them.
-        ok: no claim failed. (`not-declared` and `not-asked` are no failures, and no successes.)
+        world, target: the world and the mapper, as the command line names them.
+        ok: no claim failed. (`not-declared` and `not-asked` are neither failures nor successes.)
         cost: edge traversals.
         claims: the status of each claim by name.
-        findings: everything that is wrong, with the command line that shows it again.
+        findings: all violations, each with the command line that shows it again.
     """
 
     world: str
@@ -145,9 +146,9 @@ def explore(
         pick, order: policies, for algorithms of the catalogue; default: the reference policies.
         limits: moves and seconds; default: the bound of claim 7, 5 s between moves, 60 s in all.
     Returns:
-        The run; also of a mapper that failed (then `map` is None and `stopped` says why).
+        The run, also of a mapper that delivers no map: then `map` is None and `stopped` says why.
     Raises:
-        InputError: no such mapper or policy.
+        InputError: there is no such mapper or policy.
     """
     target = one_target(mapper, pick=pick, order=order)
     limits = limits or Limits()
@@ -162,6 +163,9 @@ def explore(
         percept=first_percept(world),
     )
     finish, stopped, error, limit = _run(target.mapper, robot, limits)
+    if isinstance(target.mapper, Program):
+        # Here and not in the next run: ending a process takes time that no limit should count.
+        target.mapper.settle()
     trace = (start, *robot.events)
     return Exploration(
         world,
@@ -191,10 +195,10 @@ def examine(
     """Run a mapper in a world and judge the run by every claim.
 
     Args:
-        where: how the command line names the world, for the findings; default: its id.
-        strict: ask claim 10 also in worlds with more than 100 edges.
+        where: the world as the command line names it, for the findings; default: its id.
+        strict: judge claim 10 also in worlds with more than 100 edges.
     Raises:
-        InputError: no such mapper or policy.
+        InputError: there is no such mapper or policy.
     """
     run = explore(world, mapper, pick=pick, order=order, limits=limits)
     return judge(run, where=where, options=limits.options if limits else (), strict=strict)
@@ -209,14 +213,14 @@ def assert_maps(
     limits: Limits | None = None,
     strict: bool = False,
 ) -> None:
-    """Examine a mapper in a world; the one line of a property test.
+    """Assert that every claim holds of a mapper in a world: the one line of a property test.
 
     Args:
-        strict: ask claim 10 also in worlds with more than 100 edges.
+        strict: judge claim 10 also in worlds with more than 100 edges.
     Raises:
-        ClaimFailed: a claim fails; an AssertionError whose text is the report. If the mapper
-            raised, its exception is the cause.
-        InputError: no such mapper or policy.
+        ClaimFailed: a claim fails. It is an AssertionError whose text is the report; its cause is
+            the exception that the mapper raised, if it did.
+        InputError: there is no such mapper or policy.
     """
     run = explore(world, mapper, pick=pick, order=order, limits=limits)
     report = judge(run, options=limits.options if limits else (), strict=strict)
@@ -231,46 +235,46 @@ def judge(
     options: Sequence[str] = (),
     strict: bool = False,
 ) -> Report:
-    """Judge a run that took place; see `examine`.
+    """Judge a run by every claim; see `examine`.
 
-    A map that was not proved is put to the test: the mapper is run in the witness world, too, with
-    the same limits. (The witness has the same history: there a mapper makes the same moves again.)
+    If the history does not entail the map, the mapper also runs in the witness world, with the same
+    limits. (A deterministic mapper makes the same moves there, since its percepts are the same.)
 
     Args:
-        options: what the command line that shows the run again needs besides world and target.
+        options: the options that the replay command needs besides world and target.
     """
     where = where or world_argument(run.world)
-    again = replay_line(where, run.algorithm, run.policies, options)
+    replay_command = replay_line(where, run.algorithm, run.policies, options)
     report = judge_trace(
         run.world,
         run.trace,
         run.stopped,
         target=run.algorithm,
         where=where,
-        again=again,
+        replay_command=replay_command,
         strict=strict,
     )
-    findings = tuple(_put_to_the_test(finding, run) for finding in report.findings)
+    findings = tuple(_with_run_in_witness(finding, run) for finding in report.findings)
     return msgspec.structs.replace(report, findings=findings)
 
 
 def undecided(run: Exploration, report: Report) -> bool:
-    """Did it only run out of time while it moved on? Then nobody knows whether it is right."""
+    """Whether the run only exceeded its time while it still moved: then no claim is refuted."""
     lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
     return run.limit == "world-timeout" and lost
 
 
-def _put_to_the_test(finding: Finding, run: Exploration) -> Finding:
-    """A finding that names a witness of a wrong map, with what the same mapper does there."""
+def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:
+    """The finding; if it names a witness of a wrong map, with what the same mapper does there."""
     if finding.claim != "map-entailed" or finding.witness is None or run.mapper is None:
         return finding
     witness = World.from_text(finding.witness)
     there = explore(witness, Target(run.algorithm, run.mapper), limits=run.limits)
     failed = {j.claim for j in check(witness, there.trace, there.stopped) if j.status == "failed"}
     wrong = "map-isomorphic" in failed
-    told = "run there, the mapper is wrong" if wrong else "run there, the mapper was lucky again"
-    told = f"run there, {there.stopped}" if there.limit is not None else told
-    message = f"{finding.message}; witness {_short(finding.witness)}: {told}"
+    result = "the mapper is wrong" if wrong else "the mapper was lucky again"
+    result = str(there.stopped) if there.limit is not None else result
+    message = f"{finding.message}; witness {_short(finding.witness)}: run there, {result}"
     return msgspec.structs.replace(finding, message=message)
 
 
@@ -285,23 +289,24 @@ def judge_trace(
     *,
     target: str,
     where: str | None = None,
-    again: str | None = None,
+    replay_command: str | None = None,
     strict: bool = False,
 ) -> Report:
-    """Judge a trace, wherever it comes from, in its world.
+    """Judge a trace of any origin in its world.
 
     Args:
         target: the mapper that left the trace, as the command line names it.
-        where: how the command line names the world; default: its id.
-        again: the command line that shows the findings again; default: the target run anew.
+        where: the world as the command line names it; default: its id.
+        replay_command: the command line that shows the findings again; default: `replay` of the
+            target in the world.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`.
     """
     where = where or world_argument(world)
-    again = again or replay_line(where, target)
+    replay_command = replay_command or replay_line(where, target)
     judgements = check(world, trace, stopped, strict=strict)
     findings = tuple(
-        msgspec.structs.replace(finding, world=where, replay=again)
+        msgspec.structs.replace(finding, world=where, replay=replay_command)
         for judgement in judgements
         for finding in judgement.findings
     )
@@ -311,7 +316,7 @@ def judge_trace(
 
 
 def world_argument(world: World) -> str:
-    """How the command line names this world: its id; where it is too large, a file to be saved."""
+    """The argument that names this world: its id; if it is too large for one, a file to save."""
     return (
         world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else f"{world.name or 'world'}.json"
     )
@@ -322,8 +327,8 @@ def replay_line(
 ) -> str:
     """The command line that shows a run again."""
     words = ["topo-verify", "replay", where]
-    command = target.removeprefix("--cmd ")  # of a program; docs/oracle.md
-    words += ["--target", target] if command == target else ["--cmd", command]
+    program = target.startswith(PREFIX)
+    words += ["--cmd", target.removeprefix(PREFIX)] if program else ["--target", target]
     for name, default in (("pick", "nearest"), ("order", "shortest")):
         value = getattr(policies, name, default)
         words += [f"--{name}", value] if value != default else []
@@ -333,7 +338,7 @@ def replay_line(
 def _run(
     mapper: Mapper, robot: SimulatedRobot, limits: Limits
 ) -> tuple[Finish | None, str | None, BaseException | None, Limit | None]:
-    """What the mapper delivered; or why nothing, what it raised and which limit stopped it."""
+    """The delivered map; or why there is none, what the mapper raised and which limit struck."""
     finish: Finish | None = None
     why: str | None = None
     error: BaseException | None = None
@@ -341,28 +346,30 @@ def _run(
     def survey() -> tuple[Finish | None, str | None, Exception | None]:
         result = mapper(robot)
         try:
-            return _finish(result), None, None  # within the limits: a result may run code
+            # Read it within the limits: attributes of a foreign object may run code.
+            return _finish(result), None, None
         except InputError as nonsense:
             return None, str(nonsense), None
-        except Exception as raised:  # noqa: BLE001  an object that does not let itself be read
-            return None, f"what was delivered cannot be read: {_told(raised)}", raised
+        except Exception as raised:  # noqa: BLE001  an attribute may raise anything
+            return None, f"what was delivered cannot be read: {_exception_text(raised)}", raised
 
     try:
         finish, why, error = within(limits, lambda: robot.cost, survey)
     except MapperStopped as stop:
         stop = robot.stopped or stop
         return None, str(stop), None, stop.limit
-    except (Exception, SystemExit) as raised:  # noqa: BLE001  whatever it is, it is a finding
+    except (Exception, SystemExit) as raised:  # noqa: BLE001  any exception is a finding
         error = raised
-    if robot.stopped is not None:  # the mapper swallowed the exception and went on
+    # A mapper that swallows the robot's exception and goes on is still stopped by the first limit.
+    if robot.stopped is not None:
         return None, str(robot.stopped), error, robot.stopped.limit
     if error is not None:
-        return None, why or f"the mapper raised {_told(error)}", error, None
+        return None, why or f"the mapper raised {_exception_text(error)}", error, None
     return finish, why, None, None
 
 
-def _told(error: BaseException) -> str:
-    """The exception in words; one whose words cannot be had, by its name alone."""
+def _exception_text(error: BaseException) -> str:
+    """The type and the text of an exception; its type alone if the text raises another one."""
     try:
         return f"{type(error).__name__}: {error}"
     except Exception:  # noqa: BLE001  a mapper's exception may do anything
@@ -373,14 +380,17 @@ def _finish(result: object) -> Finish:
     """The `finish` event of what a mapper returned.
 
     Raises:
-        InputError: it is no map, or its cost no integer.
+        InputError: the result is no map, or its cost is no integer.
     """
     vertices, edges, marker = map_parts(result)
     cost = optional_part(result, "cost")
     if cost is not None and (isinstance(cost, bool) or not hasattr(cost, "__index__")):
-        raise InputError(f"the mapper reports the cost {cost!r}: it is a number of moves or None")
+        raise InputError(
+            f"the mapper reports the cost {cost!r}: expected a number of moves or None"
+        )
     if cost is not None and index(cost).bit_length() > 64:
-        raise InputError("the mapper reports a cost of more than 64 bits: no run has so many moves")
+        # msgspec writes 64 bits; no run has so many moves.
+        raise InputError("the mapper reports a cost of more than 64 bits: expected its moves")
     rotations = tuple(map(tuple, vertices))
     delivered = MapData(rotations, tuple(map(tuple, edges)), marker)
     return Finish(None if cost is None else index(cost), delivered)

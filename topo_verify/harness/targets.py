@@ -1,52 +1,57 @@
-"""The TARGET of a command: a mapper by name, from a module or from a file.
+"""The TARGET of a command: a mapper by its name, its module, its file or its command.
 
-    a catalogue name, several with commas, or `all` (those that are right in all worlds)
-    package.module:attribute
-    path/file.py:attribute
+    basic, folding              names of the catalogue; `all`: those that are right in every world
+    package.module:attribute    a callable of an importable module
+    path/file.py:attribute      a callable of a file
+    --cmd program args          a program behind protocol 1, started when it plays its first world
+
+A program's text is `--cmd` and its command in one text, so that workers, ledgers and baselines keep
+every mapper as one text.
 
 Source: docs/semantics.md, section 16.
 """
 
 from __future__ import annotations
 
+import shlex
+import shutil
 import sys
+from hashlib import sha256
+from pathlib import Path
 
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.errors import InputError
 from topo_verify.programs.loading import Mapper, Target, load
+from topo_verify.programs.program import PREFIX, Program, split
 
 
 def targets(text: str, *, pick: str | None = None, order: str | None = None) -> tuple[Target, ...]:
     """The mappers that a TARGET names, in its order.
 
+    A program runs from its first world until it is closed or its object is deleted.
+
     Args:
         pick, order: policies for algorithms of the catalogue.
     Raises:
-        InputError: no such algorithm, module, file, attribute or policy; it is not callable; or
-            policies for a mapper that has none.
+        InputError: there is no such algorithm, module, file, attribute or policy; what was found
+            cannot be called; the command is empty; or policies are given for another mapper.
     """
-    if ":" in text:
-        return (_with_policies(Target(text, load(text)), pick, order),)
-    general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
-    names = general if text == "all" else [name.strip() for name in text.split(",")]
-    unknown = [name for name in names if name not in CATALOGUE]
-    if unknown:
-        raise InputError(
-            f"no algorithm {unknown[0]!r}: there are {', '.join(CATALOGUE)} and all; a mapper of"
-            " your own is package.module:attribute or path/file.py:attribute"
-        )
-    return tuple(_with_policies(Target(name, CATALOGUE[name]), pick, order) for name in names)
+    return tuple(_with_policies(target, pick, order) for target in _targets(text))
 
 
 def one_target(
     mapper: Mapper | str | Target, *, pick: str | None = None, order: str | None = None
 ) -> Target:
-    """The target that a callable or a text names; refuses a text that names several."""
+    """The target that a callable or a text names.
+
+    Raises:
+        InputError: as `targets`; or the text names several mappers, or the object is no callable.
+    """
     if isinstance(mapper, Target):
         return _with_policies(mapper, pick, order)
     if not isinstance(mapper, str):
         if not callable(mapper):
-            raise InputError(f"{mapper!r} is no mapper: a mapper is a callable that takes a robot")
+            raise InputError(f"expected a callable that takes a robot, got {mapper!r}")
         return _with_policies(Target(_name(mapper), mapper), pick, order)
     found = targets(mapper, pick=pick, order=order)
     if len(found) != 1:
@@ -54,12 +59,31 @@ def one_target(
     return found[0]
 
 
+def _targets(text: str) -> tuple[Target, ...]:
+    # The prefix comes first: a command may well hold a colon, a module path never begins with `--`.
+    if text.startswith(PREFIX):
+        return (Program(text.removeprefix(PREFIX)).target,)
+    if ":" in text:
+        return (Target(text, load(text)),)
+    general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
+    names = general if text == "all" else [name.strip() for name in text.split(",")]
+    for name in names:
+        if name not in CATALOGUE:
+            raise InputError(
+                f"no algorithm {name!r}: there are {', '.join(CATALOGUE)} and all; a mapper of"
+                " your own is package.module:attribute, path/file.py:attribute or --cmd 'program"
+                " args'"
+            )
+    return tuple(Target(name, CATALOGUE[name]) for name in names)
+
+
 def _with_policies(target: Target, pick: str | None, order: str | None) -> Target:
     if pick is None and order is None:
         return target
     if not isinstance(target.mapper, Algorithm):
         raise InputError(
-            f"{target.text} has no policies: --pick and --order are for algorithms of the catalogue"
+            f"{target.text} has no policies: leave out --pick and --order, which are for algorithms"
+            " of the catalogue"
         )
     try:
         return Target(target.text, target.mapper.with_policies(pick=pick, order=order))
@@ -73,6 +97,46 @@ def _name(mapper: Mapper) -> str:
         return mapper.name
     name = getattr(mapper, "__qualname__", type(mapper).__qualname__)
     module = getattr(mapper, "__module__", "__main__")
-    if module == "__main__":  # a script: nobody else can import it by that name
+    if module == "__main__":  # another process cannot import a script by that name, but by its file
         module = getattr(sys.modules[module], "__file__", None) or module
     return f"{module}:{name}"
+
+
+# ---------------------------------------------------------------- on the command line
+
+
+def target_text(target: str | None, command: str | None, default: str | None = None) -> str:
+    """The text of the TARGET that is given as an argument or by `--cmd`.
+
+    Args:
+        default: the text if neither is given.
+    Raises:
+        InputError: both are given; or neither, and there is no default.
+    """
+    if command is not None and target is None:
+        return PREFIX + shlex.join(split(command))
+    if command is None and target is None:
+        target = default
+    if command is not None or target is None:
+        raise InputError(
+            "name a TARGET, or a program with --cmd 'program args': one of the two, not both"
+        )
+    return target
+
+
+def target_arguments(text: str) -> tuple[str, ...]:
+    """The arguments of a command line that name this TARGET."""
+    return ("--cmd", text.removeprefix(PREFIX)) if text.startswith(PREFIX) else (text,)
+
+
+def fingerprint(text: str) -> str:
+    """A hash of a program's TARGET: of its command, and of the files that the command names."""
+    command = split(text.removeprefix(PREFIX))
+    made = sha256(repr(command).encode())
+    for place, word in enumerate(command):
+        path = Path((shutil.which(word) or word) if place == 0 else word)
+        try:
+            made.update(path.read_bytes() if path.is_file() else b"")
+        except (OSError, ValueError):  # an unreadable file, or a word that cannot name one
+            continue
+    return made.hexdigest()

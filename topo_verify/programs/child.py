@@ -1,14 +1,13 @@
-"""A program as a child process: its lines in and out, and its end, whatever it does.
+"""A program as a child process: lines to it, lines from it, and its end.
 
 The program runs in a session of its own. It may flood a stream, close it, stop reading, ignore
-signals, start children: what is kept of its output is bounded, nothing here waits for it longer
-than a tick without running Python code (so a time limit can strike), and `end` leaves nothing of it
-behind.
+signals, or start children. Against all of these hold three invariants: the kept output is bounded;
+nothing here blocks for longer than a tick, so that a time limit can strike between two ticks; `end`
+leaves no process behind.
 
     one move     write, poll, read: three system calls
 
-Vocabulary: a *line* is a message with its line end cut off; the *tail* is the end of what came on
-standard error.
+Vocabulary: a *line* is a message without its line end; the *tail* is the end of standard error.
 """
 
 from __future__ import annotations
@@ -32,37 +31,37 @@ from topo_verify.programs.protocol import LIMIT
 from topo_verify.robot.limits import TICK
 
 GRACE = 0.3
-"""Seconds between SIGTERM and SIGKILL, and for a program to end by itself when it should."""
+"""Seconds between SIGTERM and SIGKILL; also the time to end after a `stop` message."""
 
 LAST_WORDS = 0.5
-"""Seconds that a program has to end once its output has."""
+"""Seconds between the end of a program's output and its exit status, at most."""
 
 TAIL = 4096
-"""Bytes of standard error that are kept."""
+"""How many bytes of standard error are kept: the last ones."""
 
 CHUNK = 2**16
 
 AHEAD = 4 * LIMIT
-"""So many bytes may a program write while it does not read."""
+"""The most bytes that a program may write while it does not read."""
 
 LOOKS = 30
-"""So often it is looked for an answer before sleeping: most come sooner than one is woken."""
+"""Polls without waiting before a poll that sleeps: most answers come before a sleeper wakes up."""
 
 
 class Ended(Exception):
-    """The program's output has ended."""
+    """The program's output has ended, so no line will come."""
 
 
 class Silent(Exception):
-    """No line came for as long as was waited."""
+    """No line came in the time given."""
 
 
 class TooLong(Exception):
-    """A line, or what was written while nobody could read it, is longer than is allowed."""
+    """The program wrote a line of more than `LIMIT` bytes, or more than `AHEAD` without reading."""
 
 
-class Warden:
-    """The process that ends programs whose harness was killed; one for any number of programs."""
+class ReaperProcess:
+    """The process of reaper.py; one serves any number of programs. Lives until `close`."""
 
     def __init__(self) -> None:
         self._process = subprocess.Popen(  # noqa: S603  our own file
@@ -74,14 +73,21 @@ class Warden:
             bufsize=0,
         )
 
-    def tell(self, sign: str, group: int, mark: str) -> None:
-        """A program was started (`+`) or ended (`-`)."""
+    def started(self, group: int, mark: str) -> None:
+        """Put a program on the list of those to kill."""
+        self._write(f"+ {group} {mark}\n")
+
+    def ended(self, group: int, mark: str) -> None:
+        """Take a program off the list."""
+        self._write(f"- {group} {mark}\n")
+
+    def _write(self, line: str) -> None:
         assert self._process.stdin is not None
         with suppress(OSError):
-            self._process.stdin.write(f"{sign} {group} {mark}\n".encode())
+            self._process.stdin.write(line.encode())
 
     def close(self) -> None:
-        """It is not needed any more."""
+        """End the process, which kills what is still on its list."""
         assert self._process.stdin is not None
         with suppress(OSError):
             self._process.stdin.close()
@@ -89,16 +95,16 @@ class Warden:
 
 
 class Child:
-    """A running program. Life cycle: made, `write` and `line` in any order, `end` once or more.
+    """A running program. Life cycle: construction starts it; `write`, `line`; `end` once or more.
 
     Args:
-        command: the program and its arguments; no shell looks at them.
-        guard: told of its birth and its end.
+        command: the program and its arguments; no shell expands them.
+        reaper_process: kills the program if this process is killed.
     Raises:
-        InputError: it cannot be started.
+        InputError: the program cannot be started.
     """
 
-    def __init__(self, command: Sequence[str], guard: Warden) -> None:
+    def __init__(self, command: Sequence[str], reaper_process: ReaperProcess) -> None:
         self.mark = token_hex(16)
         try:
             self._process = subprocess.Popen(  # noqa: S603  the user names it, no shell reads it
@@ -115,8 +121,8 @@ class Child:
             raise InputError(
                 f"--cmd: cannot start {command[0]!r}: {reason}; name a program that can be run"
             ) from error
-        self._guard = guard
-        guard.tell("+", self._process.pid, self.mark)
+        self._reaper = reaper_process
+        reaper_process.started(self._process.pid, self.mark)
         streams = (self._process.stdin, self._process.stdout, self._process.stderr)
         self._in, self._out, self._err = (s.fileno() for s in streams if s is not None)
         self._poll = select.poll()
@@ -127,79 +133,79 @@ class Child:
         self._lines: deque[bytes] = deque()
         self._rest = bytearray()
         self._tail = bytearray()
-        self._over = False  # its output has ended
-        self._complaints = 0  # bytes on standard error so far
-        self.deaf = False  # it reads no more, or is to be written no more
+        self._output_ended = False
+        self._stderr_bytes = 0
+        self.input_closed = False  # by the program or by us
         self._ended = False
 
     # ------------------------------------------------------------ lines
 
     def line(self, *, seconds: float = inf) -> bytes:
-        """The next line, as soon as it is there.
+        """The next line; waits until it is complete.
 
         Args:
-            seconds: how long to wait for it.
+            seconds: how long to wait.
         Raises:
-            Silent: it did not come.
-            Ended: there is none, its output has ended (perhaps in the middle of a line: `half`).
-            TooLong: more bytes than a message may have.
+            Silent: no line came in this time.
+            Ended: the output has ended (in the middle of a line, if `in_half_a_line`).
+            TooLong: the line has more bytes than a message may have.
         """
         until = monotonic() + seconds if not self._lines else 0
         while not self._lines:
-            if self._over:
+            if self._output_ended:
                 raise Ended
             if monotonic() > until:
                 raise Silent
             if not self._listen() and self._status() is not None:
-                self._over = True  # a child of its own may hold the stream open, and is silent
+                self._output_ended = True  # though a child of its own may hold the stream open
         return self._lines.popleft()
 
     def write(self, data: bytes) -> None:
-        """Hand it a line. A program that reads no more is not told; its output may say why."""
-        while data and not self.deaf:
+        """Send data. If the program has closed its input, drop them: its output may say why."""
+        while data and not self.input_closed:
             try:
                 data = data[os.write(self._in, data) :]
             except BlockingIOError:
                 self._wait_for_room()
             except OSError:  # a broken pipe
-                self.deaf = True
+                self.input_closed = True
 
     def close_input(self) -> None:
-        """Nothing more will be written."""
-        if not self.deaf:
-            self.deaf = True
+        """Close the program's standard input."""
+        if not self.input_closed:
+            self.input_closed = True
             assert self._process.stdin is not None
             self._process.stdin.close()
 
     @property
-    def flooded(self) -> bool:
-        """Has it written more on standard error than a message may have?"""
-        return self._complaints > LIMIT
+    def flooded_stderr(self) -> bool:
+        """Whether it wrote more bytes on standard error than a message may have."""
+        return self._stderr_bytes > LIMIT
 
     @property
-    def half(self) -> bool:
-        """Has it begun a line that it did not end?"""
+    def in_half_a_line(self) -> bool:
+        """Whether the last line that came lacks its line end."""
         return bool(self._rest)
 
     @property
     def has_line(self) -> bool:
-        """Is there a line? Looks what is there."""
-        if not self._lines and not self._over:
+        """Whether a line has come; reads without waiting."""
+        if not self._lines and not self._output_ended:
             self._listen(0)
         return bool(self._lines)
 
     @property
-    def pending(self) -> bytes:
-        """What has come, and nobody has asked for: the first line of it."""
+    def unread(self) -> bytes:
+        """The first line that came and was not asked for, perhaps incomplete."""
         return self._lines[0] if self._lines else bytes(self._rest)
 
     @property
-    def speaks(self) -> bool:
-        """Has anything come that nobody asked for? Looks what is there."""
+    def has_output(self) -> bool:
+        """Whether anything came that was not asked for; reads without waiting."""
         return self.has_line or bool(self._rest)
 
     def _listen(self, seconds: float = TICK) -> bool:
-        """Take what is there, wait a tick for it; was there anything?"""
+        """Read what has come, after waiting a tick at most; whether anything came."""
         ready, looks = self._poll.poll(0), LOOKS if seconds else 0
         while not ready and looks:
             ready, looks = self._poll.poll(0), looks - 1
@@ -217,9 +223,11 @@ class Child:
         except BlockingIOError:
             return
         if not chunk:
-            self._over = True
+            self._output_ended = True
             self._poll.unregister(self._out)
             return
+        # `_rest` holds the bytes after the last line end. It is a bytearray because each chunk of a
+        # long line would copy `bytes` whole.
         first, *more = chunk.split(b"\n")
         if self._rest or not more:
             self._rest += first
@@ -240,12 +248,12 @@ class Child:
             return
         if not chunk:
             self._poll.unregister(self._err)
-        self._complaints += len(chunk)
+        self._stderr_bytes += len(chunk)
         self._tail += chunk
         del self._tail[:-TAIL]
 
     def _wait_for_room(self) -> None:
-        """Let the program write while it does not read, so that neither waits for the other."""
+        """Wait until the program reads, and read what it writes meanwhile, against a deadlock."""
         self._poll.register(self._in, select.POLLOUT)
         try:
             self._listen()
@@ -256,8 +264,8 @@ class Child:
 
     # ------------------------------------------------------------ its end
 
-    def fate(self) -> str | None:
-        """How it ended, in words, if it does so soon; None if it goes on."""
+    def exit_status(self) -> str | None:
+        """The exit status in words; None if the program still runs after `LAST_WORDS` seconds."""
         until = monotonic() + LAST_WORDS
         while (status := self._status()) is None:
             if monotonic() > until:
@@ -272,22 +280,22 @@ class Child:
         return f"was ended by signal {number}"
 
     def stderr(self) -> str:
-        """The end of what it wrote on standard error."""
-        with suppress(OSError, KeyError):  # KeyError: its end was seen already
+        """The tail of its standard error."""
+        with suppress(OSError, KeyError):  # KeyError: the stream has ended and is no longer polled
             while any(stream == self._err for stream, _ in self._poll.poll(0)):
                 self._drain()
         return self._tail.decode(errors="backslashreplace")
 
     def _status(self) -> tuple[int, int] | None:
-        """How it ended, without laying it to rest: its number stays its own until `end`."""
+        """Exit status without reaping (WNOWAIT), so that the PID is not reused before `end`."""
         found = os.waitid(os.P_PID, self._process.pid, os.WEXITED | os.WNOWAIT | os.WNOHANG)
         return None if found is None else (found.si_code, found.si_status)
 
     def end(self, *, politely: float = 0.0) -> None:
-        """End it and whatever it has started; afterwards nothing of it is left.
+        """End the program and all of its descendants: first SIGTERM, then SIGKILL.
 
         Args:
-            politely: seconds that it has to end by itself before it is told to.
+            politely: seconds to wait for its own end before SIGTERM.
         """
         if self._ended:
             return
@@ -296,13 +304,15 @@ class Child:
             with suppress(ProcessLookupError, PermissionError):
                 os.killpg(self._process.pid, signal.SIGTERM)
             self._await_end(GRACE)
+        # The group still exists: its leader is not reaped before `wait` below, so no other process
+        # can have its number.
         reaper.end_all(self._process.pid, self.mark)
         self._process.wait()
         for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
             if stream is not None:
                 with suppress(OSError):
                     stream.close()
-        self._guard.tell("-", self._process.pid, self.mark)
+        self._reaper.ended(self._process.pid, self.mark)
         self._ended = True
 
     def _await_end(self, seconds: float) -> None:

@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 from topo_verify.errors import InputError
 from topo_verify.robot.simulator import SimulatedRobot
@@ -37,18 +37,25 @@ def load(text: str) -> Mapper:
         InputError: there is no such module, file or attribute, or it is not callable.
     """
     place, _, attribute = text.rpartition(":")
-    module = _load_file(Path(place), text) if place.endswith(".py") else _load_module(place, text)
-    found: Any = module
-    for part in attribute.split("."):
-        if isinstance(found, Mapping) and part in found:
-            found = cast("Mapping[str, Any]", found)[part]
-        elif hasattr(found, part):
-            found = getattr(found, part)
-        else:
-            raise InputError(f"target {text!r}: {place} has no attribute {attribute!r}")
+    found = _load_file(Path(place), text) if place.endswith(".py") else _load_module(place, text)
+    for name in attribute.split("."):
+        try:
+            found = _attribute(found, name)
+        except AttributeError:
+            raise InputError(f"target {text!r}: {place} has no attribute {attribute!r}") from None
     if not callable(found):
-        raise InputError(f"target {text!r}: {attribute} is no callable; a mapper takes a robot")
-    return found  # type: ignore[no-any-return]  # whatever it is, it is run as a mapper
+        raise InputError(
+            f"target {text!r}: expected a callable that takes a robot, got {type(found).__name__}"
+        )
+    return found
+
+
+def _attribute(whole: object, name: str) -> object:
+    """An entry of a mapping, else an attribute of an object."""
+    if not isinstance(whole, Mapping):
+        return getattr(whole, name)
+    entries = cast("Mapping[str, object]", whole)
+    return entries[name] if name in entries else getattr(entries, name)
 
 
 def _load_module(name: str, text: str) -> object:

@@ -1,16 +1,18 @@
-"""A program behind protocol 1 as a mapper: call it with a robot, as any other.
+"""A program behind protocol 1 as a mapper: a callable that takes a robot, as any other.
 
     with Program("./mapper --fast") as program:
         report = examine(program.target, world)
 
-The program sees percepts and answers doors; it never sees the world and cannot cheat, and every
-move is made, checked and counted by the simulated robot. One process plays many worlds. After a
-world in which it misbehaved, or was stopped, it is ended with everything it has started, and a
-fresh one is started for the next.
+The program receives percepts and answers with doors. It never receives the world, so it cannot
+cheat; the simulated robot makes, checks and counts every move. One process plays many worlds. If
+the program misbehaves in a world, or a limit stops it, its process and all descendants are ended,
+and the next world starts a fresh one.
 
-Limits of moves and time are those of `explore`, which strike here as they do in Python: nothing
-below waits longer than a tick. Life cycle: made (nothing runs yet), called any number of times,
-`settle` after a world to end a process that misbehaved, `close` at the end.
+The limits of moves and time are those of `explore`. They strike here as they do in Python, because
+nothing below blocks for longer than a tick.
+
+Life cycle: construction (starts nothing); any number of calls; after a call, `settle` ends a
+process that misbehaved; at last `close`.
 
 Source: docs/semantics.md, section 15.
 """
@@ -26,14 +28,14 @@ import msgspec
 
 from topo_verify.errors import InputError
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.child import GRACE, Child, Ended, TooLong, Warden
+from topo_verify.programs.child import AHEAD, GRACE, Child, Ended, ReaperProcess, TooLong
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import MapData
 from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
 from topo_verify.text import shown
 
-Kind = Literal[
+Misbehaviour = Literal[
     "crashed",
     "closed-output",
     "closed-input",
@@ -56,18 +58,18 @@ Kind = Literal[
     "skip",
     "error",
 ]
-"""What a program may do instead of delivering a map; docs/oracle.md has each with its cure."""
+"""What a program may do instead of delivering a map. Docs/oracle.md lists causes and cures."""
 
-KINDS: tuple[Kind, ...] = get_args(Kind)
+MISBEHAVIOURS: tuple[Misbehaviour, ...] = get_args(Misbehaviour)
 
 IN_A_ROW = 100_000
-"""So many decisions may be declared without a move between them."""
+"""The most decisions that a program may declare without a move between them."""
 
 SHOWN = 120
-"""So much of a bad line is shown."""
+"""How many characters of a bad line a message shows."""
 
 PREFIX = "--cmd "
-"""How the text of a TARGET begins that is a program."""
+"""The beginning of a TARGET that is a program."""
 
 
 class Misbehaved(MapperStopped):
@@ -75,17 +77,17 @@ class Misbehaved(MapperStopped):
 
     Attributes:
         kind: what it did instead.
-        detail: what is known beyond the sentence that says why it was stopped.
+        detail: words to append to the sentence that says why it was stopped.
     """
 
-    def __init__(self, kind: Kind, told: str, *, detail: str = "") -> None:
-        super().__init__(told)
-        self.kind: Kind = kind
+    def __init__(self, kind: Misbehaviour, message: str, *, detail: str = "") -> None:
+        super().__init__(message)
+        self.kind: Misbehaviour = kind
         self.detail = detail
 
 
-class Survey(NamedTuple):
-    """What a program delivers."""
+class DeliveredMap(NamedTuple):
+    """The map that a program delivers, as `explore` reads the result of any mapper."""
 
     vertices: Sequence[Sequence[int]]
     edges: Sequence[Sequence[int]]
@@ -93,42 +95,46 @@ class Survey(NamedTuple):
     cost: int | None
 
 
-Line = tuple[Literal[">", "<"], bytes]
-"""A line of a transcript: to the program, from the program."""
+TranscriptLine = tuple[Literal[">", "<"], bytes]
+"""A line of a transcript: `>` to the program, `<` from the program."""
 
 
 class Program:
-    """A program as a mapper; see above.
+    """A program as a mapper; the module's docstring says how.
 
     Args:
-        command: the program and its arguments, as a shell would split them; no shell is run.
-        validate: refuse what the protocol passes over: fields that it does not know, or twice.
-        record: keep the lines of the world that was played last, in `lines`.
+        command: the program and its arguments, split as a shell would; no shell runs.
+        validate: refuse unknown and doubled fields, which the protocol ignores.
+        record: keep the transcript of the last world in `lines`.
     Attributes:
         misbehaved: why the last world ended without a map, if the program is to blame.
         lines: the transcript of the last world.
     Raises:
-        InputError: the command is empty or has an open quote; when called: it cannot be started.
+        InputError: the command is empty or has an open quote; by a call: it cannot be started.
     """
 
     def __init__(
         self, command: str | Sequence[str], *, validate: bool = False, record: bool = False
     ) -> None:
         self._child: Child | None = None
-        self._warden: Warden | None = None
-        self._idle = True  # nothing is amiss with the process, it waits for a world
+        self._reaper: ReaperProcess | None = None
+        self._idle = True  # the process waits for a world; False while it plays
         self.misbehaved: Misbehaved | None = None
-        self.lines: list[Line] = []
+        self.lines: list[TranscriptLine] = []
         self.validate, self.record = validate, record
         self.command = split(command) if isinstance(command, str) else tuple(command)
 
     @property
     def target(self) -> Target:
-        """The program as the command line names it."""
+        """The program with its TARGET."""
         return Target(PREFIX + shlex.join(self.command), self)
 
-    def __call__(self, robot: SimulatedRobot) -> Survey:
-        """Play one world."""
+    def __call__(self, robot: SimulatedRobot) -> DeliveredMap:
+        """Play one world.
+
+        Raises:
+            MapperStopped: the program misbehaved, or a limit struck.
+        """
         self.settle()
         self.misbehaved, self.lines = None, []
         child = self._ready()
@@ -136,7 +142,8 @@ class Program:
         try:
             found = self._play(child, robot)
         except Misbehaved as why:
-            # A copy: what is raised holds on to this frame, and so to the program.
+            # Keep a copy: the traceback of `why` refers to this frame and thus to the program, and
+            # a program in a circle of references is not ended when its last user drops it.
             self.misbehaved = Misbehaved(why.kind, str(why), detail=why.detail)
             self._idle = why.kind in ("skip", "error")
             raise
@@ -144,44 +151,46 @@ class Program:
             self.misbehaved = Misbehaved("bad-door", str(why))
             raise
         except TimeLimitExceeded as why:
-            self.misbehaved = _silence(child, str(why))
+            self.misbehaved = _silence_report(child, str(why))
             raise
         self._idle = True
         return found
 
     # ------------------------------------------------------------ a world
 
-    def _play(self, child: Child, robot: SimulatedRobot) -> Survey:
-        if child.speaks:
+    def _play(self, child: Child, robot: SimulatedRobot) -> DeliveredMap:
+        if child.has_output:
             raise Misbehaved(
                 "out-of-turn", f"the program wrote before the world began{_seen(child)}"
             )
-        self._send(child, ms.Start(percept=robot.percept))
+        self._send(child, ms.StartMessage(percept=robot.percept))
         declared = 0
         while True:
             message = self._receive(child)
-            if isinstance(message, ms.Move):
+            if isinstance(message, ms.MoveMessage):
                 percept = robot.move(message.door)
                 declared = 0
-                self._send(child, ms.Sensed(percept.degree, percept.marker))
-            elif isinstance(message, ms.Declare):
+                self._send(child, ms.PerceptMessage(percept.degree, percept.marker))
+            elif isinstance(message, ms.DeclareMessage):
                 declared += 1
                 if declared > IN_A_ROW:
-                    told = f"the program declared {declared} decisions without a move between them"
-                    raise Misbehaved("declarations", told)
+                    raise Misbehaved(
+                        "declarations",
+                        f"the program declared {declared} decisions without a move between them",
+                    )
                 robot.declare(message.event)
-            elif isinstance(message, ms.Done):
+            elif isinstance(message, ms.DoneMessage):
                 self._require_silence(child)
-                return _survey(message.map, message.cost)
+                return _delivered(message.map, message.cost)
             else:
                 self._require_silence(child)
-                kind: Kind = "skip" if isinstance(message, ms.Skip) else "error"
+                kind: Misbehaviour = "skip" if isinstance(message, ms.SkipMessage) else "error"
                 verb = "skips this world" if kind == "skip" else "gives this world up"
                 why = f": {shown(message.why)}" if message.why else ", and does not say why"
                 raise Misbehaved(kind, f"the program {verb}{why}")
 
     def _require_silence(self, child: Child) -> None:
-        if child.half or child.pending:
+        if child.in_half_a_line or child.unread:
             raise Misbehaved(
                 "out-of-turn", f"the program went on after the world's end{_seen(child)}"
             )
@@ -189,7 +198,7 @@ class Program:
     def _send(self, child: Child, message: ms.ToProgram) -> None:
         line = _encode(message)
         if self.validate:
-            _to_program.decode(line)  # ours must keep to the schema, too: if not, it is our bug
+            _to_program.decode(line)  # our own message must meet the schema; a failure is our bug
         if self.record:
             self.lines.append((">", line))
         try:
@@ -203,7 +212,7 @@ class Program:
         except TooLong:
             raise Misbehaved("too-long", _TOO_LONG) from None
         except Ended:
-            raise obituary(child, "delivered a map") from None
+            raise crash_report(child, "delivered a map") from None
         if self.record:
             self.lines.append(("<", line))
         message: ms.FromProgram = decoded(line, _from_program.decode, validate=self.validate)
@@ -212,41 +221,41 @@ class Program:
     # ------------------------------------------------------------ its process
 
     def start(self) -> None:
-        """Start it now, and not in its first world.
+        """Start the process now instead of in its first world.
 
         Raises:
-            InputError: it cannot be started.
+            InputError: the program cannot be started.
         """
         self._ready()
 
     def _ready(self) -> Child:
-        """A process that waits for a world."""
+        """The process that waits for a world; started if there is none."""
         if self._child is None:
-            self._warden = self._warden or Warden()
-            self._child = Child(self.command, self._warden)
+            self._reaper = self._reaper or ReaperProcess()
+            self._child = Child(self.command, self._reaper)
         return self._child
 
     def settle(self) -> None:
-        """End the process if its last world did not end as it should. Call it outside of limits."""
+        """End the process if it misbehaved in its last world. Call this outside of time limits."""
         if self._child is not None and not self._idle:
             self._child.end()
             self._child = None
         self._idle = True
 
     def close(self) -> None:
-        """Tell the process to stop, and see to it that it does."""
+        """Send `stop`, then end a process that does not obey. A later call starts another one."""
         self.settle()
         if self._child is not None:
             try:
-                self._child.write(_encode(ms.Stop()) + b"\n")
+                self._child.write(_encode(ms.StopMessage()) + b"\n")
                 self._child.close_input()
             except TooLong:
-                pass  # it will be told otherwise
+                pass  # `end` below stops it by a signal
             self._child.end(politely=GRACE)
             self._child = None
-        if self._warden is not None:
-            self._warden.close()
-            self._warden = None
+        if self._reaper is not None:
+            self._reaper.close()
+            self._reaper = None
 
     def __enter__(self) -> Self:
         return self
@@ -262,10 +271,10 @@ class Program:
 
 
 def split(command: str) -> tuple[str, ...]:
-    """A command line in words, split as a shell would.
+    """The words of a command line, split as a shell would.
 
     Raises:
-        InputError: there is no word in it, or a quote is open.
+        InputError: there is no word, or a quote is open.
     """
     try:
         words = tuple(shlex.split(command))
@@ -283,95 +292,99 @@ _to_program: msgspec.json.Decoder[ms.ToProgram] = msgspec.json.Decoder(ms.ToProg
 _from_program: msgspec.json.Decoder[ms.FromProgram] = msgspec.json.Decoder(ms.FromProgram)
 
 _TOO_LONG = f"the program wrote a line of more than {ms.LIMIT} bytes"
-_TOO_FAR_AHEAD = "the program wrote on and on and did not read what it was answered"
+_TOO_FAR_AHEAD = f"the program wrote more than {AHEAD} bytes and did not read the answers"
 
 
 def decoded(line: bytes, decode: Callable[[bytes], Any], *, validate: bool) -> Any:
     """The message in a line from a program.
 
     Raises:
-        Misbehaved: it is no message; the sentence shows the line.
+        Misbehaved: the line holds no message; the sentence shows the line.
     """
+    kind: Misbehaviour
     try:
         message = decode(line)
         if validate:
             _require_schema(line, message)
     except RecursionError:
-        told = f"the program wrote a line that is nested too deeply: {shown_line(line)}"
-        raise Misbehaved("nested", told) from None
+        kind, what = "nested", "a line that is nested too deeply"
     except UnicodeDecodeError:
-        raise Misbehaved("not-utf8", f"the program wrote no UTF-8: {shown_line(line)}") from None
+        kind, what = "not-utf8", "a line that is not UTF-8"
     except msgspec.ValidationError as error:
-        kind = _kind(str(error))
-        told = f"the program wrote no message of the protocol: {error}: {shown_line(line)}"
-        raise Misbehaved(kind, told) from None
+        kind, what = _kind(str(error)), f"a line that is no message of the protocol: {error}"
     except msgspec.DecodeError as error:
-        told = str(error).removeprefix("JSON is malformed: ")
-        told = f"the program wrote what is no JSON ({told}): {shown_line(line)}"
-        raise Misbehaved("not-json", told) from None
-    return message
+        reason = str(error).removeprefix("JSON is malformed: ")
+        kind, what = "not-json", f"a line that is not JSON ({reason})"
+    else:
+        return message
+    raise Misbehaved(kind, f"the program wrote {what}: {shown_line(line)}")
 
 
-def _kind(error: str) -> Kind:
+def _kind(error: str) -> Misbehaviour:
+    """The misbehaviour that a validation error stands for; msgspec says only at which path."""
     if error.endswith("`$.type`"):
         return "unknown-type"
     return "bad-declaration" if "`$.event" in error or "`$.declare" in error else "malformed"
 
 
 def _require_schema(line: bytes, message: object) -> None:
-    """Are all its fields in the schema, and none there twice?"""
+    """Refuse a line with a field that the schema does not list, or with the same field twice."""
 
     def single(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         data = dict(pairs)
         if len(data) < len(pairs):
-            told = f"the program wrote a field twice (--validate): {shown_line(line)}"
-            raise Misbehaved("doubled-field", told)
+            message = f"the program wrote a field twice (--validate): {shown_line(line)}"
+            raise Misbehaved("doubled-field", message)
         return data
 
     data = json.loads(line, object_pairs_hook=single)
-    for place in ms.strangers(data, message):
-        told = f"the program wrote {place}, which the schema does not list (--validate)"
-        raise Misbehaved("unknown-field", f"{told}: {shown_line(line)}")
+    for place in ms.unknown_fields(data, message):
+        what = f"{place}, which the schema does not list (--validate)"
+        raise Misbehaved("unknown-field", f"the program wrote {what}: {shown_line(line)}")
 
 
 def shown_line(line: bytes) -> str:
-    """A line fit to be shown."""
+    """A line as printable text, cut to `SHOWN` characters."""
     return shown(line[: 2 * SHOWN].decode(errors="backslashreplace"), limit=SHOWN)
 
 
-def obituary(child: Child, due: str) -> Misbehaved:
-    """Why there is no next line, although the program has not yet done what was due."""
-    fate = child.fate()
-    words = last_words(child.stderr())
-    if child.half:
-        end = fate or "closed its output"
-        return Misbehaved("half-line", f"the program {end} in the middle of a line{words}")
-    if fate is None:
+def crash_report(child: Child, due: str) -> Misbehaved:
+    """Why a program's output ended too early.
+
+    Args:
+        due: what the program had yet to do, as in "delivered a map".
+    """
+    status = child.exit_status()
+    complaint = last_stderr_line(child.stderr())
+    if child.in_half_a_line:
+        end = status or "closed its output"
+        return Misbehaved("half-line", f"the program {end} in the middle of a line{complaint}")
+    if status is None:
         return Misbehaved("closed-output", "the program closed its output and runs on")
-    return Misbehaved("crashed", f"the program {fate} before it {due}{words}")
+    return Misbehaved("crashed", f"the program {status} before it {due}{complaint}")
 
 
-def _silence(child: Child, told: str) -> Misbehaved | None:
-    """What is known of a program that was stopped for its silence, beyond that."""
-    if child.half:
-        return Misbehaved("half-line", told, detail=f", in the middle of a line{_seen(child)}")
-    if child.deaf:
-        return Misbehaved("closed-input", told, detail="; it has closed its input")
-    if child.flooded:
+def _silence_report(child: Child, message: str) -> Misbehaved | None:
+    """The reason why a program that ran out of time was silent; None if none is known."""
+    if child.in_half_a_line:
+        return Misbehaved("half-line", message, detail=f", in the middle of a line{_seen(child)}")
+    if child.input_closed:
+        return Misbehaved("closed-input", message, detail="; it has closed its input")
+    if child.flooded_stderr:
         detail = f"; it wrote more than {ms.LIMIT} bytes on standard error"
-        return Misbehaved("flooded-stderr", told, detail=detail)
+        return Misbehaved("flooded-stderr", message, detail=detail)
     return None
 
 
-def last_words(stderr: str) -> str:
-    """The last line on standard error, to be put behind a sentence."""
+def last_stderr_line(stderr: str) -> str:
+    """The last line on standard error, as words to append to a sentence."""
     lines = [line for line in stderr.splitlines() if line.strip()]
-    return f"; its last words: {shown(lines[-1].strip())}" if lines else ""
+    return f"; its last line on standard error: {shown(lines[-1].strip())}" if lines else ""
 
 
 def _seen(child: Child) -> str:
-    return f": {shown_line(child.pending)}" if child.pending else ""
+    return f": {shown_line(child.unread)}" if child.unread else ""
 
 
-def _survey(found: MapData, cost: int | None) -> Survey:
-    return Survey(found.vertices, found.edges, found.marker, cost)
+def _delivered(found: MapData, cost: int | None) -> DeliveredMap:
+    return DeliveredMap(found.vertices, found.edges, found.marker, cost)

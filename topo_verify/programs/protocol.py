@@ -3,9 +3,9 @@
     to the program      start, percept, stop               {"id", "world"}           (batch)
     from the program    move, declare, done, skip, error   {"id", "doors", "map"}    (batch)
 
-One JSON object a line. A field that is not known is passed over, so that either side may be the
-newer one; a `type` that is not known is refused. The files in `schemas/` are made from these types
-and a test keeps them equal.
+Each line is one JSON object. The decoder ignores unknown fields, so that either side may be the
+newer one, and refuses an unknown `type`. The files in `schemas/` are generated from these types; a
+test keeps them equal.
 
     $ python -m topo_verify.programs.protocol     # the four schemas, as one JSON object
 
@@ -30,100 +30,106 @@ PROTOCOL: Literal[1] = 1
 """The version of the protocol."""
 
 LIMIT = 2**20
-"""Bytes that a message may have, its line end not counted."""
+"""The most bytes of a message, its line end not counted."""
 
 
-class _Message(msgspec.Struct, frozen=True, tag_field="type", tag=str.lower):
-    """Base of the messages of protocol 1: immutable, tagged with the class name in lower case."""
+def _tag(class_name: str) -> str:
+    """The `type` of a message on the wire: `StartMessage` is `start`."""
+    return class_name.removesuffix("Message").lower()
+
+
+class _Message(msgspec.Struct, frozen=True, tag_field="type", tag=_tag):
+    """Base of the messages of protocol 1: immutable, tagged by `_tag`."""
 
 
 # ---------------------------------------------------------------- to the program
 
 
-class Start(_Message, frozen=True, kw_only=True):
-    """A world begins: the robot stands at the marker and senses this."""
+class StartMessage(_Message, frozen=True, kw_only=True):
+    """A world begins: `percept` is what the robot senses at the marker."""
 
     protocol: Literal[1] = PROTOCOL
     percept: Percept
 
 
-class Sensed(_Message, frozen=True, gc=False, tag="percept"):
-    """What is sensed behind the door of the last move."""
+class PerceptMessage(_Message, frozen=True, gc=False):
+    """What the robot senses after the last move."""
 
     degree: int
     marker: int | None
 
 
-class Stop(_Message, frozen=True):
-    """There are no more worlds: end."""
+class StopMessage(_Message, frozen=True):
+    """There are no more worlds: the program ends."""
 
 
-ToProgram = Start | Sensed | Stop
+ToProgram = StartMessage | PerceptMessage | StopMessage
 
 
 # ---------------------------------------------------------------- from the program
 
 
-class Move(_Message, frozen=True, gc=False):
-    """Leave by a door, 0 … degree-1; answered by a percept."""
+class MoveMessage(_Message, frozen=True, gc=False):
+    """The robot leaves by a door, 0 … degree-1. The harness answers with a percept."""
 
+    # No upper bound here: a door that does not exist is the robot's finding, not a malformed line.
     door: Number
 
 
-class Declare(_Message, frozen=True):
-    """Put a decision on record; not answered."""
+class DeclareMessage(_Message, frozen=True):
+    """The program declares a decision. The harness does not answer."""
 
     event: Decision
 
 
-class Done(_Message, frozen=True):
-    """The world is mapped; `cost` is the program's own count of its moves, if it keeps one."""
+class DoneMessage(_Message, frozen=True):
+    """The program delivers its map; `cost` is its own count of moves, if it keeps one."""
 
     map: MapData
     cost: Number | None = None
 
 
-class Skip(_Message, frozen=True):
-    """The program does not do this world, and why."""
+class SkipMessage(_Message, frozen=True):
+    """The program declines this world, and says why."""
 
     why: str = ""
 
 
-class Error(_Message, frozen=True):
-    """The program gives this world up, and why."""
+class ErrorMessage(_Message, frozen=True):
+    """The program gives this world up, and says why."""
 
     why: str = ""
 
 
-FromProgram = Move | Declare | Done | Skip | Error
+FromProgram = MoveMessage | DeclareMessage | DoneMessage | SkipMessage | ErrorMessage
 
 
 # ---------------------------------------------------------------- batch
 
 
-class Task(msgspec.Struct, frozen=True):
-    """A world to be mapped; `id` comes back with the run."""
+class BatchTask(msgspec.Struct, frozen=True):
+    """A world for the program to map; its run repeats the `id`."""
 
     id: str
     world: WorldFile
 
 
-class Declared(msgspec.Struct, frozen=True):
-    """A decision, and after how many moves it was made."""
+class BatchDecision(msgspec.Struct, frozen=True):
+    """A decision, and the number of moves before it."""
 
     after: Number
     event: Decision
 
 
-class Run(msgspec.Struct, frozen=True, omit_defaults=True):
-    """What the program did in a world: its doors, its decisions, its map.
+class BatchRun(msgspec.Struct, frozen=True, omit_defaults=True):
+    """A program's run in one world: its doors, its decisions, its map.
 
-    `skip` or `error`, a sentence, stand in place of `map` where it delivers none.
+    A program that delivers no map sends `skip` or `error`, a sentence, instead.
     """
 
     id: str
     doors: tuple[Number, ...] = ()
-    declare: tuple[Declared, ...] = ()
+    declare: tuple[BatchDecision, ...] = ()
     map: MapData | None = None
     cost: Number | None = None
     skip: str | None = None
@@ -135,21 +141,22 @@ class Run(msgspec.Struct, frozen=True, omit_defaults=True):
 SCHEMAS: dict[str, Any] = {
     "to-program": ToProgram,
     "from-program": FromProgram,
-    "batch-world": Task,
-    "batch-run": Run,
+    "batch-world": BatchTask,
+    "batch-run": BatchRun,
 }
-"""The types of which a JSON Schema lies in the package, `schemas/<name>.schema.json`."""
+"""The types of one line each; the package holds `schemas/<name>.schema.json` for every one."""
 
 
 def schema(name: str) -> dict[str, Any]:
-    """The JSON Schema of one kind of line."""
+    """The JSON Schema of the named kind of line."""
     return dialect(msgspec.json.schema(SCHEMAS[name]))
 
 
 def dialect(made: dict[str, Any]) -> dict[str, Any]:
     """The schema with its dialect named, the same under every Python.
 
-    Descriptions are docstrings, and whether these keep their indentation depends on the Python.
+    Python 3.13 and later strip the indentation of docstrings, which become descriptions; so it is
+    stripped here for all.
     """
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **_unindented(made)}
 
@@ -168,24 +175,26 @@ def _unindented(part: Any) -> Any:
     return part
 
 
-def strangers(data: Any, message: object, place: str = "$") -> Iterator[str]:
-    """The fields of a message that no schema lists, by their places.
+def unknown_fields(data: Any, message: object, place: str = "$") -> Iterator[str]:
+    """The fields of a message that its schema does not list, each as a path from `$`.
 
     Args:
-        data: the message as plain JSON data.
-        message: what it was decoded to.
+        data: the message as JSON data.
+        message: the decoded message.
     """
     if isinstance(message, msgspec.Struct):
         fields = dict(zip(message.__struct_encode_fields__, message.__struct_fields__, strict=True))
         for name in data:
             if name in fields:
-                yield from strangers(data[name], getattr(message, fields[name]), f"{place}.{name}")
+                yield from unknown_fields(
+                    data[name], getattr(message, fields[name]), f"{place}.{name}"
+                )
             elif name != message.__struct_config__.tag_field:
                 yield f"{place}.{name}"
     elif isinstance(message, tuple):
         rows = cast("tuple[object, ...]", message)
         for number, (one, other) in enumerate(zip(data, rows, strict=True)):
-            yield from strangers(one, other, f"{place}[{number}]")
+            yield from unknown_fields(one, other, f"{place}[{number}]")
 
 
 if __name__ == "__main__":

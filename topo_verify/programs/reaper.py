@@ -1,14 +1,15 @@
-"""Ends programs whose harness is gone: so that a harness that is killed leaves nothing behind.
+"""Kills the programs that a harness leaves behind when the harness itself is killed.
 
-A process of its own, in its own session, with nothing but the standard library. It reads lines,
-`+ group mark` when a program is started and `- group mark` when one was ended; when its input ends,
-whoever wrote it has ended, and what is still on the list is killed. It is no part of the package at
-run time: `python -I -S warden.py`.
+The reaper is a process in a session of its own, which a signal to the harness does not reach. It
+reads `+ group mark` when the harness has started a program and `- group mark` when the harness has
+ended one. When its input ends, the harness has ended: the reaper kills every program that is still
+on its list. `ReaperProcess` (child.py) starts this file as a script, `python -I -S reaper.py`, so
+it imports nothing but the standard library.
 
-A **mark** is the value of an environment variable that a program's descendants inherit. By it those
-are found that moved to a process group of their own (Linux only: elsewhere /proc is not there).
+A **mark** is the value of an environment variable that a program's descendants inherit. It finds
+the descendants that moved to another process group (on Linux only: it needs /proc).
 
-What this does not show: a descendant that leaves its group AND empties its environment is lost.
+What this does not show: a descendant that leaves its group AND clears its environment escapes.
 """
 
 from __future__ import annotations
@@ -24,10 +25,10 @@ MARK = "TOPO_VERIFY_PROGRAM"
 
 
 def end_all(group: int, mark: str) -> None:
-    """Kill a process group, and whoever else carries the mark."""
+    """Kill a process group and every process that carries the mark."""
     with suppress(ProcessLookupError, PermissionError):
         os.killpg(group, signal.SIGKILL)
-    for _ in range(3):  # a process may have been born while the list was read
+    for _ in range(3):  # a process may have forked while /proc was read
         carriers = marked(mark)
         for process in carriers:
             with suppress(ProcessLookupError, PermissionError):
@@ -37,19 +38,20 @@ def end_all(group: int, mark: str) -> None:
 
 
 def marked(mark: str) -> list[int]:
-    """The living processes that carry the mark."""
+    """The process ids of the living processes that carry the mark."""
     wanted = f"{MARK}={mark}".encode()
     found: list[int] = []
     with suppress(OSError):
         for process in Path("/proc").iterdir():
-            with suppress(OSError, ValueError):  # no process; another user's; gone already
+            with suppress(OSError, ValueError):  # not a process, another user's, or ended by now
                 if wanted in (process / "environ").read_bytes().split(b"\0"):
                     found.append(int(process.name))
     return found
 
 
 def main() -> None:
-    """Read the list until it ends, and end what is left on it."""
+    """Keep the list of programs until the input ends, then kill those that are left."""
+    # Whatever ends the harness, the reaper ends after it: when its input does.
     for name in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(name, signal.SIG_IGN)
     living: dict[str, int] = {}

@@ -46,10 +46,10 @@ class Distant:
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:  # noqa: ARG002  not sent
         """Leave by a door; what is sensed behind it."""
-        self._write(ms.Move(door))
+        self._write(ms.MoveMessage(door))
         self._say.flush()
         message = _told.decode(self._hear.readline())
-        if not isinstance(message, ms.Sensed):
+        if not isinstance(message, ms.PerceptMessage):
             raise InputError(f"a move was answered by {message!r}, not by a percept")
         self._percept = Percept(message.degree, message.marker)
         return self._percept
@@ -74,7 +74,7 @@ def serve(mapper: Mapper, hear: BinaryIO, say: BinaryIO) -> None:
     """Play worlds until told to stop, or until nobody is there any more."""
     for line in hear:
         message = _told.decode(line)
-        if not isinstance(message, ms.Start):
+        if not isinstance(message, ms.StartMessage):
             return
         robot = Distant(message.percept, hear, say)
         robot.done(mapper(cast("SimulatedRobot", robot)))  # it has all that a mapper may ask for

@@ -14,7 +14,7 @@ import pytest
 from tests.versions import older
 from topo_verify.errors import InputError
 from topo_verify.harness.baseline import file
-from topo_verify.harness.baseline.file import Baseline, Entry
+from topo_verify.harness.baseline.file import Baseline, BaselineEntry
 from topo_verify.harness.baseline.record import record
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.harness.targets import one_target
@@ -164,11 +164,11 @@ def packed(data: bytes) -> bytes:
     ("data", "told"),
     [
         (b"", "is empty"),
-        (b"{}", "not as gzip wrote it"),
+        (b"{}", "expected gzip data"),
         (packed(b""), "is empty"),
-        (packed(b"{}"), "no line of a baseline"),
-        (packed(b"\xff"), "no line of a baseline"),
-        (packed(b"[" * 100_000), "no line of a baseline"),
+        (packed(b"{}"), "expected a line of a baseline"),
+        (packed(b"\xff"), "expected a line of a baseline"),
+        (packed(b"[" * 100_000), "expected a line of a baseline"),
         (packed(b'{"format":"topo-verify/world","version":1}'), "'topo-verify/world'"),
     ],
 )
@@ -195,7 +195,7 @@ def test_a_baseline_that_lacks_worlds_is_not_written(made: Baseline) -> None:
 
 
 def test_an_entry_is_right_only_if_all_was_judged_and_nothing_failed() -> None:
-    entry = Entry(world="m1/0", cost=1, moves="", decisions=None, map="m1/0")
+    entry = BaselineEntry(world="m1/0", cost=1, moves="", decisions=None, map="m1/0")
     assert entry.right
     assert not msgspec.structs.replace(entry, failed=("map-isomorphic",)).right
     assert not msgspec.structs.replace(entry, undecided=True).right

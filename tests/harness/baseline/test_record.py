@@ -11,7 +11,14 @@ import msgspec
 import pytest
 
 from topo_verify import CATALOGUE, Robot
-from topo_verify.harness.baseline.record import PATIENCE, Recorded, _decisions, again, record, runs  # pyright: ignore[reportPrivateUsage]
+from topo_verify.harness.baseline.record import (  # pyright: ignore[reportPrivateUsage]
+    MAX_TIMEOUTS,
+    Recorded,
+    _decisions,
+    record,
+    replay_command,
+    runs,
+)
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.loading import Mapper
@@ -150,7 +157,7 @@ def test_a_mapper_that_hangs_is_given_up_after_a_few_time_outs() -> None:
 
     limits = Limits(move_timeout=0.06)
     made = record(one_target(hang), corpus_from(["edges<=2"]), limits=limits)
-    assert len(made.entries) == PATIENCE < made.header.total == 12
+    assert len(made.entries) == MAX_TIMEOUTS < made.header.total == 12
     assert {entry.failed for entry in made.entries} == {("map-isomorphic",)}
 
 
@@ -206,12 +213,12 @@ def test_a_program_is_recorded_and_a_world_that_it_skips_is_undecided(tmp_path: 
 
 def test_a_finding_of_a_program_is_shown_again_by_conform() -> None:
     with Program("./mapper --fast") as program:
-        line = again(program.target, "m3/13", Limits(budget=9))
+        line = replay_command(program.target, "m3/13", Limits(budget=9))
     assert line == "topo-verify conform --cmd './mapper --fast' --worlds m3/13 --budget 9"
 
 
 @pytest.mark.parametrize("policies", [{}, {"pick": "last"}])
 def test_a_finding_of_a_mapper_is_shown_again_by_replay(policies: dict[str, str]) -> None:
-    line = again(one_target("basic", **policies), "m3/13", Limits())
+    line = replay_command(one_target("basic", **policies), "m3/13", Limits())
     words = "".join(f" --{name} {value}" for name, value in policies.items())
     assert line == f"topo-verify replay m3/13 --target basic{words}"

@@ -10,8 +10,8 @@ from tests.harness.conform.test_conform import standings
 from tests.programs.programs import HERE, python
 from topo_verify import World, explore
 from topo_verify.errors import InputError
-from topo_verify.harness.conform.batch import Replay
-from topo_verify.harness.conform.outcome import Job
+from topo_verify.harness.conform.batch import BatchReplay
+from topo_verify.harness.conform.outcome import ConformJob
 from topo_verify.programs import protocol as ms
 from topo_verify.robot.events import Augment, Confirm, Move, Pose, Reject, Trace
 from topo_verify.robot.limits import Limits
@@ -22,7 +22,7 @@ def batch(way: str = "right") -> str:
 
 
 def test_runs_are_judged_on_every_level() -> None:
-    found = standings(Job(target=batch(), like="basic"), "edges<=3", "nyc", batch=True)
+    found = standings(ConformJob(target=batch(), like="basic"), "edges<=3", "nyc", batch=True)
     assert [(s.level, s.passed, s.verdict) for s in found.values()] == [
         (level, 87, "SAMPLED") for level in ("result", "claims", "decisions", "cost")
     ]
@@ -49,7 +49,7 @@ def test_runs_are_judged_on_every_level() -> None:
     ],
 )
 def test_what_goes_wrong_in_one_world_is_found_there_alone(way: str, kind: str, words: str) -> None:
-    job = Job(target=batch(way), limits=Limits(world_timeout=0.7))
+    job = ConformJob(target=batch(way), limits=Limits(world_timeout=0.7))
     result = standings(job, "edges<=2", batch=True)["result"]
     assert result.passed == 11
     assert {found.world for found in result.findings} == {"m2/5"}
@@ -59,46 +59,46 @@ def test_what_goes_wrong_in_one_world_is_found_there_alone(way: str, kind: str, 
 
 def test_a_world_may_be_skipped_or_given_up() -> None:
     for way in ("skip", "error"):
-        result = standings(Job(target=batch(way)), "edges<=2", batch=True)["result"]
+        result = standings(ConformJob(target=batch(way)), "edges<=2", batch=True)["result"]
         assert (result.passed, result.skipped + result.errored) == (11, 1)
         assert result.verdict == "UNKNOWN"
 
 
 def test_runs_may_come_in_any_order_and_all_at_the_end() -> None:
-    found = standings(Job(target=batch("backwards"), like="basic"), "edges<=3", batch=True)
+    found = standings(ConformJob(target=batch("backwards"), like="basic"), "edges<=3", batch=True)
     assert found["decisions"].passed == 86
 
 
 def test_a_world_that_stands_twice_in_the_corpus_is_run_twice() -> None:
-    assert standings(Job(target=batch()), "m1/0", "m1/0", batch=True)["result"].passed == 2
+    assert standings(ConformJob(target=batch()), "m1/0", "m1/0", batch=True)["result"].passed == 2
 
 
 def test_batch_is_for_programs() -> None:
     with pytest.raises(InputError, match="name one with --cmd"):
-        standings(Job(target="basic"), "m1/0", batch=True)
+        standings(ConformJob(target="basic"), "m1/0", batch=True)
 
 
 def test_what_was_said_is_kept(tmp_path: Path) -> None:
-    standings(Job(target=batch("lies"), transcript=str(tmp_path)), "edges<=2", batch=True)
+    standings(ConformJob(target=batch("lies"), transcript=str(tmp_path)), "edges<=2", batch=True)
     (file,) = tmp_path.iterdir()
     assert '"cost\\":999' in file.read_text()
 
 
-def as_run(trace: Trace, world: World) -> ms.Run:
+def as_run(trace: Trace, world: World) -> ms.BatchRun:
     doors: list[int] = []
-    declared: list[ms.Declared] = []
+    declared: list[ms.BatchDecision] = []
     for event in trace:
         if isinstance(event, Move):
             doors.append(event.door)
         elif isinstance(event, Pose | Reject | Confirm | Augment):
-            declared.append(ms.Declared(len(doors), event))
+            declared.append(ms.BatchDecision(len(doors), event))
     found = explore(world, "basic").map
-    return ms.Run("x", tuple(doors), tuple(declared), found, len(doors))
+    return ms.BatchRun("x", tuple(doors), tuple(declared), found, len(doors))
 
 
 def test_a_replay_is_the_run_again() -> None:
     world = World.from_id("m4/41")
     trace = explore(world, "basic").trace
-    again = explore(world, Replay(as_run(trace, world))).trace
+    again = explore(world, BatchReplay(as_run(trace, world))).trace
     bare = [Move(e.door, e.percept) if isinstance(e, Move) else e for e in trace[1:]]
     assert list(again[1:]) == bare

@@ -13,7 +13,7 @@ from topo_verify.checkers import CLAIMS
 from topo_verify.harness.conform.conform import PATIENCE
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.program import IN_A_ROW, KINDS, Program
+from topo_verify.programs.program import IN_A_ROW, MISBEHAVIOURS, Program
 from topo_verify.robot.limits import Limit
 from topo_verify.world.formats import world_json
 
@@ -31,16 +31,16 @@ def test_the_conversation_is_the_one_that_takes_place() -> None:
 
 def test_the_batch_is_the_one_that_takes_place() -> None:
     world, run = BLOCKS[1]
-    task = ms.Task("m1/0", world_json.to_data(next(iter(corpus_from(["edges<=1"]))).world))
+    task = ms.BatchTask("m1/0", world_json.to_data(next(iter(corpus_from(["edges<=1"]))).world))
     assert world == f"> {msgspec.json.encode(task).decode()}"
-    assert msgspec.json.encode(msgspec.json.decode(run[2:], type=ms.Run)).decode() == run[2:]
+    assert msgspec.json.encode(msgspec.json.decode(run[2:], type=ms.BatchRun)).decode() == run[2:]
 
 
 def test_every_kind_of_finding_is_explained() -> None:
     rows = re.findall(r"^\| (`[^|]+?) \|", PAGE, re.MULTILINE)
     explained = {kind for row in rows for kind in re.findall(r"`([a-z0-9-]+)`", row)}
     limits = set(get_args(Limit)) - {"world-timeout"}  # that one is not decided
-    ours = {*KINDS, *limits, "no-map", "worker-lost", "decisions"} - {"skip", "error"}
+    ours = {*MISBEHAVIOURS, *limits, "no-map", "worker-lost", "decisions"} - {"skip", "error"}
     assert ours <= explained
     assert not explained & CLAIMS.keys()
 

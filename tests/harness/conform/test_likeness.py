@@ -7,7 +7,7 @@ import pytest
 
 from tests.helpers import edited, place, trace_of, worlds
 from topo_verify import CATALOGUE
-from topo_verify.harness.conform.likeness import Difference, State, declares, first_difference
+from topo_verify.harness.conform.likeness import Difference, KnownState, declares, first_difference
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Pose, Reject, Trace
 
 
@@ -43,7 +43,7 @@ def test_the_smallest_world_in_which_two_algorithms_part() -> None:
                 " saw (degree 5, no marker)"
             ),
         ),
-        state=State(
+        state=KnownState(
             moves=4,
             vertices=(1, 5, 2),
             explored=((0, 1), (2, 6)),

@@ -14,7 +14,7 @@ import pytest
 
 from tests.programs.misbehaving import WAYS
 from tests.programs.programs import kinds, messages, misbehaving, outcomes
-from topo_verify.programs.program import KINDS
+from topo_verify.programs.program import MISBEHAVIOURS
 from topo_verify.robot.limits import Limits
 
 LIMITS = Limits(move_timeout=0.9, world_timeout=30)
@@ -23,7 +23,7 @@ EXPECTED = {
     "hangs": ("move-timeout", "did not move for 0.9 s"),
     "exits": ("crashed", "ended with exit code 7"),
     "exits with success": ("crashed", "ended with exit code 0"),
-    "raises": ("crashed", "its last words: IndexError: list index out of range"),
+    "raises": ("crashed", "its last line on standard error: IndexError: list index out of range"),
     "kills itself": ("crashed", "was ended by SIGKILL"),
     "crashes": ("crashed", "was ended by SIGSEGV"),
     "closes its output": ("closed-output", "closed its output and runs on"),
@@ -91,7 +91,7 @@ def test_misbehaviour_is_one_finding_for_its_world(way: str) -> None:
     assert made.states["result"] == "failed"
     assert made.findings["result"][0].kind == kind, messages(made)
     assert words in messages(made)
-    if kind in KINDS:  # no map was delivered: that is the one finding
+    if kind in MISBEHAVIOURS:  # no map was delivered: that is the one finding
         assert len(made.findings["result"]) == 1
 
 

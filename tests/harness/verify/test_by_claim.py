@@ -10,18 +10,18 @@ from topo_verify import CATALOGUE, Robot
 from topo_verify.checkers import CLAIMS
 from topo_verify.errors import InputError
 from topo_verify.harness.targets import one_target, targets
-from topo_verify.harness.verify.by_claim import Outcome, by_claim
+from topo_verify.harness.verify.by_claim import ClaimResults, by_claim
 from topo_verify.robot.limits import Limits
 
 MAPPERS = Path(__file__).parents[2] / "cli" / "mappers.py"
 
 
-def of(name: str, edges: int = 2, limits: Limits | None = None) -> Outcome:
+def of(name: str, edges: int = 2, limits: Limits | None = None) -> ClaimResults:
     (target,) = targets(f"{MAPPERS}:{name}")
     return by_claim(target, edges, limits or Limits())
 
 
-def statuses(outcome: Outcome) -> dict[str, set[str]]:
+def statuses(outcome: ClaimResults) -> dict[str, set[str]]:
     """The claims by what became of them."""
     found: dict[str, set[str]] = {}
     for claim in CLAIMS:
@@ -33,7 +33,7 @@ def test_every_claim_holds_for_a_right_mapper() -> None:
     outcome = of("right", 3)
     assert statuses(outcome) == {"holds": set(CLAIMS)}
     assert (outcome.part.checked, outcome.part.verdict) == (86, "EXHAUSTED")
-    assert outcome.told("cost-honest") == "cost-honest holds in 86 worlds of 1 to 3 edges"
+    assert outcome.text("cost-honest") == "cost-honest holds in 86 worlds of 1 to 3 edges"
 
 
 def test_each_claim_that_fails_has_its_own_first_world() -> None:
@@ -41,7 +41,7 @@ def test_each_claim_that_fails_has_its_own_first_world() -> None:
     assert statuses(outcome)["fails"] == {"map-isomorphic", "cost-within-bound", "map-entailed"}
     assert outcome.first["map-isomorphic"].world == "m1/1"
     assert outcome.first["cost-within-bound"].world == "m2/0"
-    told = outcome.told("cost-within-bound")
+    told = outcome.text("cost-within-bound")
     assert told.startswith("cost-within-bound fails in 84 of 86 worlds of 1 to 3 edges, first in ")
     assert told.endswith(f"again: topo-verify replay m2/0 --target {MAPPERS}:guesses")
 
@@ -79,20 +79,20 @@ def silent(robot: Robot) -> object:
 def test_what_is_declared_in_some_worlds_only_is_told_apart() -> None:
     outcome = by_claim(one_target(declares_at_leaves), 2, Limits())
     assert outcome.status("no-false-confirm") == "not-declared"
-    assert "in 3 of 12 worlds, where it holds" in outcome.told("no-false-confirm")
+    assert "in 3 of 12 worlds, where it holds" in outcome.text("no-false-confirm")
 
 
 def test_the_line_at_which_a_mapper_raised_is_told() -> None:
-    told = of("raises").told("map-isomorphic")
+    told = of("raises").text("map-isomorphic")
     assert "the mapper raised ValueError: no\\x1b[31m way\\nat all" in told
     assert f"raised at: {MAPPERS}:" in told
-    assert "raised at" not in of("guesses").told("map-isomorphic")
+    assert "raised at" not in of("guesses").text("map-isomorphic")
 
 
 def test_a_mapper_out_of_time_is_undecided() -> None:
     outcome = of("strolls", limits=Limits(world_timeout=0.02))
     assert statuses(outcome) == {"undecided": set(CLAIMS)}
-    assert "3 runs out of time" in outcome.told("map-isomorphic")
+    assert "3 runs out of time" in outcome.text("map-isomorphic")
     assert not outcome.first
 
 

@@ -32,9 +32,10 @@ from typing import Literal, NamedTuple, get_args
 
 import msgspec
 
-from topo_verify.harness.baseline.file import Baseline, Entry, world_of
-from topo_verify.harness.baseline.record import PATIENCE, Recorded, Tell, again, runs
+from topo_verify.harness.baseline.file import Baseline, BaselineEntry, world_of
+from topo_verify.harness.baseline.record import MAX_TIMEOUTS, Recorded, replay_command, runs
 from topo_verify.harness.corpus import NETWORKS
+from topo_verify.harness.progress import Progress
 from topo_verify.programs.loading import Target
 from topo_verify.world.rooted_map import World
 
@@ -125,7 +126,7 @@ def compare(
     *,
     tolerance: Fraction | int = 0,
     name: str = "baseline",
-    tell: Tell | None = None,
+    tell: Progress | None = None,
 ) -> Comparison:
     """Run the mapper in the baseline's worlds and say what has changed.
 
@@ -148,12 +149,12 @@ def compare(
     for entry in baseline.entries:
         now = next(seen, None)
         world = World.from_text(entry.world) if now is None else now.world
-        replay = again(target, _argument(entry), limits)
+        replay = replay_command(target, _argument(entry), limits)
         books.enter(_change(entry, world, now, Fraction(tolerance), replay), world)
     return books.comparison()
 
 
-def _argument(entry: Entry) -> str:
+def _argument(entry: BaselineEntry) -> str:
     """How the command line names the world wherever it is called."""
     known = entry.name in NETWORKS or entry.name.startswith("family:")
     return entry.name if known or entry.world.startswith("{") else entry.world
@@ -217,7 +218,7 @@ class _Books:
 
 
 def _change(
-    then: Entry, world: World, now: Recorded | None, tolerance: Fraction, replay: str
+    then: BaselineEntry, world: World, now: Recorded | None, tolerance: Fraction, replay: str
 ) -> Change:
     kind = _kind(then, None if now is None else now.entry)
     before = then.cost if then.right else None
@@ -240,7 +241,7 @@ def _change(
     )
 
 
-def _kind(then: Entry, now: Entry | None) -> Kind:
+def _kind(then: BaselineEntry, now: BaselineEntry | None) -> Kind:
     if now is None or now.undecided:
         return "undecided"
     if now.failed:
@@ -255,9 +256,9 @@ def _kind(then: Entry, now: Entry | None) -> Kind:
     return "equal"
 
 
-def _message(kind: Kind, then: Entry, now: Recorded | None) -> str:
+def _message(kind: Kind, then: BaselineEntry, now: Recorded | None) -> str:
     if now is None:
-        return f"not run: the mapper was out of time {PATIENCE} times before"
+        return f"not run: the mapper was out of time {MAX_TIMEOUTS} times before"
     if kind == "other_decisions":
         same = then.moves == now.entry.moves
         return "the same moves, other decisions" if same else "other moves"

@@ -1,15 +1,14 @@
-"""The file of a baseline: what a mapper paid and decided in each world of a corpus.
+"""The file of a baseline: the cost and the decisions of a mapper in each world of a corpus.
 
     load, decode      a file, or its bytes -> Baseline: a header, an entry a world
-    encode            the other way; the same bytes for the same baseline
+    encode            a Baseline -> bytes; the same bytes for the same baseline
 
-**The file** is gzip, without a time of its own; in it JSON Lines, first the header, then a line a
-world. It carries every world, by its id or whole, so that it can be compared where its corpus
-cannot be made again. Each line ends with `sum`, a hash of this line and of all before it, so that
-the first line that was changed, lost or moved can be named. That guards against accidents, not
-against forgers.
+**The file** is gzip without a time stamp. It holds JSON Lines: first the header, then a line for
+each world. An entry holds the world itself, as its id or its JSON, so that a comparison needs no
+corpus. Each line ends with `sum`, a hash of this line and of all before it; so a reader can name
+the first line that was changed, lost or moved. Sums guard against accidents, not against forgery.
 
-recording.py makes baselines, comparing.py compares with them.
+record.py makes baselines, compare.py compares with them.
 
 Source: docs/semantics.md, section 14; docs/baselines.md.
 """
@@ -40,10 +39,10 @@ S = TypeVar("S", bound=msgspec.Struct)
 
 FORMAT: Literal["topo-verify/baseline"] = "topo-verify/baseline"
 VERSION: Literal[1] = 1
-"""The newest version that is read, and the one that is written."""
+"""The version that is written, and the newest that is read."""
 
 MOST_BYTES = 2**30
-"""Bytes that a baseline may have when it is unpacked: some millions of worlds."""
+"""The most bytes of an unpacked baseline: enough for some millions of worlds."""
 
 _SUM = re.compile(rb'(.*),"sum":"([0-9a-f]{16})"\}\n', re.DOTALL)
 
@@ -54,9 +53,9 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         tool: the version of topo-verify that recorded it.
         target, policies: the mapper, and its policies where they are known.
-        worlds, seed: what the corpus was made from.
-        corpus, digest, total: its description, its own hash, and how many worlds are in it.
-        limits: what the mapper was allowed in each world.
+        worlds, seed: the arguments that gave the corpus.
+        corpus, digest, total: its description, its hash, and its number of worlds.
+        limits: the moves and the time that the mapper was allowed in each world.
     """
 
     format: Literal["topo-verify/baseline"] = FORMAT
@@ -72,19 +71,19 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
     limits: Limits
 
 
-class Entry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """A line: one world, and what the mapper did there.
+class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """A line of the file: one world, and the mapper's run in it.
 
     Attributes:
         world: its id; beyond 200 edges, its JSON.
-        name: what the corpus calls it, where that is another name.
+        name: its name in the corpus, if that differs.
         cost: edge traversals.
         moves: a hash of the doors, in their order.
-        decisions: a hash of what was declared; None: nothing was.
+        decisions: a hash of the declared decisions; None if there are none.
         map: the id of the delivered map (beyond 200 edges `sha256:` and the hash of its code); None
-            if none was delivered, or what was is no map.
+            if the mapper delivered none, or no valid one.
         failed: the claims that fail.
-        undecided: the run was out of time in all, though it moved on: nobody knows.
+        undecided: the run exceeded its time while it still moved, so no claim was judged.
     """
 
     world: str
@@ -98,31 +97,31 @@ class Entry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def right(self) -> bool:
-        """Was every claim judged, and did none fail?"""
+        """Whether every claim was judged and none failed."""
         return not self.failed and not self.undecided
 
     @property
     def called(self) -> str:
-        """What people know it by."""
+        """Its name for people: that of the corpus, if it has one."""
         return self.name or self.world
 
 
 @dataclass(frozen=True, slots=True)
 class Baseline:
-    """What was recorded: one entry a world, in the order of the corpus."""
+    """A recorded baseline: one entry for each world, in the order of the corpus."""
 
     header: Header
-    entries: tuple[Entry, ...]
+    entries: tuple[BaselineEntry, ...]
 
 
 # ---------------------------------------------------------------- writing
 
 
 def encode(baseline: Baseline) -> bytes:
-    """The file: the same bytes for the same baseline (and the same zlib).
+    """The bytes of the file: the same for the same baseline and the same zlib.
 
     Raises:
-        InputError: entries are missing.
+        InputError: there are fewer entries than the header says.
     """
     header, entries = baseline.header, baseline.entries
     if len(entries) != header.total:
@@ -164,10 +163,10 @@ def decode(data: bytes, *, name: str = "baseline") -> Baseline:
     """The baseline in these bytes.
 
     Args:
-        name: what to call the input in messages.
+        name: the input's name in messages.
     Raises:
-        InputError: it is no baseline, one of a newer version, or not as it was written; the
-            sentence names the line.
+        InputError: the bytes are no baseline, one of a newer version, or were changed after they
+            were written; the sentence names the line.
     """
     lines = _require_sums(_unpacked(data, name), name)
     first = next(lines, None)
@@ -175,7 +174,7 @@ def decode(data: bytes, *, name: str = "baseline") -> Baseline:
         raise InputError(f"{name} is empty: name a file that topo-verify record wrote")
     header = _line(first, Header, f"{name}, line 1")
     entries = tuple(
-        _line(line, Entry, f"{name}, line {number}") for number, line in enumerate(lines, 2)
+        _line(line, BaselineEntry, f"{name}, line {number}") for number, line in enumerate(lines, 2)
     )
     if len(entries) != header.total:
         raise InputError(
@@ -185,11 +184,13 @@ def decode(data: bytes, *, name: str = "baseline") -> Baseline:
     return Baseline(header, entries)
 
 
-def world_of(entry: Entry, *, name: str, line: int) -> World:
-    """The world of an entry, called as its corpus called it.
+def world_of(entry: BaselineEntry, *, name: str, line: int) -> World:
+    """The world of an entry.
 
+    Args:
+        name, line: the entry's place, for the message.
     Raises:
-        InputError: its text names none.
+        InputError: the entry's text names no world.
     """
     try:
         return World.from_text(entry.world)
@@ -198,7 +199,7 @@ def world_of(entry: Entry, *, name: str, line: int) -> World:
 
 
 def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
-    """The lines, as long as they come."""
+    """The unpacked lines, one at a time, so that a huge file is refused before it fills memory."""
     number, size = 1, 0
     try:
         with gzip.GzipFile(fileobj=BytesIO(data)) as file:
@@ -213,7 +214,7 @@ def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
                 number += 1
     except gzip.BadGzipFile as error:
         raise InputError(
-            f"{name}, line {number}: not as gzip wrote it ({error}); name a file that topo-verify"
+            f"{name}, line {number}: expected gzip data ({error}); name a file that topo-verify"
             " record wrote, or copy it again"
         ) from error
     except (EOFError, zlib.error) as error:
@@ -224,25 +225,24 @@ def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
 
 
 def _require_sums(lines: Iterable[bytes], name: str) -> Iterator[bytes]:
-    """The lines without their sums, which are what they should be."""
+    """The lines without their sums, after checking each sum."""
     total = ""
     for number, line in enumerate(lines, 1):
         if number == 1:
             _require_version(line, name)
         found = _SUM.fullmatch(line)
-        body, told = (found[1], found[2].decode()) if found else (line, "")
+        body, stated = (found[1], found[2].decode()) if found else (line, "")
         total = _next_sum(total, body)
-        if told != total:
+        if stated != total:
             raise InputError(
-                f"{name}, line {number}: not as it was written (its sum is"
-                f" {total}, it says {told or 'none'}): take back the change, copy the file"
-                " again, or record a new one"
+                f"{name}, line {number}: not as it was written (expected the sum {total}, got"
+                f" {stated or 'none'}): undo the change, copy the file again, or record a new one"
             )
         yield body + b"}"
 
 
 class _Head(msgspec.Struct):
-    """What is read first, and alone: a newer version may have other fields."""
+    """The two fields that are read before all others, since a newer version may have others."""
 
     format: str
     version: int
@@ -252,7 +252,7 @@ def _require_version(line: bytes, name: str) -> None:
     head = _line(line, _Head, f"{name}, line 1")
     if head.format != FORMAT:
         raise InputError(
-            f"{name}, line 1: its format is {shown(head.format)!r}, not {FORMAT!r}: name a"
+            f"{name}, line 1: expected the format {FORMAT!r}, got {shown(head.format)!r}: name a"
             " file that topo-verify record wrote"
         )
     if head.version > VERSION:
@@ -267,7 +267,8 @@ def _line(line: bytes, kind: type[S], where: str) -> S:
         return msgspec.json.decode(line, type=kind)
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(
-            f"{where}: no line of a baseline: {error}; name a file that topo-verify record wrote"
+            f"{where}: expected a line of a baseline: {error}; name a file that topo-verify record"
+            " wrote"
         ) from error
 
 
@@ -275,9 +276,9 @@ def _line(line: bytes, kind: type[S], where: str) -> S:
 
 
 def schema() -> dict[str, Any]:
-    """The JSON Schema of a line; `schemas/baseline.schema.json` holds the same."""
-    made, components = msgspec.json.schema_components([Header, Entry])
-    for name in ("Header", "Entry"):
+    """The JSON Schema of a line, as in `schemas/baseline.schema.json`."""
+    made, components = msgspec.json.schema_components([Header, BaselineEntry])
+    for name in ("Header", "BaselineEntry"):
         components[name]["properties"]["sum"] = {"type": "string", "pattern": "^[0-9a-f]{16}$"}
         components[name]["required"].append("sum")
     components["Header"]["required"] += ["format", "version"]

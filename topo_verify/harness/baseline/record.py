@@ -1,14 +1,14 @@
-"""Making a baseline: a mapper runs in every world of a corpus, and every claim is judged.
+"""Recording of a baseline: a mapper runs in every world of a corpus, judged by every claim.
 
-Of each run four things are kept: its cost; a hash of the doors it took; a hash of what it declared,
-or nothing if it declared nothing; and its map, by id.
+An entry keeps four results of a run: its cost; a hash of its doors; a hash of its declarations, or
+None if there are none; the id of its map.
 
 **The hash of the decisions** covers each `pose`, `reject`, `confirm` and `augment` with the number
 of moves before it: edge, hypotheses, rule, kind, dart. The evidence of a rejection and the purpose
 of a move say why, not what, and are left out. So two mappers have the same hashes if they make the
-same moves and take the same decisions at the same time, however they explain them.
+same moves and the same decisions at the same time, whatever reasons they give.
 
-What this does not show: two hashes of 64 bits that are equal by chance.
+What this does not show: a difference between two runs whose 64-bit hashes collide.
 """
 
 from __future__ import annotations
@@ -23,11 +23,12 @@ import msgspec
 
 from topo_verify.algorithms import Algorithm
 from topo_verify.errors import InputError
-from topo_verify.harness.baseline.file import Baseline, Entry, Header
+from topo_verify.harness.baseline.file import Baseline, BaselineEntry, Header
 from topo_verify.harness.corpus import Corpus
+from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import Exploration, Report, explore, judge, replay_line
 from topo_verify.harness.run import undecided as is_undecided
-from topo_verify.harness.target_texts import words
+from topo_verify.harness.targets import target_arguments
 from topo_verify.programs.loading import Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject
@@ -35,20 +36,17 @@ from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
-PATIENCE = 3
-"""After so many time-outs a mapper is not run in the worlds that are left."""
-
-Tell = Callable[[str, int, int], None]
-"""Called as work goes on: (mapper, worlds done, worlds in all)."""
+MAX_TIMEOUTS = 3
+"""After this many time-outs the remaining worlds are not tried."""
 
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """A mapper in one world: the report, and the entry that a baseline keeps."""
+    """The run of a mapper in one world: the report, and the entry that a baseline keeps."""
 
     world: World
     report: Report
-    entry: Entry
+    entry: BaselineEntry
     timed_out: bool
 
 
@@ -59,19 +57,20 @@ def record(
     worlds: Sequence[str] = (),
     seed: int = 0,
     limits: Limits | None = None,
-    tell: Tell | None = None,
+    tell: Progress | None = None,
     note: Callable[[Recorded], None] | None = None,
 ) -> Baseline:
     """Run the mapper in every world of the corpus.
 
-    After `PATIENCE` time-outs it stops: then there are fewer entries than the header says.
+    After `MAX_TIMEOUTS` time-outs it stops: then there are fewer entries than the header says.
 
     Args:
-        worlds, seed: what the corpus was made from, to be told in the header.
-        note: told of every world.
+        worlds, seed: the arguments that gave the corpus, for the header.
+        tell: called before each world.
+        note: called after each world.
     """
     limits = limits or Limits()
-    entries: list[Entry] = []
+    entries: list[BaselineEntry] = []
     named = ((at.name, at.world) for at in corpus)
     for seen in runs(target, named, corpus.total, limits, tell):
         entries.append(seen.entry)
@@ -96,9 +95,9 @@ def runs(
     worlds: Iterable[tuple[str, World]],
     total: int,
     limits: Limits,
-    tell: Tell | None = None,
+    tell: Progress | None = None,
 ) -> Iterator[Recorded]:
-    """One named world after the other, until they end or time-outs have used up the patience."""
+    """The mapper's runs in these worlds, in order; they end after `MAX_TIMEOUTS` time-outs."""
     timeouts = 0
     for number, (name, world) in enumerate(worlds):
         if tell is not None:
@@ -106,21 +105,20 @@ def runs(
         seen = _recorded(target, name, world, limits)
         yield seen
         timeouts += seen.timed_out
-        if timeouts == PATIENCE:
+        if timeouts == MAX_TIMEOUTS:
             return
 
 
 def _recorded(target: Target, name: str, world: World, limits: Limits) -> Recorded:
     run = explore(world, target, limits=limits)
+    # Asked before the run is judged: that may run the program in a witness world, too.
     declined = isinstance(target.mapper, Program) and _declined(target.mapper)
     report = judge(run, where=name, options=limits.options)
-    if isinstance(target.mapper, Program):
-        target.mapper.settle()  # it may have been run in a witness world, too
-    replay = again(target, name, limits)
+    replay = replay_command(target, name, limits)
     findings = tuple(msgspec.structs.replace(f, replay=replay) for f in report.findings)
     report = msgspec.structs.replace(report, findings=findings)
     undecided = declined or is_undecided(run, report)
-    entry = Entry(
+    entry = BaselineEntry(
         world=world.text,
         name="" if name == world.text else name,
         cost=run.cost,
@@ -133,23 +131,22 @@ def _recorded(target: Target, name: str, world: World, limits: Limits) -> Record
     return Recorded(world, report, entry, run.limit in ("move-timeout", "world-timeout"))
 
 
-def again(target: Target, where: str, limits: Limits) -> str:
-    """The command line that shows the mapper in this world again."""
+def replay_command(target: Target, where: str, limits: Limits) -> str:
+    """The command line that shows the mapper in the world `where` again."""
     if isinstance(target.mapper, Program):
-        told = ("conform", *words(target.text), "--worlds", where, *limits.options)
-        return shlex.join(["topo-verify", *told])
+        words = ("conform", *target_arguments(target.text), "--worlds", where, *limits.options)
+        return shlex.join(["topo-verify", *words])
     policies = target.mapper.policies if isinstance(target.mapper, Algorithm) else None
     return replay_line(where, target.text, policies, limits.options)
 
 
 def _declined(program: Program) -> bool:
-    """Did the program skip the world, or give it up? Also ends a process that misbehaved."""
-    program.settle()
+    """Whether the program skipped its last world or gave it up."""
     return program.misbehaved is not None and program.misbehaved.kind in ("skip", "error")
 
 
 def _decisions(trace: Iterable[Event]) -> str | None:
-    """A hash of what was declared, and when."""
+    """A hash of the decisions, each with the number of moves before it; None if there are none."""
     moves, declared = 0, list[object]()
     for event in trace:
         match event:
@@ -169,7 +166,7 @@ def _decisions(trace: Iterable[Event]) -> str | None:
 
 
 def _map(run: Exploration, report: Report) -> str | None:
-    """The id of the delivered map; of one that is too large for an id, a hash of its code."""
+    """The id of the delivered map, or a hash of its code if it is too large; None without a map."""
     if run.map is None:
         return None
     try:

@@ -27,19 +27,19 @@ import msgspec
 
 from topo_verify.errors import InputError
 from topo_verify.harness.conform.examiner import keep, reference
-from topo_verify.harness.conform.outcome import Job, Outcome, outcome
+from topo_verify.harness.conform.outcome import ConformJob, WorldResult, world_result
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.run import explore, judge
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.child import GRACE, Child, Ended, Silent, TooLong, Warden
+from topo_verify.programs.child import GRACE, Child, Ended, ReaperProcess, Silent, TooLong
 from topo_verify.programs.loading import Target
 from topo_verify.programs.program import (
     PREFIX,
-    Line,
+    DeliveredMap,
     Misbehaved,
-    Survey,
+    TranscriptLine,
+    crash_report,
     decoded,
-    obituary,
     shown_line,
     split,
 )
@@ -49,23 +49,23 @@ from topo_verify.world.formats import world_json
 CHUNK = 2000
 """So many worlds is a process handed."""
 
-Answer = ms.Run | Misbehaved
+BatchAnswer = ms.BatchRun | Misbehaved
 """What came back for a world: a run, or what the program did instead."""
 
-_run: msgspec.json.Decoder[ms.Run] = msgspec.json.Decoder(ms.Run)
+_run: msgspec.json.Decoder[ms.BatchRun] = msgspec.json.Decoder(ms.BatchRun)
 
 
-class Replay:
+class BatchReplay:
     """A run as a mapper: it does what was done, and delivers what was delivered.
 
     Where there is no run, it does nothing, and says why.
     """
 
-    def __init__(self, answer: Answer) -> None:
+    def __init__(self, answer: BatchAnswer) -> None:
         self.answer = answer
         self.misbehaved: Misbehaved | None = None
 
-    def __call__(self, robot: SimulatedRobot) -> Survey:
+    def __call__(self, robot: SimulatedRobot) -> DeliveredMap:
         """Walk the doors of the run; its decisions are declared where they were made."""
         try:
             if isinstance(self.answer, Misbehaved):
@@ -79,7 +79,7 @@ class Replay:
             raise
 
 
-def _replay(run: ms.Run, robot: SimulatedRobot) -> Survey:
+def _replay(run: ms.BatchRun, robot: SimulatedRobot) -> DeliveredMap:
     move, done = robot.move, 0
     for declared in run.declare:
         if not done <= declared.after <= len(run.doors):
@@ -93,10 +93,10 @@ def _replay(run: ms.Run, robot: SimulatedRobot) -> Survey:
         move(door)
     if run.map is None:
         raise _without_a_map(run)
-    return Survey(run.map.vertices, run.map.edges, run.map.marker, run.cost)
+    return DeliveredMap(run.map.vertices, run.map.edges, run.map.marker, run.cost)
 
 
-def _without_a_map(run: ms.Run) -> Misbehaved:
+def _without_a_map(run: ms.BatchRun) -> Misbehaved:
     if run.skip is not None:
         return Misbehaved("skip", f"the program skips this world: {run.skip}")
     if run.error is not None:
@@ -111,16 +111,16 @@ class BatchExaminer:
         InputError: the target is no program, or there is no such algorithm or policy.
     """
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: ConformJob) -> None:
         if not job.target.startswith(PREFIX):
             raise InputError(f"--batch with {job.target}: it is for programs, name one with --cmd")
         self.job = job
         self.command = split(job.target.removeprefix(PREFIX))
         self._reference = reference(job)
-        self._warden = Warden()
+        self._reaper = ReaperProcess()
         self._child: Child | None = None
 
-    def examine(self, worlds: Iterable[Named]) -> Iterator[Outcome]:
+    def examine(self, worlds: Iterable[Named]) -> Iterator[WorldResult]:
         """What becomes of the worlds, in their order."""
         todo = iter(worlds)
         while chunk := list(islice(todo, CHUNK)):
@@ -128,10 +128,10 @@ class BatchExaminer:
             for place, at in enumerate(chunk):
                 yield self._judged(at, answers.pop(place))
 
-    def answers(self, worlds: Sequence[Named]) -> dict[int, Answer]:
+    def answers(self, worlds: Sequence[Named]) -> dict[int, BatchAnswer]:
         """What the program makes of these worlds, by their places."""
         ids = _ids(worlds)
-        done: dict[int, Answer] = {}
+        done: dict[int, BatchAnswer] = {}
         todo = [list(range(len(worlds)))]
         while todo:
             places = todo.pop()
@@ -152,14 +152,14 @@ class BatchExaminer:
     # ------------------------------------------------------------ a process
 
     def _go(
-        self, waiting: dict[str, int], worlds: Sequence[Named], done: dict[int, Answer]
+        self, waiting: dict[str, int], worlds: Sequence[Named], done: dict[int, BatchAnswer]
     ) -> Misbehaved | None:
         """Hand worlds to a fresh process and take what comes; why that ended early, if it did."""
-        self._child = child = Child(self.command, self._warden)
+        self._child = child = Child(self.command, self._reaper)
         try:
             for name, place in list(waiting.items()):
                 data = world_json.to_data(worlds[place].world)
-                child.write(msgspec.json.encode(ms.Task(name, data)) + b"\n")
+                child.write(msgspec.json.encode(ms.BatchTask(name, data)) + b"\n")
                 while waiting and child.has_line:
                     self._take(child, waiting, done)
             child.close_input()
@@ -174,7 +174,7 @@ class BatchExaminer:
             child.end(politely=0 if waiting else GRACE)
         return None
 
-    def _take(self, child: Child, waiting: dict[str, int], done: dict[int, Answer]) -> None:
+    def _take(self, child: Child, waiting: dict[str, int], done: dict[int, BatchAnswer]) -> None:
         """One run from the program."""
         try:
             line = child.line(seconds=self.job.limits.world_timeout)
@@ -182,8 +182,8 @@ class BatchExaminer:
             seconds = self.job.limits.world_timeout
             raise Misbehaved("silent", f"the program wrote no run for {seconds:g} s") from None
         except Ended:
-            raise obituary(child, "wrote a run for this world") from None
-        run: ms.Run = decoded(line, _run.decode, validate=self.job.validate)
+            raise crash_report(child, "wrote a run for this world") from None
+        run: ms.BatchRun = decoded(line, _run.decode, validate=self.job.validate)
         if run.id not in waiting:
             told = f"no world {run.id!r} waits for a run: {shown_line(line)}"
             raise Misbehaved("unknown-world", told)
@@ -191,21 +191,21 @@ class BatchExaminer:
 
     # ------------------------------------------------------------ a run
 
-    def _judged(self, at: Named, answer: Answer) -> Outcome:
-        player = Replay(answer)
+    def _judged(self, at: Named, answer: BatchAnswer) -> WorldResult:
+        player = BatchReplay(answer)
         run = explore(at.world, Target(self.job.target, player), limits=self.job.limits)
-        made = outcome(
+        made = world_result(
             run,
             judge(run, where=at.name),
             at,
             self.job,
             reference=explore(at.world, self._reference),
             misbehaved=player.misbehaved,
-            replay=shlex.join([*self.job.again, *at.again]),
+            replay=shlex.join([*self.job.replay_arguments, *at.replay_arguments]),
         )
         if self.job.transcript is not None and any(made.findings.values()):
-            lines: list[Line] = [(">", msgspec.json.encode(world_json.to_data(at.world)))]
-            if isinstance(answer, ms.Run):
+            lines: list[TranscriptLine] = [(">", msgspec.json.encode(world_json.to_data(at.world)))]
+            if isinstance(answer, ms.BatchRun):
                 lines.append(("<", msgspec.json.encode(answer)))
             keep(self.job.transcript, at, run, made, lines)
         return made
@@ -221,7 +221,7 @@ class BatchExaminer:
     ) -> None:
         if self._child is not None:
             self._child.end()
-        self._warden.close()
+        self._reaper.close()
 
 
 def _require_end(child: Child) -> None:

@@ -17,7 +17,14 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.conform.batch import BatchExaminer
 from topo_verify.harness.conform.crew import Crew
 from topo_verify.harness.conform.examiner import Examiner
-from topo_verify.harness.conform.outcome import LEVELS, RESULT, Found, Job, Level, Outcome
+from topo_verify.harness.conform.outcome import (
+    LEVELS,
+    RESULT,
+    ConformJob,
+    Level,
+    WorldFinding,
+    WorldResult,
+)
 from topo_verify.harness.corpus import Corpus
 
 PATIENCE = 20
@@ -87,7 +94,7 @@ class Standing(msgspec.Struct, frozen=True, kw_only=True):
     verdict: Verdict
     kinds: dict[str, int]
     claims: dict[str, dict[str, int]]
-    findings: tuple[Found, ...]
+    findings: tuple[WorldFinding, ...]
     cost: Cost
     priced: tuple[Priced, ...] = ()
     why: tuple[str, ...] = ()
@@ -99,10 +106,10 @@ class _Level:
 
     states: dict[str, int] = field(default_factory=dict[str, int])
     kinds: dict[str, int] = field(default_factory=dict[str, int])
-    findings: list[Found] = field(default_factory=list[Found])
+    findings: list[WorldFinding] = field(default_factory=list[WorldFinding])
     whys: list[str] = field(default_factory=list[str])
 
-    def enter(self, made: Outcome, level: Level) -> None:
+    def enter(self, made: WorldResult, level: Level) -> None:
         state = made.states[level]
         self.states[state] = self.states.get(state, 0) + 1
         found = made.findings.get(level, ())
@@ -117,7 +124,7 @@ class _Level:
 class Books:
     """The books of a run. Life cycle: `enter` outcomes in their order, `standings` at any time."""
 
-    def __init__(self, job: Job, corpus: Corpus) -> None:
+    def __init__(self, job: ConformJob, corpus: Corpus) -> None:
         self.job, self.total, self.finite = job, corpus.total, corpus.finite
         self.levels: dict[Level, _Level] = {
             level: _Level() for level in LEVELS if job.like is not None or level != "decisions"
@@ -126,7 +133,7 @@ class Books:
         self.priced: list[Priced] = []
         self.timeouts = self.tried = 0
 
-    def enter(self, made: Outcome) -> None:
+    def enter(self, made: WorldResult) -> None:
         """One world."""
         self.tried += 1
         self.timeouts += made.timeout
@@ -183,7 +190,7 @@ _STATES = ("passed", "failed", "skipped", "errored", "undecided", "not-declared"
 
 
 def conform(
-    job: Job,
+    job: ConformJob,
     corpus: Corpus,
     books: Books,
     *,
@@ -201,7 +208,7 @@ def conform(
         InputError: there is no such mapper, program, algorithm or policy.
     """
     with ExitStack() as stack:
-        outcomes: Iterable[Outcome]
+        outcomes: Iterable[WorldResult]
         if batch:
             outcomes = stack.enter_context(BatchExaminer(job)).examine(corpus)
         elif workers:

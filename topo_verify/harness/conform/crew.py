@@ -31,7 +31,7 @@ import msgspec
 
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.conform.examiner import Examiner, reference
-from topo_verify.harness.conform.outcome import Found, Job, Outcome, State
+from topo_verify.harness.conform.outcome import ConformJob, LevelState, WorldFinding, WorldResult
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.run import explore
 from topo_verify.robot.limits import Limits
@@ -72,7 +72,7 @@ class Broken(msgspec.Struct, frozen=True, tag=True):
 class Answer(msgspec.Struct, frozen=True, tag=True):
     """What became of a world; None: the worker is ready for the first."""
 
-    outcome: Outcome | None
+    outcome: WorldResult | None
 
 
 _answer: msgspec.json.Decoder[Answer | Broken] = msgspec.json.Decoder(Answer | Broken)
@@ -85,7 +85,7 @@ class Gone(Exception):
 class Worker:
     """One worker process. Life cycle: made (it loads its mapper), `ask` at will, `end`."""
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: ConformJob) -> None:
         self._process = subprocess.Popen(  # noqa: S603  our own module
             [sys.executable, "-c", _START, json.dumps(sys.path)],
             stdin=subprocess.PIPE,
@@ -98,7 +98,7 @@ class Worker:
         self._write(msgspec.json.encode(job))
         self._loaded = False
 
-    def ask(self, task: Task) -> Outcome:
+    def ask(self, task: Task) -> WorldResult:
         """What becomes of a world.
 
         Raises:
@@ -132,7 +132,7 @@ class Worker:
         with suppress(OSError):  # if it is gone, reading will tell
             self._process.stdin.write(line + b"\n")
 
-    def _read(self, seconds: float) -> Outcome | None:
+    def _read(self, seconds: float) -> WorldResult | None:
         assert self._process.stdout is not None
         stream = self._process.stdout.fileno()
         looker = select.poll()
@@ -159,7 +159,7 @@ class Crew:
         InputError: the job names no mapper, or its mapper cannot be loaded.
     """
 
-    def __init__(self, job: Job, size: int) -> None:
+    def __init__(self, job: ConformJob, size: int) -> None:
         reference(job)  # what is wrong with it is told at once
         self._job = job
         self._idle: SimpleQueue[Worker] = SimpleQueue()
@@ -168,9 +168,9 @@ class Crew:
             self._idle.put(worker)
         self._threads = ThreadPoolExecutor(size)
 
-    def examine(self, worlds: Iterable[Named]) -> Iterator[Outcome]:
+    def examine(self, worlds: Iterable[Named]) -> Iterator[WorldResult]:
         """What becomes of the worlds, in their order."""
-        under_way: deque[Future[Outcome]] = deque()
+        under_way: deque[Future[WorldResult]] = deque()
         for at in worlds:
             under_way.append(self._threads.submit(self._ask, at))
             if len(under_way) >= AHEAD * len(self._workers):
@@ -178,10 +178,10 @@ class Crew:
         while under_way:
             yield under_way.popleft().result()
 
-    def _ask(self, at: Named) -> Outcome:
+    def _ask(self, at: Named) -> WorldResult:
         worker = self._idle.get()
         try:
-            return worker.ask(Task(at.name, at.world.code, at.group, at.again))
+            return worker.ask(Task(at.name, at.world.code, at.group, at.replay_arguments))
         except Gone as gone:
             worker.end(now=True)
             self._workers.remove(worker)
@@ -205,10 +205,10 @@ class Crew:
             worker.end(now=kind is not None)
 
 
-def _lost(at: Named, job: Job, told: str) -> Outcome:
+def _lost(at: Named, job: ConformJob, told: str) -> WorldResult:
     """A world in which the mapper took its process with it."""
-    again = shlex.join([*job.again, *at.again])
-    found = Found(
+    again = shlex.join([*job.replay_arguments, *at.replay_arguments])
+    found = WorldFinding(
         claim="map-isomorphic",
         kind="worker-lost",
         world=at.name,
@@ -218,10 +218,10 @@ def _lost(at: Named, job: Job, told: str) -> Outcome:
         message=f"no map was delivered: {told}",
         replay=again,
     )
-    states: dict[str, State] = {"result": "failed", "claims": "undecided", "cost": "undecided"}
+    states: dict[str, LevelState] = {"result": "failed", "claims": "undecided", "cost": "undecided"}
     if job.like is not None:
         states["decisions"] = "undecided"
-    return Outcome(
+    return WorldResult(
         world=at.name,
         group=at.group,
         edges=len(at.world.edges),
@@ -241,7 +241,7 @@ def work() -> None:
     signal.signal(signal.SIGTERM, _leave)
     commands, out = _pipes()
     try:
-        job = msgspec.json.decode(commands.readline(), type=Job)
+        job = msgspec.json.decode(commands.readline(), type=ConformJob)
         with Examiner(job) as examiner:
             _send(out, Answer(None))
             for line in commands:

@@ -11,14 +11,12 @@ from typing import Self
 
 import msgspec
 
-from topo_verify.errors import InputError
-from topo_verify.harness.conform.outcome import Job, Outcome, outcome
+from topo_verify.harness.conform.outcome import ConformJob, WorldResult, world_result
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.run import Exploration, explore, judge
-from topo_verify.harness.target_texts import targets
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.loading import Target
-from topo_verify.programs.program import Line, Program
+from topo_verify.programs.program import Program, TranscriptLine
 from topo_verify.robot.events import write_trace
 from topo_verify.world.formats import files
 
@@ -33,19 +31,17 @@ class Examiner:
         InputError: there is no such mapper, algorithm or policy, or the job names several.
     """
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: ConformJob) -> None:
         self.reference = reference(job)
-        found = targets(job.target)
-        if len(found) != 1:
-            raise InputError(f"{job.target!r} names {len(found)} mappers: name one")
-        self.job, self.target = job, found[0]
-        self.program = found[0].mapper if isinstance(found[0].mapper, Program) else None
+        self.job, self.target = job, one_target(job.target)
+        mapper = self.target.mapper
+        self.program = mapper if isinstance(mapper, Program) else None
         if self.program is not None:
             self.program.validate = job.validate
             self.program.record = job.transcript is not None
             self.program.start()
 
-    def examine(self, at: Named) -> Outcome:
+    def examine(self, at: Named) -> WorldResult:
         """What becomes of one world."""
         job, program = self.job, self.program
         run = explore(at.world, self.target, limits=job.limits)
@@ -55,14 +51,14 @@ class Examiner:
         report = judge(run, where=at.name)
         if program is not None:
             program.settle()  # it may have been run in a witness world, too
-        made = outcome(
+        made = world_result(
             run,
             report,
             at,
             job,
             reference=explore(at.world, self.reference),
             misbehaved=misbehaved,
-            replay=shlex.join([*job.again, *at.again]),
+            replay=shlex.join([*job.replay_arguments, *at.replay_arguments]),
         )
         if job.transcript is not None and any(made.findings.values()):
             keep(job.transcript, at, run, made, lines if program else None)
@@ -81,7 +77,7 @@ class Examiner:
             self.program.close()
 
 
-def reference(job: Job) -> Target:
+def reference(job: ConformJob) -> Target:
     """The algorithm that an implementation is compared with.
 
     Raises:
@@ -90,7 +86,9 @@ def reference(job: Job) -> Target:
     return one_target(job.reference, pick=job.policies.pick, order=job.policies.order)
 
 
-def keep(folder: str, at: Named, run: Exploration, made: Outcome, lines: list[Line] | None) -> Path:
+def keep(
+    folder: str, at: Named, run: Exploration, made: WorldResult, lines: list[TranscriptLine] | None
+) -> Path:
     """Write down what was said in a world: the messages of a program, the trace of a mapper."""
     path = Path(folder) / f"{file_name(at.name)}.jsonl"
     if lines is None:

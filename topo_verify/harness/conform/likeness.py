@@ -31,7 +31,7 @@ SHOWN = 4
 """So many events before the first difference are shown."""
 
 
-class State(msgspec.Struct, frozen=True):
+class KnownState(msgspec.Struct, frozen=True):
     """What was known when two runs parted.
 
     Attributes:
@@ -65,7 +65,7 @@ class Difference(msgspec.Struct, frozen=True):
     expected: str | None
     seen: str | None
     before: tuple[str, ...]
-    state: State
+    state: KnownState
 
 
 def declares(trace: Iterable[Event]) -> bool:
@@ -88,9 +88,9 @@ def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
             upto = len(reference) if one is None else one[0]
             return Difference(
                 event=len(mapper) if other is None else other[0],
-                expected=None if expected is None else told(expected),
-                seen=None if seen is None else told(seen),
-                before=tuple(told(event) for _, event in ours[max(0, place - SHOWN) : place]),
+                expected=None if expected is None else event_text(expected),
+                seen=None if seen is None else event_text(seen),
+                before=tuple(event_text(event) for _, event in ours[max(0, place - SHOWN) : place]),
                 state=_state(reference[:upto]),
             )
     return None
@@ -112,7 +112,7 @@ def _bare(event: Event) -> Event:
     return event
 
 
-def told(event: Event) -> str:
+def event_text(event: Event) -> str:
     """An event in words."""
     match event:
         case Start(percept=percept):
@@ -145,7 +145,7 @@ def _why(event: Reject) -> str:
     return words
 
 
-def _state(trace: Sequence[Event]) -> State:
+def _state(trace: Sequence[Event]) -> KnownState:
     """What is known when the reference has come so far."""
     vertices: list[int] = []
     explored: list[tuple[int, int]] = []
@@ -169,4 +169,4 @@ def _state(trace: Sequence[Event]) -> State:
             case _:
                 pass
     moves = sum(isinstance(event, Move) for event in trace)
-    return State(moves, tuple(vertices), tuple(explored), edge, tuple(left), tuple(doors))
+    return KnownState(moves, tuple(vertices), tuple(explored), edge, tuple(left), tuple(doors))

@@ -30,7 +30,7 @@ Level = Literal["result", "claims", "decisions", "cost"]
 
 LEVELS: tuple[Level, ...] = get_args(Level)
 
-State = Literal["passed", "failed", "skipped", "errored", "undecided", "not-declared"]
+LevelState = Literal["passed", "failed", "skipped", "errored", "undecided", "not-declared"]
 """What became of a world on one level."""
 
 RESULT = ("percepts-true", "map-isomorphic", "cost-honest", "cost-within-bound")
@@ -40,7 +40,7 @@ KEPT = 5
 """So many findings of a world are kept on a level."""
 
 
-class Found(msgspec.Struct, frozen=True, kw_only=True):
+class WorldFinding(msgspec.Struct, frozen=True, kw_only=True):
     """One thing that is wrong; the fields of `Finding`, and its kind.
 
     Attributes:
@@ -61,7 +61,7 @@ class Found(msgspec.Struct, frozen=True, kw_only=True):
     difference: Difference | None = None
 
 
-class Outcome(msgspec.Struct, frozen=True, kw_only=True):
+class WorldResult(msgspec.Struct, frozen=True, kw_only=True):
     """What became of one world.
 
     Attributes:
@@ -78,8 +78,8 @@ class Outcome(msgspec.Struct, frozen=True, kw_only=True):
     world: str
     group: str
     edges: int
-    states: dict[str, State]
-    findings: dict[str, tuple[Found, ...]]
+    states: dict[str, LevelState]
+    findings: dict[str, tuple[WorldFinding, ...]]
     claims: dict[str, Status] = {}
     why: str | None = None
     timeout: bool = False
@@ -87,7 +87,7 @@ class Outcome(msgspec.Struct, frozen=True, kw_only=True):
     reference: int = 0
 
 
-class Job(msgspec.Struct, frozen=True, kw_only=True):
+class ConformJob(msgspec.Struct, frozen=True, kw_only=True):
     """What is asked of every world, as plain data that a worker can be handed.
 
     Attributes:
@@ -97,7 +97,7 @@ class Job(msgspec.Struct, frozen=True, kw_only=True):
         limits: of one run.
         validate: refuse what the protocol passes over.
         transcript: the folder for what was said in failing worlds.
-        again: the words that ask for this again, world aside.
+        replay_arguments: the command line that asks for this again, without the world.
     """
 
     target: str
@@ -106,7 +106,7 @@ class Job(msgspec.Struct, frozen=True, kw_only=True):
     limits: Limits = Limits()
     validate: bool = False
     transcript: str | None = None
-    again: tuple[str, ...] = ()
+    replay_arguments: tuple[str, ...] = ()
 
     @property
     def reference(self) -> str:
@@ -114,16 +114,16 @@ class Job(msgspec.Struct, frozen=True, kw_only=True):
         return self.like or "basic"
 
 
-def outcome(
+def world_result(
     run: Exploration,
     report: Report,
     at: Named,
-    job: Job,
+    job: ConformJob,
     *,
     reference: Exploration,
     misbehaved: Misbehaved | None = None,
     replay: str = "",
-) -> Outcome:
+) -> WorldResult:
     """What became of a world.
 
     Args:
@@ -141,11 +141,11 @@ def outcome(
             found for found in claims if found.event is not None and found.claim != "map-entailed"
         ]
     open_ended = _open_ended(run, misbehaved)
-    kept: dict[str, tuple[Found, ...]] = {
+    kept: dict[str, tuple[WorldFinding, ...]] = {
         "result": () if open_ended else tuple(result[:KEPT]),
         "claims": tuple(claims[:KEPT]),
     }
-    states: dict[str, State] = {
+    states: dict[str, LevelState] = {
         "result": open_ended or ("failed" if result else "passed"),
         "claims": "failed" if claims else (open_ended or "undecided") if lost else "passed",
     }
@@ -155,7 +155,7 @@ def outcome(
         if states["decisions"] == "undecided" and open_ended:
             states["decisions"] = open_ended
     states["cost"] = "passed" if not (lost or result) else open_ended or "undecided"
-    made = Outcome(
+    made = WorldResult(
         world=at.name,
         group=at.group,
         edges=len(at.world.edges),
@@ -170,23 +170,23 @@ def outcome(
     return plain(made)
 
 
-def plain(made: Outcome) -> Outcome:
+def plain(made: WorldResult) -> WorldResult:
     """The same outcome as it comes out of another process: data, no mapper's objects."""
     return _decoder.decode(msgspec.json.encode(made, enc_hook=repr))
 
 
-_decoder = msgspec.json.Decoder(Outcome)
+_decoder = msgspec.json.Decoder(WorldResult)
 
 
-def _open_ended(run: Exploration, misbehaved: Misbehaved | None) -> State | None:
+def _open_ended(run: Exploration, misbehaved: Misbehaved | None) -> LevelState | None:
     """Why nobody knows whether the implementation is right in this world, if so."""
     if misbehaved is not None and misbehaved.kind in ("skip", "error"):
         return "skipped" if misbehaved.kind == "skip" else "errored"
     return "undecided" if run.limit == "world-timeout" else None
 
 
-def _found(finding: Finding, at: Named, replay: str) -> Found:
-    return Found(
+def _found(finding: Finding, at: Named, replay: str) -> WorldFinding:
+    return WorldFinding(
         claim=finding.claim,
         kind=finding.claim,
         world=at.name,
@@ -199,11 +199,11 @@ def _found(finding: Finding, at: Named, replay: str) -> Found:
     )
 
 
-def _loss(run: Exploration, misbehaved: Misbehaved | None, at: Named, replay: str) -> Found:
+def _loss(run: Exploration, misbehaved: Misbehaved | None, at: Named, replay: str) -> WorldFinding:
     """The one finding of a run without a map."""
     kind = misbehaved.kind if misbehaved is not None else run.limit or "no-map"
     detail = misbehaved.detail if misbehaved is not None else ""
-    return Found(
+    return WorldFinding(
         claim="map-isomorphic",
         kind=kind,
         world=at.name,
@@ -217,7 +217,7 @@ def _loss(run: Exploration, misbehaved: Misbehaved | None, at: Named, replay: st
 
 def _likeness(
     run: Exploration, reference: Exploration, at: Named, like: str, replay: str
-) -> tuple[Found | None, State]:
+) -> tuple[WorldFinding | None, LevelState]:
     """Does it do as the reference does?"""
     difference = first_difference(reference.trace, run.trace)
     if difference is not None and difference.seen is None and run.map is None:
@@ -226,7 +226,7 @@ def _likeness(
         silent = bool(at.world.edges) and not declares(run.trace)
         return None, "not-declared" if silent else "passed"
     ours, theirs = (side or "nothing more" for side in (difference.expected, difference.seen))
-    found = Found(
+    found = WorldFinding(
         claim="decisions",
         kind="decisions",
         world=at.name,

@@ -20,7 +20,6 @@ import msgspec
 
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
-from topo_verify.harness import target_texts
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.search.choices import require_choices
 from topo_verify.harness.search.pace import Pace, Tell
@@ -28,7 +27,7 @@ from topo_verify.harness.search.plan import Choices, Plan, Shard
 from topo_verify.harness.search.shard import Interrupted, examine_shard
 from topo_verify.harness.search.workers import Crew
 from topo_verify.harness.tally import Costs, Failing, Failure, Tally
-from topo_verify.harness.targets import one_target
+from topo_verify.harness.targets import one_target, targets
 from topo_verify.programs.loading import Mapper, Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits
@@ -127,7 +126,7 @@ def search(  # noqa: PLR0913  an argument an option
 
 
 def _targets(target: Mapper | str | Target) -> tuple[Target, ...]:
-    return target_texts.targets(target) if isinstance(target, str) else (one_target(target),)
+    return targets(target) if isinstance(target, str) else (one_target(target),)
 
 
 def _require_texts(mappers: Sequence[Target]) -> None:

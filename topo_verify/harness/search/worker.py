@@ -33,7 +33,7 @@ from topo_verify.harness.search.identity import source_hash
 from topo_verify.harness.search.plan import Plan, Shard
 from topo_verify.harness.search.shard import examine_shard
 from topo_verify.harness.tally import Tally
-from topo_verify.harness.target_texts import targets
+from topo_verify.harness.targets import targets
 
 PR_SET_PDEATHSIG = 1
 

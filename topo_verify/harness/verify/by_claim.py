@@ -26,11 +26,11 @@ from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import shown
 
-Status = Literal["holds", "fails", "undecided", "not-declared"]
+ClaimVerdict = Literal["holds", "fails", "undecided", "not-declared"]
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class ClaimResults:
     """What became of a mapper.
 
     Attributes:
@@ -45,7 +45,7 @@ class Outcome:
     first: dict[str, Finding]
     raised: dict[str, str]
 
-    def status(self, claim: str) -> Status:
+    def status(self, claim: str) -> ClaimVerdict:
         """What became of one claim."""
         seen = self.part.claims[claim]
         if seen["failed"]:
@@ -54,7 +54,7 @@ class Outcome:
             return "undecided"
         return "holds" if seen["ok"] == self.part.checked else "not-declared"
 
-    def told(self, claim: str) -> str:
+    def text(self, claim: str) -> str:
         """The same in words: how often, where first, why, and how to see it again."""
         seen, checked = self.part.claims[claim], self.part.checked
         match self.status(claim):
@@ -82,7 +82,7 @@ class Outcome:
         return "\n".join(lines)
 
 
-def by_claim(target: Target, edges: int, limits: Limits) -> Outcome:
+def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
     """Run the mapper in every world of 1 to so many edges; after a few time-outs that is enough.
 
     Raises:
@@ -108,7 +108,7 @@ def by_claim(target: Target, edges: int, limits: Limits) -> Outcome:
         note=note,
     )
     trials.work(lambda _name, _done, _total: None)
-    return Outcome(edges, trials.part(), first, raised)
+    return ClaimResults(edges, trials.part(), first, raised)
 
 
 def _place(error: BaseException) -> str:

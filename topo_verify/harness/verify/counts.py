@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from topo_verify.checkers import Finding
 from topo_verify.checkers.findings import Verdict
-from topo_verify.harness.verify.parts import Part, Tell
+from topo_verify.harness.progress import Progress
+from topo_verify.harness.verify.parts import Part
 from topo_verify.text import plural
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
@@ -18,7 +19,7 @@ _PLANAR = WorldClass.parse("planar")
 
 
 class Counts:
-    """Every world of 1 … `edges` edges, listed and counted. A `Job`."""
+    """Every world of 1 … `edges` edges, listed and counted. A `PartJob`."""
 
     def __init__(self, edges: int) -> None:
         self.edges = edges
@@ -26,7 +27,7 @@ class Counts:
         self.listed = 0
         self.wrong: list[Finding] = []
 
-    def work(self, tell: Tell) -> None:
+    def work(self, tell: Progress) -> None:
         """List them, edges by edges."""
         before = 0
         for edges in range(1, self.edges + 1):

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Protocol
 
 import msgspec
 
 from topo_verify.checkers.findings import Finding, Verdict
-
-Tell = Callable[[str, int, int], None]
-"""Called as work goes on: (part, how much of it is done, how much there is)."""
+from topo_verify.harness.progress import Progress
 
 
-class Cost(msgspec.Struct, frozen=True):
+class MapperCost(msgspec.Struct, frozen=True):
     """What one mapper pays in one world.
 
     Attributes:
@@ -60,13 +57,13 @@ class Part(msgspec.Struct, frozen=True):
     failing: int = 0
     claims: dict[str, dict[str, int]] = {}
     findings: tuple[Finding, ...] = ()
-    costs: tuple[Cost, ...] = ()
+    costs: tuple[MapperCost, ...] = ()
 
 
-class Job(Protocol):
+class PartJob(Protocol):
     """A part at work. Lives from `work` to `part`; `part` may be asked of work that was cut off."""
 
-    def work(self, tell: Tell) -> None:
+    def work(self, tell: Progress) -> None:
         """Do it all."""
         ...
 

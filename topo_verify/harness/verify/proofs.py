@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 
 from topo_verify.checkers import Finding
 from topo_verify.checkers.findings import Verdict
-from topo_verify.harness.verify.parts import Part, Tell
+from topo_verify.harness.progress import Progress
+from topo_verify.harness.verify.parts import Part
 
 if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Theorem, TheoremResult
@@ -26,7 +27,7 @@ TIMEOUT = 20.0
 
 
 class Proofs:
-    """The theorems that take seconds. A `Job`.
+    """The theorems that take seconds. A `PartJob`.
 
     Args:
         theorems: which; default: all inductive ones, negatives and mutants.
@@ -39,7 +40,7 @@ class Proofs:
         self.total = 0
         self.done: list[tuple[Theorem, TheoremResult]] = []
 
-    def work(self, tell: Tell) -> None:
+    def work(self, tell: Progress) -> None:
         """Prove them all."""
         from topo_verify.proofs.catalogue import QUICK, choose
         from topo_verify.proofs.theorem import Budget

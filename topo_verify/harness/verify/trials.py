@@ -17,8 +17,9 @@ import msgspec
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.checkers.findings import Verdict
+from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import Exploration, Report, explore, judge, undecided
-from topo_verify.harness.verify.parts import Cost, Part, Tell
+from topo_verify.harness.verify.parts import MapperCost, Part
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -33,7 +34,7 @@ KEPT_RUNS, KEPT_FINDINGS = 3, 5
 
 @dataclass
 class Trials:
-    """Every mapper in every one of some worlds, every claim. A `Job`.
+    """Every mapper in every one of some worlds, every claim. A `PartJob`.
 
     Attributes:
         name: of the part.
@@ -68,7 +69,7 @@ class Trials:
     )
     findings: list[Finding] = field(default_factory=list[Finding])
 
-    def work(self, tell: Tell) -> None:
+    def work(self, tell: Progress) -> None:
         """Go through the worlds, as far as it makes sense."""
         for world in self.worlds():
             tell(self.name, self.checked, self.total)
@@ -168,7 +169,7 @@ def claims_in_words(claims: dict[str, Counter[str]]) -> str:
 
 
 class Costs:
-    """Every mapper in one world, and what each of them pays there. A `Job`.
+    """Every mapper in one world, and what each of them pays there. A `PartJob`.
 
     A mapper of the user's is shown beside the catalogue. The verdict is SAMPLED at best: it is one
     world.
@@ -179,13 +180,13 @@ class Costs:
     ) -> None:
         size = f", {where} ({len(world.vertices)} vertices, {len(world.edges)} edges)"
         self.world = world
-        self.costs: list[Cost] = []
+        self.costs: list[MapperCost] = []
         self.trials = Trials(name, size, 1, lambda: [world], targets, limits, where=where)
         self.trials.note = self._enter
         foreign = any(not isinstance(target.mapper, Algorithm) for target in targets)
         self.references = list(CATALOGUE.values()) if foreign else []
 
-    def work(self, tell: Tell) -> None:
+    def work(self, tell: Progress) -> None:
         """Run the mappers, then the algorithms that they are compared with."""
         self.basic = explore(self.world, "basic").cost
         self.trials.work(tell)
@@ -197,8 +198,8 @@ class Costs:
         cost = self._cost(run, reference=False)
         self.costs.append(cost if report.ok else msgspec.structs.replace(cost, ratio=None))
 
-    def _cost(self, run: Exploration, *, reference: bool) -> Cost:
-        return Cost(
+    def _cost(self, run: Exploration, *, reference: bool) -> MapperCost:
+        return MapperCost(
             algorithm=run.algorithm,
             cost=run.cost,
             ratio=round(run.cost / self.basic, 3),

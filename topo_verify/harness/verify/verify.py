@@ -19,9 +19,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from random import Random
 
+from topo_verify.harness.progress import Progress
 from topo_verify.harness.verify.counts import Counts
 from topo_verify.harness.verify.generated import generated_worlds
-from topo_verify.harness.verify.parts import Job, Part, Tell
+from topo_verify.harness.verify.parts import Part, PartJob
 from topo_verify.harness.verify.proofs import Proofs
 from topo_verify.harness.verify.small_worlds import SmallWorlds
 from topo_verify.harness.verify.trials import PATIENCE, Costs, Trials
@@ -41,7 +42,7 @@ def verify(
     quick: bool = False,
     seed: int = SEED,
     limits: Limits | None = None,
-    tell: Tell | None = None,
+    tell: Progress | None = None,
 ) -> Iterator[Part]:
     """Check these mappers, part by part.
 
@@ -66,7 +67,9 @@ def _silence(_part: str, _done: int, _total: int) -> None:
     """Tell nobody."""
 
 
-def _jobs(targets: Sequence[Target], seed: int, limits: Limits, *, quick: bool) -> Iterable[Job]:
+def _jobs(
+    targets: Sequence[Target], seed: int, limits: Limits, *, quick: bool
+) -> Iterable[PartJob]:
     largest, sampled, each = (3, 40, 5) if quick else (5, 200, 20)
     yield Counts(5 if quick else 6)
     yield SmallWorlds(largest, targets, limits)
