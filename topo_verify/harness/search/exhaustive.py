@@ -22,8 +22,8 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness import target_texts
 from topo_verify.harness.ledger import Ledger
+from topo_verify.harness.progress import Pace, Tell
 from topo_verify.harness.search.choices import require_choices
-from topo_verify.harness.search.pace import Pace, Tell
 from topo_verify.harness.search.plan import Choices, Plan, Shard
 from topo_verify.harness.search.shard import Interrupted, examine_shard
 from topo_verify.harness.search.workers import Crew

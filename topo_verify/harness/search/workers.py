@@ -31,9 +31,9 @@ import msgspec
 
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError, InternalError
+from topo_verify.harness.progress import Pace
 from topo_verify.harness.run import replay_line
 from topo_verify.harness.search.identity import source_hash
-from topo_verify.harness.search.pace import Pace
 from topo_verify.harness.search.plan import Plan, Shard
 from topo_verify.harness.search.worker import Done, Failed, Message, Pulse, Ready
 from topo_verify.harness.tally import Failing, Failure, Tally

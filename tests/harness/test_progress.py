@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from topo_verify.harness.search import pace
-from topo_verify.harness.search.pace import Pace, Tell, duration
+from topo_verify.harness import progress as pace
+from topo_verify.harness.progress import Pace, Tell, duration
 
 Said = tuple[str, int, int]
 
