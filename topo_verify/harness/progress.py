@@ -1,4 +1,4 @@
-"""How fast a search goes: what is done, worlds a second, and how long it will take."""
+"""Progress of long work: the callback that is told of it, and the rate at which the work goes."""
 
 from __future__ import annotations
 
@@ -6,58 +6,61 @@ from collections.abc import Callable
 from math import inf
 from time import monotonic
 
-Tell = Callable[[str, int, int], None]
-"""Called as work goes on: (what, how many worlds are done, how many there are)."""
+Progress = Callable[[str, int, int], None]
+"""A progress callback, called as work goes on: (what, how much is done, how much there is)."""
 
-OFTEN = 0.1
-"""Least seconds between two calls."""
+INTERVAL = 0.1
+"""Seconds between two calls of a progress callback, at least."""
 
 
-class Pace:
-    """Told how far the work is, tells it on, not too often. Lives as long as a search.
+class ProgressRate:
+    """Counts finished worlds and reports them, with worlds per second and the time left.
+
+    Lives as long as a search.
 
     Args:
-        what: the mapper.
+        what: the name of the work, as reported.
         total: how many worlds there are.
+        report: the progress callback; None: nothing is reported.
 
     Attributes:
-        done: how many worlds are done, without those that a ledger knew.
+        done: how many worlds were finished, without those that a ledger knew.
     """
 
-    def __init__(self, what: str, total: int, tell: Tell | None) -> None:
-        self._what, self._total, self._tell = what, total, tell
+    def __init__(self, what: str, total: int, report: Progress | None) -> None:
+        self._what, self._total, self._report = what, total, report
         self._begin = monotonic()
-        self._told = -inf  # never
-        self._known = 0  # worlds that a ledger knew: they took no time
+        self._reported = -inf  # never
+        self._known = 0  # worlds that a ledger knew: they took no time, so the rate leaves them out
         self.done = 0
 
     def known(self, worlds: int) -> None:
-        """So many more were done before this search began."""
+        """Count worlds that were finished before this search began."""
         self._known += worlds
-        self.flying(0)
+        self.in_flight(0)
 
-    def landed(self, worlds: int) -> None:
-        """So many more are done."""
+    def finished(self, worlds: int) -> None:
+        """Count worlds that were finished now."""
         self.done += worlds
-        self.flying(0)
+        self.in_flight(0)
 
-    def flying(self, worlds: int) -> None:
-        """So many are done in shards that are not."""
+    def in_flight(self, worlds: int) -> None:
+        """Report, unless it is too soon; `worlds` are finished in shards that are not."""
         now = monotonic()
-        if self._tell is None or now < self._told + OFTEN:
+        if self._report is None or now < self._reported + INTERVAL:
             return
-        self._told = now
+        self._reported = now
         fresh = self.done + worlds
         done = min(self._known + fresh, self._total)
         text = self._what
         if fresh and now > self._begin:
             rate = fresh / (now - self._begin)
             text += f", {rate:,.0f} worlds/s, {duration((self._total - done) / rate)} left"
-        self._tell(text, done, self._total)
+        self._report(text, done, self._total)
 
 
 def duration(seconds: float) -> str:
-    """`40 s`, `12 min`, `7 h`, `30 days`: enough to decide whether to wait."""
+    """A duration in one unit, exact enough to decide whether to wait: `40 s`, `12 min`, `7 h`."""
     for unit, size in (("s", 1), ("min", 60), ("h", 3600)):
         if seconds < 100 * size:
             return f"{seconds / size:.0f} {unit}"

@@ -33,8 +33,9 @@ from typing import Literal, NamedTuple, get_args
 import msgspec
 
 from topo_verify.harness.baseline.file import Baseline, Entry, world_of
-from topo_verify.harness.baseline.record import PATIENCE, Recorded, Tell, again, runs
+from topo_verify.harness.baseline.record import PATIENCE, Recorded, again, runs
 from topo_verify.harness.corpus import NETWORKS
+from topo_verify.harness.progress import Progress
 from topo_verify.programs.loading import Target
 from topo_verify.world.rooted_map import World
 
@@ -125,7 +126,7 @@ def compare(
     *,
     tolerance: Fraction | int = 0,
     name: str = "baseline",
-    tell: Tell | None = None,
+    tell: Progress | None = None,
 ) -> Comparison:
     """Run the mapper in the baseline's worlds and say what has changed.
 

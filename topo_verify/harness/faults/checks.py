@@ -19,9 +19,9 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.checkers.replayed_trace import Case
 from topo_verify.faults import Fault
 from topo_verify.faults.fault import Told
+from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import explore
 from topo_verify.harness.search.exhaustive import Size, search
-from topo_verify.harness.verify.parts import Tell
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import Augment, Decision
 from topo_verify.robot.limits import Limits
@@ -121,7 +121,7 @@ def smallest(
     largest: int = LARGEST,
     workers: int = 0,
     thorough: bool = False,
-    tell: Tell | None = None,
+    tell: Progress | None = None,
 ) -> Smallest:
     """Every world of 1, 2, … edges, up to the first size with a world in which a claim fails.
 

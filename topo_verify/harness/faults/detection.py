@@ -39,7 +39,7 @@ from topo_verify.harness.faults.checks import (
     proof,
     smallest,
 )
-from topo_verify.harness.verify.parts import Tell
+from topo_verify.harness.progress import Progress
 
 Check = Literal["search", "properties", "proofs"]
 CHECKS: tuple[Check, ...] = get_args(Check)
@@ -78,7 +78,7 @@ def try_faults(
     by: Sequence[Check] = CHECKS,
     workers: int = 0,
     thorough: bool = False,
-    tell: Tell | None = None,
+    tell: Progress | None = None,
 ) -> Iterator[Caught]:
     """Put the checks to each of these faults.
 
@@ -132,7 +132,7 @@ def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool) -> Caught:
 
 
 def _to_the_end(
-    fault: Fault, entry: Caught, workers: int, *, thorough: bool, tell: Tell | None
+    fault: Fault, entry: Caught, workers: int, *, thorough: bool, tell: Progress | None
 ) -> Caught:
     """The same with the larger sizes, where nothing was found in the smaller."""
     if fault.harmless or entry.search is None or entry.search.failing:

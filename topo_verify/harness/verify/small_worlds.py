@@ -11,10 +11,11 @@ from collections.abc import Sequence
 
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.checkers import CLAIMS
+from topo_verify.harness.progress import Progress
 from topo_verify.harness.search.exhaustive import Found, Search
 from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.search.workers import processors
-from topo_verify.harness.verify.parts import Part, Tell
+from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import PATIENCE, claims_in_words
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
@@ -39,7 +40,7 @@ class SmallWorlds:
         workers = processors() if ours and edges >= WORTH else 0
         self.search = Search(plan, targets, workers=workers)
 
-    def work(self, tell: Tell) -> None:
+    def work(self, tell: Progress) -> None:
         """Go through the worlds."""
         self.search.work(lambda _what, done, total: tell("small-worlds", done, total))
 

@@ -17,8 +17,9 @@ import msgspec
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.checkers.findings import Verdict
+from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import Exploration, Report, explore, judge, undecided
-from topo_verify.harness.verify.parts import Cost, Part, Tell
+from topo_verify.harness.verify.parts import Cost, Part
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -68,7 +69,7 @@ class Trials:
     )
     findings: list[Finding] = field(default_factory=list[Finding])
 
-    def work(self, tell: Tell) -> None:
+    def work(self, tell: Progress) -> None:
         """Go through the worlds, as far as it makes sense."""
         for world in self.worlds():
             tell(self.name, self.checked, self.total)
@@ -185,7 +186,7 @@ class Costs:
         foreign = any(not isinstance(target.mapper, Algorithm) for target in targets)
         self.references = list(CATALOGUE.values()) if foreign else []
 
-    def work(self, tell: Tell) -> None:
+    def work(self, tell: Progress) -> None:
         """Run the mappers, then the algorithms that they are compared with."""
         self.basic = explore(self.world, "basic").cost
         self.trials.work(tell)
