@@ -18,9 +18,9 @@ from topo_verify.cli.runs import undeclared
 from topo_verify.errors import InputError
 from topo_verify.harness import target_texts
 from topo_verify.harness.ledger import Ledger
+from topo_verify.harness.pool import processors
 from topo_verify.harness.search.exhaustive import Found, Search, Size
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
-from topo_verify.harness.search.workers import processors
 from topo_verify.harness.tally import Compared, Costs, Failure
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits

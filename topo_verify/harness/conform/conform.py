@@ -15,9 +15,9 @@ import msgspec
 from topo_verify.checkers import CLAIMS
 from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.conform.batch import BatchExaminer
-from topo_verify.harness.conform.crew import Crew
 from topo_verify.harness.conform.examiner import Examiner
 from topo_verify.harness.conform.outcome import LEVELS, RESULT, Found, Job, Level, Outcome
+from topo_verify.harness.conform.parallel import Crew
 from topo_verify.harness.corpus import Corpus
 from topo_verify.harness.progress import Progress
 

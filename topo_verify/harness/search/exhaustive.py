@@ -22,11 +22,11 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness import target_texts
 from topo_verify.harness.ledger import Ledger
+from topo_verify.harness.pool import Crew
 from topo_verify.harness.progress import Progress, ProgressRate
 from topo_verify.harness.search.choices import require_choices
 from topo_verify.harness.search.plan import Choices, Plan, Shard
 from topo_verify.harness.search.shard import Interrupted, examine_shard
-from topo_verify.harness.search.workers import Crew
 from topo_verify.harness.tally import Costs, Failing, Failure, Tally
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.loading import Mapper, Target

@@ -35,8 +35,8 @@ from topo_verify.harness.progress import ProgressRate
 from topo_verify.harness.run import replay_line
 from topo_verify.harness.search.identity import source_hash
 from topo_verify.harness.search.plan import Plan, Shard
-from topo_verify.harness.search.worker import Done, Failed, Message, Pulse, Ready
 from topo_verify.harness.tally import Failing, Failure, Tally
+from topo_verify.harness.worker import Done, Failed, Message, Pulse, Ready
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.pruned import ranked_tables
@@ -52,7 +52,7 @@ TURN = 0.2
 
 _START = (
     "import sys, json; sys.path[:] = json.loads(sys.argv[1]);"
-    "from topo_verify.harness.search.worker import main; main(*map(int, sys.argv[2:]))"
+    "from topo_verify.harness.worker import main; main(*map(int, sys.argv[2:]))"
 )
 """What a worker runs. It imports from where this process imports, and nothing by accident."""
 
