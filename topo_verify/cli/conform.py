@@ -18,7 +18,7 @@ from topo_verify.harness.conform.conform import Books, Standing
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
 from topo_verify.harness.corpus import Corpus, corpus_from
-from topo_verify.harness.search.workers import processors
+from topo_verify.harness.pool import processors
 from topo_verify.harness.targets import target_arguments, target_text, targets
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits

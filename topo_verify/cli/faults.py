@@ -22,7 +22,7 @@ from topo_verify.harness.faults.detection import (
     Check,
     try_faults,
 )
-from topo_verify.harness.search.workers import processors
+from topo_verify.harness.pool import processors
 from topo_verify.text import plural
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")

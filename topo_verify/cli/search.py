@@ -17,9 +17,9 @@ from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
 from topo_verify.errors import InputError
 from topo_verify.harness.ledger import Ledger
+from topo_verify.harness.pool import processors
 from topo_verify.harness.search.exhaustive import Found, Search, Size
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
-from topo_verify.harness.search.workers import processors
 from topo_verify.harness.tally import Compared, Costs, Failure
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loading import Target

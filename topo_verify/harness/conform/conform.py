@@ -6,7 +6,7 @@ of workers. After some time-outs enough is seen: what is left is not tried.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 
@@ -15,7 +15,6 @@ import msgspec
 from topo_verify.checkers import CLAIMS
 from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.conform.batch import BatchExaminer
-from topo_verify.harness.conform.crew import Crew
 from topo_verify.harness.conform.examiner import Examiner
 from topo_verify.harness.conform.outcome import (
     LEVELS,
@@ -25,15 +24,15 @@ from topo_verify.harness.conform.outcome import (
     WorldFinding,
     WorldResult,
 )
+from topo_verify.harness.conform.parallel import Crew
 from topo_verify.harness.corpus import Corpus
+from topo_verify.harness.progress import Progress
 
 PATIENCE = 20
 """After so many time-outs enough is seen."""
 
 KEPT = 10
 """Of so many failing worlds of each kind the findings are kept."""
-
-Tell = Callable[[str, int, int], None]
 
 
 class Cost(msgspec.Struct, frozen=True):
@@ -196,7 +195,7 @@ def conform(
     *,
     workers: int = 0,
     batch: bool = False,
-    tell: Tell | None = None,
+    tell: Progress | None = None,
 ) -> None:
     """Take what becomes of every world of the corpus to the books.
 

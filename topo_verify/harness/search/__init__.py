@@ -5,6 +5,6 @@ plan.py      what is searched, as data; the shards
 shard.py     one shard examined
 choices.py   the choices that the paper leaves open: policies, and every choice
 workers.py   processes that examine shards; worker.py is one of them
-pace.py      how fast it goes
+
 identity.py  a hash of what a mapper is made of
 """

@@ -21,11 +21,11 @@ import msgspec
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.ledger import Ledger
+from topo_verify.harness.pool import Crew
+from topo_verify.harness.progress import Progress, ProgressRate
 from topo_verify.harness.search.choices import require_choices
-from topo_verify.harness.search.pace import Pace, Tell
 from topo_verify.harness.search.plan import Choices, Plan, Shard
 from topo_verify.harness.search.shard import Interrupted, examine_shard
-from topo_verify.harness.search.workers import Crew
 from topo_verify.harness.tally import Costs, Failing, Failure, Tally
 from topo_verify.harness.targets import one_target, targets
 from topo_verify.programs.loading import Mapper, Target
@@ -92,7 +92,7 @@ def search(  # noqa: PLR0913  an argument an option
     policies: Choices = "reference",
     limits: Limits | None = None,
     workers: int = 0,
-    tell: Tell | None = None,
+    tell: Progress | None = None,
 ) -> Found:
     """Examine a mapper in every world of a class with 1 … `edges` edges, smallest first.
 
@@ -173,18 +173,18 @@ class Search:
         self.totals = plan.totals()
         self.tallies = dict.fromkeys(self.totals, Tally())
 
-    def work(self, tell: Tell | None = None) -> None:
+    def work(self, tell: Progress | None = None) -> None:
         """Go through the worlds.
 
         Raises:
             KeyboardInterrupt: Ctrl-C; `found` has what was done.
             InternalError: the worlds gone into are not as many as there are.
         """
-        pace = Pace(", ".join(self.plan.targets), sum(self.totals.values()), tell)
+        rate = ProgressRate(", ".join(self.plan.targets), sum(self.totals.values()), tell)
         timeouts = 0
-        pace.flying(0)
+        rate.in_flight(0)
         try:
-            with closing(self._in_order(pace)) as tallies:
+            with closing(self._in_order(rate)) as tallies:
                 for shard, tally in tallies:
                     self.tallies[shard.edges] += tally
                     if tally.failing and not self.plan.keep_going:
@@ -198,7 +198,7 @@ class Search:
             raise
         self._require_all()
 
-    def _in_order(self, pace: Pace) -> Generator[tuple[Shard, Tally]]:
+    def _in_order(self, rate: ProgressRate) -> Generator[tuple[Shard, Tally]]:
         """Every shard and what was found there, in the order of their worlds."""
         ahead: dict[Shard, Tally] = {}
         enough = False  # nothing behind a counterexample matters
@@ -210,17 +210,17 @@ class Search:
                 if self._known(shard) is None:
                     yield shard
 
-        with closing(self._executed(todo(), pace)) as executed:
+        with closing(self._executed(todo(), rate)) as executed:
             for shard in self.plan.shards():
                 tally = ahead.pop(shard, None)
                 if tally is None and (tally := self._known(shard)) is not None:
-                    pace.known(tally.worlds)
+                    rate.known(tally.worlds)
                 while tally is None:
                     done, result = next(executed)
                     if self.ledger is not None:
                         self.ledger.put(done, result)
                     enough = enough or (result.failing > 0 and not self.plan.keep_going)
-                    pace.landed(result.worlds)
+                    rate.finished(result.worlds)
                     ahead[done] = result
                     tally = ahead.pop(shard, None)
                 yield shard, tally
@@ -229,14 +229,16 @@ class Search:
         """What the ledger says of a shard."""
         return None if self.ledger is None else self.ledger.get(shard)
 
-    def _executed(self, todo: Iterator[Shard], pace: Pace) -> Generator[tuple[Shard, Tally]]:
+    def _executed(
+        self, todo: Iterator[Shard], rate: ProgressRate
+    ) -> Generator[tuple[Shard, Tally]]:
         """The shards examined, here or in other processes, in any order."""
         if self.workers:
-            with Crew(self.plan, self.mappers, self.workers, pace) as crew:
+            with Crew(self.plan, self.mappers, self.workers, rate) as crew:
                 yield from crew.examine(todo)
         else:
             for shard in todo:
-                yield shard, examine_shard(self.plan, self.mappers, shard, pace.flying)
+                yield shard, examine_shard(self.plan, self.mappers, shard, rate.in_flight)
 
     def _require_all(self) -> None:
         """Was every world gone into?"""

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.checkers import CLAIMS
+from topo_verify.harness.pool import processors
 from topo_verify.harness.progress import Progress
 from topo_verify.harness.search.exhaustive import Found, Search
 from topo_verify.harness.search.plan import Plan
-from topo_verify.harness.search.workers import processors
 from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import PATIENCE, claims_in_words
 from topo_verify.programs.loading import Target

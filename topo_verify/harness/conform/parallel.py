@@ -48,7 +48,7 @@ AHEAD = 4
 
 _START = (
     "import sys, json; sys.path[:] = json.loads(sys.argv[1]);"
-    "from topo_verify.harness.conform.crew import work; work()"
+    "from topo_verify.harness.conform.parallel import work; work()"
 )
 """What a worker runs. It imports from where this process imports, and nothing by accident."""
 

@@ -31,12 +31,12 @@ import msgspec
 
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError, InternalError
+from topo_verify.harness.progress import ProgressRate
 from topo_verify.harness.run import replay_line
 from topo_verify.harness.search.identity import source_hash
-from topo_verify.harness.search.pace import Pace
 from topo_verify.harness.search.plan import Plan, Shard
-from topo_verify.harness.search.worker import Done, Failed, Message, Pulse, Ready
 from topo_verify.harness.tally import Failing, Failure, Tally
+from topo_verify.harness.worker import Done, Failed, Message, Pulse, Ready
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.pruned import ranked_tables
@@ -52,7 +52,7 @@ TURN = 0.2
 
 _START = (
     "import sys, json; sys.path[:] = json.loads(sys.argv[1]);"
-    "from topo_verify.harness.search.worker import main; main(*map(int, sys.argv[2:]))"
+    "from topo_verify.harness.worker import main; main(*map(int, sys.argv[2:]))"
 )
 """What a worker runs. It imports from where this process imports, and nothing by accident."""
 
@@ -154,11 +154,13 @@ class Crew:
     Args:
         mappers: the targets of the plan, as this process found them.
         size: how many workers at most.
-        pace: told how many worlds are done in shards that are not.
+        rate: told how many worlds are done in shards that are not.
     """
 
-    def __init__(self, plan: Plan, mappers: Sequence[Target], size: int, pace: Pace) -> None:
-        self._plan, self._size, self._pace = plan, size, pace
+    def __init__(
+        self, plan: Plan, mappers: Sequence[Target], size: int, rate: ProgressRate
+    ) -> None:
+        self._plan, self._size, self._rate = plan, size, rate
         self._sources = source_hash(mappers)
         # A failing mapper is run in a witness world, too, under the usual limits.
         self._patience = GRACE + max(plan.limits.world_timeout, Limits().world_timeout)
@@ -213,7 +215,7 @@ class Crew:
             silent = worker.silence()
             if worker.piece is not None and silent > (self._patience if worker.ready else LOADING):
                 self._lost(worker, f"it gave no sign of life for {silent:.0f} s")
-        self._pace.flying(sum(worker.worlds for worker in self._workers if worker.piece))
+        self._rate.in_flight(sum(worker.worlds for worker in self._workers if worker.piece))
 
     def _hear(self, worker: _Worker) -> None:
         """One worker has said something, or has ended."""

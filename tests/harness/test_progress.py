@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from topo_verify.harness.search import pace
-from topo_verify.harness.search.pace import Pace, Tell, duration
+from topo_verify.harness import progress as module
+from topo_verify.harness.progress import Progress, ProgressRate, duration
 
-Said = tuple[str, int, int]
+Report = tuple[str, int, int]
 
 
-def listener(told: list[Said]) -> Tell:
-    """Keeps what it is told."""
+def listener(reports: list[Report]) -> Progress:
+    """Keep what is reported."""
 
     def tell(what: str, done: int, total: int) -> None:
-        told.append((what, done, total))
+        reports.append((what, done, total))
 
     return tell
 
@@ -22,19 +22,19 @@ def listener(told: list[Said]) -> Tell:
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     now = [100.0]
-    monkeypatch.setattr(pace, "monotonic", lambda: now[0])
+    monkeypatch.setattr(module, "monotonic", lambda: now[0])
     return now
 
 
 def test_rate_and_time_left_are_those_of_what_was_done_now(clock: list[float]) -> None:
-    told: list[Said] = []
-    progress = Pace("basic", 10_000, listener(told))
+    reports: list[Report] = []
+    progress = ProgressRate("basic", 10_000, listener(reports))
     progress.known(4_000)  # a ledger knew them: they say nothing of the rate
     clock[0] += 2
-    progress.landed(1_000)
+    progress.finished(1_000)
     clock[0] += 2
-    progress.flying(1_000)
-    assert told == [
+    progress.in_flight(1_000)
+    assert reports == [
         ("basic", 4_000, 10_000),
         ("basic, 500 worlds/s, 10 s left", 5_000, 10_000),
         ("basic, 500 worlds/s, 8 s left", 6_000, 10_000),
@@ -42,20 +42,20 @@ def test_rate_and_time_left_are_those_of_what_was_done_now(clock: list[float]) -
 
 
 def test_nobody_is_told_ten_times_in_a_moment(clock: list[float]) -> None:
-    told: list[Said] = []
-    progress = Pace("basic", 10, listener(told))
+    reports: list[Report] = []
+    progress = ProgressRate("basic", 10, listener(reports))
     for done in range(10):
-        progress.flying(done)
-    assert len(told) == 1
-    clock[0] += pace.OFTEN
-    progress.flying(10)
-    assert len(told) == 2
+        progress.in_flight(done)
+    assert len(reports) == 1
+    clock[0] += module.INTERVAL
+    progress.in_flight(10)
+    assert len(reports) == 2
 
 
 def test_without_a_listener_nothing_happens(clock: list[float]) -> None:
-    progress = Pace("basic", 10, None)
+    progress = ProgressRate("basic", 10, None)
     clock[0] += 1
-    progress.landed(3)
+    progress.finished(3)
     assert progress.done == 3
 
 

@@ -17,7 +17,7 @@ import msgspec
 import pytest
 
 from topo_verify import InputError, InternalError, Limits
-from topo_verify.harness.search import workers
+from topo_verify.harness import pool as workers
 from topo_verify.harness.search.exhaustive import Found, search
 from topo_verify.harness.search.plan import SHARD, Plan, Shard
 from topo_verify.world.enumeration.classes import WorldClass
@@ -210,7 +210,7 @@ def test_our_bug_in_a_worker_is_told_as_such(monkeypatch: pytest.MonkeyPatch) ->
         "_START",
         workers._START.replace(
             "main(*",
-            "import topo_verify.harness.search.worker as w; w.examine_shard = None; main(*",
+            "import topo_verify.harness.worker as w; w.examine_shard = None; main(*",
         ),
     )
     with pytest.raises(InternalError, match=r"(?s)in a worker: Traceback.*TypeError"):
