@@ -40,7 +40,7 @@ _COMPLETE = "_TOPO_VERIFY_COMPLETE"
 """A shell that completes a line sets this environment variable (see click's manual)."""
 
 
-class Program(click.Group):
+class CommandLine(click.Group):
     """All commands, in the order of their importance; how one ends becomes the exit code.
 
     Click's own `main` would exit 1 where nothing is wrong with a mapper (an interrupt, a closed
@@ -79,7 +79,7 @@ class Program(click.Group):
 
 @click.group(
     "topo-verify",
-    cls=Program,
+    cls=CommandLine,
     epilog=options.epilog("verify", "verify my_mapper.py:explore", "explore nyc"),
 )
 @click.version_option(version(), message="%(prog)s %(version)s")

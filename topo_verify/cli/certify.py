@@ -17,7 +17,7 @@ from topo_verify.checkers import Finding
 from topo_verify.checkers.certificate import Certificate
 from topo_verify.checkers.certificate import certify as judge
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
@@ -35,14 +35,14 @@ if TYPE_CHECKING:
     Check = Callable[[str, Stated], Checked]
 
 
-class Tally(msgspec.Struct, frozen=True):
+class DecisionCount(msgspec.Struct, frozen=True):
     """How many of the declared decisions follow from the log before them."""
 
     entailed: int
     total: int
 
 
-class Proved(msgspec.Struct, frozen=True):
+class CertifiedDecisions(msgspec.Struct, frozen=True):
     """How many of the decisions that follow are certified.
 
     Attributes:
@@ -56,7 +56,7 @@ class Proved(msgspec.Struct, frozen=True):
     why: str
 
 
-class Kernel(msgspec.Struct, frozen=True):
+class KernelCheck(msgspec.Struct, frozen=True):
     """What the proofs in Coq make of the log.
 
     Attributes:
@@ -74,7 +74,7 @@ class Kernel(msgspec.Struct, frozen=True):
     by: str
     why: str
     command: str
-    decisions: Proved
+    decisions: CertifiedDecisions
 
     @property
     def incomplete(self) -> bool:
@@ -82,7 +82,7 @@ class Kernel(msgspec.Struct, frozen=True):
         return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
 
 
-class Certified(msgspec.Struct, frozen=True):
+class CertifyEntry(msgspec.Struct, frozen=True):
     """One log: an entry of `results`; docs/commands.md.
 
     Attributes:
@@ -97,10 +97,10 @@ class Certified(msgspec.Struct, frozen=True):
     vertices: int
     edges: int
     open_darts: int
-    decisions: Tally
+    decisions: DecisionCount
     witnesses: tuple[str, ...]
     findings: tuple[Finding, ...]
-    kernel: Kernel | None
+    kernel: KernelCheck | None
 
 
 @click.command(
@@ -144,7 +144,7 @@ def certify(
     checked the exit code is 3.
     """
 
-    def certified() -> Iterator[Result[Certified]]:
+    def certified() -> Iterator[Result[CertifyEntry]]:
         if map_file is not None and len(traces) != 1:
             raise InputError(f"-o {map_file}: a map is of one log, these are {len(traces)}")
         with _checking(output, timeout) as check:
@@ -182,7 +182,7 @@ def _proof(
     log: Trace,
     certificate: Certificate,
     check: Check,
-) -> Kernel:
+) -> KernelCheck:
     """The log's certificate for Coq, written and checked.
 
     Raises:
@@ -200,9 +200,9 @@ def _proof(
     for one in (checked, checked.decisions):
         if one is not None and one.accepted is False:
             raise InternalError(f"{one.by} refuses {name}.v: {one.why}")
-    decisions = _proved(len(stated.decisions.stated), certificate.entailed, checked)
+    decisions = _certified_decisions(len(stated.decisions.stated), certificate.entailed, checked)
     by_hand = certificates.command(name)
-    return Kernel(
+    return KernelCheck(
         statement=stated.statement,
         file=f"{name}.v",
         accepted=checked.accepted,
@@ -213,16 +213,18 @@ def _proof(
     )
 
 
-def _proved(stated: int, entailed: int, checked: Checked) -> Proved:
+def _certified_decisions(stated: int, entailed: int, checked: Checked) -> CertifiedDecisions:
     """How many of the decisions that follow are certified; `stated` have evidence."""
     if not entailed:
-        return Proved(0, 0, "", "")
+        return CertifiedDecisions(0, 0, "", "")
     found = checked.decisions or checked
     if not found.accepted:
         apart = checked.decisions is not None
-        return Proved(0, entailed, "", found.why if apart else "the certificate is not checked")
+        return CertifiedDecisions(
+            0, entailed, "", found.why if apart else "the certificate is not checked"
+        )
     why = "the others follow in planar worlds only, and Coq is not told what planar means"
-    return Proved(stated, entailed, found.by, why if stated < entailed else "")
+    return CertifiedDecisions(stated, entailed, found.by, why if stated < entailed else "")
 
 
 def _identifier(traces: Sequence[str], number: int) -> str:
@@ -232,13 +234,13 @@ def _identifier(traces: Sequence[str], number: int) -> str:
 
 
 def _result(
-    trace: str, certificate: Certificate, folder: str | None, proof: Kernel | None
-) -> Result[Certified]:
+    trace: str, certificate: Certificate, folder: str | None, proof: KernelCheck | None
+) -> Result[CertifyEntry]:
     worlds = certificate.witnesses
     names = tuple(
         _written(folder, f"{Path(trace).stem}-witness-{number}.json", world)
         if folder is not None
-        else _told(world)
+        else _world_name(world)
         for number, world in enumerate(worlds, 1)
     )
     again = shlex.join(["topo-verify", "certify", trace])
@@ -246,13 +248,13 @@ def _result(
         msgspec.structs.replace(finding, replay=again) for finding in certificate.findings
     )
     shown = certificate.map or (worlds[0] if worlds else None)
-    entry = Certified(
+    entry = CertifyEntry(
         trace=trace,
         verdict="REFUTED" if findings else "PROVED",
         vertices=len(shown.vertices) if shown else 0,
         edges=len(shown.edges) if shown else 0,
         open_darts=certificate.open_darts,
-        decisions=Tally(certificate.entailed, certificate.decisions),
+        decisions=DecisionCount(certificate.entailed, certificate.decisions),
         witnesses=names,
         findings=findings,
         kernel=proof,
@@ -273,19 +275,19 @@ def _written(folder: str, name: str, world: World) -> str:
     return path
 
 
-def _told(world: World) -> str:
+def _world_name(world: World) -> str:
     if len(world.edges) <= MAX_ID_EDGES:
         return world.id
     return f"a world of {len(world.edges)} edges (--witness DIR writes it)"
 
 
-def _show(entries: Sequence[Certified]) -> Iterator[Block]:
+def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
     rows = [
         (e.trace, e.verdict, str(e.vertices), str(e.edges), str(e.open_darts), _decisions(e))
         for e in entries
     ]
     columns = ("log", "verdict", ">vertices", ">edges", ">open darts", "decisions that follow")
-    yield Table(columns, rows)
+    yield TextTable(columns, rows)
     for entry in entries:
         if entry.findings:
             yield Text("")
@@ -305,15 +307,15 @@ _STATED = {
 }
 
 
-def _show_proof(proof: Kernel) -> Iterator[Block]:
+def _show_proof(proof: KernelCheck) -> Iterator[Block]:
     told = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
     yield Text("")
-    told += f".{_certified(proof.decisions)} By hand, in a folder with it:"
+    told += f".{_decisions_sentence(proof.decisions)} By hand, in a folder with it:"
     yield Text(f"{proof.file}: {_STATED[proof.statement]}; {told}")
     yield Bullets((proof.command,))
 
 
-def _certified(proved: Proved) -> str:
+def _decisions_sentence(proved: CertifiedDecisions) -> str:
     if not proved.entailed:
         return ""
     by = f" by {proved.by}" if proved.by else ""
@@ -322,7 +324,7 @@ def _certified(proved: Proved) -> str:
     return f" Of the decisions that follow, {of} are certified{by}{why}."
 
 
-def _decisions(entry: Certified) -> str:
+def _decisions(entry: CertifyEntry) -> str:
     if not entry.decisions.total:
         return "none declared"
     return f"{entry.decisions.entailed} of {entry.decisions.total}"

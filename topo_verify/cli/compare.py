@@ -10,10 +10,10 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.record import Opening, mapper_options
+from topo_verify.cli.record import MapperOpener, mapper_options
 from topo_verify.harness.baseline import file
 from topo_verify.harness.baseline.compare import KINDS, Change, Comparison, Group, Kind
 from topo_verify.harness.baseline.compare import compare as run_all
@@ -46,14 +46,14 @@ SHOWN = 5
 """Of each kind so many worlds are shown."""
 
 
-class Costs(msgspec.Struct, frozen=True):
+class CostChange(msgspec.Struct, frozen=True):
     """Edge traversals where the mapper is right then and now, summed up."""
 
     before: int
     after: int
 
 
-class Recording(msgspec.Struct, frozen=True):
+class BaselineSummary(msgspec.Struct, frozen=True):
     """The baseline: its mapper, and the corpus that it was recorded in."""
 
     file: str
@@ -64,7 +64,7 @@ class Recording(msgspec.Struct, frozen=True):
     digest: str
 
 
-class Compared(msgspec.Struct, frozen=True):
+class CompareEntry(msgspec.Struct, frozen=True):
     """One comparison: an entry of `results`; docs/commands.md.
 
     Attributes:
@@ -87,8 +87,8 @@ class Compared(msgspec.Struct, frozen=True):
     undecided: int
     tolerance: str
     beyond: int
-    cost: Costs
-    baseline: Recording
+    cost: CostChange
+    baseline: BaselineSummary
     groups: tuple[Group, ...]
     examples: tuple[Change, ...]
 
@@ -118,14 +118,14 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
     help="By so much each world may be dearer; one that is dearer still is a regression.",
 )
 @output_options
-def compare(output: Output, *, baseline: str, mapper: Opening, tolerance: str) -> int:
+def compare(output: Output, *, baseline: str, mapper: MapperOpener, tolerance: str) -> int:
     """Run a mapper in the worlds of a BASELINE, under its limits, and say what has changed.
 
     Exit 1: in some world a claim fails, or the cost exceeds the tolerance. An algorithm of the
     catalogue runs with the policies of the baseline, unless others are asked for.
     """
 
-    def compared() -> Iterator[Result[Compared]]:
+    def compared() -> Iterator[Result[CompareEntry]]:
         then = file.load(baseline)
         with mapper(then.header.policies) as target:
             found = run_all(
@@ -144,16 +144,16 @@ def compare(output: Output, *, baseline: str, mapper: Opening, tolerance: str) -
 
 def _entry(
     found: Comparison, target: Target, header: file.Header, name: str, tolerance: str
-) -> Compared:
+) -> CompareEntry:
     kinds = found.kinds
-    return Compared(
+    return CompareEntry(
         target=target.text,
         worlds=sum(kinds.values()),
         **kinds,
         tolerance=tolerance,
         beyond=found.beyond,
-        cost=Costs(found.before, found.after),
-        baseline=Recording(
+        cost=CostChange(found.before, found.after),
+        baseline=BaselineSummary(
             name, header.target, header.tool, header.policies, header.corpus, header.digest
         ),
         groups=found.groups,
@@ -164,7 +164,7 @@ def _entry(
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[Compared]) -> Iterator[Block]:
+def _show(entries: Sequence[CompareEntry]) -> Iterator[Block]:
     for entry in entries:
         then = entry.baseline
         yield Text(
@@ -184,17 +184,17 @@ def _show(entries: Sequence[Compared]) -> Iterator[Block]:
         yield Text(_upshot(entry))
 
 
-def _summary(entry: Compared) -> Table:
+def _summary(entry: CompareEntry) -> TextTable:
     rows = [(TITLES[kind], f"{_count(entry, kind):,}") for kind in KINDS]
-    return Table(("", ">worlds"), rows)
+    return TextTable(("", ">worlds"), rows)
 
 
-def _count(entry: Compared, kind: Kind) -> int:
+def _count(entry: CompareEntry, kind: Kind) -> int:
     number: int = getattr(entry, kind)
     return number
 
 
-def _table(groups: Sequence[Group]) -> Table:
+def _table(groups: Sequence[Group]) -> TextTable:
     """The classes; a kind that no world is of has no column."""
     kinds: list[Kind] = [
         k for k in KINDS if k != "equal" and any(group.kinds[k] for group in groups)
@@ -211,14 +211,14 @@ def _table(groups: Sequence[Group]) -> Table:
         for group in groups
     ]
     columns = ("class", ">worlds", *(f">{SHORT[k]}" for k in kinds), ">cost then", ">now", ">%")
-    return Table(columns, rows, title="by class of worlds, where something has changed")
+    return TextTable(columns, rows, title="by class of worlds, where something has changed")
 
 
 def _percentage(before: int, after: int) -> str:
     return f"{100 * (after - before) / before:+.1f}" if before else "-"
 
 
-def _examples(kind: Kind, entry: Compared) -> Iterator[Block]:
+def _examples(kind: Kind, entry: CompareEntry) -> Iterator[Block]:
     changes = [change for change in entry.examples if change.kind == kind][:SHOWN]
     if not changes:
         return
@@ -244,7 +244,7 @@ def _costs(before: int, after: int) -> str:
     return f"{before:,} → {after:,} edge traversals ({_percentage(before, after)} %)"
 
 
-def _upshot(entry: Compared) -> str:
+def _upshot(entry: CompareEntry) -> str:
     bad: list[str] = []
     if entry.wrong:
         bad.append(f"in {plural(entry.wrong, 'world')} a claim fails")

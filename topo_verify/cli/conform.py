@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
@@ -29,7 +29,7 @@ SHOWN = 3
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _ConformOptions:
     """What the options ask for, beside the job."""
 
     corpus: Corpus
@@ -103,7 +103,7 @@ def conform(  # noqa: PLR0913  an argument an option
     def standings() -> Iterator[Result[Standing]]:
         text = target_texts.target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
-        asked = _Asked(
+        asked = _ConformOptions(
             corpus_from(texts, seed=seed), processors() if workers is None else workers, batch
         )
         if transcript is not None:
@@ -117,14 +117,16 @@ def conform(  # noqa: PLR0913  an argument an option
                 limits=limits,
                 validate=validate,
                 transcript=transcript,
-                again=_again(one, like, pick, order, limits, batch=batch, validate=validate),
+                again=_replay_command(
+                    one, like, pick, order, limits, batch=batch, validate=validate
+                ),
             )
             yield from _tried(output, job, asked)
 
     return output.run("conform", standings, _show, seed=seed, corpus=list(texts) or ["corpus"])
 
 
-def _tried(output: Output, job: Job, asked: _Asked) -> Iterator[Result[Standing]]:
+def _tried(output: Output, job: Job, asked: _ConformOptions) -> Iterator[Result[Standing]]:
     """One implementation, also where it is interrupted."""
     books = Books(job, asked.corpus)
     try:
@@ -147,7 +149,7 @@ def _result(standing: Standing) -> Result[Standing]:
     return Result(standing, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
 
 
-def _again(
+def _replay_command(
     target: str,
     like: str | None,
     pick: str | None,
@@ -186,7 +188,7 @@ _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of world
 
 def _shown(levels: Sequence[Standing]) -> Iterator[Block]:
     rows = [(one.level, one.verdict, *_numbers(one)) for one in levels]
-    yield Table(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
+    yield TextTable(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
     first = levels[0]
     gone = {
         "skipped": first.skipped,
@@ -239,7 +241,7 @@ def _difference(found: Found, level: Standing) -> Iterator[Block]:
     state = parted.state
     rows = [(line, "(the same)") for line in parted.before]
     rows.append((parted.expected or "nothing more", parted.seen or "nothing more"))
-    yield Table((level.like, level.target), rows)
+    yield TextTable((level.like, level.target), rows)
     edges = " ".join(f"{a}-{b}" for a, b in state.explored) or "none"
     known = f"known then: degrees {' '.join(map(str, state.vertices))}; explored edges {edges}"
     here = f"; at dart {state.edge}, hypotheses left {list(state.left)}"
@@ -263,4 +265,4 @@ def _costs(level: Standing) -> Iterator[Block]:
     ranked = sorted(other, key=lambda one: -(one.ratio or 0))
     chosen = list(dict.fromkeys([*ranked[:SHOWN], *ranked[-SHOWN:]]))
     rows = [(o.world, str(o.mapper), str(o.reference), f"{o.ratio:.3f}") for o in chosen]
-    yield Table(("world", ">cost", f">{level.like}", ">ratio"), rows)
+    yield TextTable(("world", ">cost", f">{level.like}", ">ratio"), rows)

@@ -10,15 +10,15 @@ import msgspec
 
 from topo_verify.checkers import Finding, Status
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Table, Text
+from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import (
-    Place,
+    NamedWorld,
     claims_cell,
     finding_blocks,
     judged,
-    places,
+    named_worlds,
     silent,
     undeclared,
 )
@@ -34,14 +34,14 @@ from topo_verify.text import plural
 from topo_verify.world.formats import files
 
 
-class Chosen(msgspec.Struct, frozen=True):
+class ChosenPolicies(msgspec.Struct, frozen=True):
     """The policies of a run; None for a mapper that has none."""
 
     pick: str | None
     order: str | None
 
 
-class Measured(msgspec.Struct, frozen=True):
+class MeasuredGap(msgspec.Struct, frozen=True):
     """How far the rule is from the best possible: see `topo_verify.harness.gap`.
 
     Attributes:
@@ -57,7 +57,7 @@ class Measured(msgspec.Struct, frozen=True):
     share: float
 
 
-class Explored(msgspec.Struct, frozen=True):
+class ExploreEntry(msgspec.Struct, frozen=True):
     """One run: an entry of `results`; docs/commands.md.
 
     Attributes:
@@ -72,7 +72,7 @@ class Explored(msgspec.Struct, frozen=True):
 
     world: str
     algorithm: str
-    policies: Chosen
+    policies: ChosenPolicies
     vertices: int
     edges: int
     genus: int
@@ -87,11 +87,11 @@ class Explored(msgspec.Struct, frozen=True):
     confirmed: int
     claims: dict[str, Status]
     stopped: str | None
-    gap: Measured | None
+    gap: MeasuredGap | None
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _ExploreOptions:
     """What the options ask for."""
 
     limits: Limits
@@ -142,19 +142,19 @@ def explore(  # noqa: PLR0913  an argument an option
     network) or - (world JSON on standard input).
     """
 
-    def runs() -> Iterator[Result[Explored]]:
+    def runs() -> Iterator[Result[ExploreEntry]]:
         text = target_texts.target_text(algorithm, command, "all")
         found = target_texts.targets(text, pick=pick, order=order)
-        where = places(worlds, marker)
+        where = named_worlds(worlds, marker)
         if trace is not None:
             _require_one_run(trace, found, where)
-        asked = _Asked(limits, trace, strict, gap)
+        asked = _ExploreOptions(limits, trace, strict, gap)
         return _results(output, where, found, asked)
 
     return output.run("explore", runs, show)
 
 
-def _require_one_run(trace: str, found: Sequence[Target], where: Sequence[Place]) -> None:
+def _require_one_run(trace: str, found: Sequence[Target], where: Sequence[NamedWorld]) -> None:
     if trace == "-":
         raise InputError("--trace -: standard output is for the results; name a file")
     if len(found) * len(where) != 1:
@@ -166,10 +166,10 @@ def _require_one_run(trace: str, found: Sequence[Target], where: Sequence[Place]
 
 def _results(
     output: Output,
-    where: Sequence[Place],
+    where: Sequence[NamedWorld],
     found: Sequence[Target],
-    asked: _Asked,
-) -> Iterator[Result[Explored]]:
+    asked: _ExploreOptions,
+) -> Iterator[Result[ExploreEntry]]:
     total = len(where) * len(found)
     for number, (at, target) in enumerate((at, target) for at in where for target in found):
         output.progress(f"{target.text} in {at.name}", number, total)
@@ -179,17 +179,19 @@ def _results(
         yield _result(run, at, asked)
 
 
-def _result(run: Exploration, at: Place, asked: _Asked) -> Result[Explored]:
+def _result(run: Exploration, at: NamedWorld, asked: _ExploreOptions) -> Result[ExploreEntry]:
     report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
     measured = None
     if asked.gap and report.ok and "not-declared" not in report.claims.values():
         found = measure(run.trace)
-        measured = Measured(*found, share=found.share)
+        measured = MeasuredGap(*found, share=found.share)
     policies = run.policies
-    entry = Explored(
+    entry = ExploreEntry(
         world=at.name,
         algorithm=run.algorithm,
-        policies=Chosen(policies.pick, policies.order) if policies else Chosen(None, None),
+        policies=ChosenPolicies(policies.pick, policies.order)
+        if policies
+        else ChosenPolicies(None, None),
         vertices=len(at.world.vertices),
         edges=len(at.world.edges),
         genus=at.world.genus,
@@ -212,11 +214,11 @@ def _result(run: Exploration, at: Place, asked: _Asked) -> Result[Explored]:
 # ---------------------------------------------------------------- for people
 
 
-def show(entries: Sequence[Explored]) -> Iterator[Block]:
+def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
     """A table a world; of one algorithm in many worlds, one table."""
     if len(entries) > 1 and len({entry.algorithm for entry in entries}) == 1:
         rows = [(entry.world, str(entry.edges), *_row(entry)) for entry in entries]
-        yield Table(("world", ">edges", *_COLUMNS), rows, title=entries[0].algorithm)
+        yield TextTable(("world", ">edges", *_COLUMNS), rows, title=entries[0].algorithm)
     else:
         for number, group in enumerate(_by_world(entries)):
             if number:
@@ -239,7 +241,7 @@ def show(entries: Sequence[Explored]) -> Iterator[Block]:
     yield from _gap_table(entries)
 
 
-def _gap_table(entries: Sequence[Explored]) -> Iterator[Block]:
+def _gap_table(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
     """What was walked although the history had refuted it."""
     measured = [(entry, entry.gap) for entry in entries if entry.gap is not None]
     if not measured:
@@ -250,13 +252,13 @@ def _gap_table(entries: Sequence[Explored]) -> Iterator[Block]:
     ]
     columns = ("algorithm", "world", ">false", ">walked", ">refutable", ">gap")
     yield Text("")
-    yield Table(columns, rows, "false hypotheses: walked although the history refuted them")
+    yield TextTable(columns, rows, "false hypotheses: walked although the history refuted them")
 
 
 _COLUMNS = (">cost", ">of least", ">rejected free", ">moving", "claims")
 
 
-def _row(entry: Explored) -> tuple[str, ...]:
+def _row(entry: ExploreEntry) -> tuple[str, ...]:
     return (
         str(entry.cost),
         f"{entry.cost / entry.least_cost:.2f}" if entry.least_cost else "-",
@@ -266,9 +268,9 @@ def _row(entry: Explored) -> tuple[str, ...]:
     )
 
 
-def _by_world(entries: Sequence[Explored]) -> Iterator[list[Explored]]:
+def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
     """The runs in one world after the other: the algorithms come round in the same order."""
-    group: list[Explored] = []
+    group: list[ExploreEntry] = []
     for entry in entries:
         if group and entry.algorithm == group[0].algorithm:
             yield group
@@ -278,17 +280,17 @@ def _by_world(entries: Sequence[Explored]) -> Iterator[list[Explored]]:
         yield group
 
 
-def _world_table(group: Sequence[Explored]) -> Table:
+def _world_table(group: Sequence[ExploreEntry]) -> TextTable:
     """What each algorithm paid in one world, relative to `basic` if it is there."""
     one = group[0]
     size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
     title = f"{one.world}: {size}, genus {one.genus}, least cost {one.least_cost}"
     basic = next((e.cost for e in group if e.algorithm == "basic" and len(group) > 1), 0)
     if not basic:
-        return Table(("algorithm", *_COLUMNS), [(e.algorithm, *_row(e)) for e in group], title)
+        return TextTable(("algorithm", *_COLUMNS), [(e.algorithm, *_row(e)) for e in group], title)
     rows: list[tuple[str, ...]] = []
     for entry in group:
         cost, *rest = _row(entry)
         rows.append((entry.algorithm, cost, f"{entry.cost / basic:.2f}", *rest))
     cost, *others = _COLUMNS
-    return Table(("algorithm", cost, ">of basic", *others), rows, title)
+    return TextTable(("algorithm", cost, ">of basic", *others), rows, title)

@@ -8,7 +8,7 @@ import click
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.errors import InputError
@@ -90,9 +90,9 @@ def faults(
         if part not in seen:
             seen.add(part)
             yield Text(f"{part}:")
-        yield Table(COLUMNS, [_row(entry)], widths=WIDTHS, headed=False)
+        yield TextTable(COLUMNS, [_row(entry)], widths=WIDTHS, headed=False)
 
-    head = (Text(_head(names, thorough=thorough)), Table(COLUMNS, [], widths=WIDTHS))
+    head = (Text(_head(names, thorough=thorough)), TextTable(COLUMNS, [], widths=WIDTHS))
     return output.run("faults", tried, _show, live=Live(head, live, _end), by=checks)
 
 
@@ -133,7 +133,7 @@ def _show(entries: Sequence[Caught]) -> Iterator[Block]:
         (entry.name, entry.part, *_row(entry)[1:-1], _theorem(entry), _ok(entry))
         for entry in entries
     ]
-    yield Table(("fault", "part", *COLUMNS[1:-1], "theorem", "ok"), rows)
+    yield TextTable(("fault", "part", *COLUMNS[1:-1], "theorem", "ok"), rows)
     yield from _end(entries)
 
 

@@ -14,7 +14,7 @@ from typing import IO, TYPE_CHECKING
 from topo_verify.text import shown
 
 if TYPE_CHECKING:
-    from rich.table import Table as Grid
+    from rich.table import Table as RichTable
 
 WIDTH = 80
 """Columns where there is no terminal to ask."""
@@ -55,7 +55,7 @@ class Bullets:
 
 
 @dataclass(frozen=True)
-class Table:
+class TextTable:
     """Rows of cells.
 
     Attributes:
@@ -80,7 +80,7 @@ class Raw:
     text: str
 
 
-Block = Text | Command | Bullets | Table | Raw
+Block = Text | Command | Bullets | TextTable | Raw
 
 
 # ---------------------------------------------------------------- on a terminal
@@ -106,7 +106,7 @@ def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
                         console.print(Padding(Line(_clean(item)), (0, 0, 0, 2)))
                 case Raw(text):
                     out.write(text + "\n")
-                case Table():
+                case TextTable():
                     if block.title:
                         console.print(Line(_clean(block.title), style="bold"))
                     console.print(_grid(block))
@@ -114,11 +114,11 @@ def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
         out.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
 
 
-def _grid(block: Table) -> Grid:
-    from rich.table import Table as Grid
+def _grid(block: TextTable) -> RichTable:
+    from rich.table import Table as RichTable
     from rich.text import Text as Line
 
-    grid = Grid(box=None, show_header=block.headed, pad_edge=False, padding=(0, 2, 0, 0))
+    grid = RichTable(box=None, show_header=block.headed, pad_edge=False, padding=(0, 2, 0, 0))
     for place, title in enumerate(block.columns):
         grid.add_column(
             _clean(title.removeprefix(">")),
@@ -153,7 +153,7 @@ def _markdown(block: Block) -> str:
             return "\n".join(f"- {_escaped(item)}" for item in items)
         case Raw(text):
             return f"```\n{text}\n```"
-        case Table(columns, rows, title):
+        case TextTable(columns, rows, title):
             head = f"**{_escaped(title)}**\n\n" if title else ""
             titles = [column.removeprefix(">") for column in columns]
             rule = ["---:" if column.startswith(">") else "---" for column in columns]

@@ -26,7 +26,7 @@ import msgspec
 from topo_verify.cli import layout
 from topo_verify.cli.failures import exit_code, say, version
 from topo_verify.cli.layout import Block
-from topo_verify.cli.progress import Progress
+from topo_verify.cli.progress import ProgressBar
 from topo_verify.errors import InputError
 from topo_verify.text import plural
 
@@ -89,7 +89,7 @@ class Output:
     def __init__(self, style: str, *, quiet: bool) -> None:
         self.style, self.quiet = style, quiet
         self.stdout: IO[str] = sys.stdout or _nowhere()
-        self.progress = Progress(quiet=quiet)
+        self.progress = ProgressBar(quiet=quiet)
 
     def note(self, sentence: str) -> None:
         """A warning or a remark on stderr, unless --quiet."""

@@ -17,7 +17,7 @@ PATIENCE = 1.0
 """Seconds of work that are not worth a bar."""
 
 
-class Progress:
+class ProgressBar:
     """A bar that appears when work takes long and leaves nothing behind.
 
     Life cycle: call it (it is a `Tell`) as work goes on; `clear` it before anything is printed, for

@@ -95,17 +95,17 @@ def prove(  # noqa: PLR0913  an argument an option
 
     seconds: dict[str, float] = {}
 
-    def proved() -> Iterator[Result[shown.Proved]]:
+    def proved() -> Iterator[Result[shown.ProveEntry]]:
         for number, theorem in enumerate(theorems):
             output.progress(theorem.name, number, len(theorems))
             if folder is not None:
                 _export(theorem, Path(folder))
             begin = perf_counter()
-            result = _proved(theorem, budget, second=solver == "cvc5")
+            result = _result(theorem, budget, second=solver == "cvc5")
             seconds[theorem.name] = perf_counter() - begin
             yield result
 
-    def one(entry: shown.Proved) -> Iterator[Block]:
+    def one(entry: shown.ProveEntry) -> Iterator[Block]:
         return shown.live(entry, seconds[entry.name])
 
     live = Live((Text(shown.head(theorems, budget)),), one, shown.end)
@@ -132,7 +132,7 @@ def _export(theorem: Theorem, folder: Path) -> None:
         export(query, folder)
 
 
-def _proved(theorem: Theorem, budget: Budget, *, second: bool) -> Result[shown.Proved]:
+def _result(theorem: Theorem, budget: Budget, *, second: bool) -> Result[shown.ProveEntry]:
     outcome = theorem.prove(budget)
     opinion = _opinion(theorem, budget) if second else None
     standing = theorem.standing(outcome)
@@ -143,7 +143,7 @@ def _proved(theorem: Theorem, budget: Budget, *, second: bool) -> Result[shown.P
     )
 
 
-def _opinion(theorem: Theorem, budget: Budget) -> shown.Opinions | None:
+def _opinion(theorem: Theorem, budget: Budget) -> shown.SecondOpinion | None:
     """What cvc5 says of the questions; None if there are none.
 
     Raises:
@@ -158,4 +158,4 @@ def _opinion(theorem: Theorem, budget: Budget) -> shown.Opinions | None:
     if not opinions:
         return None
     count = Counter(opinion.standing for opinion in opinions)
-    return shown.Opinions(opinions[0].solver, count["agrees"], count["unknown"], len(opinions))
+    return shown.SecondOpinion(opinions[0].solver, count["agrees"], count["unknown"], len(opinions))

@@ -13,7 +13,7 @@ import msgspec
 from topo_verify.algorithms import Algorithm
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Table, Text
+from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
@@ -30,14 +30,14 @@ from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.formats import files
 
-Opening = Callable[..., AbstractContextManager[Target]]
+MapperOpener = Callable[..., AbstractContextManager[Target]]
 """Opens the mapper of a command; a program runs as long as the block."""
 
-KEPT = 3
+SHOWN = 3
 """Of so many failing worlds the findings are shown."""
 
 
-class Kept(msgspec.Struct, frozen=True):
+class RecordEntry(msgspec.Struct, frozen=True):
     """One recording: an entry of `results`; docs/commands.md.
 
     Attributes:
@@ -142,7 +142,7 @@ def _opened(
 def record(
     output: Output,
     *,
-    mapper: Opening,
+    mapper: MapperOpener,
     out: str,
     worlds: tuple[str, ...],
     seed: int,
@@ -153,13 +153,13 @@ def record(
     TARGET is one name of the catalogue, module:attribute or file.py:attribute.
     """
 
-    def recorded() -> Iterator[Result[Kept]]:
+    def recorded() -> Iterator[Result[RecordEntry]]:
         texts = worlds or DEFAULT
         corpus = corpus_from(texts, seed=seed)
         failing: list[Recorded] = []
 
         def note(seen: Recorded) -> None:
-            if seen.entry.failed and len(failing) < KEPT:
+            if seen.entry.failed and len(failing) < SHOWN:
                 failing.append(seen)
 
         with mapper() as target:
@@ -175,18 +175,18 @@ def record(
         whole = len(made.entries) == corpus.total
         if whole:
             files.write(out, file.encode(made))
-        kept = _kept(made, corpus, out if whole else None, failing)
+        kept = _entry(made, corpus, out if whole else None, failing)
         yield Result(kept, failed=kept.wrong > 0, incomplete=kept.undecided > 0)
 
     return output.run("record", recorded, _show, seed=seed)
 
 
-def _kept(
+def _entry(
     made: file.Baseline, corpus: Corpus, file: str | None, failing: Sequence[Recorded]
-) -> Kept:
+) -> RecordEntry:
     right = [entry for entry in made.entries if entry.right]
     wrong = sum(bool(entry.failed) for entry in made.entries)
-    return Kept(
+    return RecordEntry(
         target=made.header.target,
         worlds=corpus.total,
         equal=len(right),
@@ -203,7 +203,7 @@ def _kept(
     )
 
 
-def _show(entries: Sequence[Kept]) -> Iterator[Block]:
+def _show(entries: Sequence[RecordEntry]) -> Iterator[Block]:
     for entry in entries:
         rows = [
             ("mapper", entry.target),
@@ -214,7 +214,7 @@ def _show(entries: Sequence[Kept]) -> Iterator[Block]:
             ("cost where right", f"{plural(entry.cost, 'edge traversal')}"),
             ("corpus hash", entry.digest[:16]),
         ]
-        yield Table(("property", "value"), rows, headed=False)
+        yield TextTable(("property", "value"), rows, headed=False)
         yield from finding_blocks(entry.findings)
         yield Text("")
         if entry.file is not None:

@@ -24,7 +24,7 @@ from topo_verify.world.rooted_map import World
 
 
 @dataclass(frozen=True)
-class Place:
+class NamedWorld:
     """A world, and the words of the command line that lead to it.
 
     Attributes:
@@ -49,7 +49,7 @@ class Place:
         return len(self.world.edges) <= MAX_ID_EDGES
 
     @cached_property
-    def again(self) -> str:
+    def argument(self) -> str:
         """A WORLD argument that leads here another time.
 
         A world from standard input is gone: its id leads to it, or a file that is written now.
@@ -64,7 +64,7 @@ class Place:
         return () if self.marker is None or self.text == "-" else ("--marker", str(self.marker))
 
 
-def place(text: str, marker: int | None = None, stdin: bytes | None = None) -> Place:
+def named_world(text: str, marker: int | None = None, stdin: bytes | None = None) -> NamedWorld:
     """The world that the user names.
 
     Args:
@@ -81,14 +81,14 @@ def place(text: str, marker: int | None = None, stdin: bytes | None = None) -> P
             raise InputError(f"--marker {marker} in {text}: {error}") from error
         if named_by_id and not text.startswith("family:"):
             world = replace(world, name="")  # with its marker elsewhere it has another id
-    return Place(world, text, marker)
+    return NamedWorld(world, text, marker)
 
 
-def places(texts: Sequence[str], marker: int | None = None) -> list[Place]:
+def named_worlds(texts: Sequence[str], marker: int | None = None) -> list[NamedWorld]:
     """The worlds that the user names, all of them read before anything is done with one."""
     if texts.count("-") > 1:
         raise InputError("the WORLD '-' is given twice: standard input holds one world")
-    return [place(text, marker) for text in texts]
+    return [named_world(text, marker) for text in texts]
 
 
 def _kept(world: World) -> str:
@@ -121,7 +121,7 @@ def _holds(path: Path, text: str) -> bool:
 
 
 def judged(
-    run: Exploration, at: Place, limits: Limits, *, strict: bool = False
+    run: Exploration, at: NamedWorld, limits: Limits, *, strict: bool = False
 ) -> tuple[Report, bool]:
     """The report on a run, and whether it is incomplete: out of time, and nothing else wrong."""
     report = judge(run, where=at.text, strict=strict)
@@ -130,9 +130,9 @@ def judged(
     if not report.findings:
         return report, False
     words = (*at.options, *limits.options)
-    again = replay_line(at.again, run.algorithm, run.policies, words)
+    replay_command = replay_line(at.argument, run.algorithm, run.policies, words)
     findings = tuple(
-        msgspec.structs.replace(finding, world=at.again, replay=again)
+        msgspec.structs.replace(finding, world=at.argument, replay=replay_command)
         for finding in report.findings
     )
     return msgspec.structs.replace(report, findings=findings), False
@@ -175,13 +175,13 @@ def finding_blocks(
     runs: dict[str, list[Finding]] = {}
     for finding in findings:
         runs.setdefault(finding.replay, []).append(finding)
-    for again, of_run in runs.items():
+    for replay_command, of_run in runs.items():
         yield Text(f"{about or of_run[0].world}:")
         lines = [finding_line(finding) for finding in of_run[:shown]]
         if len(of_run) > shown:
             lines.append(f"and {len(of_run) - shown} more: --format json shows them")
         yield Bullets(tuple(lines))
-        yield Command(again, "again: ")
+        yield Command(replay_command, "again: ")
 
 
 def finding_line(finding: Finding) -> str:

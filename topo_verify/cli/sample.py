@@ -20,7 +20,7 @@ from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 
-class Sampled(msgspec.Struct, frozen=True):
+class SampleEntry(msgspec.Struct, frozen=True):
     """A world that was drawn.
 
     Attributes:
@@ -78,7 +78,7 @@ def sample(
     else:
         drawn = _by_strategy(strategy, worlds, edges, number, seed)
 
-    def sampled() -> Iterator[Result[Sampled]]:
+    def sampled() -> Iterator[Result[SampleEntry]]:
         target = None if folder is None else _folder(folder)
         output.note(f"seed {seed}")
         output.progress("drawing worlds", 0, number)
@@ -90,7 +90,7 @@ def sample(
                 file = str(target / f"m{len(world.edges)}-seed{seed}-{index}.json")
                 files.write(file, world.to_json() + "\n")
             yield Result(
-                Sampled(
+                SampleEntry(
                     id=world.id if len(world.edges) <= MAX_ID_EDGES else None,
                     edges=len(world.edges),
                     kind=str(worlds) if strategy is None else None,
@@ -149,6 +149,6 @@ def _folder(name: str) -> Path:
     return Path(name)
 
 
-def _show(entries: Sequence[Sampled]) -> Iterator[Block]:
+def _show(entries: Sequence[SampleEntry]) -> Iterator[Block]:
     for entry in entries:
         yield Raw(entry.file or str(entry.id))

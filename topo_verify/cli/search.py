@@ -11,7 +11,7 @@ import msgspec
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
@@ -74,7 +74,7 @@ class ByEdges(msgspec.Struct, frozen=True):
     compare: Compared | None
 
 
-class Searched(msgspec.Struct, frozen=True, rename={"kind": "class"}):
+class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     """One search: an entry of `results`; docs/commands.md."""
 
     target: str
@@ -91,7 +91,7 @@ class Searched(msgspec.Struct, frozen=True, rename={"kind": "class"}):
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _SearchOptions:
     """What the options ask for."""
 
     edges: int
@@ -167,8 +167,8 @@ def search(  # noqa: PLR0913  an argument an option
     of the catalogue, several with commas, all, module:attribute or file.py:attribute.
     """
 
-    def searches() -> Iterator[Result[Searched]]:
-        asked = _Asked(
+    def searches() -> Iterator[Result[SearchEntry]]:
+        asked = _SearchOptions(
             edges=edges,
             kind=WorldClass.parse(kind),
             workers=processors() if workers is None else workers,
@@ -182,7 +182,7 @@ def search(  # noqa: PLR0913  an argument an option
         for mappers in _mappers(target, command, compare, ledger):
             yield from _searched(output, mappers, asked)
 
-    def show(entries: Sequence[Searched]) -> Iterator[Block]:
+    def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
         for entry in entries:
             yield from _show(entry, worst=worst)
 
@@ -208,8 +208,8 @@ def _mappers(
 
 
 def _searched(
-    output: Output, mappers: tuple[Target, ...], asked: _Asked
-) -> Iterator[Result[Searched]]:
+    output: Output, mappers: tuple[Target, ...], asked: _SearchOptions
+) -> Iterator[Result[SearchEntry]]:
     """One search, also where it is interrupted."""
     plan = Plan(
         targets=tuple(mapper.text for mapper in mappers),
@@ -230,13 +230,13 @@ def _searched(
         yield _result(work.found(), asked)
 
 
-def _result(found: Found, asked: _Asked) -> Result[Searched]:
+def _result(found: Found, asked: _SearchOptions) -> Result[SearchEntry]:
     first = found.counterexample
     tally = found.tally
     silent = (
         c for c, seen in tally.statuses.items() if not seen.keys() & {"ok", "failed"} and seen
     )
-    entry = Searched(
+    entry = SearchEntry(
         target=",".join(found.plan.targets),
         kind=found.plan.kind,
         edges=found.plan.edges,
@@ -261,7 +261,7 @@ def _counterexample(failure: Failure) -> Counterexample:
     )
 
 
-def _by_edges(size: Size, plan: Plan, asked: _Asked) -> ByEdges:
+def _by_edges(size: Size, plan: Plan, asked: _SearchOptions) -> ByEdges:
     costs = size.tally.costs.get(plan.targets[0], Costs())
     return ByEdges(
         edges=size.edges,
@@ -281,7 +281,7 @@ def _by_edges(size: Size, plan: Plan, asked: _Asked) -> ByEdges:
 # ---------------------------------------------------------------- for people
 
 
-def _show(entry: Searched, *, worst: bool) -> Iterator[Block]:
+def _show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     kind = "" if entry.kind == "any" else f", class {entry.kind}"
     policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
     title = f"{_who(entry)}: worlds of 1 to {plural(entry.edges, 'edge')}{kind}{policies}"
@@ -290,11 +290,13 @@ def _show(entry: Searched, *, worst: bool) -> Iterator[Block]:
         for e in entry.by_edges
     ]
     costs = (">max cost", ">mean", ">in worlds", "which") if worst else ()
-    yield Table((">edges", ">checked", ">total", ">failing", *costs), rows, title)
+    yield TextTable((">edges", ">checked", ">total", ">failing", *costs), rows, title)
     pairs = [_compared(e.edges, e.compare) for e in entry.by_edges if e.compare is not None]
     if pairs:
         yield Text("")
-        yield Table((">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs)
+        yield TextTable(
+            (">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs
+        )
     yield Text("")
     yield Text(f"{entry.verdict}: {_upshot(entry)}")
     yield from _counterexamples(entry)
@@ -302,7 +304,7 @@ def _show(entry: Searched, *, worst: bool) -> Iterator[Block]:
         yield Text(undeclared(entry.target, entry.not_declared))
 
 
-def _who(entry: Searched) -> str:
+def _who(entry: SearchEntry) -> str:
     if all(e.compare is None for e in entry.by_edges):
         return entry.target
     first, _, second = entry.target.partition(",")
@@ -327,7 +329,7 @@ def _some(names: Sequence[str], number: int) -> str:
     return f"{shown} …" if number > SHOWN else shown or "-"
 
 
-def _upshot(entry: Searched) -> str:
+def _upshot(entry: SearchEntry) -> str:
     worlds = f"{entry.checked} of {plural(entry.total, 'world')}"
     failing = sum(size.failing for size in entry.by_edges)
     undecided = sum(size.undecided for size in entry.by_edges)
@@ -339,7 +341,7 @@ def _upshot(entry: Searched) -> str:
     return f"{worlds} checked, no claim failed{late}"
 
 
-def _counterexamples(entry: Searched) -> Iterator[Block]:
+def _counterexamples(entry: SearchEntry) -> Iterator[Block]:
     """The smallest; of several claims, the smallest of each."""
     first = entry.counterexample
     if first is None:
@@ -350,4 +352,4 @@ def _counterexamples(entry: Searched) -> Iterator[Block]:
     if sum(size.failing for size in entry.by_edges) > 1:
         rows = [(c.claim, str(c.failing), c.smallest.world) for c in entry.claims]
         yield Text("")
-        yield Table(("claim that fails", ">in worlds", "smallest"), rows)
+        yield TextTable(("claim that fails", ">in worlds", "smallest"), rows)

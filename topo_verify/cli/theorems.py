@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from topo_verify.cli.layout import Block, Bullets, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Text, TextTable
 from topo_verify.text import plural
 
 if TYPE_CHECKING:
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 KINDS = ("inductive", "mechanised", "bounded", "negative", "mutant")
 
 
-class Replayed(msgspec.Struct, frozen=True):
+class ReplayCount(msgspec.Struct, frozen=True):
     """Of the models found, how many came true in the simulator."""
 
     replayed: int
     total: int
 
 
-class Certified(msgspec.Struct, frozen=True):
+class CertificateCheck(msgspec.Struct, frozen=True):
     """A proof object and what its checker said."""
 
     format: str
@@ -35,7 +35,7 @@ class Certified(msgspec.Struct, frozen=True):
     why: str
 
 
-class Opinions(msgspec.Struct, frozen=True):
+class SecondOpinion(msgspec.Struct, frozen=True):
     """What a second solver said of the questions behind a theorem."""
 
     solver: str
@@ -44,7 +44,7 @@ class Opinions(msgspec.Struct, frozen=True):
     total: int
 
 
-class Proved(msgspec.Struct, frozen=True):
+class ProveEntry(msgspec.Struct, frozen=True):
     """One theorem: an entry of `results`; docs/commands.md.
 
     Attributes:
@@ -59,22 +59,22 @@ class Proved(msgspec.Struct, frozen=True):
     expected: str
     ok: bool
     premises_satisfiable: bool | None
-    replayed: Replayed | None
+    replayed: ReplayCount | None
     solver: str
     edges: int | None
-    certificate: Certified | None
+    certificate: CertificateCheck | None
     checked: int | None
     total: int | None
     counterexample: str | None
     history: tuple[int, ...] | None
     core: tuple[str, ...]
-    opinion: Opinions | None
+    opinion: SecondOpinion | None
     of: str | None
     words: str
     note: str
 
 
-class Listed(msgspec.Struct, frozen=True):
+class ProveListEntry(msgspec.Struct, frozen=True):
     """One theorem, not yet proved: an entry of `results` of --list."""
 
     name: str
@@ -91,10 +91,10 @@ class Listed(msgspec.Struct, frozen=True):
     assumed: tuple[str, ...]
 
 
-def entry_of(theorem: Theorem, outcome: Outcome, opinion: Opinions | None) -> Proved:
+def entry_of(theorem: Theorem, outcome: Outcome, opinion: SecondOpinion | None) -> ProveEntry:
     """What became of a theorem, as it is printed."""
     made = outcome.certificate
-    return Proved(
+    return ProveEntry(
         name=theorem.name,
         kind=theorem.kind,
         claim=",".join(theorem.claims),
@@ -102,12 +102,14 @@ def entry_of(theorem: Theorem, outcome: Outcome, opinion: Opinions | None) -> Pr
         expected=theorem.expected,
         ok=theorem.ok(outcome),
         premises_satisfiable=outcome.premises_satisfiable,
-        replayed=None if outcome.replayed is None else Replayed(*outcome.replayed),
+        replayed=None if outcome.replayed is None else ReplayCount(*outcome.replayed),
         solver=outcome.solver,
         edges=theorem.edges,
         certificate=None
         if made is None
-        else Certified(made.format, made.checker, made.checked, made.clauses, made.steps, made.why),
+        else CertificateCheck(
+            made.format, made.checker, made.checked, made.clauses, made.steps, made.why
+        ),
         checked=outcome.checked,
         total=outcome.total,
         counterexample=outcome.counterexample,
@@ -120,9 +122,9 @@ def entry_of(theorem: Theorem, outcome: Outcome, opinion: Opinions | None) -> Pr
     )
 
 
-def listed(theorem: Theorem) -> Listed:
+def listed(theorem: Theorem) -> ProveListEntry:
     """A theorem as it is listed."""
-    return Listed(
+    return ProveListEntry(
         name=theorem.name,
         kind=theorem.kind,
         claim=",".join(theorem.claims),
@@ -154,11 +156,17 @@ def head(theorems: Sequence[Theorem], budget: Budget) -> str:
     return f"{z3_solver.name()}, seed {budget.seed}: {many} ({told})"
 
 
-def _row(entry: Proved) -> tuple[str, ...]:
-    return (entry.name, entry.kind, entry.verdict, "ok" if entry.ok else "not ok", _told(entry))
+def _row(entry: ProveEntry) -> tuple[str, ...]:
+    return (
+        entry.name,
+        entry.kind,
+        entry.verdict,
+        "ok" if entry.ok else "not ok",
+        _standing_behind(entry),
+    )
 
 
-def _told(entry: Proved) -> str:
+def _standing_behind(entry: ProveEntry) -> str:
     """What a person wants to see beside the verdict."""
     words: list[str] = []
     if entry.total is not None:
@@ -191,21 +199,25 @@ _VACUITY = {
 }
 
 
-def show(entries: Sequence[Proved]) -> Iterator[Block]:
+def show(entries: Sequence[ProveEntry]) -> Iterator[Block]:
     """Everything at once."""
-    yield Table(("theorem", "kind", "verdict", "", "what stands behind it"), [*map(_row, entries)])
+    yield TextTable(
+        ("theorem", "kind", "verdict", "", "what stands behind it"), [*map(_row, entries)]
+    )
     yield from end(entries)
 
 
-def live(entry: Proved, seconds: float) -> Iterator[Block]:
+def live(entry: ProveEntry, seconds: float) -> Iterator[Block]:
     """One theorem, as soon as it is done."""
-    told = _told(entry) if entry.ok else f"NOT OK ({entry.kind}): {_told(entry)}"
+    told = (
+        _standing_behind(entry) if entry.ok else f"NOT OK ({entry.kind}): {_standing_behind(entry)}"
+    )
     row = (entry.name, entry.verdict, f"{seconds:.2f} s", told)
     columns = ("theorem", "verdict", ">time", "what stands behind it")
-    yield Table(columns, [row], widths=(28, 9, 7, 0), headed=False)
+    yield TextTable(columns, [row], widths=(28, 9, 7, 0), headed=False)
 
 
-def end(entries: Sequence[Proved]) -> Iterator[Block]:
+def end(entries: Sequence[ProveEntry]) -> Iterator[Block]:
     """The upshot: how many of each kind are as they must be."""
     yield Text("")
     rows: list[tuple[str, ...]] = []
@@ -225,7 +237,7 @@ def end(entries: Sequence[Proved]) -> Iterator[Block]:
             )
         )
     columns = ("kind", ">as expected", ">models replayed", ">with a checked certificate")
-    yield Table(columns, rows)
+    yield TextTable(columns, rows)
     wrong = [f"{entry.name}: {entry.verdict}; {entry.note}" for entry in entries if not entry.ok]
     if wrong:
         yield Text("Not as it must be:")
@@ -233,7 +245,7 @@ def end(entries: Sequence[Proved]) -> Iterator[Block]:
     yield Text("What is argued, assumed and not shown: docs/proofs.md and docs/mechanised.md.")
 
 
-def show_list(entries: Sequence[Listed]) -> Iterator[Block]:
+def show_list(entries: Sequence[ProveListEntry]) -> Iterator[Block]:
     """Theorems in a table; a few of them with all that there is to say."""
     if len(entries) <= FEW:
         for entry in entries:
@@ -243,10 +255,10 @@ def show_list(entries: Sequence[Listed]) -> Iterator[Block]:
         (e.name, e.kind, e.expected, "" if e.edges is None else str(e.edges), e.words)
         for e in entries
     ]
-    yield Table(("theorem", "kind", "expected", ">edges", "what it says"), rows)
+    yield TextTable(("theorem", "kind", "expected", ">edges", "what it says"), rows)
 
 
-def _details(entry: Listed) -> Iterator[Block]:
+def _details(entry: ProveListEntry) -> Iterator[Block]:
     yield Text(f"{entry.name} ({entry.kind}, expected {entry.expected}): {entry.words}")
     lines = (
         f"in symbols: {entry.symbols}",

@@ -9,7 +9,7 @@ import click
 from topo_verify.checkers import CLAIMS
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Table, Text
+from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks, undeclared
@@ -86,7 +86,7 @@ def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
     yield from head
     columns = ("part", "verdict", ">checked", ">total", "summary")
     rows = [(e.part, e.verdict, str(e.checked), str(e.total), e.summary) for e in entries]
-    yield Table(columns, rows)
+    yield TextTable(columns, rows)
     for entry in entries:
         yield from _first(entry)
     yield from _end(entries)
@@ -95,7 +95,7 @@ def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
 def _live(entry: Part) -> Iterator[Block]:
     """One part, as soon as it is done."""
     row = (entry.part, entry.verdict, entry.summary)
-    yield Table(("part", "verdict", "summary"), [row], widths=(16, 9, 0), headed=False)
+    yield TextTable(("part", "verdict", "summary"), [row], widths=(16, 9, 0), headed=False)
     yield from _first(entry)
 
 
@@ -135,7 +135,7 @@ def _upshot(entries: Sequence[Part]) -> str:
     return words
 
 
-def _costs(entry: Part) -> Table:
+def _costs(entry: Part) -> TextTable:
     rows: list[tuple[str, ...]] = []
     for one in entry.costs:
         rejected = one.rejected_free + one.rejected_moving
@@ -152,4 +152,4 @@ def _costs(entry: Part) -> Table:
     title = f"{entry.part}: costs in edge traversals"
     if any(one.reference for one in entry.costs):
         title += ", (others) for comparison"
-    return Table(columns, rows, title=title)
+    return TextTable(columns, rows, title=title)
