@@ -18,9 +18,9 @@ class Terminal(StringIO):
 
 
 def shown(monkeypatch: pytest.MonkeyPatch, stderr: StringIO | None, *, quiet: bool = False) -> str:
-    """What one piece of work that takes 0.3 s leaves on stderr, with a patience of 0.05 s."""
+    """What one piece of work that takes 0.3 s leaves on stderr, with a delay of 0.05 s."""
     monkeypatch.setattr(sys, "stderr", stderr)
-    monkeypatch.setattr(progress, "PATIENCE", 0.05)
+    monkeypatch.setattr(progress, "DELAY", 0.05)
     monkeypatch.setenv("TERM", "xterm")
     bar = ProgressBar(quiet=quiet)
     bar("first [part]", 0, 2)

@@ -43,11 +43,11 @@ class DecisionCount(msgspec.Struct, frozen=True):
 
 
 class CertifiedDecisions(msgspec.Struct, frozen=True):
-    """How many of the decisions that follow are certified.
+    """How many of the decisions that follow Coq accepted.
 
     Attributes:
-        by: the checker; "" if there was none.
-        why: why some that follow are not certified.
+        by: the checker; "" if nothing was checked.
+        why: the reason why some are not certified; "" if all are.
     """
 
     certified: int
@@ -57,14 +57,14 @@ class CertifiedDecisions(msgspec.Struct, frozen=True):
 
 
 class KernelCheck(msgspec.Struct, frozen=True):
-    """What the proofs in Coq make of the log.
+    """The certificate for Coq of one log, and what its checker said.
 
     Attributes:
         statement: map, undetermined or impossible; the file says it in full.
         file: the certificate.
-        accepted: by whom it was checked; null if it was not.
-        by, why: the checker; why it was not checked.
-        command: what checks it by hand, in a folder with the certificate.
+        accepted: null if nothing checked the certificate.
+        by, why: the checker; the reason why nothing was checked.
+        command: checks it by hand, in the folder of the certificate.
         decisions: those of the log that follow, certified.
     """
 
@@ -78,7 +78,7 @@ class KernelCheck(msgspec.Struct, frozen=True):
 
     @property
     def incomplete(self) -> bool:
-        """Is something not checked that could have been?"""
+        """True if the certificate or a decision that follows was left unchecked."""
         return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
 
 
@@ -88,7 +88,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     Attributes:
         verdict: PROVED, or REFUTED: more than one world shows the log, or none.
         vertices, edges: of the proved map; of the smaller witness if there is none.
-        witnesses: the two worlds that tell: the file if one was written, else the id.
+        witnesses: two worlds that show this log and differ: the files if written, else the ids.
         kernel: the certificate for Coq; null without --kernel.
     """
 
@@ -113,16 +113,18 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     ),
 )
 @click.argument("traces", nargs=-1, required=True, metavar="TRACE...")
-@click.option("-o", "map_file", metavar="MAP", help="Write the proved map of the one log.")
-@click.option("--witness", "folder", metavar="DIR", help="Write the worlds that tell there.")
-@click.option("--kernel", "proving", is_flag=True, help="Write a certificate for Coq; check it.")
+@click.option("-o", "map_file", metavar="MAP", help="Write the proved map (one TRACE only).")
+@click.option(
+    "--witness", "folder", metavar="DIR", help="Write two worlds that show the log to DIR."
+)
+@click.option("--kernel", "proving", is_flag=True, help="Write a certificate for Coq and check it.")
 @click.option(
     "--timeout",
     type=click.IntRange(1, options.MOST_SECONDS),
     default=600,
     show_default=True,
     metavar="SECONDS",
-    help="For each program that checks it.",
+    help="Time limit of each program that checks a certificate.",
 )
 @output_options
 def certify(
@@ -146,7 +148,7 @@ def certify(
 
     def certified() -> Iterator[Result[CertifyEntry]]:
         if map_file is not None and len(traces) != 1:
-            raise InputError(f"-o {map_file}: a map is of one log, these are {len(traces)}")
+            raise InputError(f"-o {map_file}: expected one TRACE, got {len(traces)}")
         with _checking(output, timeout) as check:
             for number, trace in enumerate(traces):
                 output.progress(f"folding {trace}", number, len(traces))
@@ -183,10 +185,10 @@ def _proof(
     certificate: Certificate,
     check: Check,
 ) -> KernelCheck:
-    """The log's certificate for Coq, written and checked.
+    """Write the certificate of a log and have it checked.
 
     Raises:
-        InternalError: it is refused, or says something else than the fold.
+        InternalError: Coq refuses it, or it states another result than the fold.
     """
     from topo_verify.proofs.mechanised import certificates, vernacular
 
@@ -223,12 +225,12 @@ def _certified_decisions(stated: int, entailed: int, checked: Checked) -> Certif
         return CertifiedDecisions(
             0, entailed, "", found.why if apart else "the certificate is not checked"
         )
-    why = "the others follow in planar worlds only, and Coq is not told what planar means"
+    why = "the others follow in planar worlds only, and the proofs in Coq do not speak of planarity"
     return CertifiedDecisions(stated, entailed, found.by, why if stated < entailed else "")
 
 
 def _identifier(traces: Sequence[str], number: int) -> str:
-    """The name of a log's certificate: one that Coq takes, and no other log's."""
+    """The name of a log's certificate: an identifier of Coq, different for each of the logs."""
     stem = re.sub(r"\W", "_", Path(_name(traces[number])).stem, flags=re.ASCII)
     return f"certificate_{stem}" + (f"_{number + 1}" if len(traces) > 1 else "")
 
@@ -243,9 +245,9 @@ def _result(
         else _world_name(world)
         for number, world in enumerate(worlds, 1)
     )
-    again = shlex.join(["topo-verify", "certify", trace])
+    replay_command = shlex.join(["topo-verify", "certify", trace])
     findings = tuple(
-        msgspec.structs.replace(finding, replay=again) for finding in certificate.findings
+        msgspec.structs.replace(finding, replay=replay_command) for finding in certificate.findings
     )
     shown = certificate.map or (worlds[0] if worlds else None)
     entry = CertifyEntry(
@@ -264,13 +266,7 @@ def _result(
 
 
 def _written(folder: str, name: str, world: World) -> str:
-    try:
-        Path(folder).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(
-            f"--witness {folder}: no such folder can be made: {error.strerror}"
-        ) from error
-    path = str(Path(folder) / name)
+    path = str(options.make_folder(folder, "--witness") / name)
     files.write(path, world.to_json() + "\n")
     return path
 
@@ -308,10 +304,13 @@ _STATED = {
 
 
 def _show_proof(proof: KernelCheck) -> Iterator[Block]:
-    told = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
+    outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
+    decisions = _decisions_sentence(proof.decisions)
     yield Text("")
-    told += f".{_decisions_sentence(proof.decisions)} By hand, in a folder with it:"
-    yield Text(f"{proof.file}: {_STATED[proof.statement]}; {told}")
+    yield Text(
+        f"{proof.file}: {_STATED[proof.statement]}; {outcome}.{decisions}"
+        " To check it by hand, in the folder of that file:"
+    )
     yield Bullets((proof.command,))
 
 

@@ -30,7 +30,7 @@ TITLES: dict[Kind, str] = {
     "undecided": "not decided",
     "equal": "equal",
 }
-"""Each kind in words."""
+"""The title of each kind of change."""
 
 SHORT: dict[Kind, str] = {
     "wrong": "fails",
@@ -40,21 +40,21 @@ SHORT: dict[Kind, str] = {
     "newly_right": "newly right",
     "undecided": "not decided",
 }
-"""The same as titles of columns."""
+"""The title of each kind above a column."""
 
 SHOWN = 5
-"""Of each kind so many worlds are shown."""
+"""The number of worlds shown of each kind; JSON has more."""
 
 
 class CostChange(msgspec.Struct, frozen=True):
-    """Edge traversals where the mapper is right then and now, summed up."""
+    """Total edge traversals over the worlds in which the mapper is right then and now."""
 
     before: int
     after: int
 
 
 class BaselineSummary(msgspec.Struct, frozen=True):
-    """The baseline: its mapper, and the corpus that it was recorded in."""
+    """The baseline: its file, its mapper and its corpus."""
 
     file: str
     target: str
@@ -68,9 +68,9 @@ class CompareEntry(msgspec.Struct, frozen=True):
     """One comparison: an entry of `results`; docs/commands.md.
 
     Attributes:
-        worlds: all of the baseline; the sum of the seven numbers behind it.
-        tolerance: in percent, as it was given.
-        beyond: in how many worlds the cost exceeds the tolerance.
+        worlds: those of the baseline; the sum of the seven numbers that follow.
+        tolerance: in percent, as given.
+        beyond: the number of worlds whose cost exceeds the tolerance.
         groups: the same numbers by class of worlds.
         examples: of each kind but `equal`; the largest changes of cost first, else the smallest
             worlds.
@@ -94,14 +94,14 @@ class CompareEntry(msgspec.Struct, frozen=True):
 
 
 def _percent(_context: click.Context, _option: click.Parameter, value: str) -> str:
-    """A number of percent, kept as text so as to be exact."""
+    """A percentage, kept as text: the comparison is exact."""
     if not re.fullmatch(r"[0-9]{1,6}(\.[0-9]{1,6})?", value):
-        raise click.BadParameter(f"{value!r} is no number of percent as 5 or 2.5")
+        raise click.BadParameter(f"expected a percentage such as 5 or 2.5, got {value!r}")
     return value
 
 
 @click.command(
-    short_help="What has changed since a baseline was recorded.",
+    short_help="Show what has changed since a baseline was recorded.",
     epilog=options.epilog(
         "compare baseline.jsonl.gz my_mapper.py:explore",
         "compare baseline.jsonl.gz my_mapper.py:explore --tolerance 5 --format markdown",
@@ -115,11 +115,11 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
     show_default=True,
     callback=_percent,
     metavar="PERCENT",
-    help="By so much each world may be dearer; one that is dearer still is a regression.",
+    help="How much dearer each world may be; a larger increase is a regression.",
 )
 @output_options
 def compare(output: Output, *, baseline: str, mapper: MapperOpener, tolerance: str) -> int:
-    """Run a mapper in the worlds of a BASELINE, under its limits, and say what has changed.
+    """Run a mapper in the worlds of a BASELINE, under its limits, and show what has changed.
 
     Exit 1: in some world a claim fails, or the cost exceeds the tolerance. An algorithm of the
     catalogue runs with the policies of the baseline, unless others are asked for.
@@ -181,7 +181,7 @@ def _show(entries: Sequence[CompareEntry]) -> Iterator[Block]:
         for kind in KINDS:
             yield from _examples(kind, entry)
         yield Text("")
-        yield Text(_upshot(entry))
+        yield Text(_conclusion(entry))
 
 
 def _summary(entry: CompareEntry) -> TextTable:
@@ -195,7 +195,7 @@ def _count(entry: CompareEntry, kind: Kind) -> int:
 
 
 def _table(groups: Sequence[Group]) -> TextTable:
-    """The classes; a kind that no world is of has no column."""
+    """The table of classes; a kind without worlds has no column."""
     kinds: list[Kind] = [
         k for k in KINDS if k != "equal" and any(group.kinds[k] for group in groups)
     ]
@@ -230,7 +230,7 @@ def _examples(kind: Kind, entry: CompareEntry) -> Iterator[Block]:
 
 
 def _line(change: Change) -> str:
-    """World, what it costs, what is wrong."""
+    """One changed world: its name, then both costs or the finding."""
     name = change.world if len(change.world) < 40 else f"{change.world[:36]}…"
     if change.message:
         return f"{name}: {change.message}"
@@ -244,7 +244,7 @@ def _costs(before: int, after: int) -> str:
     return f"{before:,} → {after:,} edge traversals ({_percentage(before, after)} %)"
 
 
-def _upshot(entry: CompareEntry) -> str:
+def _conclusion(entry: CompareEntry) -> str:
     bad: list[str] = []
     if entry.wrong:
         bad.append(f"in {plural(entry.wrong, 'world')} a claim fails")

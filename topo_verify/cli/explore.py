@@ -42,12 +42,12 @@ class ChosenPolicies(msgspec.Struct, frozen=True):
 
 
 class MeasuredGap(msgspec.Struct, frozen=True):
-    """How far the rule is from the best possible: see `topo_verify.harness.gap`.
+    """The gap of a rule to the best possible one; see `topo_verify.harness.gap`.
 
     Attributes:
         false: false hypotheses posed.
-        walked: rejected by motion.
-        refutable: walked, although the history before the walk refuted them.
+        walked: how many of them were rejected by motion.
+        refutable: how many were walked although the history before the walk refuted them.
         share: refutable / false.
     """
 
@@ -61,13 +61,13 @@ class ExploreEntry(msgspec.Struct, frozen=True):
     """One run: an entry of `results`; docs/commands.md.
 
     Attributes:
-        least_cost: what every mapper has to pay that is right in all worlds, map in hand.
+        least_cost: the least cost of a proof (docs/semantics.md, section 11).
         isomorphic: the map is the world.
         entailed: the history alone proves the map.
-        ok: no claim failed, and the run came to its end.
+        ok: no claim failed, and the run ended in time.
         claims: the status of each claim.
         stopped: why the mapper delivered no map, or None.
-        gap: with --gap, and where all that it needs was declared.
+        gap: with --gap, if the mapper declares every decision; otherwise None.
     """
 
     world: str
@@ -92,7 +92,7 @@ class ExploreEntry(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class _ExploreOptions:
-    """What the options ask for."""
+    """The options of one call."""
 
     limits: Limits
     trace: str | None
@@ -117,9 +117,11 @@ class _ExploreOptions:
 @options.program
 @options.policies
 @options.marker
-@click.option("--trace", metavar="FILE", help="Write the trace of the one run, JSON Lines.")
-@click.option("--strict", is_flag=True, help="Ask every claim in worlds over 100 edges, too.")
-@click.option("--gap", is_flag=True, help="Measure what was walked although already refuted.")
+@click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
+@click.option("--strict", is_flag=True, help="Judge every claim in worlds over 100 edges, too.")
+@click.option(
+    "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
+)
 @options.limits
 @output_options
 def explore(  # noqa: PLR0913  an argument an option
@@ -136,7 +138,7 @@ def explore(  # noqa: PLR0913  an argument an option
     gap: bool,
     limits: Limits,
 ) -> int:
-    """Run algorithms in given worlds: what they cost, and whether every claim holds.
+    """Run algorithms in given worlds and show what each run costs and which claims hold.
 
     WORLD is a file, a world id (m5/17), family:lattice(10,10,holes=0.2,seed=7), nyc (a real street
     network) or - (world JSON on standard input).
@@ -145,33 +147,33 @@ def explore(  # noqa: PLR0913  an argument an option
     def runs() -> Iterator[Result[ExploreEntry]]:
         text = target_texts.target_text(algorithm, command, "all")
         found = target_texts.targets(text, pick=pick, order=order)
-        where = named_worlds(worlds, marker)
+        starts = named_worlds(worlds, marker)
         if trace is not None:
-            _require_one_run(trace, found, where)
+            _require_one_run(trace, found, starts)
         asked = _ExploreOptions(limits, trace, strict, gap)
-        return _results(output, where, found, asked)
+        return _results(output, starts, found, asked)
 
     return output.run("explore", runs, show)
 
 
-def _require_one_run(trace: str, found: Sequence[Target], where: Sequence[NamedWorld]) -> None:
+def _require_one_run(trace: str, found: Sequence[Target], starts: Sequence[NamedWorld]) -> None:
     if trace == "-":
         raise InputError("--trace -: standard output is for the results; name a file")
-    if len(found) * len(where) != 1:
+    if len(found) * len(starts) != 1:
         raise InputError(
-            f"--trace {trace}: a trace is of one run, these are {len(found) * len(where)}; name"
-            " one WORLD, and one algorithm with --algorithm"
+            f"--trace {trace}: expected one run, got {len(found) * len(starts)}; name one"
+            " WORLD, and one algorithm with --algorithm"
         )
 
 
 def _results(
     output: Output,
-    where: Sequence[NamedWorld],
+    starts: Sequence[NamedWorld],
     found: Sequence[Target],
     asked: _ExploreOptions,
 ) -> Iterator[Result[ExploreEntry]]:
-    total = len(where) * len(found)
-    for number, (at, target) in enumerate((at, target) for at in where for target in found):
+    total = len(starts) * len(found)
+    for number, (at, target) in enumerate((at, target) for at in starts for target in found):
         output.progress(f"{target.text} in {at.name}", number, total)
         run = run_mapper(at.world, target, limits=asked.limits)
         if asked.trace is not None:
@@ -215,7 +217,7 @@ def _result(run: Exploration, at: NamedWorld, asked: _ExploreOptions) -> Result[
 
 
 def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
-    """A table a world; of one algorithm in many worlds, one table."""
+    """One table a world; for a single algorithm in many worlds, one table in all."""
     if len(entries) > 1 and len({entry.algorithm for entry in entries}) == 1:
         rows = [(entry.world, str(entry.edges), *_row(entry)) for entry in entries]
         yield TextTable(("world", ">edges", *_COLUMNS), rows, title=entries[0].algorithm)
@@ -225,12 +227,12 @@ def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
                 yield Text("")
             yield _world_table(group)
     for entry in entries:
-        where = f"{entry.algorithm} in {entry.world}"
+        run = f"{entry.algorithm} in {entry.world}"
         if entry.findings:
             yield Text("")
-        yield from finding_blocks(entry.findings, where)
+        yield from finding_blocks(entry.findings, run)
         if entry.stopped is not None and not entry.findings:
-            yield Text(f"{where} is not decided: {entry.stopped}")
+            yield Text(f"{run} is not decided: {entry.stopped}")
     quiet = {e.algorithm: silent(e.claims) for e in entries if e.ok and silent(e.claims)}
     for algorithm, claims in quiet.items():
         yield Text("")
@@ -242,7 +244,7 @@ def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
 
 
 def _gap_table(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
-    """What was walked although the history had refuted it."""
+    """The table of --gap: hypotheses that were walked although the history refuted them."""
     measured = [(entry, entry.gap) for entry in entries if entry.gap is not None]
     if not measured:
         return
@@ -269,7 +271,11 @@ def _row(entry: ExploreEntry) -> tuple[str, ...]:
 
 
 def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
-    """The runs in one world after the other: the algorithms come round in the same order."""
+    """The runs grouped by world.
+
+    Runs come world by world, with the algorithms in the same order each time. Two worlds may have
+    one name, so a group ends where the first algorithm comes again, not where the name changes.
+    """
     group: list[ExploreEntry] = []
     for entry in entries:
         if group and entry.algorithm == group[0].algorithm:
@@ -281,7 +287,7 @@ def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
 
 
 def _world_table(group: Sequence[ExploreEntry]) -> TextTable:
-    """What each algorithm paid in one world, relative to `basic` if it is there."""
+    """The cost of each algorithm in one world, relative to `basic` if that was run."""
     one = group[0]
     size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
     title = f"{one.world}: {size}, genus {one.genus}, least cost {one.least_cost}"

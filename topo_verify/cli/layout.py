@@ -1,7 +1,7 @@
-"""What a person reads: a few kinds of blocks, printed on a terminal or written as Markdown.
+"""Blocks of output for people, printed on a terminal or written as Markdown.
 
-A command says what there is to see as a list of blocks and knows nothing of either form. Texts may
-come from anywhere (a world's name, a mapper's exception), so control characters are escaped here.
+A command yields blocks and does not know in which form they appear. Texts may come from anywhere (a
+world's name, a mapper's exception), so control characters are escaped here.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rich.table import Table as RichTable
 
 WIDTH = 80
-"""Columns where there is no terminal to ask."""
+"""The width in columns if the output is not a terminal."""
 
 STYLES = {
     "PROVED": "bold green",
@@ -29,7 +29,7 @@ STYLES = {
     "failed": "bold red",
     "incomplete": "bold yellow",
 }
-"""Words that a terminal shows in colour where they fill a cell."""
+"""The styles of words that fill a cell of a table on a terminal."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Text:
 
 @dataclass(frozen=True)
 class Command:
-    """A command line to be copied: never broken into lines."""
+    """A command line to copy; it is never wrapped."""
 
     line: str
     label: str = ""
@@ -49,7 +49,7 @@ class Command:
 
 @dataclass(frozen=True)
 class Bullets:
-    """Short texts, one under the other."""
+    """A list of short texts, one below the other."""
 
     items: tuple[str, ...]
 
@@ -59,11 +59,11 @@ class TextTable:
     """Rows of cells.
 
     Attributes:
-        columns: the titles; one that begins with `>` stands over numbers, flush right.
-        rows: as many cells each as there are columns.
+        columns: the titles; a column whose title begins with `>` is flush right, for numbers.
+        rows: each has as many cells as there are columns.
         title: what the rows have in common.
-        widths: for tables that are printed a row at a time; 0: as wide as it may be.
-        headed: print the titles? (Markdown always does.)
+        widths: fixed widths, for tables printed a row at a time; 0: the rest of the line.
+        headed: whether the titles are printed. (Markdown always has them.)
     """
 
     columns: tuple[str, ...]
@@ -75,7 +75,7 @@ class TextTable:
 
 @dataclass(frozen=True)
 class Raw:
-    """Text for another program: printed as it is."""
+    """Text for another program, printed unchanged."""
 
     text: str
 
@@ -87,7 +87,7 @@ Block = Text | Command | Bullets | TextTable | Raw
 
 
 def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
-    """Print the blocks; in colour if it is a terminal, 80 columns wide if it is none."""
+    """Print the blocks: in colour on a terminal, else 80 columns wide."""
     from rich.console import Console
     from rich.padding import Padding
     from rich.text import Text as Line

@@ -1,4 +1,4 @@
-"""`topo-verify record`: keep what a mapper pays and decides in a baseline, for `compare`."""
+"""`topo-verify record`: write a mapper's costs and decisions to a baseline, for `compare`."""
 
 from __future__ import annotations
 
@@ -31,22 +31,22 @@ from topo_verify.text import plural
 from topo_verify.world.formats import files
 
 MapperOpener = Callable[..., AbstractContextManager[Target]]
-"""Opens the mapper of a command; a program runs as long as the block."""
+"""Opens the mapper of a command; a program runs until the block ends."""
 
 SHOWN = 3
-"""Of so many failing worlds the findings are shown."""
+"""The number of failing worlds whose findings are shown."""
 
 
 class RecordEntry(msgspec.Struct, frozen=True):
     """One recording: an entry of `results`; docs/commands.md.
 
     Attributes:
-        worlds: how many the corpus has.
-        equal, wrong, undecided: in how many the mapper is right, is not, and nobody knows.
-        dearer, cheaper, other_decisions: 0; a mapper is no other than itself.
-        cost: edge traversals in the worlds where it is right, summed up.
-        corpus, digest: the corpus in words, and its own hash.
-        file: the baseline; None where not every world was tried, for then none is written.
+        worlds: the number of worlds in the corpus.
+        equal, wrong, undecided: in how many no claim fails, a claim fails, and neither is known.
+        dearer, cheaper, other_decisions: always 0; `compare` has the same fields.
+        cost: total edge traversals in the worlds in which no claim fails.
+        corpus, digest: the corpus in words, and its hash.
+        file: the baseline; None if the mapper was stopped early, since then none is written.
         findings: of the first failing worlds.
     """
 
@@ -66,9 +66,9 @@ class RecordEntry(msgspec.Struct, frozen=True):
 
 
 def mapper_options(run: Callable[..., int]) -> Callable[..., int]:
-    """TARGET or --cmd, --pick and --order: handed over as `mapper`, which opens it.
+    """Add TARGET, --cmd, --pick and --order; the command gets `mapper`, which opens the mapper.
 
-    It may be told the policies that an algorithm of the catalogue has where none are asked for.
+    Its argument, if given, replaces the default policies of an algorithm of the catalogue.
     """
 
     @click.argument("target", required=False, metavar="[TARGET]")
@@ -98,7 +98,7 @@ def _opened(
     asked: tuple[str | None, str | None],
     usual: Policies | None,
 ) -> Generator[Target]:
-    """The one mapper that is meant; a program runs as long as the block."""
+    """The mapper that the options name; a program runs until the block ends."""
     text = target_text(name, cmd)
     pick, order = asked
     if cmd is None:
@@ -115,13 +115,13 @@ def _opened(
 
 
 @click.command(
-    short_help="Keep what a mapper pays and decides, for compare.",
+    short_help="Write a mapper's costs and decisions to a file, for compare.",
     epilog=options.epilog(
         "record my_mapper.py:explore --out baseline.jsonl.gz",
         "record basic --worlds 'edges<=5' --worlds nyc --out basic.jsonl.gz",
     ),
 )
-@click.option("--out", required=True, metavar="FILE", help="The baseline that is written.")
+@click.option("--out", required=True, metavar="FILE", help="Write the baseline to FILE.")
 @click.option(
     "--worlds",
     multiple=True,
@@ -134,7 +134,7 @@ def _opened(
     default=0,
     show_default=True,
     metavar="N",
-    help="Draws the generated worlds.",
+    help="Seed of the generated worlds.",
 )
 @mapper_options
 @options.limits
@@ -148,7 +148,7 @@ def record(
     seed: int,
     limits: Limits,
 ) -> int:
-    """Run a mapper in every world of a corpus and keep cost, decisions and map of each.
+    """Run a mapper in every world of a corpus and write its costs, decisions and maps to a file.
 
     TARGET is one name of the catalogue, module:attribute or file.py:attribute.
     """
@@ -220,4 +220,4 @@ def _show(entries: Sequence[RecordEntry]) -> Iterator[Block]:
         if entry.file is not None:
             yield Text(f"written: {entry.file}")
         else:
-            yield Text("No baseline is written: after three time-outs the mapper was stopped.")
+            yield Text("No baseline was written: the mapper was stopped after three time-outs.")

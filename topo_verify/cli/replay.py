@@ -32,7 +32,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     """The judgement of one run: an entry of `results`; docs/commands.md.
 
     Attributes:
-        trace: the file of the trace, or None where the target was run anew.
+        trace: the file of the trace; None if the target was run.
         claims: the status of each claim.
         stopped: why the mapper delivered no map, or None.
     """
@@ -60,7 +60,9 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 @options.program
 @options.policies
 @options.marker
-@click.option("--world", "where", metavar="WORLD", help="Where the trace in FILE was left.")
+@click.option(
+    "--world", "world_text", metavar="WORLD", help="The world in which the trace was recorded."
+)
 @options.limits
 @output_options
 def replay(  # noqa: PLR0913  an argument an option
@@ -72,13 +74,13 @@ def replay(  # noqa: PLR0913  an argument an option
     pick: str | None,
     order: str | None,
     marker: int | None,
-    where: str | None,
+    world_text: str | None,
     limits: Limits,
 ) -> int:
     """Judge a trace again, or run a mapper again in one world.
 
-    FILE holds a trace, as explore --trace writes it. Its world is the one that it names, or that of
-    --world. A WORLD is explored anew by --target.
+    FILE holds a trace, as explore --trace writes it; it is judged in the world that it names, or in
+    that of --world. In a WORLD the mapper of --target is run.
     """
 
     def replayed() -> Iterator[Result[ReplayEntry]]:
@@ -87,10 +89,12 @@ def replay(  # noqa: PLR0913  an argument an option
             given = {"--target": target, "--cmd": command, "--pick": pick, "--order": order}
             words = [name for name, value in given.items() if value is not None]
             _require_none((*words, *limits.options), what)
-            yield _judged(output, what, data, where, marker)
+            yield _judged(output, what, data, world_text, marker)
             return
-        if where is not None:
-            raise InputError(f"--world {where}: {what} is no trace, and --world is for a trace")
+        if world_text is not None:
+            raise InputError(
+                f"--world {world_text}: expected a trace, got {what}; leave --world out"
+            )
         at = named_world(what, marker, data)
         text = target_texts.target_text(target, command, "basic")
         mapper = target_texts.one_target(text, pick=pick, order=order)
@@ -111,7 +115,7 @@ def _require_none(given: Sequence[str], what: str) -> None:
 
 
 def _bytes(what: str) -> bytes | None:
-    """What is in the file or on standard input; None if the argument is neither."""
+    """The bytes of the file or of standard input; None if the argument names neither."""
     if what == "-":
         return files.read_stream(sys.stdin.buffer, name="standard input")
     try:
@@ -122,7 +126,7 @@ def _bytes(what: str) -> bytes | None:
 
 
 def _is_trace(data: bytes) -> bool:
-    """Is the first line an event? That of a world is the whole world, or no JSON."""
+    """True if the first line is an event, which has a `type`; a world file has none."""
     head = data.lstrip().split(b"\n", 1)[0]
     try:
         first = msgspec.json.decode(head)
@@ -132,14 +136,18 @@ def _is_trace(data: bytes) -> bool:
 
 
 def _judged(
-    output: Output, what: str, data: bytes, where: str | None, marker: int | None
+    output: Output, what: str, data: bytes, world_text: str | None, marker: int | None
 ) -> Result[ReplayEntry]:
-    """A trace in its world."""
+    """The judgement of a trace in its world."""
     name = "standard input" if what == "-" else what
     trace = read_trace(data, name=name)
     start = trace[0]
-    assert isinstance(start, Start), "read_trace has seen to it"
-    at = named_world(where, marker) if where is not None else _own_world(name, start, marker)
+    assert isinstance(start, Start), "read_trace refuses any other first event"
+    at = (
+        named_world(world_text, marker)
+        if world_text is not None
+        else _own_world(name, start, marker)
+    )
     output.progress(f"judging {name}", 0, 1)
     replay_command = shlex.join(
         ["topo-verify", "replay", what, "--world", at.argument, *at.options]
@@ -148,16 +156,19 @@ def _judged(
     report = judge_trace(at.world, trace, target=target, where=at.argument, again=replay_command)
     if report.claims["percepts-true"] == "failed":
         output.note(
-            f"{name} diverges from {at.argument}: it was left in another world (--world names it), by"
-            " another version, or it was edited"
+            f"{name} diverges from {at.argument}: it was recorded in another world (name it with"
+            " --world) or by another version, or it was edited"
         )
     return _result(report, at, what, None)
 
 
 def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:
-    """The world that a trace names: by its id, for a trace may come from anywhere."""
+    """The world that a trace names by its id.
+
+    Only ids are accepted: a trace may come from anyone, and must not choose which file is read.
+    """
     if start.world is None:
-        raise InputError(f"{name} does not say in which world it was left: name it with --world")
+        raise InputError(f"{name} does not name its world; name it with --world")
     try:
         World.from_id(start.world)
     except InputError as error:

@@ -1,4 +1,4 @@
-"""`topo-verify search`: every world up to so many edges, and the smallest counterexample."""
+"""`topo-verify search`: find the smallest counterexample among all worlds of up to N edges."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass
 
 SHOWN = 3
-"""Of worlds that have something in common, so many are shown; JSON has more."""
+"""The number of worlds shown in one cell; JSON has more."""
 
 
 class Counterexample(msgspec.Struct, frozen=True):
-    """A world in which a claim fails, and the line that shows it again."""
+    """A world in which a claim fails, and the command that shows it again."""
 
     world: str
     edges: int
@@ -42,7 +42,7 @@ class Counterexample(msgspec.Struct, frozen=True):
 
 
 class FailingClaim(msgspec.Struct, frozen=True):
-    """In how many of the checked worlds a claim fails, and the smallest of them."""
+    """The number of checked worlds in which a claim fails, and the smallest of them."""
 
     claim: str
     failing: int
@@ -53,12 +53,12 @@ class ByEdges(msgspec.Struct, frozen=True):
     """The worlds of one size; docs/commands.md.
 
     Attributes:
-        checked, total, failing, undecided: worlds.
-        runs: in which no claim fails; costs are theirs, in edge traversals.
-        max_cost, total_cost: the highest of them, and the sum.
-        attained: in how many worlds the highest.
-        worst: the first of these.
-        compare: with --compare: where the first mapper costs more than the second, and less.
+        checked, total, failing, undecided: numbers of worlds.
+        runs: the number of runs in which no claim fails; the costs are theirs.
+        max_cost, total_cost: their highest cost and the sum, in edge traversals.
+        attained: the number of worlds with the highest cost.
+        worst: the first of these worlds.
+        compare: with --compare, where A costs more than B, and where less.
     """
 
     edges: int
@@ -92,7 +92,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
 
 @dataclass(frozen=True)
 class _SearchOptions:
-    """What the options ask for."""
+    """The options of one call."""
 
     edges: int
     kind: WorldClass
@@ -106,7 +106,7 @@ class _SearchOptions:
 
 
 @click.command(
-    short_help="Every world up to N edges: the smallest counterexample.",
+    short_help="Find the smallest counterexample among all worlds of up to N edges.",
     epilog=options.epilog(
         "search basic --edges 5",
         "search my_mapper.py:explore --class planar --keep-going",
@@ -129,21 +129,19 @@ class _SearchOptions:
     "--workers",
     type=click.IntRange(min=0),
     metavar="N",
-    help="So many processes; 0: this one alone.  [default: one a processor]",
+    help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
-@click.option("--ledger", metavar="FILE", help="Keep what is done in FILE, and go on from there.")
+@click.option("--ledger", metavar="FILE", help="Keep finished work in FILE and resume from it.")
 @click.option("--keep-going", is_flag=True, help="Do not stop at the first counterexample.")
 @click.option(
     "--policies",
     type=click.Choice(CHOICES),
     default="reference",
     show_default=True,
-    help="The reference policies, all that have names, or every choice there is.",
+    help="Use the reference policies, all named ones, or every possible choice.",
 )
-@click.option(
-    "--worst", is_flag=True, help="Show the highest costs, and the worlds that have them."
-)
-@click.option("--compare", metavar="A,B", help="Where does A cost more than B?")
+@click.option("--worst", is_flag=True, help="Show the highest costs and the worlds that have them.")
+@click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
 @options.limits
 @output_options
 def search(  # noqa: PLR0913  an argument an option
@@ -163,8 +161,9 @@ def search(  # noqa: PLR0913  an argument an option
 ) -> int:
     """Examine a mapper in every world of 1 to N edges, smallest first.
 
-    Stops at the smallest counterexample, or says EXHAUSTED and of how many worlds. TARGET is a name
-    of the catalogue, several with commas, all, module:attribute or file.py:attribute.
+    The search stops at the smallest counterexample (REFUTED) or after the last world (EXHAUSTED).
+    TARGET is a name of the catalogue, several with commas, all, module:attribute or
+    file.py:attribute.
     """
 
     def searches() -> Iterator[Result[SearchEntry]]:
@@ -194,23 +193,27 @@ def _mappers(
 ) -> list[tuple[Target, ...]]:
     """The mappers of each search: one, or the two that are compared."""
     if (target is None and command is None) == (compare is None):
-        raise InputError("name a TARGET, or two mappers with --compare A,B: one of the two")
+        raise InputError("expected either a TARGET or two mappers with --compare A,B")
     if compare is not None:
         pair = target_texts.targets(compare)
         if len(pair) != 2 or pair[0] == pair[1]:
-            raise InputError(f"--compare {compare}: name two algorithms of the catalogue, as A,B")
+            raise InputError(
+                f"--compare {compare}: expected two different algorithms of the catalogue, as A,B"
+            )
         return [pair]
     text = target_texts.target_text(target, command)
     found: list[tuple[Target, ...]] = [(mapper,) for mapper in target_texts.targets(text)]
     if ledger is not None and len(found) != 1:
-        raise InputError(f"--ledger {ledger}: a ledger is of one TARGET; {text} names {len(found)}")
+        raise InputError(
+            f"--ledger {ledger}: expected one TARGET, got {len(found)}; search them one by one"
+        )
     return found
 
 
 def _searched(
     output: Output, mappers: tuple[Target, ...], asked: _SearchOptions
 ) -> Iterator[Result[SearchEntry]]:
-    """One search, also where it is interrupted."""
+    """The result of one search; after Ctrl-C, of the worlds done so far."""
     plan = Plan(
         targets=tuple(mapper.text for mapper in mappers),
         edges=asked.edges,
@@ -219,9 +222,9 @@ def _searched(
         keep_going=asked.keep_going,
         limits=asked.limits,
     )
-    book = None if asked.ledger is None else Ledger(asked.ledger, plan, mappers, version())
-    with book or nullcontext():
-        work = Search(plan, mappers, workers=asked.workers, ledger=book)
+    opened = None if asked.ledger is None else Ledger(asked.ledger, plan, mappers, version())
+    with opened or nullcontext():
+        work = Search(plan, mappers, workers=asked.workers, ledger=opened)
         try:
             work.work(output.progress)
         except KeyboardInterrupt:
@@ -298,7 +301,7 @@ def _show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
             (">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs
         )
     yield Text("")
-    yield Text(f"{entry.verdict}: {_upshot(entry)}")
+    yield Text(f"{entry.verdict}: {_conclusion(entry)}")
     yield from _counterexamples(entry)
     if entry.not_declared and entry.verdict != "REFUTED":
         yield Text(undeclared(entry.target, entry.not_declared))
@@ -324,12 +327,12 @@ def _compared(edges: int, pair: Compared) -> tuple[str, ...]:
 
 
 def _some(names: Sequence[str], number: int) -> str:
-    """The first of so many."""
+    """The first names; an ellipsis if there are more."""
     shown = ", ".join(names[:SHOWN])
     return f"{shown} …" if number > SHOWN else shown or "-"
 
 
-def _upshot(entry: SearchEntry) -> str:
+def _conclusion(entry: SearchEntry) -> str:
     worlds = f"{entry.checked} of {plural(entry.total, 'world')}"
     failing = sum(size.failing for size in entry.by_edges)
     undecided = sum(size.undecided for size in entry.by_edges)
@@ -342,7 +345,7 @@ def _upshot(entry: SearchEntry) -> str:
 
 
 def _counterexamples(entry: SearchEntry) -> Iterator[Block]:
-    """The smallest; of several claims, the smallest of each."""
+    """The smallest counterexample, and the smallest for each claim."""
     first = entry.counterexample
     if first is None:
         return

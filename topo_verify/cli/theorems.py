@@ -18,14 +18,14 @@ KINDS = ("inductive", "mechanised", "bounded", "negative", "mutant")
 
 
 class ReplayCount(msgspec.Struct, frozen=True):
-    """Of the models found, how many came true in the simulator."""
+    """How many of the models found the simulator has replayed."""
 
     replayed: int
     total: int
 
 
 class CertificateCheck(msgspec.Struct, frozen=True):
-    """A proof object and what its checker said."""
+    """A certificate and what its checker said."""
 
     format: str
     checker: str
@@ -36,7 +36,7 @@ class CertificateCheck(msgspec.Struct, frozen=True):
 
 
 class SecondOpinion(msgspec.Struct, frozen=True):
-    """What a second solver said of the questions behind a theorem."""
+    """How often a second solver agrees on the questions of a theorem."""
 
     solver: str
     agrees: int
@@ -49,7 +49,7 @@ class ProveEntry(msgspec.Struct, frozen=True):
 
     Attributes:
         claim: the claims that rest on it, with commas.
-        ok: the verdict is the expected one, the premises can hold, what was found was replayed.
+        ok: the verdict is as expected, the premises are satisfiable, every model was replayed.
     """
 
     name: str
@@ -75,7 +75,7 @@ class ProveEntry(msgspec.Struct, frozen=True):
 
 
 class ProveListEntry(msgspec.Struct, frozen=True):
-    """One theorem, not yet proved: an entry of `results` of --list."""
+    """One theorem as it is stated: an entry of `results` with --list."""
 
     name: str
     kind: str
@@ -92,7 +92,7 @@ class ProveListEntry(msgspec.Struct, frozen=True):
 
 
 def entry_of(theorem: Theorem, outcome: Outcome, opinion: SecondOpinion | None) -> ProveEntry:
-    """What became of a theorem, as it is printed."""
+    """The entry of `results` for a theorem and its outcome."""
     made = outcome.certificate
     return ProveEntry(
         name=theorem.name,
@@ -123,7 +123,7 @@ def entry_of(theorem: Theorem, outcome: Outcome, opinion: SecondOpinion | None) 
 
 
 def listed(theorem: Theorem) -> ProveListEntry:
-    """A theorem as it is listed."""
+    """The entry of `results` for a theorem with --list."""
     return ProveListEntry(
         name=theorem.name,
         kind=theorem.kind,
@@ -143,17 +143,17 @@ def listed(theorem: Theorem) -> ProveListEntry:
 # ---------------------------------------------------------------- for people
 
 FEW = 5
-"""So many theorems are listed with all that there is to say of them."""
+"""Up to this number, --list shows theorems in full."""
 
 
 def head(theorems: Sequence[Theorem], budget: Budget) -> str:
-    """What is about to be done."""
+    """The first line: the solver, its seed, and how many theorems of each kind."""
     from topo_verify.proofs.solvers import z3_solver
 
     kinds = Counter[str](theorem.kind for theorem in theorems)
-    told = ", ".join(f"{kinds[kind]} {kind}" for kind in KINDS if kinds[kind])
+    counts = ", ".join(f"{kinds[kind]} {kind}" for kind in KINDS if kinds[kind])
     many = plural(len(theorems), "theorem")
-    return f"{z3_solver.name()}, seed {budget.seed}: {many} ({told})"
+    return f"{z3_solver.name()}, seed {budget.seed}: {many} ({counts})"
 
 
 def _row(entry: ProveEntry) -> tuple[str, ...]:
@@ -162,12 +162,12 @@ def _row(entry: ProveEntry) -> tuple[str, ...]:
         entry.kind,
         entry.verdict,
         "ok" if entry.ok else "not ok",
-        _standing_behind(entry),
+        _evidence(entry),
     )
 
 
-def _standing_behind(entry: ProveEntry) -> str:
-    """What a person wants to see beside the verdict."""
+def _evidence(entry: ProveEntry) -> str:
+    """The evidence for the verdict, in a few words."""
     words: list[str] = []
     if entry.total is not None:
         words.append(f"{entry.checked} of {plural(entry.total, 'world')}")
@@ -200,7 +200,7 @@ _VACUITY = {
 
 
 def show(entries: Sequence[ProveEntry]) -> Iterator[Block]:
-    """Everything at once."""
+    """All theorems in one table, and the counts."""
     yield TextTable(
         ("theorem", "kind", "verdict", "", "what stands behind it"), [*map(_row, entries)]
     )
@@ -208,17 +208,15 @@ def show(entries: Sequence[ProveEntry]) -> Iterator[Block]:
 
 
 def live(entry: ProveEntry, seconds: float) -> Iterator[Block]:
-    """One theorem, as soon as it is done."""
-    told = (
-        _standing_behind(entry) if entry.ok else f"NOT OK ({entry.kind}): {_standing_behind(entry)}"
-    )
-    row = (entry.name, entry.verdict, f"{seconds:.2f} s", told)
+    """The row of one theorem."""
+    evidence = _evidence(entry) if entry.ok else f"NOT OK ({entry.kind}): {_evidence(entry)}"
+    row = (entry.name, entry.verdict, f"{seconds:.2f} s", evidence)
     columns = ("theorem", "verdict", ">time", "what stands behind it")
     yield TextTable(columns, [row], widths=(28, 9, 7, 0), headed=False)
 
 
 def end(entries: Sequence[ProveEntry]) -> Iterator[Block]:
-    """The upshot: how many of each kind are as they must be."""
+    """How many theorems of each kind came out as expected, and which did not."""
     yield Text("")
     rows: list[tuple[str, ...]] = []
     for kind in KINDS:
@@ -240,13 +238,13 @@ def end(entries: Sequence[ProveEntry]) -> Iterator[Block]:
     yield TextTable(columns, rows)
     wrong = [f"{entry.name}: {entry.verdict}; {entry.note}" for entry in entries if not entry.ok]
     if wrong:
-        yield Text("Not as it must be:")
+        yield Text("Not as expected:")
         yield Bullets(tuple(wrong))
     yield Text("What is argued, assumed and not shown: docs/proofs.md and docs/mechanised.md.")
 
 
 def show_list(entries: Sequence[ProveListEntry]) -> Iterator[Block]:
-    """Theorems in a table; a few of them with all that there is to say."""
+    """The theorems in a table, or in full if they are few."""
     if len(entries) <= FEW:
         for entry in entries:
             yield from _details(entry)

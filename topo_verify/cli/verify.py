@@ -22,19 +22,19 @@ from topo_verify.text import plural
 
 
 @click.command(
-    short_help="Check the catalogue, or a mapper of your own: one report.",
+    short_help="Check the catalogue, or a mapper of your own, in one report.",
     epilog=options.epilog("verify", "verify my_mapper.py:explore", "verify --quick --format json"),
 )
 @click.argument("target", required=False, metavar="[TARGET]")
 @options.program
-@click.option("--quick", is_flag=True, help="Smaller sizes: a few seconds.")
+@click.option("--quick", is_flag=True, help="Check smaller worlds, in a few seconds.")
 @click.option(
     "--seed",
     type=click.IntRange(min=0),
     default=campaign.SEED,
     show_default=True,
     metavar="N",
-    help="Draws the sampled and generated worlds.",
+    help="Seed of the sampled and generated worlds.",
 )
 @options.limits
 @output_options
@@ -82,7 +82,7 @@ def _head(mappers: Sequence[Target], seed: int) -> str:
 
 
 def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
-    """Everything at once."""
+    """All parts in one table, then what `_first` and `_end` say of them."""
     yield from head
     columns = ("part", "verdict", ">checked", ">total", "summary")
     rows = [(e.part, e.verdict, str(e.checked), str(e.total), e.summary) for e in entries]
@@ -93,7 +93,7 @@ def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
 
 
 def _live(entry: Part) -> Iterator[Block]:
-    """One part, as soon as it is done."""
+    """The row of one part, and its smallest counterexample."""
     row = (entry.part, entry.verdict, entry.summary)
     yield TextTable(("part", "verdict", "summary"), [row], widths=(16, 9, 0), headed=False)
     yield from _first(entry)
@@ -109,16 +109,16 @@ def _first(entry: Part) -> Iterator[Block]:
 
 
 def _end(entries: Sequence[Part]) -> Iterator[Block]:
-    """What is said when all is done: the costs, and the upshot."""
+    """The costs, and the conclusion."""
     for entry in entries:
         if entry.costs:
             yield Text("")
             yield _costs(entry)
     yield Text("")
-    yield Text(_upshot(entries))
+    yield Text(_conclusion(entries))
 
 
-def _upshot(entries: Sequence[Part]) -> str:
+def _conclusion(entries: Sequence[Part]) -> str:
     silent = {
         claim
         for entry in entries
@@ -126,8 +126,8 @@ def _upshot(entries: Sequence[Part]) -> str:
         if seen["not-declared"] and not seen["ok"] and not seen["failed"]
     }
     if any(entry.verdict == "REFUTED" for entry in entries):
-        return "A claim fails: the lines behind 'again' show where."
-    words = "No claim failed in what was checked, which is what stands above and no more."
+        return "A claim fails: the commands after 'again' show where."
+    words = "No claim failed in the worlds and theorems counted above; nothing else was checked."
     if not all(entry.ok for entry in entries):
         words = "No claim failed, but not everything was checked."
     if silent:

@@ -26,7 +26,7 @@ FORMATS: dict[str, Callable[[World], str | bytes]] = {
     "json": World.to_json,
     "planar_code": planar_code.encode,
 }
-"""What `convert --to` knows: a world in each format, as text or, where that is none, as bytes."""
+"""The encoder of each format of `convert --to`: to text, or to bytes if it is binary."""
 
 
 @click.group(epilog=options.epilog("world show nyc", "world count --edges 6 --class planar"))
@@ -41,7 +41,7 @@ world.add_command(sample)
 
 
 class ShowEntry(msgspec.Struct, frozen=True):
-    """What a world is; docs/commands.md. `id` is None beyond 200 edges."""
+    """One world: an entry of `results`; docs/commands.md. `id` is None beyond 200 edges."""
 
     name: str
     id: str | None
@@ -64,7 +64,7 @@ class ShowEntry(msgspec.Struct, frozen=True):
 @options.marker
 @output_options
 def show(output: Output, *, worlds: tuple[str, ...], marker: int | None) -> int:
-    """Show what a world is: its size, its genus, its degrees, its id."""
+    """Show the properties of a world: its size, genus, degrees and id."""
 
     def shown() -> Iterator[Result[ShowEntry]]:
         for at in named_worlds(worlds, marker):
@@ -116,7 +116,7 @@ def _word(fact: object) -> str:
 
 
 class ConvertEntry(msgspec.Struct, frozen=True):
-    """A world in another format: in a file, or here."""
+    """A world in another format, either in `file` or as `text`."""
 
     world: str
     to: str
@@ -130,8 +130,12 @@ class ConvertEntry(msgspec.Struct, frozen=True):
     )
 )
 @click.argument("world", metavar="WORLD")
-@click.option("--to", default="json", show_default=True, type=click.Choice([*FORMATS]))
-@click.option("-o", "file", default="-", metavar="FILE", help="Where to; default: standard output.")
+@click.option(
+    "--to", default="json", show_default=True, type=click.Choice([*FORMATS]), help="The format."
+)
+@click.option(
+    "-o", "file", default="-", metavar="FILE", help="Write to FILE.  [default: standard output]"
+)
 @options.marker
 @output_options
 def convert(output: Output, *, world: str, to: str, file: str, marker: int | None) -> int:
@@ -146,7 +150,9 @@ def convert(output: Output, *, world: str, to: str, file: str, marker: int | Non
         elif isinstance(content, str):
             yield Result(ConvertEntry(at.name, to, None, content))
         else:
-            raise InputError(f"--to {to}: this format is no text; say with -o which file to write")
+            raise InputError(
+                f"--to {to}: a binary format is written to a file; name one with -o FILE"
+            )
 
     return output.run("world-convert", converted, _show_converted)
 
@@ -163,7 +169,7 @@ def _show_converted(entries: Sequence[ConvertEntry]) -> Iterator[Block]:
 
 
 class CountEntry(msgspec.Struct, frozen=True):
-    """How many worlds there are; docs/commands.md."""
+    """The number of worlds of one size: an entry of `results`; docs/commands.md."""
 
     edges: int
     # `class` cannot be a name in Python.
@@ -172,14 +178,16 @@ class CountEntry(msgspec.Struct, frozen=True):
 
 
 def _range(_context: click.Context, _option: click.Parameter, value: str) -> range:
-    """A number of edges, or a range of them, A..B."""
+    """The numbers of edges in `N` or `A..B`."""
     found = re.fullmatch(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}))?", value)
     if not found:
-        raise click.BadParameter(f"{value!r} is no number of edges and no range as 1..6")
+        raise click.BadParameter(
+            f"expected a number of edges as 6 or a range as 1..6, got {value!r}"
+        )
     first, last = int(found[1]), int(found[2] or found[1])
     if not first <= last <= options.MAX_EDGES:
         raise click.BadParameter(
-            f"{value!r}: numbers of edges go up, and up to {options.MAX_EDGES}"
+            f"expected ascending numbers of edges up to {options.MAX_EDGES}, got {value!r}"
         )
     return range(first, last + 1)
 
@@ -187,11 +195,13 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
 @world.command(
     epilog=options.epilog("world count --edges 6", "world count --edges 1..5 --class simple")
 )
-@click.option("--edges", callback=_range, required=True, metavar="N", help="How many, or A..B.")
+@click.option(
+    "--edges", callback=_range, required=True, metavar="N", help="Number of edges, or a range A..B."
+)
 @options.world_class
 @output_options
 def count(output: Output, *, edges: range, kind: str) -> int:
-    """Count the worlds with so many edges, up to isomorphism (rooted maps)."""
+    """Count the worlds with N edges, up to isomorphism (rooted maps)."""
 
     def counted() -> Iterator[Result[CountEntry]]:
         worlds = WorldClass.parse(kind)
