@@ -68,8 +68,8 @@ def test_what_is_wrong_is_said_with_the_worlds(call: Call) -> None:
     ("line", "why"),
     [
         ("certify nowhere.jsonl", "nowhere.jsonl"),
-        ("certify ring.jsonl short.jsonl -o map.json", "a map is of one log, these are 2"),
-        ("certify short.jsonl --witness ring.jsonl", "no such folder can be made"),
+        ("certify ring.jsonl short.jsonl -o map.json", "expected one TRACE, got 2"),
+        ("certify short.jsonl --witness ring.jsonl", "cannot create this folder"),
     ],
 )
 def test_bad_input_gets_one_sentence(call: Call, line: str, why: str) -> None:

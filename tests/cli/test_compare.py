@@ -138,8 +138,14 @@ def test_a_changed_baseline_is_refused(call: Call, folder: Path) -> None:
         ("compare mappers.py basic", "expected gzip data"),
         ("compare basic.gz", "name a TARGET, or a program"),
         ("compare basic.gz nix", "no algorithm 'nix'"),
-        ("compare basic.gz basic --tolerance -1", "'-1' is no number of percent"),
-        ("compare basic.gz basic --tolerance much", "'much' is no number of percent"),
+        (
+            "compare basic.gz basic --tolerance -1",
+            "expected a percentage such as 5 or 2.5, got '-1'",
+        ),
+        (
+            "compare basic.gz basic --tolerance much",
+            "expected a percentage such as 5 or 2.5, got 'much'",
+        ),
     ],
 )
 def test_bad_input_gets_one_sentence(call: Call, line: str, told: str) -> None:

@@ -102,7 +102,7 @@ def test_a_person_is_shown_where_two_runs_part(call: Call) -> None:
 
 def test_a_person_is_told_what_was_not_judged(call: Call) -> None:
     done = call("conform mappers.py:silent --worlds edges<=1 --workers 0")
-    assert "declares nothing on it: true-hypothesis-posed" in done.stdout.replace("\n", " ")
+    assert "declares nothing about it: true-hypothesis-posed" in done.stdout.replace("\n", " ")
     done = call(f"conform {SKIPS} --worlds edges<=1 --workers 0")
     assert "Not decided: 1 skipped." in done.stdout
     assert "no loops, please" in done.stdout

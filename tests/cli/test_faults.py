@@ -60,7 +60,7 @@ def test_what_is_out_of_time_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(campaign, "proof", proof)
     done = call("faults assumes-a-plane-world --by proofs")
     assert done.exit_code == 3
-    assert "?: a time limit ended" in done.stdout
+    assert "?: not decided, because a time limit ended" in done.stdout
 
 
 def test_the_second_strategy_is_told_by_an_asterisk(
@@ -89,8 +89,14 @@ def test_what_is_not_as_it_must_be_exits_1(
 @pytest.mark.parametrize(
     ("line", "told"),
     [
-        ("faults no-such", "no fault 'no-such': there are leaves-out-the-darts-of-vk"),
-        (f"faults {NAME} --by guess", "no check 'guess'; there are search, properties, proofs"),
+        (
+            "faults no-such",
+            "expected the name of a fault, got 'no-such'; the faults are leaves-out-the-",
+        ),
+        (
+            f"faults {NAME} --by guess",
+            "expected checks out of search, properties, proofs, got 'guess'",
+        ),
     ],
 )
 def test_what_is_not_there_is_named(call: Call, line: str, told: str) -> None:

@@ -6,7 +6,7 @@ from io import StringIO
 
 import pytest
 
-from topo_verify.cli.layout import Block, Bullets, Command, Raw, Table, Text, markdown, pretty
+from topo_verify.cli.layout import Block, Bullets, Command, Raw, Text, TextTable, markdown, pretty
 
 
 class Terminal(StringIO):
@@ -27,12 +27,12 @@ def test_long_texts_are_wrapped_and_command_lines_are_not() -> None:
 
 
 def test_a_table_puts_numbers_flush_right_and_leaves_no_trailing_space() -> None:
-    table = Table(("name", ">cost"), [("a", "5"), ("long one", "1234")], title="costs")
+    table = TextTable(("name", ">cost"), [("a", "5"), ("long one", "1234")], title="costs")
     assert printed(table) == "costs\nname      cost\na            5\nlong one  1234\n"
 
 
 def test_a_cell_that_is_too_long_is_folded_whole() -> None:
-    text = printed(Table(("name", ">cost"), [("n" * 120, "5")]))
+    text = printed(TextTable(("name", ">cost"), [("n" * 120, "5")]))
     assert text.count("n" * 10) >= 10
     assert max(map(len, text.splitlines())) <= 80
 
@@ -41,7 +41,7 @@ def test_colour_is_for_terminals_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("NO_COLOR", "FORCE_COLOR"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("TERM", "xterm")
-    table = Table(("verdict",), [("REFUTED",)])
+    table = TextTable(("verdict",), [("REFUTED",)])
     assert "\x1b" not in printed(table)
     assert "\x1b[1;31mREFUTED" in printed(table, out=Terminal())
 
@@ -50,7 +50,7 @@ def test_colour_is_for_terminals_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     "block",
     [
         Text("\x1b[31m"), Command("\x1b[31m"), Bullets(("\x1b[31m",)),
-        Table(("\x1b[31m",), [("\x1b[31m",)], title="\x1b[31m"),
+        TextTable(("\x1b[31m",), [("\x1b[31m",)], title="\x1b[31m"),
     ],
 )  # fmt: skip
 def test_control_characters_never_reach_the_terminal(block: Block) -> None:
@@ -62,7 +62,7 @@ def test_square_brackets_are_no_markup() -> None:
 
 
 def test_markdown_keeps_special_characters_from_doing_anything() -> None:
-    table = markdown([Table(("a|b", ">n"), [("x|y*z<b>", "1")])])
+    table = markdown([TextTable(("a|b", ">n"), [("x|y*z<b>", "1")])])
     assert table == "| a\\|b | n |\n| --- | ---: |\n| x\\|y\\*z\\<b> | 1 |\n"
     assert markdown([Command("a `b` c", "again: ")]) == "again: `` a `b` c ``\n"
 
@@ -73,6 +73,6 @@ def test_markdown_joins_blocks_with_blank_lines() -> None:
         Text(""),
         Bullets(("a", "b")),
         Raw("{}"),
-        Table(("t",), [], title="T"),
+        TextTable(("t",), [], title="T"),
     ]
     assert markdown(blocks) == "one\n\n- a\n- b\n\n```\n{}\n```\n\n**T**\n\n| t |\n| --- |\n"

@@ -9,7 +9,7 @@ from io import StringIO
 import pytest
 
 from topo_verify.cli import progress
-from topo_verify.cli.progress import Progress
+from topo_verify.cli.progress import ProgressBar
 
 
 class Terminal(StringIO):
@@ -18,11 +18,11 @@ class Terminal(StringIO):
 
 
 def shown(monkeypatch: pytest.MonkeyPatch, stderr: StringIO | None, *, quiet: bool = False) -> str:
-    """What one piece of work that takes 0.3 s leaves on stderr, with a patience of 0.05 s."""
+    """What one piece of work that takes 0.3 s leaves on stderr, with a delay of 0.05 s."""
     monkeypatch.setattr(sys, "stderr", stderr)
-    monkeypatch.setattr(progress, "PATIENCE", 0.05)
+    monkeypatch.setattr(progress, "DELAY", 0.05)
     monkeypatch.setenv("TERM", "xterm")
-    bar = Progress(quiet=quiet)
+    bar = ProgressBar(quiet=quiet)
     bar("first [part]", 0, 2)
     time.sleep(0.3)
     bar("second part", 1, 2)
@@ -48,7 +48,7 @@ def test_quiet_means_no_bar(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_short_work_is_not_worth_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     out = Terminal()
     monkeypatch.setattr(sys, "stderr", out)
-    bar = Progress(quiet=False)
+    bar = ProgressBar(quiet=False)
     for done in range(5):
         bar("work", done, 5)
     bar.clear()

@@ -99,7 +99,7 @@ def test_two_runs_are_byte_equal_without_the_timing(program: Program) -> None:
         ("prove percept --kind mutant", "no theorem of kind mutant among percept"),
         ("prove --kind bounded --edges 99", "1 to 6 edges"),
         ("prove percept --timeout 0", "--timeout"),
-        ("prove percept --smt2 mappers.py", "name a folder"),
+        ("prove percept --smt2 mappers.py", "expected a folder, got a file"),
         ("prove percept --solver yices", "--solver"),
     ],
 )
@@ -172,4 +172,4 @@ def test_what_is_not_as_it_must_be_is_no_pass(
 def test_and_a_person_is_told_so(call: Call) -> None:
     done = call("prove vacuous unprovable")
     assert "VACUOUS" in done.stdout
-    assert "Not as it must be" in done.stdout
+    assert "Not as expected" in done.stdout

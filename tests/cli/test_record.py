@@ -68,7 +68,7 @@ def test_a_mapper_that_hangs_has_no_baseline(call: Call, results: Results, folde
     (entry,) = results(line, code=1)["results"]
     assert (entry["wrong"], entry["undecided"], entry["file"]) == (3, 9, None)
     assert not (folder / "b").exists()
-    assert "No baseline is written" in call(line).stdout
+    assert "No baseline was written" in call(line).stdout
 
 
 def test_a_mapper_that_is_too_slow_is_incomplete(results: Results) -> None:

@@ -67,14 +67,17 @@ def test_a_mapper_out_of_time_exits_3(results: Call, call: Call) -> None:
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("search", "name a TARGET, or two mappers with --compare A,B"),
-        ("search basic --compare basic,folding", "one of the two"),
-        ("search --compare basic", "name two algorithms of the catalogue, as A,B"),
-        ("search --compare basic,basic", "name two algorithms of the catalogue, as A,B"),
+        ("search", "expected either a TARGET or two mappers with --compare A,B"),
+        ("search basic --compare basic,folding", "either a TARGET or two mappers with --compare"),
+        ("search --compare basic", "expected two different algorithms of the catalogue, as A,B"),
+        (
+            "search --compare basic,basic",
+            "expected two different algorithms of the catalogue, as A,B",
+        ),
         ("search basic --edges 0", "invalid value for '--edges'"),
         ("search basic --class tidy", "class 'tidy': expected any, planar"),
         ("search basic --class simple,planar --edges 9", "there is no formula"),
-        ("search basic,folding --ledger L", "a ledger is of one TARGET; basic,folding names 2"),
+        ("search basic,folding --ledger L", "--ledger L: expected one TARGET, got 2"),
         ("search basic --ledger mappers.py", "it is no ledger: name another file"),
         ("search basic --policies every", "over a hundred million ways to choose; ask for 3 edges"),
         ("search mappers.py:silent --policies all", "has no policies"),
@@ -132,7 +135,9 @@ def test_compare_shows_where_the_first_costs_more(call: Call, results: Call) -> 
 
 def test_what_a_mapper_does_not_declare_is_said(call: Call) -> None:
     text = " ".join(call("search mappers.py:silent --edges 2 --workers 0").stdout.split())
-    assert "Not judged, for mappers.py:silent declares nothing on it: true-hypothesis-p" in text
+    assert (
+        "Not judged, because mappers.py:silent declares nothing about it: true-hypothesis-p" in text
+    )
 
 
 def test_markdown_has_tables(call: Call) -> None:
@@ -173,4 +178,4 @@ def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path, workers: str) -> N
     assert running.returncode == envelope["exit"] == 3
     assert entry["verdict"] == "UNKNOWN"
     assert 0 <= entry["checked"] <= 2  # the worlds of one edge, as far as they were done
-    assert error.startswith("topo-verify: interrupted; 1 result came out before")
+    assert error.startswith("topo-verify: interrupted after 1 result")

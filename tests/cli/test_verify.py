@@ -55,7 +55,7 @@ def test_a_silent_mapper_passes_with_four_claims_not_declared(results: Call, cal
     rows = parts[-1]["costs"]
     assert [row["reference"] for row in rows] == [False] + [True] * len(CATALOGUE)
     text = " ".join(call("verify mappers.py:silent --quick").stdout.split())
-    assert "Not judged, for the mapper declares nothing on it: true-hypothesis-posed" in text
+    assert "Not judged, because the mapper declares nothing about it: true-hypothesis-posed" in text
 
 
 @pytest.mark.parametrize(

@@ -66,7 +66,10 @@ def test_convert_writes_planar_code_to_a_file(call: Call, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("line", "sentence"),
     [
-        ("m0/0 --to planar_code", "--to planar_code: this format is no text; say with -o which"),
+        (
+            "m0/0 --to planar_code",
+            "--to planar_code: a binary format is written to a file; name one",
+        ),
         ("m2/9 --to planar_code -o x.pc", "planar_code holds simple worlds"),
         ("m0/0 --to nonsense", "'json', 'planar_code'"),
     ],
@@ -137,7 +140,7 @@ def test_sample_draws_from_a_strategy(call: Call, results: Call) -> None:
     [
         ("world sample --strategy worlds --edges 3", "--edges beside --strategy"),
         ("world sample --strategy worlds --class planar", "--class beside --strategy"),
-        ("world sample -n 3", "say with --edges how many, or with --strategy which worlds"),
+        ("world sample -n 3", "expected --edges N or --strategy STRATEGY"),
         ("world sample --strategy nothing", "no such strategy: 'nothing'"),
         (
             "world sample --strategy 'worlds(min_edges=300,max_edges=300)'",

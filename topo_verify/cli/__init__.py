@@ -40,15 +40,15 @@ _COMPLETE = "_TOPO_VERIFY_COMPLETE"
 """A shell that completes a line sets this environment variable (see click's manual)."""
 
 
-class Program(click.Group):
-    """All commands, in the order of their importance; how one ends becomes the exit code.
+class CommandLine(click.Group):
+    """The group of all commands, most important first; it maps how one ends to an exit code.
 
-    Click's own `main` would exit 1 where nothing is wrong with a mapper (an interrupt, a closed
-    pipe), so it is replaced.
+    It replaces click's own `main`, which exits 1 on an interrupt or a closed pipe. Here only a
+    claim that fails exits 1.
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002  click's signature
-        """The names of the commands as they were added."""
+        """The names of the commands, in the order in which they were added."""
         return list(self.commands)
 
     def main(  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]  it always exits
@@ -67,24 +67,24 @@ class Program(click.Group):
         except click.exceptions.Exit as done:
             code = done.exit_code
         except (click.Abort, KeyboardInterrupt):
-            say("topo-verify: interrupted; nothing came out before")
+            say("topo-verify: interrupted before the first result")
             code = ExitCode.INCOMPLETE
-        except BrokenPipeError:  # of --help; results look after themselves
+        except BrokenPipeError:  # --help was cut off; `Output` does the same for results
             output.silence(sys.stdout)
             code = ExitCode.NOTHING_FOUND
-        except Exception as error:  # noqa: BLE001  whatever it is, the user is told
+        except Exception as error:  # noqa: BLE001  `explain` reports every exception
             code = explain(error, arguments)
         return int(code)
 
 
 @click.group(
     "topo-verify",
-    cls=Program,
+    cls=CommandLine,
     epilog=options.epilog("verify", "verify my_mapper.py:explore", "explore nyc"),
 )
 @click.version_option(version(), message="%(prog)s %(version)s")
 def main() -> None:
-    """Check algorithms with which one robot and one marker map an unknown graph.
+    """Check algorithms by which a robot with one marker maps an unknown graph.
 
     The mapper is not trusted: it runs in a world, and every claim about it is judged on its trace.
     """

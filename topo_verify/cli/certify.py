@@ -17,7 +17,7 @@ from topo_verify.checkers import Finding
 from topo_verify.checkers.certificate import Certificate
 from topo_verify.checkers.certificate import certify as judge
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
@@ -35,19 +35,19 @@ if TYPE_CHECKING:
     Check = Callable[[str, CoqCertificate], CertificateCheck]
 
 
-class Tally(msgspec.Struct, frozen=True):
+class DecisionCount(msgspec.Struct, frozen=True):
     """How many of the declared decisions follow from the log before them."""
 
     entailed: int
     total: int
 
 
-class Proved(msgspec.Struct, frozen=True):
-    """How many of the decisions that follow are certified.
+class CertifiedDecisions(msgspec.Struct, frozen=True):
+    """How many of the decisions that follow Coq accepted.
 
     Attributes:
-        by: the checker; "" if there was none.
-        why: why some that follow are not certified.
+        by: the checker; "" if nothing was checked.
+        why: the reason why some are not certified; "" if all are.
     """
 
     certified: int
@@ -56,15 +56,15 @@ class Proved(msgspec.Struct, frozen=True):
     why: str
 
 
-class Kernel(msgspec.Struct, frozen=True):
-    """What the proofs in Coq make of the log.
+class KernelCheck(msgspec.Struct, frozen=True):
+    """The certificate for Coq of one log, and what its checker said.
 
     Attributes:
         statement: map, undetermined or impossible; the file says it in full.
         file: the certificate.
-        accepted: by whom it was checked; null if it was not.
-        by, why: the checker; why it was not checked.
-        command: what checks it by hand, in a folder with the certificate.
+        accepted: null if nothing checked the certificate.
+        by, why: the checker; the reason why nothing was checked.
+        command: checks it by hand, in the folder of the certificate.
         decisions: those of the log that follow, certified.
     """
 
@@ -74,21 +74,21 @@ class Kernel(msgspec.Struct, frozen=True):
     by: str
     why: str
     command: str
-    decisions: Proved
+    decisions: CertifiedDecisions
 
     @property
     def incomplete(self) -> bool:
-        """Is something not checked that could have been?"""
+        """True if the certificate or a decision that follows was left unchecked."""
         return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
 
 
-class Certified(msgspec.Struct, frozen=True):
+class CertifyEntry(msgspec.Struct, frozen=True):
     """One log: an entry of `results`; docs/commands.md.
 
     Attributes:
         verdict: PROVED, or REFUTED: more than one world shows the log, or none.
         vertices, edges: of the proved map; of the smaller witness if there is none.
-        witnesses: the two worlds that tell: the file if one was written, else the id.
+        witnesses: two worlds that show this log and differ: the files if written, else the ids.
         kernel: the certificate for Coq; null without --kernel.
     """
 
@@ -97,10 +97,10 @@ class Certified(msgspec.Struct, frozen=True):
     vertices: int
     edges: int
     open_darts: int
-    decisions: Tally
+    decisions: DecisionCount
     witnesses: tuple[str, ...]
     findings: tuple[Finding, ...]
-    kernel: Kernel | None
+    kernel: KernelCheck | None
 
 
 @click.command(
@@ -113,16 +113,18 @@ class Certified(msgspec.Struct, frozen=True):
     ),
 )
 @click.argument("traces", nargs=-1, required=True, metavar="TRACE...")
-@click.option("-o", "map_file", metavar="MAP", help="Write the proved map of the one log.")
-@click.option("--witness", "folder", metavar="DIR", help="Write the worlds that tell there.")
-@click.option("--kernel", "proving", is_flag=True, help="Write a certificate for Coq; check it.")
+@click.option("-o", "map_file", metavar="MAP", help="Write the proved map (one TRACE only).")
+@click.option(
+    "--witness", "folder", metavar="DIR", help="Write two worlds that show the log to DIR."
+)
+@click.option("--kernel", "proving", is_flag=True, help="Write a certificate for Coq and check it.")
 @click.option(
     "--timeout",
     type=click.IntRange(1, options.MOST_SECONDS),
     default=600,
     show_default=True,
     metavar="SECONDS",
-    help="For each program that checks it.",
+    help="Time limit of each program that checks a certificate.",
 )
 @output_options
 def certify(
@@ -144,9 +146,9 @@ def certify(
     checked the exit code is 3.
     """
 
-    def certified() -> Iterator[Result[Certified]]:
+    def certified() -> Iterator[Result[CertifyEntry]]:
         if map_file is not None and len(traces) != 1:
-            raise InputError(f"-o {map_file}: a map is of one log, these are {len(traces)}")
+            raise InputError(f"-o {map_file}: expected one TRACE, got {len(traces)}")
         with _checking(output, timeout) as check:
             for number, trace in enumerate(traces):
                 output.progress(f"folding {trace}", number, len(traces))
@@ -184,11 +186,11 @@ def _proof(
     log: Trace,
     certificate: Certificate,
     check: Check,
-) -> Kernel:
-    """The log's certificate for Coq, written and checked.
+) -> KernelCheck:
+    """Write the certificate of a log and have it checked.
 
     Raises:
-        InternalError: it is refused, or says something else than the fold.
+        InternalError: Coq refuses it, or it states another result than the fold.
     """
     from topo_verify.proofs.mechanised import certificates, vernacular
 
@@ -202,9 +204,9 @@ def _proof(
     for one in (checked, checked.decisions):
         if one is not None and one.accepted is False:
             raise InternalError(f"{one.by} refuses {name}.v: {one.why}")
-    decisions = _proved(len(stated.decisions.stated), certificate.entailed, checked)
+    decisions = _certified_decisions(len(stated.decisions.stated), certificate.entailed, checked)
     by_hand = certificates.command(name)
-    return Kernel(
+    return KernelCheck(
         statement=stated.statement,
         file=f"{name}.v",
         accepted=checked.accepted,
@@ -215,46 +217,50 @@ def _proof(
     )
 
 
-def _proved(stated: int, entailed: int, checked: CertificateCheck) -> Proved:
+def _certified_decisions(
+    stated: int, entailed: int, checked: CertificateCheck
+) -> CertifiedDecisions:
     """How many of the decisions that follow are certified; `stated` have evidence."""
     if not entailed:
-        return Proved(0, 0, "", "")
+        return CertifiedDecisions(0, 0, "", "")
     found = checked.decisions or checked
     if not found.accepted:
         apart = checked.decisions is not None
-        return Proved(0, entailed, "", found.why if apart else "the certificate is not checked")
-    why = "the others follow in planar worlds only, and Coq is not told what planar means"
-    return Proved(stated, entailed, found.by, why if stated < entailed else "")
+        return CertifiedDecisions(
+            0, entailed, "", found.why if apart else "the certificate is not checked"
+        )
+    why = "the others follow in planar worlds only, and the proofs in Coq do not speak of planarity"
+    return CertifiedDecisions(stated, entailed, found.by, why if stated < entailed else "")
 
 
 def _identifier(traces: Sequence[str], number: int) -> str:
-    """The name of a log's certificate: one that Coq takes, and no other log's."""
+    """The name of a log's certificate: an identifier of Coq, different for each of the logs."""
     stem = re.sub(r"\W", "_", Path(_name(traces[number])).stem, flags=re.ASCII)
     return f"certificate_{stem}" + (f"_{number + 1}" if len(traces) > 1 else "")
 
 
 def _result(
-    trace: str, certificate: Certificate, folder: str | None, proof: Kernel | None
-) -> Result[Certified]:
+    trace: str, certificate: Certificate, folder: str | None, proof: KernelCheck | None
+) -> Result[CertifyEntry]:
     worlds = certificate.witnesses
     names = tuple(
         _written(folder, f"{Path(trace).stem}-witness-{number}.json", world)
         if folder is not None
-        else _told(world)
+        else _world_name(world)
         for number, world in enumerate(worlds, 1)
     )
-    again = shlex.join(["topo-verify", "certify", trace])
+    replay_command = shlex.join(["topo-verify", "certify", trace])
     findings = tuple(
-        msgspec.structs.replace(finding, replay=again) for finding in certificate.findings
+        msgspec.structs.replace(finding, replay=replay_command) for finding in certificate.findings
     )
     shown = certificate.map or (worlds[0] if worlds else None)
-    entry = Certified(
+    entry = CertifyEntry(
         trace=trace,
         verdict="REFUTED" if findings else "PROVED",
         vertices=len(shown.vertices) if shown else 0,
         edges=len(shown.edges) if shown else 0,
         open_darts=certificate.open_darts,
-        decisions=Tally(certificate.entailed, certificate.decisions),
+        decisions=DecisionCount(certificate.entailed, certificate.decisions),
         witnesses=names,
         findings=findings,
         kernel=proof,
@@ -264,30 +270,24 @@ def _result(
 
 
 def _written(folder: str, name: str, world: World) -> str:
-    try:
-        Path(folder).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(
-            f"--witness {folder}: no such folder can be made: {error.strerror}"
-        ) from error
-    path = str(Path(folder) / name)
+    path = str(options.make_folder(folder, "--witness") / name)
     files.write(path, world.to_json() + "\n")
     return path
 
 
-def _told(world: World) -> str:
+def _world_name(world: World) -> str:
     if len(world.edges) <= MAX_ID_EDGES:
         return world.id
     return f"a world of {len(world.edges)} edges (--witness DIR writes it)"
 
 
-def _show(entries: Sequence[Certified]) -> Iterator[Block]:
+def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
     rows = [
         (e.trace, e.verdict, str(e.vertices), str(e.edges), str(e.open_darts), _decisions(e))
         for e in entries
     ]
     columns = ("log", "verdict", ">vertices", ">edges", ">open darts", "decisions that follow")
-    yield Table(columns, rows)
+    yield TextTable(columns, rows)
     for entry in entries:
         if entry.findings:
             yield Text("")
@@ -307,15 +307,18 @@ _STATED = {
 }
 
 
-def _show_proof(proof: Kernel) -> Iterator[Block]:
-    told = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
+def _show_proof(proof: KernelCheck) -> Iterator[Block]:
+    outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
+    decisions = _decisions_sentence(proof.decisions)
     yield Text("")
-    told += f".{_certified(proof.decisions)} By hand, in a folder with it:"
-    yield Text(f"{proof.file}: {_STATED[proof.statement]}; {told}")
+    yield Text(
+        f"{proof.file}: {_STATED[proof.statement]}; {outcome}.{decisions}"
+        " To check it by hand, in the folder of that file:"
+    )
     yield Bullets((proof.command,))
 
 
-def _certified(proved: Proved) -> str:
+def _decisions_sentence(proved: CertifiedDecisions) -> str:
     if not proved.entailed:
         return ""
     by = f" by {proved.by}" if proved.by else ""
@@ -324,7 +327,7 @@ def _certified(proved: Proved) -> str:
     return f" Of the decisions that follow, {of} are certified{by}{why}."
 
 
-def _decisions(entry: Certified) -> str:
+def _decisions(entry: CertifyEntry) -> str:
     if not entry.decisions.total:
         return "none declared"
     return f"{entry.decisions.entailed} of {entry.decisions.total}"

@@ -10,10 +10,10 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.record import Opening, mapper_options
+from topo_verify.cli.record import MapperOpener, mapper_options
 from topo_verify.harness.baseline import file
 from topo_verify.harness.baseline.compare import KINDS, Change, Comparison, Group, Kind
 from topo_verify.harness.baseline.compare import compare as run_all
@@ -30,7 +30,7 @@ TITLES: dict[Kind, str] = {
     "undecided": "not decided",
     "equal": "equal",
 }
-"""Each kind in words."""
+"""The title of each kind of change."""
 
 SHORT: dict[Kind, str] = {
     "wrong": "fails",
@@ -40,21 +40,21 @@ SHORT: dict[Kind, str] = {
     "newly_right": "newly right",
     "undecided": "not decided",
 }
-"""The same as titles of columns."""
+"""The title of each kind above a column."""
 
 SHOWN = 5
-"""Of each kind so many worlds are shown."""
+"""The number of worlds shown of each kind; JSON has more."""
 
 
-class Costs(msgspec.Struct, frozen=True):
-    """Edge traversals where the mapper is right then and now, summed up."""
+class CostChange(msgspec.Struct, frozen=True):
+    """Total edge traversals over the worlds in which the mapper is right then and now."""
 
     before: int
     after: int
 
 
-class Recording(msgspec.Struct, frozen=True):
-    """The baseline: its mapper, and the corpus that it was recorded in."""
+class BaselineSummary(msgspec.Struct, frozen=True):
+    """The baseline: its file, its mapper and its corpus."""
 
     file: str
     target: str
@@ -64,13 +64,13 @@ class Recording(msgspec.Struct, frozen=True):
     digest: str
 
 
-class Compared(msgspec.Struct, frozen=True):
+class CompareEntry(msgspec.Struct, frozen=True):
     """One comparison: an entry of `results`; docs/commands.md.
 
     Attributes:
-        worlds: all of the baseline; the sum of the seven numbers behind it.
-        tolerance: in percent, as it was given.
-        beyond: in how many worlds the cost exceeds the tolerance.
+        worlds: those of the baseline; the sum of the seven numbers that follow.
+        tolerance: in percent, as given.
+        beyond: the number of worlds whose cost exceeds the tolerance.
         groups: the same numbers by class of worlds.
         examples: of each kind but `equal`; the largest changes of cost first, else the smallest
             worlds.
@@ -87,21 +87,21 @@ class Compared(msgspec.Struct, frozen=True):
     undecided: int
     tolerance: str
     beyond: int
-    cost: Costs
-    baseline: Recording
+    cost: CostChange
+    baseline: BaselineSummary
     groups: tuple[Group, ...]
     examples: tuple[Change, ...]
 
 
 def _percent(_context: click.Context, _option: click.Parameter, value: str) -> str:
-    """A number of percent, kept as text so as to be exact."""
+    """A percentage, kept as text: the comparison is exact."""
     if not re.fullmatch(r"[0-9]{1,6}(\.[0-9]{1,6})?", value):
-        raise click.BadParameter(f"{value!r} is no number of percent as 5 or 2.5")
+        raise click.BadParameter(f"expected a percentage such as 5 or 2.5, got {value!r}")
     return value
 
 
 @click.command(
-    short_help="What has changed since a baseline was recorded.",
+    short_help="Show what has changed since a baseline was recorded.",
     epilog=options.epilog(
         "compare baseline.jsonl.gz my_mapper.py:explore",
         "compare baseline.jsonl.gz my_mapper.py:explore --tolerance 5 --format markdown",
@@ -115,17 +115,17 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
     show_default=True,
     callback=_percent,
     metavar="PERCENT",
-    help="By so much each world may be dearer; one that is dearer still is a regression.",
+    help="How much dearer each world may be; a larger increase is a regression.",
 )
 @output_options
-def compare(output: Output, *, baseline: str, mapper: Opening, tolerance: str) -> int:
-    """Run a mapper in the worlds of a BASELINE, under its limits, and say what has changed.
+def compare(output: Output, *, baseline: str, mapper: MapperOpener, tolerance: str) -> int:
+    """Run a mapper in the worlds of a BASELINE, under its limits, and show what has changed.
 
     Exit 1: in some world a claim fails, or the cost exceeds the tolerance. An algorithm of the
     catalogue runs with the policies of the baseline, unless others are asked for.
     """
 
-    def compared() -> Iterator[Result[Compared]]:
+    def compared() -> Iterator[Result[CompareEntry]]:
         then = file.load(baseline)
         with mapper(then.header.policies) as target:
             found = run_all(
@@ -144,16 +144,16 @@ def compare(output: Output, *, baseline: str, mapper: Opening, tolerance: str) -
 
 def _entry(
     found: Comparison, target: Target, header: file.Header, name: str, tolerance: str
-) -> Compared:
+) -> CompareEntry:
     kinds = found.kinds
-    return Compared(
+    return CompareEntry(
         target=target.text,
         worlds=sum(kinds.values()),
         **kinds,
         tolerance=tolerance,
         beyond=found.beyond,
-        cost=Costs(found.before, found.after),
-        baseline=Recording(
+        cost=CostChange(found.before, found.after),
+        baseline=BaselineSummary(
             name, header.target, header.tool, header.policies, header.corpus, header.digest
         ),
         groups=found.groups,
@@ -164,7 +164,7 @@ def _entry(
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[Compared]) -> Iterator[Block]:
+def _show(entries: Sequence[CompareEntry]) -> Iterator[Block]:
     for entry in entries:
         then = entry.baseline
         yield Text(
@@ -181,21 +181,21 @@ def _show(entries: Sequence[Compared]) -> Iterator[Block]:
         for kind in KINDS:
             yield from _examples(kind, entry)
         yield Text("")
-        yield Text(_upshot(entry))
+        yield Text(_conclusion(entry))
 
 
-def _summary(entry: Compared) -> Table:
+def _summary(entry: CompareEntry) -> TextTable:
     rows = [(TITLES[kind], f"{_count(entry, kind):,}") for kind in KINDS]
-    return Table(("", ">worlds"), rows)
+    return TextTable(("", ">worlds"), rows)
 
 
-def _count(entry: Compared, kind: Kind) -> int:
+def _count(entry: CompareEntry, kind: Kind) -> int:
     number: int = getattr(entry, kind)
     return number
 
 
-def _table(groups: Sequence[Group]) -> Table:
-    """The classes; a kind that no world is of has no column."""
+def _table(groups: Sequence[Group]) -> TextTable:
+    """The table of classes; a kind without worlds has no column."""
     kinds: list[Kind] = [
         k for k in KINDS if k != "equal" and any(group.kinds[k] for group in groups)
     ]
@@ -211,14 +211,14 @@ def _table(groups: Sequence[Group]) -> Table:
         for group in groups
     ]
     columns = ("class", ">worlds", *(f">{SHORT[k]}" for k in kinds), ">cost then", ">now", ">%")
-    return Table(columns, rows, title="by class of worlds, where something has changed")
+    return TextTable(columns, rows, title="by class of worlds, where something has changed")
 
 
 def _percentage(before: int, after: int) -> str:
     return f"{100 * (after - before) / before:+.1f}" if before else "-"
 
 
-def _examples(kind: Kind, entry: Compared) -> Iterator[Block]:
+def _examples(kind: Kind, entry: CompareEntry) -> Iterator[Block]:
     changes = [change for change in entry.examples if change.kind == kind][:SHOWN]
     if not changes:
         return
@@ -230,7 +230,7 @@ def _examples(kind: Kind, entry: Compared) -> Iterator[Block]:
 
 
 def _line(change: Change) -> str:
-    """World, what it costs, what is wrong."""
+    """One changed world: its name, then both costs or the finding."""
     name = change.world if len(change.world) < 40 else f"{change.world[:36]}…"
     if change.message:
         return f"{name}: {change.message}"
@@ -244,7 +244,7 @@ def _costs(before: int, after: int) -> str:
     return f"{before:,} → {after:,} edge traversals ({_percentage(before, after)} %)"
 
 
-def _upshot(entry: Compared) -> str:
+def _conclusion(entry: CompareEntry) -> str:
     bad: list[str] = []
     if entry.wrong:
         bad.append(f"in {plural(entry.wrong, 'world')} a claim fails")

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import click
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
-from topo_verify.errors import InputError
 from topo_verify.harness.conform.conform import Books, Standing
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
@@ -25,12 +23,12 @@ from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 
 SHOWN = 3
-"""So many findings of a level, and so many worlds with costs, are shown; JSON has more."""
+"""The number of findings of a level, and of worlds with costs, that are shown; JSON has more."""
 
 
 @dataclass(frozen=True)
-class _Asked:
-    """What the options ask for, beside the job."""
+class _ConformOptions:
+    """The options of one call that are not part of the job."""
 
     corpus: Corpus
     workers: int
@@ -38,7 +36,7 @@ class _Asked:
 
 
 @click.command(
-    short_help="An implementation, any program too, against the reference.",
+    short_help="Compare an implementation, in any language, with the reference.",
     epilog=options.epilog(
         "conform my_mapper.py:explore",
         "conform --cmd './mapper --fast' --like enhancement-ii",
@@ -56,24 +54,26 @@ class _Asked:
     help="corpus, edges<=N, generated:N[:STRATEGY], a folder, any WORLD; may be repeated."
     "  [default: corpus]",
 )
-@click.option("--like", metavar="ALGORITHM", help="Event for event as this one of the catalogue.")
+@click.option(
+    "--like", metavar="ALGORITHM", help="Compare every event with this algorithm of the catalogue."
+)
 @options.policies
 @click.option("--batch", is_flag=True, help="The program reads worlds and writes runs.")
 @click.option(
     "--workers",
     type=click.IntRange(min=0),
     metavar="N",
-    help="So many processes; 0: this one alone.  [default: one a processor]",
+    help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
 @click.option("--validate", is_flag=True, help="Refuse fields that no schema lists.")
-@click.option("--transcript", metavar="DIR", help="Keep what was said in failing worlds in DIR.")
+@click.option("--transcript", metavar="DIR", help="Write the messages of failing worlds to DIR.")
 @click.option(
     "--seed",
     type=click.IntRange(min=0),
     default=0,
     show_default=True,
     metavar="N",
-    help="Draws the generated worlds.",
+    help="Seed of the generated worlds.",
 )
 @options.limits
 @output_options
@@ -93,21 +93,22 @@ def conform(  # noqa: PLR0913  an argument an option
     seed: int,
     limits: Limits,
 ) -> int:
-    """Try an implementation in many worlds; how it stands on four levels, each reported apart.
+    """Try an implementation in many worlds and judge it on four levels, each by itself.
 
-    result: the map, the cost. claims: the decisions that it declares, the proof. decisions: event
-    for event as --like ALGORITHM. cost: beside that algorithm (or basic). TARGET is a catalogue
-    name, module:attribute or file.py:attribute; --cmd names a program of protocol 1.
+    result: its map and its cost. claims: its declared decisions, and whether its history proves the
+    map. decisions: every event, compared with --like ALGORITHM. cost: compared with that algorithm
+    (or basic). TARGET is a catalogue name, module:attribute or file.py:attribute; --cmd names a
+    program that speaks protocol 1.
     """
 
     def standings() -> Iterator[Result[Standing]]:
         text = target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
-        asked = _Asked(
+        asked = _ConformOptions(
             corpus_from(texts, seed=seed), processors() if workers is None else workers, batch
         )
         if transcript is not None:
-            _make_folder(transcript)
+            options.make_folder(transcript, "--transcript")
         output.note(f"seed {seed}")
         for one in [text] if command else [found.text for found in targets(text)]:
             job = ConformJob(
@@ -117,7 +118,7 @@ def conform(  # noqa: PLR0913  an argument an option
                 limits=limits,
                 validate=validate,
                 transcript=transcript,
-                replay_arguments=_again(
+                replay_arguments=_replay_command(
                     one, like, pick, order, limits, batch=batch, validate=validate
                 ),
             )
@@ -126,8 +127,8 @@ def conform(  # noqa: PLR0913  an argument an option
     return output.run("conform", standings, _show, seed=seed, corpus=list(texts) or ["corpus"])
 
 
-def _tried(output: Output, job: ConformJob, asked: _Asked) -> Iterator[Result[Standing]]:
-    """One implementation, also where it is interrupted."""
+def _tried(output: Output, job: ConformJob, asked: _ConformOptions) -> Iterator[Result[Standing]]:
+    """The results of one implementation; after Ctrl-C, those so far."""
     books = Books(job, asked.corpus)
     try:
         try_all(
@@ -149,7 +150,7 @@ def _result(standing: Standing) -> Result[Standing]:
     return Result(standing, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
 
 
-def _again(
+def _replay_command(
     target: str,
     like: str | None,
     pick: str | None,
@@ -159,20 +160,13 @@ def _again(
     batch: bool,
     validate: bool,
 ) -> tuple[str, ...]:
-    """The words that ask for the same again; the world comes behind them."""
+    """The command that repeats the run, in words; the world is appended to it."""
     words = ["topo-verify", "conform", *target_arguments(target)]
     for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
         words += [name, value] if value is not None else []
     words += ["--batch"] if batch else []
     words += ["--validate"] if validate else []
     return (*words, *limits.options)
-
-
-def _make_folder(name: str) -> None:
-    try:
-        Path(name).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"--transcript {name}: cannot make it: {error.strerror}") from error
 
 
 # ---------------------------------------------------------------- for people
@@ -188,7 +182,7 @@ _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of world
 
 def _shown(levels: Sequence[Standing]) -> Iterator[Block]:
     rows = [(one.level, one.verdict, *_numbers(one)) for one in levels]
-    yield Table(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
+    yield TextTable(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
     first = levels[0]
     gone = {
         "skipped": first.skipped,
@@ -232,7 +226,7 @@ def _findings(level: Standing) -> Iterator[Block]:
 
 
 def _difference(found: WorldFinding, level: Standing) -> Iterator[Block]:
-    """A finding; two runs that part, side by side with what was known then."""
+    """One finding; if two runs part, both side by side and what was known until then."""
     parted = found.difference
     if parted is None:
         where = "" if found.event is None else f"event {found.event}: "
@@ -241,7 +235,7 @@ def _difference(found: WorldFinding, level: Standing) -> Iterator[Block]:
     state = parted.state
     rows = [(line, "(the same)") for line in parted.before]
     rows.append((parted.expected or "nothing more", parted.seen or "nothing more"))
-    yield Table((level.like, level.target), rows)
+    yield TextTable((level.like, level.target), rows)
     edges = " ".join(f"{a}-{b}" for a, b in state.explored) or "none"
     known = f"known then: degrees {' '.join(map(str, state.vertices))}; explored edges {edges}"
     here = f"; at dart {state.edge}, hypotheses left {list(state.left)}"
@@ -250,7 +244,7 @@ def _difference(found: WorldFinding, level: Standing) -> Iterator[Block]:
 
 
 def _costs(level: Standing) -> Iterator[Block]:
-    """In all, and where it differs most."""
+    """The total cost, and the worlds in which it differs most from the reference."""
     if level.level != "cost" or level.cost.ratio is None:
         return
     cost = level.cost
@@ -265,4 +259,4 @@ def _costs(level: Standing) -> Iterator[Block]:
     ranked = sorted(other, key=lambda one: -(one.ratio or 0))
     chosen = list(dict.fromkeys([*ranked[:SHOWN], *ranked[-SHOWN:]]))
     rows = [(o.world, str(o.mapper), str(o.reference), f"{o.ratio:.3f}") for o in chosen]
-    yield Table(("world", ">cost", f">{level.like}", ">ratio"), rows)
+    yield TextTable(("world", ">cost", f">{level.like}", ">ratio"), rows)

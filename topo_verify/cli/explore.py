@@ -10,15 +10,15 @@ import msgspec
 
 from topo_verify.checkers import Finding, Status
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Table, Text
+from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import (
-    Place,
+    NamedWorld,
     claims_cell,
     finding_blocks,
     judged,
-    places,
+    named_worlds,
     silent,
     undeclared,
 )
@@ -34,20 +34,20 @@ from topo_verify.text import plural
 from topo_verify.world.formats import files
 
 
-class Chosen(msgspec.Struct, frozen=True):
+class ChosenPolicies(msgspec.Struct, frozen=True):
     """The policies of a run; None for a mapper that has none."""
 
     pick: str | None
     order: str | None
 
 
-class Measured(msgspec.Struct, frozen=True):
-    """How far the rule is from the best possible: see `topo_verify.harness.gap`.
+class MeasuredGap(msgspec.Struct, frozen=True):
+    """The gap of a rule to the best possible one; see `topo_verify.harness.gap`.
 
     Attributes:
         false: false hypotheses posed.
-        walked: rejected by motion.
-        refutable: walked, although the history before the walk refuted them.
+        walked: how many of them were rejected by motion.
+        refutable: how many were walked although the history before the walk refuted them.
         share: refutable / false.
     """
 
@@ -57,22 +57,22 @@ class Measured(msgspec.Struct, frozen=True):
     share: float
 
 
-class Explored(msgspec.Struct, frozen=True):
+class ExploreEntry(msgspec.Struct, frozen=True):
     """One run: an entry of `results`; docs/commands.md.
 
     Attributes:
-        least_cost: what every mapper has to pay that is right in all worlds, map in hand.
+        least_cost: the least cost of a proof (docs/semantics.md, section 11).
         isomorphic: the map is the world.
         entailed: the history alone proves the map.
-        ok: no claim failed, and the run came to its end.
+        ok: no claim failed, and the run ended in time.
         claims: the status of each claim.
         stopped: why the mapper delivered no map, or None.
-        gap: with --gap, and where all that it needs was declared.
+        gap: with --gap, if the mapper declares every decision; otherwise None.
     """
 
     world: str
     algorithm: str
-    policies: Chosen
+    policies: ChosenPolicies
     vertices: int
     edges: int
     genus: int
@@ -87,12 +87,12 @@ class Explored(msgspec.Struct, frozen=True):
     confirmed: int
     claims: dict[str, Status]
     stopped: str | None
-    gap: Measured | None
+    gap: MeasuredGap | None
 
 
 @dataclass(frozen=True)
-class _Asked:
-    """What the options ask for."""
+class _ExploreOptions:
+    """The options of one call."""
 
     limits: Limits
     trace: str | None
@@ -117,9 +117,11 @@ class _Asked:
 @options.program
 @options.policies
 @options.marker
-@click.option("--trace", metavar="FILE", help="Write the trace of the one run, JSON Lines.")
-@click.option("--strict", is_flag=True, help="Ask every claim in worlds over 100 edges, too.")
-@click.option("--gap", is_flag=True, help="Measure what was walked although already refuted.")
+@click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
+@click.option("--strict", is_flag=True, help="Judge every claim in worlds over 100 edges, too.")
+@click.option(
+    "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
+)
 @options.limits
 @output_options
 def explore(  # noqa: PLR0913  an argument an option
@@ -136,42 +138,42 @@ def explore(  # noqa: PLR0913  an argument an option
     gap: bool,
     limits: Limits,
 ) -> int:
-    """Run algorithms in given worlds: what they cost, and whether every claim holds.
+    """Run algorithms in given worlds and show what each run costs and which claims hold.
 
     WORLD is a file, a world id (m5/17), family:lattice(10,10,holes=0.2,seed=7), nyc (a real street
     network) or - (world JSON on standard input).
     """
 
-    def runs() -> Iterator[Result[Explored]]:
+    def runs() -> Iterator[Result[ExploreEntry]]:
         text = target_text(algorithm, command, "all")
         found = targets(text, pick=pick, order=order)
-        where = places(worlds, marker)
+        starts = named_worlds(worlds, marker)
         if trace is not None:
-            _require_one_run(trace, found, where)
-        asked = _Asked(limits, trace, strict, gap)
-        return _results(output, where, found, asked)
+            _require_one_run(trace, found, starts)
+        asked = _ExploreOptions(limits, trace, strict, gap)
+        return _results(output, starts, found, asked)
 
     return output.run("explore", runs, show)
 
 
-def _require_one_run(trace: str, found: Sequence[Target], where: Sequence[Place]) -> None:
+def _require_one_run(trace: str, found: Sequence[Target], starts: Sequence[NamedWorld]) -> None:
     if trace == "-":
         raise InputError("--trace -: standard output is for the results; name a file")
-    if len(found) * len(where) != 1:
+    if len(found) * len(starts) != 1:
         raise InputError(
-            f"--trace {trace}: a trace is of one run, these are {len(found) * len(where)}; name"
-            " one WORLD, and one algorithm with --algorithm"
+            f"--trace {trace}: expected one run, got {len(found) * len(starts)}; name one"
+            " WORLD, and one algorithm with --algorithm"
         )
 
 
 def _results(
     output: Output,
-    where: Sequence[Place],
+    starts: Sequence[NamedWorld],
     found: Sequence[Target],
-    asked: _Asked,
-) -> Iterator[Result[Explored]]:
-    total = len(where) * len(found)
-    for number, (at, target) in enumerate((at, target) for at in where for target in found):
+    asked: _ExploreOptions,
+) -> Iterator[Result[ExploreEntry]]:
+    total = len(starts) * len(found)
+    for number, (at, target) in enumerate((at, target) for at in starts for target in found):
         output.progress(f"{target.text} in {at.name}", number, total)
         run = run_mapper(at.world, target, limits=asked.limits)
         if asked.trace is not None:
@@ -179,17 +181,19 @@ def _results(
         yield _result(run, at, asked)
 
 
-def _result(run: Exploration, at: Place, asked: _Asked) -> Result[Explored]:
+def _result(run: Exploration, at: NamedWorld, asked: _ExploreOptions) -> Result[ExploreEntry]:
     report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
     measured = None
     if asked.gap and report.ok and "not-declared" not in report.claims.values():
         found = measure(run.trace)
-        measured = Measured(*found, share=found.share)
+        measured = MeasuredGap(*found, share=found.share)
     policies = run.policies
-    entry = Explored(
+    entry = ExploreEntry(
         world=at.name,
         algorithm=run.algorithm,
-        policies=Chosen(policies.pick, policies.order) if policies else Chosen(None, None),
+        policies=ChosenPolicies(policies.pick, policies.order)
+        if policies
+        else ChosenPolicies(None, None),
         vertices=len(at.world.vertices),
         edges=len(at.world.edges),
         genus=at.world.genus,
@@ -212,23 +216,23 @@ def _result(run: Exploration, at: Place, asked: _Asked) -> Result[Explored]:
 # ---------------------------------------------------------------- for people
 
 
-def show(entries: Sequence[Explored]) -> Iterator[Block]:
-    """A table a world; of one algorithm in many worlds, one table."""
+def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
+    """One table a world; for a single algorithm in many worlds, one table in all."""
     if len(entries) > 1 and len({entry.algorithm for entry in entries}) == 1:
         rows = [(entry.world, str(entry.edges), *_row(entry)) for entry in entries]
-        yield Table(("world", ">edges", *_COLUMNS), rows, title=entries[0].algorithm)
+        yield TextTable(("world", ">edges", *_COLUMNS), rows, title=entries[0].algorithm)
     else:
         for number, group in enumerate(_by_world(entries)):
             if number:
                 yield Text("")
             yield _world_table(group)
     for entry in entries:
-        where = f"{entry.algorithm} in {entry.world}"
+        run = f"{entry.algorithm} in {entry.world}"
         if entry.findings:
             yield Text("")
-        yield from finding_blocks(entry.findings, where)
+        yield from finding_blocks(entry.findings, run)
         if entry.stopped is not None and not entry.findings:
-            yield Text(f"{where} is not decided: {entry.stopped}")
+            yield Text(f"{run} is not decided: {entry.stopped}")
     quiet = {e.algorithm: silent(e.claims) for e in entries if e.ok and silent(e.claims)}
     for algorithm, claims in quiet.items():
         yield Text("")
@@ -239,8 +243,8 @@ def show(entries: Sequence[Explored]) -> Iterator[Block]:
     yield from _gap_table(entries)
 
 
-def _gap_table(entries: Sequence[Explored]) -> Iterator[Block]:
-    """What was walked although the history had refuted it."""
+def _gap_table(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
+    """The table of --gap: hypotheses that were walked although the history refuted them."""
     measured = [(entry, entry.gap) for entry in entries if entry.gap is not None]
     if not measured:
         return
@@ -250,13 +254,13 @@ def _gap_table(entries: Sequence[Explored]) -> Iterator[Block]:
     ]
     columns = ("algorithm", "world", ">false", ">walked", ">refutable", ">gap")
     yield Text("")
-    yield Table(columns, rows, "false hypotheses: walked although the history refuted them")
+    yield TextTable(columns, rows, "false hypotheses: walked although the history refuted them")
 
 
 _COLUMNS = (">cost", ">of least", ">rejected free", ">moving", "claims")
 
 
-def _row(entry: Explored) -> tuple[str, ...]:
+def _row(entry: ExploreEntry) -> tuple[str, ...]:
     return (
         str(entry.cost),
         f"{entry.cost / entry.least_cost:.2f}" if entry.least_cost else "-",
@@ -266,9 +270,13 @@ def _row(entry: Explored) -> tuple[str, ...]:
     )
 
 
-def _by_world(entries: Sequence[Explored]) -> Iterator[list[Explored]]:
-    """The runs in one world after the other: the algorithms come round in the same order."""
-    group: list[Explored] = []
+def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
+    """The runs grouped by world.
+
+    Runs come world by world, with the algorithms in the same order each time. Two worlds may have
+    one name, so a group ends where the first algorithm comes again, not where the name changes.
+    """
+    group: list[ExploreEntry] = []
     for entry in entries:
         if group and entry.algorithm == group[0].algorithm:
             yield group
@@ -278,17 +286,17 @@ def _by_world(entries: Sequence[Explored]) -> Iterator[list[Explored]]:
         yield group
 
 
-def _world_table(group: Sequence[Explored]) -> Table:
-    """What each algorithm paid in one world, relative to `basic` if it is there."""
+def _world_table(group: Sequence[ExploreEntry]) -> TextTable:
+    """The cost of each algorithm in one world, relative to `basic` if that was run."""
     one = group[0]
     size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
     title = f"{one.world}: {size}, genus {one.genus}, least cost {one.least_cost}"
     basic = next((e.cost for e in group if e.algorithm == "basic" and len(group) > 1), 0)
     if not basic:
-        return Table(("algorithm", *_COLUMNS), [(e.algorithm, *_row(e)) for e in group], title)
+        return TextTable(("algorithm", *_COLUMNS), [(e.algorithm, *_row(e)) for e in group], title)
     rows: list[tuple[str, ...]] = []
     for entry in group:
         cost, *rest = _row(entry)
         rows.append((entry.algorithm, cost, f"{entry.cost / basic:.2f}", *rest))
     cost, *others = _COLUMNS
-    return Table(("algorithm", cost, ">of basic", *others), rows, title)
+    return TextTable(("algorithm", cost, ">of basic", *others), rows, title)

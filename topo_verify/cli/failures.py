@@ -1,4 +1,4 @@
-"""What the exit code says, and the one sentence on stderr when a command cannot do its work.
+"""Exit codes, and the one sentence on stderr when a command cannot do its work.
 
     0    nothing found
     1    an unexpected counterexample, a claim that fails; nothing else ever exits 1
@@ -26,16 +26,16 @@ from topo_verify.errors import InputError
 from topo_verify.text import shown
 
 TRACEBACK = "TOPO_VERIFY_TRACEBACK"
-"""Set to 1, this environment variable asks for the whole traceback of a bug."""
+"""If this environment variable is 1, a bug is reported with its whole traceback."""
 
 SUMMARY = """\b
 Exit codes: 0 nothing found; 1 a claim fails; 2 bad usage or input;
   3 incomplete (time-out, Ctrl-C); 70 a bug of topo-verify."""
-"""What every --help ends with. (The mark at its head tells click to keep the lines.)"""
+"""The last lines of every --help. (The mark at its head tells click to keep the lines.)"""
 
 
 class ExitCode(IntEnum):
-    """What the program exits with."""
+    """The exit codes of every command."""
 
     NOTHING_FOUND = 0
     CLAIM_FAILED = 1
@@ -45,7 +45,7 @@ class ExitCode(IntEnum):
 
 
 def exit_code(*, failed: bool, incomplete: bool) -> ExitCode:
-    """The exit code of a command that did its work: 1 beats 3."""
+    """The exit code of a command that did its work; a failed claim outranks all else."""
     if failed:
         return ExitCode.CLAIM_FAILED
     return ExitCode.INCOMPLETE if incomplete else ExitCode.NOTHING_FOUND
@@ -57,13 +57,13 @@ def version() -> str:
 
 
 def say(sentence: str) -> None:
-    """One line on stderr, whatever the sentence holds."""
+    """Print a sentence as one line on stderr, its control characters escaped."""
     line = shown(sentence, limit=4000)
     click.echo(line.encode(errors="backslashreplace").decode(), err=True)
 
 
 def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
-    """Say on stderr what ended a command, and whose move it is."""
+    """Print on stderr what ended a command and who can mend it; return the exit code."""
     if isinstance(error, InputError):
         say(f"topo-verify: {error}")
         return ExitCode.BAD_INPUT
@@ -74,7 +74,7 @@ def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
 
 
 def _usage(error: click.ClickException) -> str:
-    """Click's objection as one sentence, with the help that mends it."""
+    """Click's error as one sentence, with the command that shows the usage."""
     context = error.ctx if isinstance(error, click.UsageError) else None
     path = context.command_path if context else "topo-verify"
     if isinstance(error, click.exceptions.NoArgsIsHelpError):

@@ -8,7 +8,7 @@ import click
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.errors import InputError
@@ -27,11 +27,11 @@ from topo_verify.text import plural
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")
 WIDTHS = (29, 21, 13, 5, 3)
-"""Eighty columns have no room for the part: it stands above the first fault of each."""
+"""Eighty columns have no room for the part: it is printed above its first fault."""
 
 
 @click.command(
-    short_help="Mappers with one mistake each: which check finds which?",
+    short_help="Show which check finds which mistake, in faulty mappers.",
     epilog=options.epilog(
         "faults",
         "faults restores-with-the-wrong-sign",
@@ -45,13 +45,13 @@ WIDTHS = (29, 21, 13, 5, 3)
     default=",".join(CHECKS),
     show_default=True,
     metavar="CHECKS",
-    help="Which checks, with commas.",
+    help="The checks to run, with commas.",
 )
 @click.option(
     "--workers",
     type=click.IntRange(min=0),
     metavar="N",
-    help="So many processes; 0: none but this.  [default: one a processor]",
+    help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
 @click.option(
     "--thorough",
@@ -65,18 +65,18 @@ def faults(
 ) -> int:
     """Try the checks on mappers with one mistake each, and on some that differ harmlessly.
 
-    A fault must be caught by every check, in all worlds up to the first size in which one fails,
-    and within Hypothesis's usual number of examples. A harmless difference must be caught by none.
-    Where a theorem has the same mistake in it, the solver must refute that. NAME is a fault;
-    without any, all are tried.
+    Every check must catch every fault: the search goes up to the first size with a failing world,
+    the property tests have Hypothesis's default number of examples. No check may catch a harmless
+    difference. A theorem with the same mistake must be refuted by the solver. NAME is a fault; by
+    default all are tried.
     """
 
     def tried() -> Iterator[Result[Caught]]:
-        crew = processors() if workers is None else workers
+        processes = processors() if workers is None else workers
         chosen = _named(names)
         output.progress(chosen[0].name, 0, len(chosen))
         entries = try_faults(
-            chosen, by=_checks(checks), workers=crew, thorough=thorough, tell=output.progress
+            chosen, by=_checks(checks), workers=processes, thorough=thorough, tell=output.progress
         )
         for done, entry in enumerate(entries, 1):
             yield Result(entry, failed=not (entry.ok or entry.undecided), incomplete=not entry.ok)
@@ -85,14 +85,14 @@ def faults(
     seen: set[str] = set()
 
     def live(entry: Caught) -> Iterator[Block]:
-        """One fault, as soon as it is done; the first of a part below the part's name."""
+        """The row of one fault; above the first of a part stands the part's name."""
         part = _part(entry)
         if part not in seen:
             seen.add(part)
             yield Text(f"{part}:")
-        yield Table(COLUMNS, [_row(entry)], widths=WIDTHS, headed=False)
+        yield TextTable(COLUMNS, [_row(entry)], widths=WIDTHS, headed=False)
 
-    head = (Text(_head(names, thorough=thorough)), Table(COLUMNS, [], widths=WIDTHS))
+    head = (Text(_head(names, thorough=thorough)), TextTable(COLUMNS, [], widths=WIDTHS))
     return output.run("faults", tried, _show, live=Live(head, live, _end), by=checks)
 
 
@@ -103,7 +103,9 @@ def _part(entry: Caught) -> str:
 def _named(names: Sequence[str]) -> list[Fault]:
     unknown = [name for name in names if name not in FAULTS]
     if unknown:
-        raise InputError(f"no fault {unknown[0]!r}: there are {', '.join(FAULTS)}")
+        raise InputError(
+            f"expected the name of a fault, got {unknown[0]!r}; the faults are {', '.join(FAULTS)}"
+        )
     return [FAULTS[name] for name in names] or list(FAULTS.values())
 
 
@@ -111,7 +113,9 @@ def _checks(text: str) -> list[Check]:
     asked = [word.strip() for word in text.split(",")]
     unknown = [word for word in asked if word not in CHECKS]
     if unknown:
-        raise InputError(f"--by {text}: no check {unknown[0]!r}; there are {', '.join(CHECKS)}")
+        raise InputError(
+            f"--by {text}: expected checks out of {', '.join(CHECKS)}, got {unknown[0]!r}"
+        )
     return [check for check in CHECKS if check in asked]
 
 
@@ -128,12 +132,12 @@ def _head(names: Sequence[str], *, thorough: bool) -> str:
 
 
 def _show(entries: Sequence[Caught]) -> Iterator[Block]:
-    """Everything at once."""
+    """All faults in one table, and the summary."""
     rows = [
         (entry.name, entry.part, *_row(entry)[1:-1], _theorem(entry), _ok(entry))
         for entry in entries
     ]
-    yield Table(("fault", "part", *COLUMNS[1:-1], "theorem", "ok"), rows)
+    yield TextTable(("fault", "part", *COLUMNS[1:-1], "theorem", "ok"), rows)
     yield from _end(entries)
 
 
@@ -148,7 +152,7 @@ def _ok(entry: Caught) -> str:
 
 
 def _worlds(entry: Caught) -> str:
-    """`3: 4 of 74`, edges, failing worlds and all; where not all were tried, the first's rank."""
+    """`3: 4 of 74`: of 74 worlds with 3 edges 4 fail. `6: rank 8990`: the search stopped there."""
     found = entry.search
     if found is None:
         return "-"
@@ -160,7 +164,7 @@ def _worlds(entry: Caught) -> str:
 
 
 def _examples(entry: Caught) -> str:
-    """The median; with an asterisk if only the second strategy found it with every seed."""
+    """The median; an asterisk if only the second strategy finds it with every seed."""
     drawn = entry.properties
     if drawn is None:
         return "-"
@@ -174,7 +178,7 @@ def _theorem(entry: Caught) -> str:
 
 
 def _end(entries: Sequence[Caught]) -> Iterator[Block]:
-    """How many of how many; what was not found, and how to see it."""
+    """The summary: what was missed and how to see it, then the counts."""
     yield Text("")
     wrong = [entry for entry in entries if not entry.ok]
     for entry in wrong:
@@ -197,4 +201,4 @@ def _end(entries: Sequence[Caught]) -> Iterator[Block]:
         words += f". {refuted} of {plural(len(proofs), 'theorem')} with the same mistake refuted"
     yield Text(words + ".")
     if any(entry.undecided for entry in entries):
-        yield Text("?: a time limit ended a run or a proof, so this is not decided.")
+        yield Text("?: not decided, because a time limit ended a run or a proof.")

@@ -1,7 +1,7 @@
-"""What a person reads: a few kinds of blocks, printed on a terminal or written as Markdown.
+"""Blocks of output for people, printed on a terminal or written as Markdown.
 
-A command says what there is to see as a list of blocks and knows nothing of either form. Texts may
-come from anywhere (a world's name, a mapper's exception), so control characters are escaped here.
+A command yields blocks and does not know in which form they appear. Texts may come from anywhere (a
+world's name, a mapper's exception), so control characters are escaped here.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from typing import IO, TYPE_CHECKING
 from topo_verify.text import shown
 
 if TYPE_CHECKING:
-    from rich.table import Table as Grid
+    from rich.table import Table as RichTable
 
 WIDTH = 80
-"""Columns where there is no terminal to ask."""
+"""The width in columns if the output is not a terminal."""
 
 STYLES = {
     "PROVED": "bold green",
@@ -29,7 +29,7 @@ STYLES = {
     "failed": "bold red",
     "incomplete": "bold yellow",
 }
-"""Words that a terminal shows in colour where they fill a cell."""
+"""The styles of words that fill a cell of a table on a terminal."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Text:
 
 @dataclass(frozen=True)
 class Command:
-    """A command line to be copied: never broken into lines."""
+    """A command line to copy; it is never wrapped."""
 
     line: str
     label: str = ""
@@ -49,21 +49,21 @@ class Command:
 
 @dataclass(frozen=True)
 class Bullets:
-    """Short texts, one under the other."""
+    """A list of short texts, one below the other."""
 
     items: tuple[str, ...]
 
 
 @dataclass(frozen=True)
-class Table:
+class TextTable:
     """Rows of cells.
 
     Attributes:
-        columns: the titles; one that begins with `>` stands over numbers, flush right.
-        rows: as many cells each as there are columns.
+        columns: the titles; a column whose title begins with `>` is flush right, for numbers.
+        rows: each has as many cells as there are columns.
         title: what the rows have in common.
-        widths: for tables that are printed a row at a time; 0: as wide as it may be.
-        headed: print the titles? (Markdown always does.)
+        widths: fixed widths, for tables printed a row at a time; 0: the rest of the line.
+        headed: whether the titles are printed. (Markdown always has them.)
     """
 
     columns: tuple[str, ...]
@@ -75,19 +75,19 @@ class Table:
 
 @dataclass(frozen=True)
 class Raw:
-    """Text for another program: printed as it is."""
+    """Text for another program, printed unchanged."""
 
     text: str
 
 
-Block = Text | Command | Bullets | Table | Raw
+Block = Text | Command | Bullets | TextTable | Raw
 
 
 # ---------------------------------------------------------------- on a terminal
 
 
 def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
-    """Print the blocks; in colour if it is a terminal, 80 columns wide if it is none."""
+    """Print the blocks: in colour on a terminal, else 80 columns wide."""
     from rich.console import Console
     from rich.padding import Padding
     from rich.text import Text as Line
@@ -106,7 +106,7 @@ def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
                         console.print(Padding(Line(_clean(item)), (0, 0, 0, 2)))
                 case Raw(text):
                     out.write(text + "\n")
-                case Table():
+                case TextTable():
                     if block.title:
                         console.print(Line(_clean(block.title), style="bold"))
                     console.print(_grid(block))
@@ -114,11 +114,11 @@ def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
         out.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
 
 
-def _grid(block: Table) -> Grid:
-    from rich.table import Table as Grid
+def _grid(block: TextTable) -> RichTable:
+    from rich.table import Table as RichTable
     from rich.text import Text as Line
 
-    grid = Grid(box=None, show_header=block.headed, pad_edge=False, padding=(0, 2, 0, 0))
+    grid = RichTable(box=None, show_header=block.headed, pad_edge=False, padding=(0, 2, 0, 0))
     for place, title in enumerate(block.columns):
         grid.add_column(
             _clean(title.removeprefix(">")),
@@ -153,7 +153,7 @@ def _markdown(block: Block) -> str:
             return "\n".join(f"- {_escaped(item)}" for item in items)
         case Raw(text):
             return f"```\n{text}\n```"
-        case Table(columns, rows, title):
+        case TextTable(columns, rows, title):
             head = f"**{_escaped(title)}**\n\n" if title else ""
             titles = [column.removeprefix(">") for column in columns]
             rule = ["---:" if column.startswith(">") else "---" for column in columns]

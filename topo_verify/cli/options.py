@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import wraps
+from pathlib import Path
 from typing import Any
 
 import click
 
 from topo_verify.cli.failures import SUMMARY
+from topo_verify.errors import InputError
 from topo_verify.robot.limits import Limits
 
 
@@ -20,31 +22,29 @@ def epilog(*examples: str) -> str:
 
 
 MOST_SECONDS = 10**6
-"""The longest time limit, some eleven days."""
+"""The longest time limit, in seconds: about eleven days."""
 
 
 def _seconds(_context: click.Context, _option: click.Parameter, value: str) -> float:
-    """A number of seconds, finite and above 0."""
+    """The seconds in a text, above 0 and at most `MOST_SECONDS`."""
     try:
         seconds = float(value)
     except ValueError:
-        seconds = math.nan
+        seconds = math.nan  # NaN fails the comparison below, as the text "nan" does
     if not 0 < seconds <= MOST_SECONDS:
-        raise click.BadParameter(
-            f"{value!r} is no number of seconds, above 0 and up to {MOST_SECONDS}"
-        )
+        raise click.BadParameter(f"expected seconds in (0, {MOST_SECONDS}], got {value!r}")
     return seconds
 
 
 def limits(command: Callable[..., int]) -> Callable[..., int]:
-    """The limits of each run of a mapper, handed over as `limits`."""
+    """Add the limits of a run in one world; the command gets them as `limits`."""
     usual = Limits()
 
     @click.option(
         "--budget",
         type=click.IntRange(min=0),
         metavar="N",
-        help="Moves in a world.  [default: the bound of claim cost-within-bound]",
+        help="Most moves in one world.  [default: the bound of claim cost-within-bound]",
     )
     @click.option(
         "--move-timeout",
@@ -52,7 +52,7 @@ def limits(command: Callable[..., int]) -> Callable[..., int]:
         default=f"{usual.move_timeout:g}",
         show_default=True,
         metavar="SECONDS",
-        help="Between two moves.",
+        help="Longest time between two moves.",
     )
     @click.option(
         "--world-timeout",
@@ -60,7 +60,7 @@ def limits(command: Callable[..., int]) -> Callable[..., int]:
         default=f"{usual.world_timeout:g}",
         show_default=True,
         metavar="SECONDS",
-        help="In a world.",
+        help="Longest time in one world.",
     )
     @wraps(command)
     def wrapper(
@@ -72,27 +72,28 @@ def limits(command: Callable[..., int]) -> Callable[..., int]:
 
 
 def policies(command: Callable[..., int]) -> Callable[..., int]:
-    """The policies of algorithms of the catalogue, handed over as `pick` and `order`."""
+    """Add the policies of algorithms of the catalogue; the command gets `pick` and `order`."""
     pick = click.option(
         "--pick",
         metavar="POLICY",
-        help="Which edge next: nearest, last, first, random(SEED).  [default: nearest]",
+        help="Which edge comes next: nearest, last, first, random(SEED).  [default: nearest]",
     )
     order = click.option(
         "--order",
         metavar="POLICY",
-        help="Which hypothesis first: shortest, oldest, newest, random(SEED).  [default: shortest]",
+        help="Which hypothesis comes first: shortest, oldest, newest, random(SEED)."
+        "  [default: shortest]",
     )
     return pick(order(command))
 
 
 marker = click.option(
-    "--marker", type=int, metavar="DART", help="Lay the marker elsewhere: let it point at DART."
+    "--marker", type=int, metavar="DART", help="Let the marker point at this DART instead."
 )
 
 
 MAX_EDGES = 1000
-"""The most edges that worlds are counted and drawn with here: beyond, the numbers take minutes."""
+"""The most edges of a world that is counted or drawn here: larger counts take minutes."""
 
 world_class = click.option(
     "--class",
@@ -104,9 +105,22 @@ world_class = click.option(
 )
 
 
+def make_folder(name: str, option: str) -> Path:
+    """The folder that an option names, created if it is missing.
+
+    Raises:
+        InputError: it cannot be created.
+    """
+    try:
+        Path(name).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{option} {name}: cannot create this folder: {error.strerror}") from error
+    return Path(name)
+
+
 program = click.option(
     "--cmd",
     "command",
     metavar="'PROGRAM ARGS'",
-    help="A program in place of a TARGET, run without a shell: docs/oracle.md.",
+    help="Run this program as the TARGET, without a shell; see docs/oracle.md.",
 )

@@ -1,4 +1,4 @@
-"""From the entries that a command yields to what stands on stdout, and to the exit code.
+"""Run a command, print its results on stdout, and derive its exit code from them.
 
 A command is a generator of `Result`s. `Output.run` drives it, keeps what it has yielded when Ctrl-C
 or a broken pipe ends it early, and prints one of three forms: `pretty` for people, `json` (one
@@ -26,7 +26,7 @@ import msgspec
 from topo_verify.cli import layout
 from topo_verify.cli.failures import exit_code, say, version
 from topo_verify.cli.layout import Block
-from topo_verify.cli.progress import Progress
+from topo_verify.cli.progress import ProgressBar
 from topo_verify.errors import InputError
 from topo_verify.text import plural
 
@@ -54,7 +54,7 @@ class Result(Generic[E]):
 
 @dataclass
 class _Done(Generic[E]):
-    """What a command has done so far; lives as long as its run."""
+    """The results of a command so far; it lives as long as the command runs."""
 
     results: list[Result[E]] = field(default_factory=list[Result[E]])
     seconds: list[float] = field(default_factory=list[float])
@@ -72,7 +72,7 @@ class _Done(Generic[E]):
 
 @dataclass(frozen=True)
 class Live(Generic[E]):
-    """How entries are shown as they come: something first, each of them, something last."""
+    """How entries are printed one by one: a head, each entry, an end."""
 
     head: Iterable[Block]
     each: Callable[[E], Iterable[Block]]
@@ -80,19 +80,19 @@ class Live(Generic[E]):
 
 
 class _ReaderGone(Exception):
-    """Whoever read our stdout has closed it (`| head`): nothing is left to say."""
+    """The reader of stdout has closed it, as `| head` does: stop printing."""
 
 
 class Output:
-    """How one command prints: its --format and --quiet."""
+    """How one command prints, by its --format and --quiet."""
 
     def __init__(self, style: str, *, quiet: bool) -> None:
         self.style, self.quiet = style, quiet
         self.stdout: IO[str] = sys.stdout or _nowhere()
-        self.progress = Progress(quiet=quiet)
+        self.progress = ProgressBar(quiet=quiet)
 
     def note(self, sentence: str) -> None:
-        """A warning or a remark on stderr, unless --quiet."""
+        """Print a warning or a remark on stderr, unless --quiet."""
         if not self.quiet:
             self.progress.clear()
             say(f"topo-verify: {sentence}")
@@ -106,12 +106,12 @@ class Output:
         live: Live[E] | None = None,
         **more: Any,
     ) -> int:
-        """Do the command's work and print its results; the exit code.
+        """Do the command's work, print its results and return the exit code.
 
         Args:
-            results: does the work, one entry after the other.
-            show: all entries as blocks, for people.
-            live: in `pretty` form, show the entries as they come, in place of `show`.
+            results: does the work and yields one entry after the other.
+            show: turns all entries into blocks, for people.
+            live: prints the entries one by one in `pretty` form, in place of `show`.
             more: further fields of the JSON envelope.
         """
         done: _Done[E] = _Done()
@@ -125,8 +125,7 @@ class Output:
         except _ReaderGone:
             return done.code
         if not done.finished:
-            many = plural(len(done.results), "result")
-            say(f"topo-verify: interrupted; {many} came out before, the rest is not known")
+            say(f"topo-verify: interrupted after {plural(len(done.results), 'result')}")
         return done.code
 
     def _collect(
@@ -135,7 +134,7 @@ class Output:
         results: Iterator[Result[E]],
         live: Live[E] | None,
     ) -> None:
-        """Take what the command yields until it ends, by itself or not."""
+        """Collect what the command yields until it ends or Ctrl-C ends it."""
         begin = perf_counter()
         try:
             for result in results:
@@ -185,11 +184,11 @@ class Output:
 
 @contextmanager
 def _reader(out: IO[str]) -> Generator[IO[str]]:
-    """Behind it, what was written has been read, or at least taken.
+    """Within the block write to `out`; at its end all of it has been flushed.
 
     Raises:
-        _ReaderGone: nobody reads any more.
-        InputError: it cannot be written, as on a full disk.
+        _ReaderGone: the reader has closed the stream.
+        InputError: writing fails, as on a full disk.
     """
     if (reconfigure := getattr(out, "reconfigure", None)) is not None:
         reconfigure(errors="backslashreplace")  # an encoding that lacks one of our letters
@@ -205,18 +204,18 @@ def _reader(out: IO[str]) -> Generator[IO[str]]:
 
 
 def _nowhere() -> IO[str]:
-    """In place of a standard output that was closed before we were called."""
+    """The null device, for a standard output that was closed before the start."""
     return Path(os.devnull).open("w", encoding="utf-8")
 
 
 def silence(out: IO[str]) -> None:
-    """Send what is still to be written nowhere, so that Python's exit does not complain."""
+    """Point a stream at the null device, so that Python's flush at exit does not fail."""
     with suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), out.fileno())
 
 
 def options(command: Callable[Concatenate[Output, P], int]) -> Callable[..., int]:
-    """The options of every command, handed over as its first argument, an `Output`."""
+    """Add --format and --quiet; the command gets an `Output` as its first argument."""
 
     @click.option(
         "--format",

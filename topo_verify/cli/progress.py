@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
 from threading import Lock, Timer
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
-Tell = Callable[[str, int, int], None]
-"""(what is being done, how much of it is done, how much there is)"""
-
-PATIENCE = 1.0
-"""Seconds of work that are not worth a bar."""
+DELAY = 1.0
+"""Seconds of work before the bar appears."""
 
 
-class Progress:
-    """A bar that appears when work takes long and leaves nothing behind.
+class ProgressBar:
+    """A bar that appears when work takes long, and that leaves no trace on the terminal.
 
-    Life cycle: call it (it is a `Tell`) as work goes on; `clear` it before anything is printed, for
-    results share the terminal with it. The next call begins anew.
+    Life cycle: call it, as a progress callback, while work goes on; `clear` it before anything is
+    printed, since results share the terminal with it. The next call begins anew.
     """
 
     def __init__(self, *, quiet: bool) -> None:
@@ -32,20 +28,20 @@ class Progress:
         self._bar: Bar | None = None
 
     def __call__(self, what: str, done: int, total: int) -> None:
-        """Say how far the work is."""
+        """Show what is being done, how much of it is done, and how much there is."""
         if not self._wanted:
             return
         self._state = (what, done, total)
         if self._timer is None:
             # A clock of its own: one long run would not call again for a while.
-            self._timer = Timer(PATIENCE, self._appear)
+            self._timer = Timer(DELAY, self._appear)
             self._timer.daemon = True
             self._timer.start()
         with self._lock:
             self._show()
 
     def clear(self) -> None:
-        """Take the bar off the terminal."""
+        """Remove the bar from the terminal."""
         if self._timer is not None:
             self._timer.cancel()
             self._timer.join()

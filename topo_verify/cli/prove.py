@@ -1,4 +1,4 @@
-"""`topo-verify prove`: the theorems, proved or refuted by Z3, each with what stands behind it."""
+"""`topo-verify prove`: prove or refute the theorems behind the claims."""
 
 from __future__ import annotations
 
@@ -32,22 +32,26 @@ if TYPE_CHECKING:
     ),
 )
 @click.argument("names", nargs=-1, metavar="[NAME...]")
-@click.option("--list", "listing", is_flag=True, help="Tell the theorems, prove nothing.")
+@click.option("--list", "listing", is_flag=True, help="List the theorems and prove nothing.")
 @click.option(
-    "--kind", "kinds", multiple=True, type=click.Choice(shown.KINDS), help="Only this kind."
+    "--kind",
+    "kinds",
+    multiple=True,
+    type=click.Choice(shown.KINDS),
+    help="Only theorems of this kind.",
 )
 @click.option(
     "--edges",
     type=click.IntRange(min=1),
     metavar="N",
-    help="Bounded theorems in worlds of at most N edges.",
+    help="Bounded theorems only up to worlds of N edges.",
 )
 @click.option(
     "--solver",
     type=click.Choice(["z3", "cvc5"]),
     default="z3",
     show_default=True,
-    help="cvc5: put every question to cvc5 as well.",
+    help="cvc5: ask cvc5 every question as well.",
 )
 @click.option(
     "--timeout",
@@ -55,12 +59,19 @@ if TYPE_CHECKING:
     default=60,
     show_default=True,
     metavar="SECONDS",
-    help="For each question to a solver.",
+    help="Time limit of each question to a solver.",
 )
-@click.option("--deep", is_flag=True, help="Also the theorems that take minutes.")
-@click.option("--certify", is_flag=True, help="Have checked certificates for bounded theorems.")
-@click.option("--smt2", "folder", metavar="DIR", help="Write each question there as SMT-LIB 2.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, metavar="N")
+@click.option("--deep", is_flag=True, help="Include the theorems that take minutes.")
+@click.option("--certify", is_flag=True, help="Make and check certificates of bounded theorems.")
+@click.option("--smt2", "folder", metavar="DIR", help="Write each question to DIR as SMT-LIB 2.")
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="Seed of the solver.",
+)
 @output_options
 def prove(  # noqa: PLR0913  an argument an option
     output: Output,
@@ -78,9 +89,9 @@ def prove(  # noqa: PLR0913  an argument an option
 ) -> int:
     """Prove the theorems that the claims rest on, and refute what must not be provable.
 
-    NAME is a theorem; without one all that are quick are proved. Inductive theorems speak of worlds
-    of any size, bounded ones of every world of a few edges; negatives and mutants must be REFUTED.
-    A theorem that is vacuous or comes back unknown is no pass (exit 3).
+    NAME is a theorem; by default all quick ones are proved. Inductive theorems speak of worlds of
+    any size, bounded ones of every world of a few edges; negatives and mutants must be REFUTED. A
+    theorem that is vacuous or stays UNKNOWN does not pass (exit 3).
     """
     from topo_verify.proofs.catalogue import choose
     from topo_verify.proofs.theorem import Budget
@@ -95,17 +106,17 @@ def prove(  # noqa: PLR0913  an argument an option
 
     seconds: dict[str, float] = {}
 
-    def proved() -> Iterator[Result[shown.Proved]]:
+    def proved() -> Iterator[Result[shown.ProveEntry]]:
         for number, theorem in enumerate(theorems):
             output.progress(theorem.name, number, len(theorems))
             if folder is not None:
                 _export(theorem, Path(folder))
             begin = perf_counter()
-            result = _proved(theorem, budget, second=solver == "cvc5")
+            result = _result(theorem, budget, second=solver == "cvc5")
             seconds[theorem.name] = perf_counter() - begin
             yield result
 
-    def one(entry: shown.Proved) -> Iterator[Block]:
+    def one(entry: shown.ProveEntry) -> Iterator[Block]:
         return shown.live(entry, seconds[entry.name])
 
     live = Live((Text(shown.head(theorems, budget)),), one, shown.end)
@@ -113,7 +124,7 @@ def prove(  # noqa: PLR0913  an argument an option
 
 
 def _require(*, second: bool, certify: bool) -> None:
-    """Refuse to begin where a solver or a checker is missing."""
+    """Refuse to begin if a solver or a checker is missing."""
     from topo_verify.proofs.bounded import drup
     from topo_verify.proofs.solvers import cvc5_solver
 
@@ -127,12 +138,12 @@ def _export(theorem: Theorem, folder: Path) -> None:
     from topo_verify.proofs.solvers.cvc5_solver import export
 
     if folder.exists() and not folder.is_dir():
-        raise InputError(f"--smt2 {folder}: it is a file; name a folder")
+        raise InputError(f"--smt2 {folder}: expected a folder, got a file")
     for query in theorem.queries():
         export(query, folder)
 
 
-def _proved(theorem: Theorem, budget: Budget, *, second: bool) -> Result[shown.Proved]:
+def _result(theorem: Theorem, budget: Budget, *, second: bool) -> Result[shown.ProveEntry]:
     outcome = theorem.prove(budget)
     opinion = _opinion(theorem, budget) if second else None
     status = theorem.status(outcome)
@@ -143,8 +154,8 @@ def _proved(theorem: Theorem, budget: Budget, *, second: bool) -> Result[shown.P
     )
 
 
-def _opinion(theorem: Theorem, budget: Budget) -> shown.Opinions | None:
-    """What cvc5 says of the questions; None if there are none.
+def _opinion(theorem: Theorem, budget: Budget) -> shown.SecondOpinion | None:
+    """How often cvc5 agrees with Z3 on a theorem's questions; None if it has none.
 
     Raises:
         InternalError: the two solvers contradict each other.
@@ -158,4 +169,4 @@ def _opinion(theorem: Theorem, budget: Budget) -> shown.Opinions | None:
     if not opinions:
         return None
     count = Counter(opinion.agreement for opinion in opinions)
-    return shown.Opinions(opinions[0].solver, count["agrees"], count["unknown"], len(opinions))
+    return shown.SecondOpinion(opinions[0].solver, count["agrees"], count["unknown"], len(opinions))

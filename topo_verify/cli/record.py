@@ -1,4 +1,4 @@
-"""`topo-verify record`: keep what a mapper pays and decides in a baseline, for `compare`."""
+"""`topo-verify record`: write a mapper's costs and decisions to a baseline, for `compare`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import msgspec
 from topo_verify.algorithms import Algorithm
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Table, Text
+from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
@@ -29,23 +29,23 @@ from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.formats import files
 
-Opening = Callable[..., AbstractContextManager[Target]]
-"""Opens the mapper of a command; a program runs as long as the block."""
+MapperOpener = Callable[..., AbstractContextManager[Target]]
+"""Opens the mapper of a command; a program runs until the block ends."""
 
-KEPT = 3
-"""Of so many failing worlds the findings are shown."""
+SHOWN = 3
+"""The number of failing worlds whose findings are shown."""
 
 
-class Kept(msgspec.Struct, frozen=True):
+class RecordEntry(msgspec.Struct, frozen=True):
     """One recording: an entry of `results`; docs/commands.md.
 
     Attributes:
-        worlds: how many the corpus has.
-        equal, wrong, undecided: in how many the mapper is right, is not, and nobody knows.
-        dearer, cheaper, other_decisions: 0; a mapper is no other than itself.
-        cost: edge traversals in the worlds where it is right, summed up.
-        corpus, digest: the corpus in words, and its own hash.
-        file: the baseline; None where not every world was tried, for then none is written.
+        worlds: the number of worlds in the corpus.
+        equal, wrong, undecided: in how many no claim fails, a claim fails, and neither is known.
+        dearer, cheaper, other_decisions: always 0; `compare` has the same fields.
+        cost: total edge traversals in the worlds in which no claim fails.
+        corpus, digest: the corpus in words, and its hash.
+        file: the baseline; None if the mapper was stopped early, since then none is written.
         findings: of the first failing worlds.
     """
 
@@ -65,9 +65,9 @@ class Kept(msgspec.Struct, frozen=True):
 
 
 def mapper_options(run: Callable[..., int]) -> Callable[..., int]:
-    """TARGET or --cmd, --pick and --order: handed over as `mapper`, which opens it.
+    """Add TARGET, --cmd, --pick and --order; the command gets `mapper`, which opens the mapper.
 
-    It may be told the policies that an algorithm of the catalogue has where none are asked for.
+    Its argument, if given, replaces the default policies of an algorithm of the catalogue.
     """
 
     @click.argument("target", required=False, metavar="[TARGET]")
@@ -97,7 +97,7 @@ def _opened(
     asked: tuple[str | None, str | None],
     usual: Policies | None,
 ) -> Generator[Target]:
-    """The one mapper that is meant; a program runs as long as the block."""
+    """The mapper that the options name; a program runs until the block ends."""
     pick, order = asked
     target = one_target(target_text(name, cmd), pick=pick, order=order)
     if usual is not None and isinstance(target.mapper, Algorithm):
@@ -110,13 +110,13 @@ def _opened(
 
 
 @click.command(
-    short_help="Keep what a mapper pays and decides, for compare.",
+    short_help="Write a mapper's costs and decisions to a file, for compare.",
     epilog=options.epilog(
         "record my_mapper.py:explore --out baseline.jsonl.gz",
         "record basic --worlds 'edges<=5' --worlds nyc --out basic.jsonl.gz",
     ),
 )
-@click.option("--out", required=True, metavar="FILE", help="The baseline that is written.")
+@click.option("--out", required=True, metavar="FILE", help="Write the baseline to FILE.")
 @click.option(
     "--worlds",
     multiple=True,
@@ -129,7 +129,7 @@ def _opened(
     default=0,
     show_default=True,
     metavar="N",
-    help="Draws the generated worlds.",
+    help="Seed of the generated worlds.",
 )
 @mapper_options
 @options.limits
@@ -137,24 +137,24 @@ def _opened(
 def record(
     output: Output,
     *,
-    mapper: Opening,
+    mapper: MapperOpener,
     out: str,
     worlds: tuple[str, ...],
     seed: int,
     limits: Limits,
 ) -> int:
-    """Run a mapper in every world of a corpus and keep cost, decisions and map of each.
+    """Run a mapper in every world of a corpus and write its costs, decisions and maps to a file.
 
     TARGET is one name of the catalogue, module:attribute or file.py:attribute.
     """
 
-    def recorded() -> Iterator[Result[Kept]]:
+    def recorded() -> Iterator[Result[RecordEntry]]:
         texts = worlds or DEFAULT
         corpus = corpus_from(texts, seed=seed)
         failing: list[Recorded] = []
 
         def note(seen: Recorded) -> None:
-            if seen.entry.failed and len(failing) < KEPT:
+            if seen.entry.failed and len(failing) < SHOWN:
                 failing.append(seen)
 
         with mapper() as target:
@@ -170,18 +170,18 @@ def record(
         whole = len(made.entries) == corpus.total
         if whole:
             files.write(out, file.encode(made))
-        kept = _kept(made, corpus, out if whole else None, failing)
+        kept = _entry(made, corpus, out if whole else None, failing)
         yield Result(kept, failed=kept.wrong > 0, incomplete=kept.undecided > 0)
 
     return output.run("record", recorded, _show, seed=seed)
 
 
-def _kept(
+def _entry(
     made: file.Baseline, corpus: Corpus, file: str | None, failing: Sequence[Recorded]
-) -> Kept:
+) -> RecordEntry:
     right = [entry for entry in made.entries if entry.right]
     wrong = sum(bool(entry.failed) for entry in made.entries)
-    return Kept(
+    return RecordEntry(
         target=made.header.target,
         worlds=corpus.total,
         equal=len(right),
@@ -198,7 +198,7 @@ def _kept(
     )
 
 
-def _show(entries: Sequence[Kept]) -> Iterator[Block]:
+def _show(entries: Sequence[RecordEntry]) -> Iterator[Block]:
     for entry in entries:
         rows = [
             ("mapper", entry.target),
@@ -209,10 +209,10 @@ def _show(entries: Sequence[Kept]) -> Iterator[Block]:
             ("cost where right", f"{plural(entry.cost, 'edge traversal')}"),
             ("corpus hash", entry.digest[:16]),
         ]
-        yield Table(("property", "value"), rows, headed=False)
+        yield TextTable(("property", "value"), rows, headed=False)
         yield from finding_blocks(entry.findings)
         yield Text("")
         if entry.file is not None:
             yield Text(f"written: {entry.file}")
         else:
-            yield Text("No baseline is written: after three time-outs the mapper was stopped.")
+            yield Text("No baseline was written: the mapper was stopped after three time-outs.")

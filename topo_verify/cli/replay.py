@@ -1,4 +1,4 @@
-"""`topo-verify replay`: a counterexample run again, or a trace judged again."""
+"""`topo-verify replay`: run a mapper again in one world, or judge a trace again."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import Place, finding_line, held, judged, place, silent
+from topo_verify.cli.runs import NamedWorld, finding_line, held, judged, named_world, silent
 from topo_verify.errors import InputError
 from topo_verify.harness.run import Report, judge_trace
 from topo_verify.harness.run import explore as run_mapper
@@ -28,11 +28,11 @@ from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 
-class Replayed(msgspec.Struct, frozen=True):
-    """A run judged again: an entry of `results`; docs/commands.md.
+class ReplayEntry(msgspec.Struct, frozen=True):
+    """The judgement of one run: an entry of `results`; docs/commands.md.
 
     Attributes:
-        trace: the file of the trace, or None where the target was run anew.
+        trace: the file of the trace; None if the target was run.
         claims: the status of each claim.
         stopped: why the mapper delivered no map, or None.
     """
@@ -60,7 +60,9 @@ class Replayed(msgspec.Struct, frozen=True):
 @options.program
 @options.policies
 @options.marker
-@click.option("--world", "where", metavar="WORLD", help="Where the trace in FILE was left.")
+@click.option(
+    "--world", "world_text", metavar="WORLD", help="The world in which the trace was recorded."
+)
 @options.limits
 @output_options
 def replay(  # noqa: PLR0913  an argument an option
@@ -72,26 +74,28 @@ def replay(  # noqa: PLR0913  an argument an option
     pick: str | None,
     order: str | None,
     marker: int | None,
-    where: str | None,
+    world_text: str | None,
     limits: Limits,
 ) -> int:
-    """Judge a trace again, or run a mapper again in a world: a counterexample's line.
+    """Judge a trace again, or run a mapper again in one world.
 
-    FILE holds a trace, as explore --trace writes it. Its world is the one that it names, or that of
-    --world. A WORLD is explored anew by --target.
+    FILE holds a trace, as explore --trace writes it; it is judged in the world that it names, or in
+    that of --world. In a WORLD the mapper of --target is run.
     """
 
-    def replayed() -> Iterator[Result[Replayed]]:
+    def replayed() -> Iterator[Result[ReplayEntry]]:
         data = _bytes(what)
         if data is not None and _is_trace(data):
             given = {"--target": target, "--cmd": command, "--pick": pick, "--order": order}
             words = [name for name, value in given.items() if value is not None]
             _require_none((*words, *limits.options), what)
-            yield _judged(output, what, data, where, marker)
+            yield _judged(output, what, data, world_text, marker)
             return
-        if where is not None:
-            raise InputError(f"--world {where}: {what} is no trace, and --world is for a trace")
-        at = place(what, marker, data)
+        if world_text is not None:
+            raise InputError(
+                f"--world {world_text}: expected a trace, got {what}; leave --world out"
+            )
+        at = named_world(what, marker, data)
         text = target_text(target, command, "basic")
         mapper = one_target(text, pick=pick, order=order)
         output.progress(f"{mapper.text} in {at.name}", 0, 1)
@@ -111,7 +115,7 @@ def _require_none(given: Sequence[str], what: str) -> None:
 
 
 def _bytes(what: str) -> bytes | None:
-    """What is in the file or on standard input; None if the argument is neither."""
+    """The bytes of the file or of standard input; None if the argument names neither."""
     if what == "-":
         return files.read_stream(sys.stdin.buffer, name="standard input")
     try:
@@ -122,7 +126,7 @@ def _bytes(what: str) -> bytes | None:
 
 
 def _is_trace(data: bytes) -> bool:
-    """Is the first line an event? That of a world is the whole world, or no JSON."""
+    """True if the first line is an event, which has a `type`; a world file has none."""
     head = data.lstrip().split(b"\n", 1)[0]
     try:
         first = msgspec.json.decode(head)
@@ -132,41 +136,57 @@ def _is_trace(data: bytes) -> bool:
 
 
 def _judged(
-    output: Output, what: str, data: bytes, where: str | None, marker: int | None
-) -> Result[Replayed]:
-    """A trace in its world."""
+    output: Output, what: str, data: bytes, world_text: str | None, marker: int | None
+) -> Result[ReplayEntry]:
+    """The judgement of a trace in its world."""
     name = "standard input" if what == "-" else what
     trace = read_trace(data, name=name)
     start = trace[0]
-    assert isinstance(start, Start), "read_trace has seen to it"
-    at = place(where, marker) if where is not None else _own_world(name, start, marker)
+    assert isinstance(start, Start), "read_trace refuses any other first event"
+    at = (
+        named_world(world_text, marker)
+        if world_text is not None
+        else _own_world(name, start, marker)
+    )
     output.progress(f"judging {name}", 0, 1)
-    again = shlex.join(["topo-verify", "replay", what, "--world", at.again, *at.options])
+    replay_command = shlex.join(
+        ["topo-verify", "replay", what, "--world", at.argument, *at.options]
+    )
     target = start.algorithm or "unknown"
-    report = judge_trace(at.world, trace, target=target, where=at.again, replay_command=again)
+    report = judge_trace(
+        at.world, trace, target=target, where=at.argument, replay_command=replay_command
+    )
     if report.claims["percepts-true"] == "failed":
         output.note(
-            f"{name} diverges from {at.again}: it was left in another world (--world names it), by"
-            " another version, or it was edited"
+            f"{name} diverges from {at.argument}: it was recorded in another world (name it with"
+            " --world) or by another version, or it was edited"
         )
     return _result(report, at, what, None)
 
 
-def _own_world(name: str, start: Start, marker: int | None) -> Place:
-    """The world that a trace names: by its id, for a trace may come from anywhere."""
+def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:
+    """The world that a trace names by its id.
+
+    Only ids are accepted: a trace may come from anyone, and must not choose which file is read.
+    """
     if start.world is None:
-        raise InputError(f"{name} does not say in which world it was left: name it with --world")
+        raise InputError(f"{name} does not name its world; name it with --world")
     try:
         World.from_id(start.world)
     except InputError as error:
         raise InputError(f"{name}, line 1: {error}; name the world with --world") from error
-    return place(start.world, marker)
+    return named_world(start.world, marker)
 
 
 def _result(
-    report: Report, at: Place, trace: str | None, stopped: str | None, *, incomplete: bool = False
-) -> Result[Replayed]:
-    entry = Replayed(
+    report: Report,
+    at: NamedWorld,
+    trace: str | None,
+    stopped: str | None,
+    *,
+    incomplete: bool = False,
+) -> Result[ReplayEntry]:
+    entry = ReplayEntry(
         world=at.name,
         target=report.target,
         ok=not report.findings and not incomplete,
@@ -179,7 +199,7 @@ def _result(
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
 
-def _show(entries: Sequence[Replayed]) -> Iterator[Block]:
+def _show(entries: Sequence[ReplayEntry]) -> Iterator[Block]:
     for entry in entries:
         failed = [claim for claim, status in entry.claims.items() if status == "failed"]
         words = f"{entry.target} in {entry.world}, {plural(entry.cost, 'edge traversal')}: "

@@ -24,11 +24,11 @@ from topo_verify.world.rooted_map import World
 
 
 @dataclass(frozen=True)
-class Place:
-    """A world, and the words of the command line that lead to it.
+class NamedWorld:
+    """A world with the command-line arguments that name it.
 
     Attributes:
-        world: with the marker where it was asked for.
+        world: with its marker as the options say.
         text: the WORLD argument.
         marker: the --marker option, if it was given.
     """
@@ -39,7 +39,7 @@ class Place:
 
     @property
     def name(self) -> str:
-        """What results call it: the name in the file, else the id, else the file's stem."""
+        """The world's name in results: its own, else its id, else "world"."""
         if self.world.name:
             return self.world.name
         return self.world.id if self._has_id else "world"
@@ -49,22 +49,23 @@ class Place:
         return len(self.world.edges) <= MAX_ID_EDGES
 
     @cached_property
-    def again(self) -> str:
-        """A WORLD argument that leads here another time.
+    def argument(self) -> str:
+        """A WORLD argument that names this world in a later call.
 
-        A world from standard input is gone: its id leads to it, or a file that is written now.
+        Standard input cannot be read again, so a world from there is named by its id, or saved to a
+        file now.
         """
         if self.text == "-":
-            return self.world.id if self._has_id else _kept(self.world)
+            return self.world.id if self._has_id else _saved(self.world)
         return f"./{self.text}" if self.text.startswith("-") else self.text
 
     @property
     def options(self) -> tuple[str, ...]:
-        """The options that belong to the argument."""
+        """The options that go with `argument`."""
         return () if self.marker is None or self.text == "-" else ("--marker", str(self.marker))
 
 
-def place(text: str, marker: int | None = None, stdin: bytes | None = None) -> Place:
+def named_world(text: str, marker: int | None = None, stdin: bytes | None = None) -> NamedWorld:
     """The world that the user names.
 
     Args:
@@ -81,29 +82,31 @@ def place(text: str, marker: int | None = None, stdin: bytes | None = None) -> P
             raise InputError(f"--marker {marker} in {text}: {error}") from error
         if named_by_id and not text.startswith("family:"):
             world = replace(world, name="")  # with its marker elsewhere it has another id
-    return Place(world, text, marker)
+    return NamedWorld(world, text, marker)
 
 
-def places(texts: Sequence[str], marker: int | None = None) -> list[Place]:
-    """The worlds that the user names, all of them read before anything is done with one."""
+def named_worlds(texts: Sequence[str], marker: int | None = None) -> list[NamedWorld]:
+    """The worlds that the user names. All are read before any is used, so errors come first."""
     if texts.count("-") > 1:
-        raise InputError("the WORLD '-' is given twice: standard input holds one world")
-    return [place(text, marker) for text in texts]
+        raise InputError(
+            "expected '-' at most once, since standard input holds one world; name files instead"
+        )
+    return [named_world(text, marker) for text in texts]
 
 
-def _kept(world: World) -> str:
-    """The name of a file in the current folder that holds this world; written if there is none."""
+def _saved(world: World) -> str:
+    """The name of a file in the current folder that holds this world; it is written if missing."""
     text = world.to_json() + "\n"
     stem = f"world-{sha256(text.encode()).hexdigest()[:12]}"
     for number in count(1):
         path = Path(f"{stem}.json" if number == 1 else f"{stem}-{number}.json")
-        if _holds(path, text):
+        if _is_saved(path, text):
             return str(path)
-    raise AssertionError("there are names enough")
+    raise AssertionError("count() never ends")
 
 
-def _holds(path: Path, text: str) -> bool:
-    """Is this text in the file? If there is no such file, it is made."""
+def _is_saved(path: Path, text: str) -> bool:
+    """True if the file holds exactly this text; a missing file is written first."""
     try:
         with path.open("x", encoding="utf-8") as file:
             file.write(text)
@@ -111,8 +114,8 @@ def _holds(path: Path, text: str) -> bool:
         return path.is_file() and path.read_bytes() == text.encode()
     except OSError as error:
         raise InputError(
-            f"the world from standard input cannot be kept as {path}: {error.strerror}; call this"
-            " in a folder that can be written, or name a file as the WORLD"
+            f"the world from standard input cannot be saved as {path}: {error.strerror}; run this"
+            " in a writable folder, or name a file as the WORLD"
         ) from error
     return True
 
@@ -121,18 +124,18 @@ def _holds(path: Path, text: str) -> bool:
 
 
 def judged(
-    run: Exploration, at: Place, limits: Limits, *, strict: bool = False
+    run: Exploration, at: NamedWorld, limits: Limits, *, strict: bool = False
 ) -> tuple[Report, bool]:
-    """The report on a run, and whether it is incomplete: out of time, and nothing else wrong."""
+    """The report on a run, and whether it is undecided because the run was out of time."""
     report = judge(run, where=at.text, strict=strict)
     if undecided(run, report):
         return msgspec.structs.replace(report, findings=()), True
     if not report.findings:
         return report, False
     words = (*at.options, *limits.options)
-    again = replay_line(at.again, run.algorithm, run.policies, words)
+    replay_command = replay_line(at.argument, run.algorithm, run.policies, words)
     findings = tuple(
-        msgspec.structs.replace(finding, world=at.again, replay=again)
+        msgspec.structs.replace(finding, world=at.argument, replay=replay_command)
         for finding in report.findings
     )
     return msgspec.structs.replace(report, findings=findings), False
@@ -142,7 +145,7 @@ def judged(
 
 
 def claims_cell(claims: Mapping[str, str], *, incomplete: bool = False) -> str:
-    """How the claims stand, in a word or two."""
+    """A cell that says how many claims hold or fail."""
     failed = sum(status == "failed" for status in claims.values())
     if incomplete:
         return "out of time"
@@ -150,41 +153,41 @@ def claims_cell(claims: Mapping[str, str], *, incomplete: bool = False) -> str:
 
 
 def held(claims: Mapping[str, str]) -> int:
-    """How many claims hold."""
+    """The number of claims that hold."""
     return sum(status == "ok" for status in claims.values())
 
 
 def silent(claims: Mapping[str, str]) -> list[str]:
-    """The claims that nothing was declared about."""
+    """The claims that were not judged because the mapper declares nothing about them."""
     return [claim for claim, status in claims.items() if status == "not-declared"]
 
 
 def undeclared(mapper: str, claims: Iterable[str]) -> str:
-    """What was not judged, and why."""
-    return f"Not judged, for {mapper} declares nothing on it: {', '.join(claims)}."
+    """The sentence that names the claims that were not judged, and says why."""
+    return f"Not judged, because {mapper} declares nothing about it: {', '.join(claims)}."
 
 
 def finding_blocks(
     findings: Iterable[Finding], about: str = "", *, shown: int = 5
 ) -> Iterator[Block]:
-    """Findings by the command line that shows them again.
+    """Blocks for findings, grouped by the command that shows them again.
 
     Args:
-        shown: how many findings of a run a person is shown; JSON has them all.
+        shown: the number of findings of one run that are shown; JSON has all.
     """
     runs: dict[str, list[Finding]] = {}
     for finding in findings:
         runs.setdefault(finding.replay, []).append(finding)
-    for again, of_run in runs.items():
+    for replay_command, of_run in runs.items():
         yield Text(f"{about or of_run[0].world}:")
         lines = [finding_line(finding) for finding in of_run[:shown]]
         if len(of_run) > shown:
             lines.append(f"and {len(of_run) - shown} more: --format json shows them")
         yield Bullets(tuple(lines))
-        yield Command(again, "again: ")
+        yield Command(replay_command, "again: ")
 
 
 def finding_line(finding: Finding) -> str:
-    """Claim, event and message."""
-    where = "" if finding.event is None else f", event {finding.event}"
-    return f"{finding.claim}{where}: {finding.message}"
+    """One finding in a line: claim, event, message."""
+    event = "" if finding.event is None else f", event {finding.event}"
+    return f"{finding.claim}{event}: {finding.message}"

@@ -1,9 +1,8 @@
-"""`topo-verify world sample`: draw worlds, evenly from a class or from a Hypothesis strategy."""
+"""`topo-verify world sample`: draw worlds uniformly from a class, or from a strategy."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from random import Random
 
 import click
@@ -20,14 +19,14 @@ from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 
-class Sampled(msgspec.Struct, frozen=True):
-    """A world that was drawn.
+class SampleEntry(msgspec.Struct, frozen=True):
+    """One drawn world: an entry of `results`; docs/commands.md.
 
     Attributes:
         id: None beyond 200 edges.
-        kind: its class; None where it was drawn from a strategy.
-        strategy: where it was drawn from; None: evenly from the class.
-        file: where it was written to; None where that was not asked for.
+        kind: the class that it was drawn from; None if it was a strategy.
+        strategy: the strategy that it was drawn from; None if it was a class.
+        file: the file that was written; None without -o.
     """
 
     id: str | None
@@ -44,18 +43,32 @@ class Sampled(msgspec.Struct, frozen=True):
         "world sample --edges 20 -n 5", "world sample --strategy 'nonplanar_worlds(genus=2)' -n 5"
     )
 )
-@click.option("--edges", type=click.IntRange(0, options.MAX_EDGES), metavar="N", help="How many.")
+@click.option(
+    "--edges", type=click.IntRange(0, options.MAX_EDGES), metavar="N", help="Number of edges."
+)
 @options.world_class
 @click.option(
     "--strategy",
     metavar="STRATEGY",
     help="Draw from this Hypothesis strategy instead, for example 'worlds(max_edges=20)'.",
 )
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, metavar="N")
 @click.option(
-    "-n", "number", type=click.IntRange(min=1), default=1, show_default=True, help="Worlds."
+    "--seed",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="Seed of the drawing.",
 )
-@click.option("-o", "folder", metavar="FOLDER", help="Write world files there.")
+@click.option(
+    "-n",
+    "number",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    help="Number of worlds.",
+)
+@click.option("-o", "folder", metavar="FOLDER", help="Write world files to FOLDER.")
 @output_options
 def sample(
     output: Output,
@@ -69,17 +82,17 @@ def sample(
 ) -> int:
     """Draw worlds and print their ids.
 
-    With --edges each world of the class is as likely as any other; with --strategy worlds come as
-    property tests meet them.
+    With --edges each world of the class is equally likely. With --strategy worlds are drawn as in a
+    property test.
     """
     worlds = WorldClass.parse(kind)
     if strategy is None:
-        drawn = _evenly(worlds, _size(edges, folder), number, seed)
+        drawn = _uniform(worlds, _size(edges, folder), number, seed)
     else:
         drawn = _by_strategy(strategy, worlds, edges, number, seed)
 
-    def sampled() -> Iterator[Result[Sampled]]:
-        target = None if folder is None else _folder(folder)
+    def sampled() -> Iterator[Result[SampleEntry]]:
+        target = None if folder is None else options.make_folder(folder, "-o")
         output.note(f"seed {seed}")
         output.progress("drawing worlds", 0, number)
         for index, world in enumerate(drawn):
@@ -90,7 +103,7 @@ def sample(
                 file = str(target / f"m{len(world.edges)}-seed{seed}-{index}.json")
                 files.write(file, world.to_json() + "\n")
             yield Result(
-                Sampled(
+                SampleEntry(
                     id=world.id if len(world.edges) <= MAX_ID_EDGES else None,
                     edges=len(world.edges),
                     kind=str(worlds) if strategy is None else None,
@@ -106,7 +119,7 @@ def sample(
 
 def _size(edges: int | None, folder: str | None) -> int:
     if edges is None:
-        raise InputError("world sample: say with --edges how many, or with --strategy which worlds")
+        raise InputError("world sample: expected --edges N or --strategy STRATEGY")
     if folder is None:
         _require_id(edges)
     return edges
@@ -115,12 +128,12 @@ def _size(edges: int | None, folder: str | None) -> int:
 def _require_id(edges: int) -> None:
     if edges > MAX_ID_EDGES:
         raise InputError(
-            f"world sample: a world with {edges} edges has no id to print, those with more than"
-            f" {MAX_ID_EDGES} have none; say with -o which folder to write them to"
+            f"world sample: a world with {edges} edges has no id to print (only worlds of up to"
+            f" {MAX_ID_EDGES} edges have one); write worlds to files with -o FOLDER"
         )
 
 
-def _evenly(worlds: WorldClass, edges: int, number: int, seed: int) -> Iterator[World]:
+def _uniform(worlds: WorldClass, edges: int, number: int, seed: int) -> Iterator[World]:
     random = Random(seed)
     for _ in range(number):
         yield worlds.sample(edges, random)
@@ -132,8 +145,8 @@ def _by_strategy(
     if edges is not None or worlds != WorldClass():
         given = "--edges" if edges is not None else "--class"
         raise InputError(
-            f"{given} beside --strategy: a strategy is told by its own arguments which worlds,"
-            " as in --strategy 'worlds(min_edges=5, max_edges=9, simple=True)'"
+            f"{given} beside --strategy: a strategy takes its bounds as arguments, as in"
+            " --strategy 'worlds(min_edges=5, max_edges=9, simple=True)'"
         )
     from topo_verify.strategies.resolve import resolve_strategy
     from topo_verify.strategies.sample import sample as draw
@@ -141,14 +154,6 @@ def _by_strategy(
     return iter(draw(resolve_strategy(text), number, start=seed))
 
 
-def _folder(name: str) -> Path:
-    try:
-        Path(name).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"-o {name}: cannot make this folder: {error.strerror}") from error
-    return Path(name)
-
-
-def _show(entries: Sequence[Sampled]) -> Iterator[Block]:
+def _show(entries: Sequence[SampleEntry]) -> Iterator[Block]:
     for entry in entries:
         yield Raw(entry.file or str(entry.id))

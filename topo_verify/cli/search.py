@@ -1,4 +1,4 @@
-"""`topo-verify search`: every world up to so many edges, and the smallest counterexample."""
+"""`topo-verify search`: find the smallest counterexample among all worlds of up to N edges."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import msgspec
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Bullets, Command, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
@@ -28,11 +28,11 @@ from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass
 
 SHOWN = 3
-"""Of worlds that have something in common, so many are shown; JSON has more."""
+"""The number of worlds shown in one cell; JSON has more."""
 
 
 class Counterexample(msgspec.Struct, frozen=True):
-    """A world in which a claim fails, and the line that shows it again."""
+    """A world in which a claim fails, and the command that shows it again."""
 
     world: str
     edges: int
@@ -42,7 +42,7 @@ class Counterexample(msgspec.Struct, frozen=True):
 
 
 class FailingClaim(msgspec.Struct, frozen=True):
-    """In how many of the checked worlds a claim fails, and the smallest of them."""
+    """The number of checked worlds in which a claim fails, and the smallest of them."""
 
     claim: str
     failing: int
@@ -53,12 +53,12 @@ class ByEdges(msgspec.Struct, frozen=True):
     """The worlds of one size; docs/commands.md.
 
     Attributes:
-        checked, total, failing, undecided: worlds.
-        runs: in which no claim fails; costs are theirs, in edge traversals.
-        max_cost, total_cost: the highest of them, and the sum.
-        attained: in how many worlds the highest.
-        worst: the first of these.
-        compare: with --compare: where the first mapper costs more than the second, and less.
+        checked, total, failing, undecided: numbers of worlds.
+        runs: the number of runs in which no claim fails; the costs are theirs.
+        max_cost, total_cost: their highest cost and the sum, in edge traversals.
+        attained: the number of worlds with the highest cost.
+        worst: the first of these worlds.
+        compare: with --compare, where A costs more than B, and where less.
     """
 
     edges: int
@@ -74,7 +74,7 @@ class ByEdges(msgspec.Struct, frozen=True):
     compare: Compared | None
 
 
-class Searched(msgspec.Struct, frozen=True, rename={"kind": "class"}):
+class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     """One search: an entry of `results`; docs/commands.md."""
 
     target: str
@@ -91,8 +91,8 @@ class Searched(msgspec.Struct, frozen=True, rename={"kind": "class"}):
 
 
 @dataclass(frozen=True)
-class _Asked:
-    """What the options ask for."""
+class _SearchOptions:
+    """The options of one call."""
 
     edges: int
     kind: WorldClass
@@ -106,7 +106,7 @@ class _Asked:
 
 
 @click.command(
-    short_help="Every world up to N edges: the smallest counterexample.",
+    short_help="Find the smallest counterexample among all worlds of up to N edges.",
     epilog=options.epilog(
         "search basic --edges 5",
         "search my_mapper.py:explore --class planar --keep-going",
@@ -129,21 +129,19 @@ class _Asked:
     "--workers",
     type=click.IntRange(min=0),
     metavar="N",
-    help="So many processes; 0: this one alone.  [default: one a processor]",
+    help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
-@click.option("--ledger", metavar="FILE", help="Keep what is done in FILE, and go on from there.")
+@click.option("--ledger", metavar="FILE", help="Keep finished work in FILE and resume from it.")
 @click.option("--keep-going", is_flag=True, help="Do not stop at the first counterexample.")
 @click.option(
     "--policies",
     type=click.Choice(CHOICES),
     default="reference",
     show_default=True,
-    help="The reference policies, all that have names, or every choice there is.",
+    help="Use the reference policies, all named ones, or every possible choice.",
 )
-@click.option(
-    "--worst", is_flag=True, help="Show the highest costs, and the worlds that have them."
-)
-@click.option("--compare", metavar="A,B", help="Where does A cost more than B?")
+@click.option("--worst", is_flag=True, help="Show the highest costs and the worlds that have them.")
+@click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
 @options.limits
 @output_options
 def search(  # noqa: PLR0913  an argument an option
@@ -163,12 +161,13 @@ def search(  # noqa: PLR0913  an argument an option
 ) -> int:
     """Examine a mapper in every world of 1 to N edges, smallest first.
 
-    Stops at the smallest counterexample, or says EXHAUSTED and of how many worlds. TARGET is a name
-    of the catalogue, several with commas, all, module:attribute or file.py:attribute.
+    The search stops at the smallest counterexample (REFUTED) or after the last world (EXHAUSTED).
+    TARGET is a name of the catalogue, several with commas, all, module:attribute or
+    file.py:attribute.
     """
 
-    def searches() -> Iterator[Result[Searched]]:
-        asked = _Asked(
+    def searches() -> Iterator[Result[SearchEntry]]:
+        asked = _SearchOptions(
             edges=edges,
             kind=WorldClass.parse(kind),
             workers=processors() if workers is None else workers,
@@ -182,7 +181,7 @@ def search(  # noqa: PLR0913  an argument an option
         for mappers in _mappers(target, command, compare, ledger):
             yield from _searched(output, mappers, asked)
 
-    def show(entries: Sequence[Searched]) -> Iterator[Block]:
+    def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
         for entry in entries:
             yield from _show(entry, worst=worst)
 
@@ -194,23 +193,27 @@ def _mappers(
 ) -> list[tuple[Target, ...]]:
     """The mappers of each search: one, or the two that are compared."""
     if (target is None and command is None) == (compare is None):
-        raise InputError("name a TARGET, or two mappers with --compare A,B: one of the two")
+        raise InputError("expected either a TARGET or two mappers with --compare A,B")
     if compare is not None:
         pair = targets(compare)
         if len(pair) != 2 or pair[0] == pair[1]:
-            raise InputError(f"--compare {compare}: name two algorithms of the catalogue, as A,B")
+            raise InputError(
+                f"--compare {compare}: expected two different algorithms of the catalogue, as A,B"
+            )
         return [pair]
     text = target_text(target, command)
     found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(text)]
     if ledger is not None and len(found) != 1:
-        raise InputError(f"--ledger {ledger}: a ledger is of one TARGET; {text} names {len(found)}")
+        raise InputError(
+            f"--ledger {ledger}: expected one TARGET, got {len(found)}; search them one by one"
+        )
     return found
 
 
 def _searched(
-    output: Output, mappers: tuple[Target, ...], asked: _Asked
-) -> Iterator[Result[Searched]]:
-    """One search, also where it is interrupted."""
+    output: Output, mappers: tuple[Target, ...], asked: _SearchOptions
+) -> Iterator[Result[SearchEntry]]:
+    """The result of one search; after Ctrl-C, of the worlds done so far."""
     plan = Plan(
         targets=tuple(mapper.text for mapper in mappers),
         edges=asked.edges,
@@ -219,9 +222,9 @@ def _searched(
         keep_going=asked.keep_going,
         limits=asked.limits,
     )
-    book = None if asked.ledger is None else Ledger(asked.ledger, plan, mappers, version())
-    with book or nullcontext():
-        work = Search(plan, mappers, workers=asked.workers, ledger=book)
+    opened = None if asked.ledger is None else Ledger(asked.ledger, plan, mappers, version())
+    with opened or nullcontext():
+        work = Search(plan, mappers, workers=asked.workers, ledger=opened)
         try:
             work.work(output.progress)
         except KeyboardInterrupt:
@@ -230,13 +233,13 @@ def _searched(
         yield _result(work.found(), asked)
 
 
-def _result(found: Found, asked: _Asked) -> Result[Searched]:
+def _result(found: Found, asked: _SearchOptions) -> Result[SearchEntry]:
     first = found.counterexample
     tally = found.tally
     silent = (
         c for c, seen in tally.statuses.items() if not seen.keys() & {"ok", "failed"} and seen
     )
-    entry = Searched(
+    entry = SearchEntry(
         target=",".join(found.plan.targets),
         kind=found.plan.kind,
         edges=found.plan.edges,
@@ -261,7 +264,7 @@ def _counterexample(failure: Failure) -> Counterexample:
     )
 
 
-def _by_edges(size: Size, plan: Plan, asked: _Asked) -> ByEdges:
+def _by_edges(size: Size, plan: Plan, asked: _SearchOptions) -> ByEdges:
     costs = size.tally.costs.get(plan.targets[0], Costs())
     return ByEdges(
         edges=size.edges,
@@ -281,7 +284,7 @@ def _by_edges(size: Size, plan: Plan, asked: _Asked) -> ByEdges:
 # ---------------------------------------------------------------- for people
 
 
-def _show(entry: Searched, *, worst: bool) -> Iterator[Block]:
+def _show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     kind = "" if entry.kind == "any" else f", class {entry.kind}"
     policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
     title = f"{_who(entry)}: worlds of 1 to {plural(entry.edges, 'edge')}{kind}{policies}"
@@ -290,19 +293,21 @@ def _show(entry: Searched, *, worst: bool) -> Iterator[Block]:
         for e in entry.by_edges
     ]
     costs = (">max cost", ">mean", ">in worlds", "which") if worst else ()
-    yield Table((">edges", ">checked", ">total", ">failing", *costs), rows, title)
+    yield TextTable((">edges", ">checked", ">total", ">failing", *costs), rows, title)
     pairs = [_compared(e.edges, e.compare) for e in entry.by_edges if e.compare is not None]
     if pairs:
         yield Text("")
-        yield Table((">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs)
+        yield TextTable(
+            (">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs
+        )
     yield Text("")
-    yield Text(f"{entry.verdict}: {_upshot(entry)}")
+    yield Text(f"{entry.verdict}: {_conclusion(entry)}")
     yield from _counterexamples(entry)
     if entry.not_declared and entry.verdict != "REFUTED":
         yield Text(undeclared(entry.target, entry.not_declared))
 
 
-def _who(entry: Searched) -> str:
+def _who(entry: SearchEntry) -> str:
     if all(e.compare is None for e in entry.by_edges):
         return entry.target
     first, _, second = entry.target.partition(",")
@@ -322,12 +327,12 @@ def _compared(edges: int, pair: Compared) -> tuple[str, ...]:
 
 
 def _some(names: Sequence[str], number: int) -> str:
-    """The first of so many."""
+    """The first names; an ellipsis if there are more."""
     shown = ", ".join(names[:SHOWN])
     return f"{shown} …" if number > SHOWN else shown or "-"
 
 
-def _upshot(entry: Searched) -> str:
+def _conclusion(entry: SearchEntry) -> str:
     worlds = f"{entry.checked} of {plural(entry.total, 'world')}"
     failing = sum(size.failing for size in entry.by_edges)
     undecided = sum(size.undecided for size in entry.by_edges)
@@ -339,8 +344,8 @@ def _upshot(entry: Searched) -> str:
     return f"{worlds} checked, no claim failed{late}"
 
 
-def _counterexamples(entry: Searched) -> Iterator[Block]:
-    """The smallest; of several claims, the smallest of each."""
+def _counterexamples(entry: SearchEntry) -> Iterator[Block]:
+    """The smallest counterexample, and the smallest for each claim."""
     first = entry.counterexample
     if first is None:
         return
@@ -350,4 +355,4 @@ def _counterexamples(entry: Searched) -> Iterator[Block]:
     if sum(size.failing for size in entry.by_edges) > 1:
         rows = [(c.claim, str(c.failing), c.smallest.world) for c in entry.claims]
         yield Text("")
-        yield Table(("claim that fails", ">in worlds", "smallest"), rows)
+        yield TextTable(("claim that fails", ">in worlds", "smallest"), rows)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from topo_verify.cli.layout import Block, Bullets, Table, Text
+from topo_verify.cli.layout import Block, Bullets, Text, TextTable
 from topo_verify.text import plural
 
 if TYPE_CHECKING:
@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 KINDS = ("inductive", "mechanised", "bounded", "negative", "mutant")
 
 
-class Replayed(msgspec.Struct, frozen=True):
-    """Of the models found, how many came true in the simulator."""
+class ReplayCount(msgspec.Struct, frozen=True):
+    """How many of the models found the simulator has replayed."""
 
     replayed: int
     total: int
 
 
-class Certified(msgspec.Struct, frozen=True):
-    """A proof object and what its checker said."""
+class CertificateCheck(msgspec.Struct, frozen=True):
+    """A certificate and what its checker said."""
 
     format: str
     checker: str
@@ -35,8 +35,8 @@ class Certified(msgspec.Struct, frozen=True):
     why: str
 
 
-class Opinions(msgspec.Struct, frozen=True):
-    """What a second solver said of the questions behind a theorem."""
+class SecondOpinion(msgspec.Struct, frozen=True):
+    """How often a second solver agrees on the questions of a theorem."""
 
     solver: str
     agrees: int
@@ -44,12 +44,12 @@ class Opinions(msgspec.Struct, frozen=True):
     total: int
 
 
-class Proved(msgspec.Struct, frozen=True):
+class ProveEntry(msgspec.Struct, frozen=True):
     """One theorem: an entry of `results`; docs/commands.md.
 
     Attributes:
         claim: the claims that rest on it, with commas.
-        ok: the verdict is the expected one, the premises can hold, what was found was replayed.
+        ok: the verdict is as expected, the premises are satisfiable, every model was replayed.
     """
 
     name: str
@@ -59,23 +59,23 @@ class Proved(msgspec.Struct, frozen=True):
     expected: str
     ok: bool
     premises_satisfiable: bool | None
-    replayed: Replayed | None
+    replayed: ReplayCount | None
     solver: str
     edges: int | None
-    certificate: Certified | None
+    certificate: CertificateCheck | None
     checked: int | None
     total: int | None
     counterexample: str | None
     history: tuple[int, ...] | None
     core: tuple[str, ...]
-    opinion: Opinions | None
+    opinion: SecondOpinion | None
     of: str | None
     words: str
     note: str
 
 
-class Listed(msgspec.Struct, frozen=True):
-    """One theorem, not yet proved: an entry of `results` of --list."""
+class ProveListEntry(msgspec.Struct, frozen=True):
+    """One theorem as it is stated: an entry of `results` with --list."""
 
     name: str
     kind: str
@@ -91,10 +91,10 @@ class Listed(msgspec.Struct, frozen=True):
     assumed: tuple[str, ...]
 
 
-def entry_of(theorem: Theorem, outcome: TheoremResult, opinion: Opinions | None) -> Proved:
-    """What became of a theorem, as it is printed."""
+def entry_of(theorem: Theorem, outcome: TheoremResult, opinion: SecondOpinion | None) -> ProveEntry:
+    """The entry of `results` for a theorem and its outcome."""
     made = outcome.certificate
-    return Proved(
+    return ProveEntry(
         name=theorem.name,
         kind=theorem.kind,
         claim=",".join(theorem.claims),
@@ -102,12 +102,14 @@ def entry_of(theorem: Theorem, outcome: TheoremResult, opinion: Opinions | None)
         expected=theorem.expected,
         ok=theorem.ok(outcome),
         premises_satisfiable=outcome.premises_satisfiable,
-        replayed=None if outcome.replayed is None else Replayed(*outcome.replayed),
+        replayed=None if outcome.replayed is None else ReplayCount(*outcome.replayed),
         solver=outcome.solver,
         edges=theorem.edges,
         certificate=None
         if made is None
-        else Certified(made.format, made.checker, made.checked, made.clauses, made.steps, made.why),
+        else CertificateCheck(
+            made.format, made.checker, made.checked, made.clauses, made.steps, made.why
+        ),
         checked=outcome.checked,
         total=outcome.total,
         counterexample=outcome.counterexample,
@@ -120,9 +122,9 @@ def entry_of(theorem: Theorem, outcome: TheoremResult, opinion: Opinions | None)
     )
 
 
-def listed(theorem: Theorem) -> Listed:
-    """A theorem as it is listed."""
-    return Listed(
+def listed(theorem: Theorem) -> ProveListEntry:
+    """The entry of `results` for a theorem with --list."""
+    return ProveListEntry(
         name=theorem.name,
         kind=theorem.kind,
         claim=",".join(theorem.claims),
@@ -141,25 +143,31 @@ def listed(theorem: Theorem) -> Listed:
 # ---------------------------------------------------------------- for people
 
 FEW = 5
-"""So many theorems are listed with all that there is to say of them."""
+"""Up to this number, --list shows theorems in full."""
 
 
 def head(theorems: Sequence[Theorem], budget: Budget) -> str:
-    """What is about to be done."""
+    """The first line: the solver, its seed, and how many theorems of each kind."""
     from topo_verify.proofs.solvers import z3_solver
 
     kinds = Counter[str](theorem.kind for theorem in theorems)
-    told = ", ".join(f"{kinds[kind]} {kind}" for kind in KINDS if kinds[kind])
+    counts = ", ".join(f"{kinds[kind]} {kind}" for kind in KINDS if kinds[kind])
     many = plural(len(theorems), "theorem")
-    return f"{z3_solver.name()}, seed {budget.seed}: {many} ({told})"
+    return f"{z3_solver.name()}, seed {budget.seed}: {many} ({counts})"
 
 
-def _row(entry: Proved) -> tuple[str, ...]:
-    return (entry.name, entry.kind, entry.verdict, "ok" if entry.ok else "not ok", _told(entry))
+def _row(entry: ProveEntry) -> tuple[str, ...]:
+    return (
+        entry.name,
+        entry.kind,
+        entry.verdict,
+        "ok" if entry.ok else "not ok",
+        _evidence(entry),
+    )
 
 
-def _told(entry: Proved) -> str:
-    """What a person wants to see beside the verdict."""
+def _evidence(entry: ProveEntry) -> str:
+    """The evidence for the verdict, in a few words."""
     words: list[str] = []
     if entry.total is not None:
         words.append(f"{entry.checked} of {plural(entry.total, 'world')}")
@@ -191,22 +199,24 @@ _VACUITY = {
 }
 
 
-def show(entries: Sequence[Proved]) -> Iterator[Block]:
-    """Everything at once."""
-    yield Table(("theorem", "kind", "verdict", "", "what stands behind it"), [*map(_row, entries)])
+def show(entries: Sequence[ProveEntry]) -> Iterator[Block]:
+    """All theorems in one table, and the counts."""
+    yield TextTable(
+        ("theorem", "kind", "verdict", "", "what stands behind it"), [*map(_row, entries)]
+    )
     yield from end(entries)
 
 
-def live(entry: Proved, seconds: float) -> Iterator[Block]:
-    """One theorem, as soon as it is done."""
-    told = _told(entry) if entry.ok else f"NOT OK ({entry.kind}): {_told(entry)}"
-    row = (entry.name, entry.verdict, f"{seconds:.2f} s", told)
+def live(entry: ProveEntry, seconds: float) -> Iterator[Block]:
+    """The row of one theorem."""
+    evidence = _evidence(entry) if entry.ok else f"NOT OK ({entry.kind}): {_evidence(entry)}"
+    row = (entry.name, entry.verdict, f"{seconds:.2f} s", evidence)
     columns = ("theorem", "verdict", ">time", "what stands behind it")
-    yield Table(columns, [row], widths=(28, 9, 7, 0), headed=False)
+    yield TextTable(columns, [row], widths=(28, 9, 7, 0), headed=False)
 
 
-def end(entries: Sequence[Proved]) -> Iterator[Block]:
-    """The upshot: how many of each kind are as they must be."""
+def end(entries: Sequence[ProveEntry]) -> Iterator[Block]:
+    """How many theorems of each kind came out as expected, and which did not."""
     yield Text("")
     rows: list[tuple[str, ...]] = []
     for kind in KINDS:
@@ -225,16 +235,16 @@ def end(entries: Sequence[Proved]) -> Iterator[Block]:
             )
         )
     columns = ("kind", ">as expected", ">models replayed", ">with a checked certificate")
-    yield Table(columns, rows)
+    yield TextTable(columns, rows)
     wrong = [f"{entry.name}: {entry.verdict}; {entry.note}" for entry in entries if not entry.ok]
     if wrong:
-        yield Text("Not as it must be:")
+        yield Text("Not as expected:")
         yield Bullets(tuple(wrong))
     yield Text("What is argued, assumed and not shown: docs/proofs.md and docs/mechanised.md.")
 
 
-def show_list(entries: Sequence[Listed]) -> Iterator[Block]:
-    """Theorems in a table; a few of them with all that there is to say."""
+def show_list(entries: Sequence[ProveListEntry]) -> Iterator[Block]:
+    """The theorems in a table, or in full if they are few."""
     if len(entries) <= FEW:
         for entry in entries:
             yield from _details(entry)
@@ -243,10 +253,10 @@ def show_list(entries: Sequence[Listed]) -> Iterator[Block]:
         (e.name, e.kind, e.expected, "" if e.edges is None else str(e.edges), e.words)
         for e in entries
     ]
-    yield Table(("theorem", "kind", "expected", ">edges", "what it says"), rows)
+    yield TextTable(("theorem", "kind", "expected", ">edges", "what it says"), rows)
 
 
-def _details(entry: Listed) -> Iterator[Block]:
+def _details(entry: ProveListEntry) -> Iterator[Block]:
     yield Text(f"{entry.name} ({entry.kind}, expected {entry.expected}): {entry.words}")
     lines = (
         f"in symbols: {entry.symbols}",

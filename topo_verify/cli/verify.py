@@ -9,7 +9,7 @@ import click
 from topo_verify.checkers import CLAIMS
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Table, Text
+from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks, undeclared
@@ -22,19 +22,19 @@ from topo_verify.text import plural
 
 
 @click.command(
-    short_help="Check the catalogue, or a mapper of your own: one report.",
+    short_help="Check the catalogue, or a mapper of your own, in one report.",
     epilog=options.epilog("verify", "verify my_mapper.py:explore", "verify --quick --format json"),
 )
 @click.argument("target", required=False, metavar="[TARGET]")
 @options.program
-@click.option("--quick", is_flag=True, help="Smaller sizes: a few seconds.")
+@click.option("--quick", is_flag=True, help="Check smaller worlds, in a few seconds.")
 @click.option(
     "--seed",
     type=click.IntRange(min=0),
     default=campaign.SEED,
     show_default=True,
     metavar="N",
-    help="Draws the sampled and generated worlds.",
+    help="Seed of the sampled and generated worlds.",
 )
 @options.limits
 @output_options
@@ -82,20 +82,20 @@ def _head(mappers: Sequence[Target], seed: int) -> str:
 
 
 def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
-    """Everything at once."""
+    """All parts in one table, then what `_first` and `_end` say of them."""
     yield from head
     columns = ("part", "verdict", ">checked", ">total", "summary")
     rows = [(e.part, e.verdict, str(e.checked), str(e.total), e.summary) for e in entries]
-    yield Table(columns, rows)
+    yield TextTable(columns, rows)
     for entry in entries:
         yield from _first(entry)
     yield from _end(entries)
 
 
 def _live(entry: Part) -> Iterator[Block]:
-    """One part, as soon as it is done."""
+    """The row of one part, and its smallest counterexample."""
     row = (entry.part, entry.verdict, entry.summary)
-    yield Table(("part", "verdict", "summary"), [row], widths=(16, 9, 0), headed=False)
+    yield TextTable(("part", "verdict", "summary"), [row], widths=(16, 9, 0), headed=False)
     yield from _first(entry)
 
 
@@ -109,16 +109,16 @@ def _first(entry: Part) -> Iterator[Block]:
 
 
 def _end(entries: Sequence[Part]) -> Iterator[Block]:
-    """What is said when all is done: the costs, and the upshot."""
+    """The costs, and the conclusion."""
     for entry in entries:
         if entry.costs:
             yield Text("")
             yield _costs(entry)
     yield Text("")
-    yield Text(_upshot(entries))
+    yield Text(_conclusion(entries))
 
 
-def _upshot(entries: Sequence[Part]) -> str:
+def _conclusion(entries: Sequence[Part]) -> str:
     silent = {
         claim
         for entry in entries
@@ -126,8 +126,8 @@ def _upshot(entries: Sequence[Part]) -> str:
         if seen["not-declared"] and not seen["ok"] and not seen["failed"]
     }
     if any(entry.verdict == "REFUTED" for entry in entries):
-        return "A claim fails: the lines behind 'again' show where."
-    words = "No claim failed in what was checked, which is what stands above and no more."
+        return "A claim fails: the commands after 'again' show where."
+    words = "No claim failed in the worlds and theorems counted above; nothing else was checked."
     if not all(entry.ok for entry in entries):
         words = "No claim failed, but not everything was checked."
     if silent:
@@ -135,7 +135,7 @@ def _upshot(entries: Sequence[Part]) -> str:
     return words
 
 
-def _costs(entry: Part) -> Table:
+def _costs(entry: Part) -> TextTable:
     rows: list[tuple[str, ...]] = []
     for one in entry.costs:
         rejected = one.rejected_free + one.rejected_moving
@@ -152,4 +152,4 @@ def _costs(entry: Part) -> Table:
     title = f"{entry.part}: costs in edge traversals"
     if any(one.reference for one in entry.costs):
         title += ", (others) for comparison"
-    return Table(columns, rows, title=title)
+    return TextTable(columns, rows, title=title)

@@ -11,10 +11,10 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Raw, Table
+from topo_verify.cli.layout import Block, Raw, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import Place, place, places
+from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.cli.sample import sample
 from topo_verify.errors import InputError
 from topo_verify.world.enumeration.classes import WorldClass
@@ -26,7 +26,7 @@ FORMATS: dict[str, Callable[[World], str | bytes]] = {
     "json": World.to_json,
     "planar_code": planar_code.encode,
 }
-"""What `convert --to` knows: a world in each format, as text or, where that is none, as bytes."""
+"""The encoder of each format of `convert --to`: to text, or to bytes if it is binary."""
 
 
 @click.group(epilog=options.epilog("world show nyc", "world count --edges 6 --class planar"))
@@ -40,8 +40,8 @@ world.add_command(sample)
 # ---------------------------------------------------------------- show
 
 
-class Shown(msgspec.Struct, frozen=True):
-    """What a world is; docs/commands.md. `id` is None beyond 200 edges."""
+class ShowEntry(msgspec.Struct, frozen=True):
+    """One world: an entry of `results`; docs/commands.md. `id` is None beyond 200 edges."""
 
     name: str
     id: str | None
@@ -64,18 +64,18 @@ class Shown(msgspec.Struct, frozen=True):
 @options.marker
 @output_options
 def show(output: Output, *, worlds: tuple[str, ...], marker: int | None) -> int:
-    """Show what a world is: its size, its genus, its degrees, its id."""
+    """Show the properties of a world: its size, genus, degrees and id."""
 
-    def shown() -> Iterator[Result[Shown]]:
-        for at in places(worlds, marker):
+    def shown() -> Iterator[Result[ShowEntry]]:
+        for at in named_worlds(worlds, marker):
             yield Result(_shown(at))
 
     return output.run("world-show", shown, _show)
 
 
-def _shown(at: Place) -> Shown:
+def _shown(at: NamedWorld) -> ShowEntry:
     world = at.world
-    return Shown(
+    return ShowEntry(
         name=at.name,
         id=_id(world),
         vertices=len(world.vertices),
@@ -97,7 +97,7 @@ def _id(world: World) -> str | None:
     return world.id if len(world.edges) <= MAX_ID_EDGES else None
 
 
-def _show(entries: Sequence[Shown]) -> Iterator[Block]:
+def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
     for entry in entries:
         degrees = sorted(Counter(entry.degrees).items())
         facts: dict[str, Any] = msgspec.structs.asdict(entry)
@@ -105,7 +105,7 @@ def _show(entries: Sequence[Shown]) -> Iterator[Block]:
         facts["marker"] = "none" if entry.marker is None else f"at dart {entry.marker}"
         facts["least cost"] = f"{facts.pop('least_cost')} edge traversals"
         rows = [(name, _word(fact)) for name, fact in facts.items() if fact not in ("", None)]
-        yield Table(("property", "value"), rows, headed=False)
+        yield TextTable(("property", "value"), rows, headed=False)
 
 
 def _word(fact: object) -> str:
@@ -115,8 +115,8 @@ def _word(fact: object) -> str:
 # ---------------------------------------------------------------- convert
 
 
-class Converted(msgspec.Struct, frozen=True):
-    """A world in another format: in a file, or here."""
+class ConvertEntry(msgspec.Struct, frozen=True):
+    """A world in another format, either in `file` or as `text`."""
 
     world: str
     to: str
@@ -130,40 +130,46 @@ class Converted(msgspec.Struct, frozen=True):
     )
 )
 @click.argument("world", metavar="WORLD")
-@click.option("--to", default="json", show_default=True, type=click.Choice([*FORMATS]))
-@click.option("-o", "file", default="-", metavar="FILE", help="Where to; default: standard output.")
+@click.option(
+    "--to", default="json", show_default=True, type=click.Choice([*FORMATS]), help="The format."
+)
+@click.option(
+    "-o", "file", default="-", metavar="FILE", help="Write to FILE.  [default: standard output]"
+)
 @options.marker
 @output_options
 def convert(output: Output, *, world: str, to: str, file: str, marker: int | None) -> int:
     """Write a world in another format."""
 
-    def converted() -> Iterator[Result[Converted]]:
-        at = place(world, marker)
+    def converted() -> Iterator[Result[ConvertEntry]]:
+        at = named_world(world, marker)
         content = FORMATS[to](at.world)
         if file != "-":
             files.write(file, content + "\n" if isinstance(content, str) else content)
-            yield Result(Converted(at.name, to, file, None))
+            yield Result(ConvertEntry(at.name, to, file, None))
         elif isinstance(content, str):
-            yield Result(Converted(at.name, to, None, content))
+            yield Result(ConvertEntry(at.name, to, None, content))
         else:
-            raise InputError(f"--to {to}: this format is no text; say with -o which file to write")
+            raise InputError(
+                f"--to {to}: a binary format is written to a file; name one with -o FILE"
+            )
 
     return output.run("world-convert", converted, _show_converted)
 
 
-def _show_converted(entries: Sequence[Converted]) -> Iterator[Block]:
+def _show_converted(entries: Sequence[ConvertEntry]) -> Iterator[Block]:
     for entry in entries:
         if entry.text is not None:
             yield Raw(entry.text)
         else:
-            yield Table(("world", "to", "file"), [(entry.world, entry.to, str(entry.file))])
+            yield TextTable(("world", "to", "file"), [(entry.world, entry.to, str(entry.file))])
 
 
 # ---------------------------------------------------------------- count
 
 
-class Counted(msgspec.Struct, frozen=True):
-    """How many worlds there are; docs/commands.md."""
+class CountEntry(msgspec.Struct, frozen=True):
+    """The number of worlds of one size: an entry of `results`; docs/commands.md."""
 
     edges: int
     # `class` cannot be a name in Python.
@@ -172,14 +178,16 @@ class Counted(msgspec.Struct, frozen=True):
 
 
 def _range(_context: click.Context, _option: click.Parameter, value: str) -> range:
-    """A number of edges, or a range of them, A..B."""
+    """The numbers of edges in `N` or `A..B`."""
     found = re.fullmatch(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}))?", value)
     if not found:
-        raise click.BadParameter(f"{value!r} is no number of edges and no range as 1..6")
+        raise click.BadParameter(
+            f"expected a number of edges as 6 or a range as 1..6, got {value!r}"
+        )
     first, last = int(found[1]), int(found[2] or found[1])
     if not first <= last <= options.MAX_EDGES:
         raise click.BadParameter(
-            f"{value!r}: numbers of edges go up, and up to {options.MAX_EDGES}"
+            f"expected ascending numbers of edges up to {options.MAX_EDGES}, got {value!r}"
         )
     return range(first, last + 1)
 
@@ -187,21 +195,23 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
 @world.command(
     epilog=options.epilog("world count --edges 6", "world count --edges 1..5 --class simple")
 )
-@click.option("--edges", callback=_range, required=True, metavar="N", help="How many, or A..B.")
+@click.option(
+    "--edges", callback=_range, required=True, metavar="N", help="Number of edges, or a range A..B."
+)
 @options.world_class
 @output_options
 def count(output: Output, *, edges: range, kind: str) -> int:
-    """Count the worlds with so many edges, up to isomorphism (rooted maps)."""
+    """Count the worlds with N edges, up to isomorphism (rooted maps)."""
 
-    def counted() -> Iterator[Result[Counted]]:
+    def counted() -> Iterator[Result[CountEntry]]:
         worlds = WorldClass.parse(kind)
         for number, m in enumerate(edges):
             output.progress(f"{m} edges, class {worlds}", number, len(edges))
-            yield Result(Counted(edges=m, kind=str(worlds), total=worlds.count(m)))
+            yield Result(CountEntry(edges=m, kind=str(worlds), total=worlds.count(m)))
 
     return output.run("world-count", counted, _show_counted)
 
 
-def _show_counted(entries: Sequence[Counted]) -> Iterator[Block]:
+def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
     rows = [(str(e.edges), e.kind, str(e.total)) for e in entries]
-    yield Table((">edges", "class", ">worlds"), rows)
+    yield TextTable((">edges", "class", ">worlds"), rows)

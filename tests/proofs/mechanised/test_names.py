@@ -103,9 +103,9 @@ def located(folder: Path, imports: Iterable[str], names: Iterable[str]) -> list[
     lines = [*imports, *(f"Locate {name}." for name in names)]
     (folder / "Located.v").write_text("\n".join(lines))
     ran = toolchain.compile_one(folder, "Located", timeout=LIMIT)
-    assert ran.accepted, ran.said
+    assert ran.accepted, ran.output
     # Tactics have names of their own kind: the tactic `cut` and the definition `cut` do not meet.
-    answers = (found.groups() for found in LOCATED.finditer(ran.said))
+    answers = (found.groups() for found in LOCATED.finditer(ran.output))
     return [(f"{root}.{module}", name) for kind, root, module, name in answers if kind != "Ltac"]
 
 
