@@ -2,6 +2,7 @@
 #
 #   make verify                     the main job: one report, under a minute
 #   make test                       the whole suite and the branch coverage of the trusted rooms
+#   make nightly                    every test, the slow ones too, with new examples each time
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
 #   make mutants                    the checkers with one thing changed: each must fail a test
 #   make lint types                 ruff; mypy and pyright, both strict
@@ -13,9 +14,13 @@
 PYTHON ?= python3
 VENV ?= .venv
 INSTALLER ?= pip
+JUNIT ?=
 
 BIN := $(VENV)/bin
-ROOMS := topo_verify/world/*,topo_verify/robot/*,topo_verify/checkers/*,topo_verify/algorithms/*
+PYTEST := $(BIN)/python -m pytest $(if $(JUNIT),--junitxml="$(JUNIT)")
+# Few long tests and many short ones: a worker that is done takes over half of another's tests.
+PARALLEL := --numprocesses=auto --dist=worksteal
+EVERY := -m 'slow or not slow'
 
 # The build backend is looked up on PATH, hence the environment's own programs come first there.
 ifeq ($(INSTALLER),uv)
@@ -26,23 +31,26 @@ CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help verify test coq lint types bench mutants constraints oldest clean
+.PHONY: help verify test nightly coq lint types bench mutants constraints oldest clean
 
 help:
-	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 11
+	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 12
 
 verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
 
 test: $(VENV)/.dev
-	$(BIN)/python -m pytest --numprocesses=auto --dist=loadfile --cov --cov-report=
+	$(PYTEST) $(PARALLEL) --cov --cov-report=
 	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
-	$(BIN)/coverage report --include='$(ROOMS)' --fail-under=100
+	$(BIN)/coverage report --fail-under=100
+
+nightly: $(VENV)/.dev
+	HYPOTHESIS_PROFILE=nightly $(PYTEST) $(PARALLEL) $(EVERY)
 
 # Coq itself comes from the distribution: apt install coq
 coq: $(VENV)/.dev
 	$(BIN)/topo-verify prove --kind mechanised
-	$(BIN)/python -m pytest -m 'slow or not slow' tests/proofs/coq tests/cli/test_certify_kernel.py
+	$(PYTEST) $(PARALLEL) $(EVERY) tests/proofs/mechanised tests/cli/test_certify_kernel.py
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .
@@ -99,7 +107,7 @@ oldest: $(VENV)/.created
 	$(INSTALL) uv
 	$(BIN)/uv venv --quiet --allow-existing --python $(BIN)/python .venv-oldest
 	$(BIN)/uv pip install --quiet --python .venv-oldest/bin/python --upgrade --resolution lowest-direct -e '.[dev]'
-	.venv-oldest/bin/python -m pytest -W default --numprocesses=auto --dist=loadfile
+	.venv-oldest/bin/python -m pytest -W default $(PARALLEL)
 
 clean:
 	rm -rf $(VENV) .venv-oldest .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage build dist

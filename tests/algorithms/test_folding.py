@@ -83,6 +83,7 @@ def test_what_is_kept_has_a_witness_in_every_world_with_four_edges() -> None:
         assert_complete(world)
 
 
+@pytest.mark.no_cover
 @given(any_world(max_edges=16))
 def test_what_is_kept_has_a_witness_in_larger_worlds(world: World) -> None:
     assert_complete(world)
@@ -154,6 +155,7 @@ def test_all_claims_hold_in_every_world_with_five_edges() -> None:
         assert set(examine("folding", world).claims.values()) == {"ok"}
 
 
+@pytest.mark.no_cover
 @given(any_world(max_edges=40))
 def test_all_claims_hold_in_larger_worlds(world: World) -> None:
     report = examine("folding", world)

@@ -25,6 +25,7 @@ from topo_verify.robot.events import (
 from topo_verify.robot.percept import Percept
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("edges", range(1, 5))
 def test_no_claim_fails_for_any_algorithm_on_any_world(edges: int) -> None:
     for world in worlds([edges]):
