@@ -21,7 +21,7 @@ from topo_verify.robot.events import (
     Pose,
     Record,
     Reject,
-    Rule,
+    RuleName,
     Start,
     Trace,
 )
@@ -30,7 +30,7 @@ from topo_verify.robot.percept import Percept
 integers = st.integers(0, 9) | st.sampled_from([-1, -10, 10, 1000, 2**63 - 1, -(2**63)])
 percepts = st.builds(Percept, integers, st.none() | integers)
 rows = st.lists(integers, max_size=4).map(tuple)
-rules = st.sampled_from([rule for rule in get_args(Rule) if rule != "folding"])
+rules = st.sampled_from([rule for rule in get_args(RuleName) if rule != "folding"])
 """Not `folding`, whose rejections are judged by folding the history: see test_folding.py."""
 
 records = st.builds(Record, integers, rows)

@@ -23,7 +23,7 @@ from topo_verify.robot.events import (
     Move,
     Pose,
     Reject,
-    Rule,
+    RuleName,
     Start,
     Trace,
 )
@@ -113,7 +113,7 @@ def test_the_witness_against_a_rejection_is_a_world_where_it_rejects_the_truth()
     assert told > 100
 
 
-def rejecting_at_once(trace: Trace, rule: Rule) -> Trace:
+def rejecting_at_once(trace: Trace, rule: RuleName) -> Trace:
     """The trace, but each hypothesis is rejected as soon as it is posed."""
     events: list[Event] = []
     for event in trace:
@@ -123,7 +123,7 @@ def rejecting_at_once(trace: Trace, rule: Rule) -> Trace:
     return tuple(events)
 
 
-def rejections(pose: Pose, rule: Rule) -> Iterator[Reject]:
+def rejections(pose: Pose, rule: RuleName) -> Iterator[Reject]:
     nothing = Evidence(0, Percept(1, None), Percept(1, None))
     for hypothesis in pose.hypotheses:
         yield Reject(pose.edge, hypothesis, rule, nothing)
@@ -138,7 +138,7 @@ def assert_wrong_in(witness: World, trace: Trace, when: int) -> None:
     assert run.map.truth(event.edge, when) == event.hypothesis
 
 
-def renamed(trace: Trace, old: Rule, new: Rule) -> Trace:
+def renamed(trace: Trace, old: RuleName, new: RuleName) -> Trace:
     """The trace with another rule in some of its rejections."""
     return tuple(
         Reject(e.edge, e.hypothesis, new, e.evidence)
@@ -211,7 +211,7 @@ def joined(history: Trace, e: int, h: int) -> World:
 
 
 @pytest.mark.parametrize("rule", [None, "planar"])
-def test_a_loop_of_s_is_no_new_vertex_in_any_world(rule: Rule | None) -> None:
+def test_a_loop_of_s_is_no_new_vertex_in_any_world(rule: RuleName | None) -> None:
     """The world of one vertex on the torus: with the planar prior, no planar world refutes it."""
     world = World.from_id("m2/8")
     assert (len(world.vertices), world.genus) == (1, 1)

@@ -21,8 +21,8 @@ STRATEGIES: dict[str, SearchStrategy[World]] = {
 
 
 @st.composite
-def runs(draw: st.DrawFn, name: str) -> Exploration:
-    """A run of any algorithm that is right in all worlds, with any policies, in such a world."""
-    run = explore(draw(STRATEGIES[name]), draw(mappers()))
+def runs(draw: st.DrawFn, worlds: SearchStrategy[World]) -> Exploration:
+    """A run of any algorithm that is right in all worlds, with any policies, in one of these."""
+    run = explore(draw(worlds), draw(mappers()))
     observe(run)
     return run

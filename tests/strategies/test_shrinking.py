@@ -9,7 +9,7 @@ import pytest
 from hypothesis import find, settings
 from hypothesis.strategies import SearchStrategy
 
-from tests.checkers.faulty import Vague
+from examples.undirected import Undirected
 from tests.strategies import features
 from tests.strategies.features import Condition
 from tests.versions import older
@@ -107,7 +107,7 @@ def test_what_worlds_shrink_to(condition: Condition, simplest: str) -> None:
 # ---------------------------------------------------------------- planted faults
 
 
-class NoMarker(Vague, frozen=True, eq=False):
+class NoMarker(Undirected, frozen=True, eq=False):
     """A percept that takes another for equal if the degree is."""
 
     def __eq__(self, other: object) -> bool:
@@ -136,9 +136,9 @@ def errs(mapper: Algorithm) -> Callable[[World], bool]:
 
 
 SMALLEST = [
-    (Vague, worlds(max_edges=30), 2),
-    (Vague, worlds(max_edges=30, loopless=True), 3),
-    (Vague, worlds(max_edges=30, simple=True), 4),
+    (Undirected, worlds(max_edges=30), 2),
+    (Undirected, worlds(max_edges=30, loopless=True), 3),
+    (Undirected, worlds(max_edges=30, simple=True), 4),
     (NoMarker, worlds(max_edges=30), 2),
     (NoMarker, worlds(max_edges=30, loopless=True), 3),
     (NoMarker, worlds(max_edges=30, simple=True), 4),

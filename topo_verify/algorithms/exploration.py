@@ -25,8 +25,7 @@ from typing import NamedTuple, Protocol
 from topo_verify.algorithms.chart import Chart, Dart, Survey
 from topo_verify.algorithms.motion import Executed, Hypothesis, Motion, Pilot
 from topo_verify.algorithms.policies import Order, Pick
-from topo_verify.robot.events import Augment, Confirm, Evidence, Pose, Reject, Robot
-from topo_verify.robot.events import Rule as RuleName
+from topo_verify.robot.events import Augment, Confirm, Evidence, Pose, Reject, Robot, RuleName
 from topo_verify.robot.percept import Percept
 
 

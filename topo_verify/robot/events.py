@@ -23,9 +23,10 @@ from topo_verify.robot.percept import Door, Percept, Purpose
 Number = Annotated[int, msgspec.Meta(ge=-(2**62), le=2**62)]
 """Longer integers mean nothing here, and could not be shown in a message."""
 
-Dart = Number
+MapDart = Number
+"""A dart of S by its number, as a mapper declares it; the checkers find out whether S has it."""
 
-Rule = Literal["motion", "prefix", "history", "records", "folding", "planar"]
+RuleName = Literal["motion", "prefix", "history", "records", "folding", "planar"]
 
 TRACE_FORMAT: Literal["topo-verify/trace"] = "topo-verify/trace"
 TRACE_VERSION = 1
@@ -38,7 +39,7 @@ class _Event(msgspec.Struct, frozen=True, tag_field="type", tag=str.lower):
 class Record(msgspec.Struct, frozen=True):
     """Where in the records an expectation came from: T[dart], then further relative doors."""
 
-    dart: Dart
+    dart: MapDart
     doors: tuple[Door, ...]
 
 
@@ -61,7 +62,7 @@ class Evidence(msgspec.Struct, frozen=True, omit_defaults=True):
     expected: Percept
     observed: Percept
     sequence: Number | None = None
-    at: Dart | None = None
+    at: MapDart | None = None
     record: Record | None = None
     contradiction: str | None = None
 
@@ -69,9 +70,9 @@ class Evidence(msgspec.Struct, frozen=True, omit_defaults=True):
 class MapData(msgspec.Struct, frozen=True):
     """A map as a mapper delivers it: clockwise rotations, pairs of darts, the marked dart."""
 
-    vertices: tuple[tuple[Dart, ...], ...]
-    edges: tuple[tuple[Dart, ...], ...]
-    marker: Dart | None
+    vertices: tuple[tuple[Number, ...], ...]
+    edges: tuple[tuple[Number, ...], ...]
+    marker: Number | None
 
 
 class Policies(msgspec.Struct, frozen=True):
@@ -106,33 +107,33 @@ class Move(_Event, frozen=True, gc=False):
 class Pose(_Event, frozen=True):
     """The robot stands behind `edge`; these unexplored darts might be its other end."""
 
-    edge: Dart
-    hypotheses: tuple[Dart, ...]
+    edge: MapDart
+    hypotheses: tuple[MapDart, ...]
 
 
 class Reject(_Event, frozen=True):
     """The other end of `edge` is not `hypothesis`, because of the evidence."""
 
-    edge: Dart
-    hypothesis: Dart
-    rule: Rule
+    edge: MapDart
+    hypothesis: MapDart
+    rule: RuleName
     evidence: Evidence
 
 
 class Confirm(_Event, frozen=True):
     """The other end of `edge` is `hypothesis`."""
 
-    edge: Dart
-    hypothesis: Dart
-    rule: Rule
+    edge: MapDart
+    hypothesis: MapDart
+    rule: RuleName
 
 
 class Augment(_Event, frozen=True):
     """The map grows: by a new vertex, `dart` its first dart; or by a loop, `dart` the other end."""
 
-    edge: Dart
+    edge: MapDart
     kind: Literal["new", "loop"]
-    dart: Dart
+    dart: MapDart
     degree: Number
 
 

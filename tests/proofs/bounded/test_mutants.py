@@ -9,7 +9,7 @@ from itertools import islice
 
 import pytest
 
-from tests.checkers.faulty import ignores_the_direction_of_the_marker, ignores_the_marker
+from examples.undirected import undirected, unmarked
 from tests.helpers import failing, worlds
 from topo_verify import World
 from topo_verify.harness.run import explore
@@ -59,7 +59,7 @@ def test_with_the_direction_there_is_no_such_world_at_any_of_these_sizes(world_c
 
 @pytest.mark.parametrize("case", SMALLEST, ids=lambda case: case.name)
 def test_the_sizes_are_those_at_which_a_mapper_confirms_what_is_false(case: Negative) -> None:
-    mapper = {"undirected": ignores_the_direction_of_the_marker, "none": ignores_the_marker}
+    mapper = {"undirected": undirected, "none": unmarked}
     kind = WorldClass.parse(case.world_class)
     found = next(
         len(world.edges)
