@@ -7,7 +7,7 @@ of workers. After some time-outs enough is seen: what is left is not tried.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 
 import msgspec
@@ -17,7 +17,7 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.conform.batch import BatchExaminer
 from topo_verify.harness.conform.examiner import Examiner
 from topo_verify.harness.conform.outcome import LEVELS, RESULT, Found, Job, Level, Outcome
-from topo_verify.harness.conform.parallel import Crew
+from topo_verify.harness.conform.parallel import outcomes
 from topo_verify.harness.corpus import Corpus
 from topo_verify.harness.progress import Progress
 
@@ -200,15 +200,16 @@ def conform(
         InputError: there is no such mapper, program, algorithm or policy.
     """
     with ExitStack() as stack:
-        outcomes: Iterable[Outcome]
+        found: Iterable[Outcome]
         if batch:
-            outcomes = stack.enter_context(BatchExaminer(job)).examine(corpus)
+            found = stack.enter_context(BatchExaminer(job)).examine(corpus)
         elif workers:
-            outcomes = stack.enter_context(Crew(job, min(workers, corpus.total))).examine(corpus)
+            parallel = outcomes(job, corpus, min(workers, corpus.total))
+            found = stack.enter_context(closing(parallel))
         else:
             examiner = stack.enter_context(Examiner(job))
-            outcomes = map(examiner.examine, corpus)
-        for made in outcomes:
+            found = map(examiner.examine, corpus)
+        for made in found:
             books.enter(made)
             if tell is not None:
                 tell(job.target, books.tried, corpus.total)

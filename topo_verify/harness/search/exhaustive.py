@@ -22,9 +22,10 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness import target_texts
 from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.pool import Crew
+from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress, ProgressRate
 from topo_verify.harness.search.choices import require_choices
+from topo_verify.harness.search.parallel import shard_work
 from topo_verify.harness.search.plan import Choices, Plan, Shard
 from topo_verify.harness.search.shard import Interrupted, examine_shard
 from topo_verify.harness.tally import Costs, Failing, Failure, Tally
@@ -235,8 +236,9 @@ class Search:
     ) -> Generator[tuple[Shard, Tally]]:
         """The shards examined, here or in other processes, in any order."""
         if self.workers:
-            with Crew(self.plan, self.mappers, self.workers, rate) as crew:
-                yield from crew.examine(todo)
+            work = shard_work(self.plan, self.mappers)
+            with Pool(work, self.workers, in_flight=rate.in_flight) as pool:
+                yield from pool.run(todo)
         else:
             for shard in todo:
                 yield shard, examine_shard(self.plan, self.mappers, shard, rate.in_flight)
