@@ -20,7 +20,7 @@ import pytest
 from topo_verify import InputError, InternalError, Limits
 from topo_verify.harness.pool import Division, Loss, Pool, Work, in_order
 from topo_verify.harness.search import parallel
-from topo_verify.harness.search.exhaustive import Found, search
+from topo_verify.harness.search.exhaustive import SearchResult, search
 from topo_verify.harness.search.plan import SHARD, Shard
 from topo_verify.harness.tally import Tally
 from topo_verify.harness.worker import WorkerProcess
@@ -29,7 +29,7 @@ from topo_verify.world.enumeration.classes import WorldClass
 SHORT = Limits(move_timeout=0.2, world_timeout=0.5)
 
 
-def json(found: Found) -> bytes:
+def json(found: SearchResult) -> bytes:
     return msgspec.json.encode(found)
 
 

@@ -24,7 +24,7 @@ from topo_verify.harness.verify.generated import generated_worlds
 from topo_verify.harness.verify.parts import Job, Part, Tell
 from topo_verify.harness.verify.proofs import Proofs
 from topo_verify.harness.verify.small_worlds import SmallWorlds
-from topo_verify.harness.verify.trials import PATIENCE, Costs, Trials
+from topo_verify.harness.verify.trials import MAX_TIMEOUTS, CostTrial, Trials
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
@@ -78,7 +78,7 @@ def _jobs(targets: Sequence[Target], seed: int, limits: Limits, *, quick: bool) 
         worlds=lambda: sampled_worlds(sampled, seed),
         targets=targets,
         limits=limits,
-        patience=PATIENCE,
+        max_failing=MAX_TIMEOUTS,
     )
     generated = generated_worlds(each, seed)
     yield Trials(
@@ -88,9 +88,9 @@ def _jobs(targets: Sequence[Target], seed: int, limits: Limits, *, quick: bool) 
         worlds=lambda: generated,
         targets=targets,
         limits=limits,
-        patience=PATIENCE,
+        max_failing=MAX_TIMEOUTS,
     )
-    yield Costs("street-network", "nyc", world_from("nyc"), targets, limits)
+    yield CostTrial("street-network", "nyc", world_from("nyc"), targets, limits)
 
 
 def sampled_worlds(number: int, seed: int) -> Iterator[World]:
