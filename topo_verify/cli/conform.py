@@ -15,7 +15,7 @@ from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
 from topo_verify.errors import InputError
 from topo_verify.harness import target_texts
-from topo_verify.harness.conform.conform import Books, Standing
+from topo_verify.harness.conform.conform import ConformTally, LevelResult
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import Found, Job
 from topo_verify.harness.corpus import Corpus, corpus_from
@@ -100,7 +100,7 @@ def conform(  # noqa: PLR0913  an argument an option
     name, module:attribute or file.py:attribute; --cmd names a program of protocol 1.
     """
 
-    def standings() -> Iterator[Result[Standing]]:
+    def standings() -> Iterator[Result[LevelResult]]:
         text = target_texts.target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
         asked = _Asked(
@@ -124,25 +124,25 @@ def conform(  # noqa: PLR0913  an argument an option
     return output.run("conform", standings, _show, seed=seed, corpus=list(texts) or ["corpus"])
 
 
-def _tried(output: Output, job: Job, asked: _Asked) -> Iterator[Result[Standing]]:
+def _tried(output: Output, job: Job, asked: _Asked) -> Iterator[Result[LevelResult]]:
     """One implementation, also where it is interrupted."""
-    books = Books(job, asked.corpus)
+    tally = ConformTally(job, asked.corpus)
     try:
         try_all(
             job,
             asked.corpus,
-            books,
+            tally,
             workers=asked.workers,
             batch=asked.batch,
             tell=output.progress,
         )
     except KeyboardInterrupt:
-        yield from map(_result, books.standings())
+        yield from map(_result, tally.level_results())
         raise
-    yield from map(_result, books.standings())
+    yield from map(_result, tally.level_results())
 
 
-def _result(standing: Standing) -> Result[Standing]:
+def _result(standing: LevelResult) -> Result[LevelResult]:
     verdict = standing.verdict
     return Result(standing, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
 
@@ -176,7 +176,7 @@ def _make_folder(name: str) -> None:
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[Standing]) -> Iterator[Block]:
+def _show(entries: Sequence[LevelResult]) -> Iterator[Block]:
     for target in dict.fromkeys(entry.target for entry in entries):
         yield from _shown([entry for entry in entries if entry.target == target])
 
@@ -184,7 +184,7 @@ def _show(entries: Sequence[Standing]) -> Iterator[Block]:
 _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")
 
 
-def _shown(levels: Sequence[Standing]) -> Iterator[Block]:
+def _shown(levels: Sequence[LevelResult]) -> Iterator[Block]:
     rows = [(one.level, one.verdict, *_numbers(one)) for one in levels]
     yield Table(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
     first = levels[0]
@@ -213,12 +213,12 @@ def _shown(levels: Sequence[Standing]) -> Iterator[Block]:
         yield Text(undeclared(first.target, silent))
 
 
-def _numbers(one: Standing) -> tuple[str, ...]:
+def _numbers(one: LevelResult) -> tuple[str, ...]:
     rest = one.worlds - one.passed - one.failed
     return (str(one.passed), str(one.failed), str(rest), str(one.worlds))
 
 
-def _findings(level: Standing) -> Iterator[Block]:
+def _findings(level: LevelResult) -> Iterator[Block]:
     """The first world of each kind of finding."""
     for kind, worlds in level.kinds.items():
         found = next(one for one in level.findings if one.kind == kind)
@@ -229,7 +229,7 @@ def _findings(level: Standing) -> Iterator[Block]:
         yield Command(found.replay, "again: ")
 
 
-def _difference(found: Found, level: Standing) -> Iterator[Block]:
+def _difference(found: Found, level: LevelResult) -> Iterator[Block]:
     """A finding; two runs that part, side by side with what was known then."""
     parted = found.difference
     if parted is None:
@@ -247,7 +247,7 @@ def _difference(found: Found, level: Standing) -> Iterator[Block]:
     yield Bullets((f"{known}{here}; {plural(state.moves, 'move')} so far",))
 
 
-def _costs(level: Standing) -> Iterator[Block]:
+def _costs(level: LevelResult) -> Iterator[Block]:
     """In all, and where it differs most."""
     if level.level != "cost" or level.cost.ratio is None:
         return
