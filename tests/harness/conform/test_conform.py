@@ -19,34 +19,34 @@ EXAMPLES = Path(__file__).parents[3] / "examples"
 MAPPERS = f"{Path(__file__).parents[2] / 'cli' / 'mappers.py'}"
 
 
-def level_results(
+def standings(
     job: Job, *texts: str, workers: int = 0, batch: bool = False
 ) -> dict[str, LevelResult]:
     corpus = corpus_from(texts)
     tally = ConformTally(job, corpus)
     conform(job, corpus, tally, workers=workers, batch=batch)
-    return {result.level: result for result in tally.level_results()}
+    return {standing.level: standing for standing in tally.level_results()}
 
 
 def verdicts(found: dict[str, LevelResult]) -> list[str]:
-    return [result.verdict for result in found.values()]
+    return [standing.verdict for standing in found.values()]
 
 
 def test_a_reference_is_like_itself_on_every_level() -> None:
-    found = level_results(Job(target="enhancement-ii", like="enhancement-ii"), "edges<=3")
+    found = standings(Job(target="enhancement-ii", like="enhancement-ii"), "edges<=3")
     assert list(found) == ["result", "claims", "decisions", "cost"]
     assert verdicts(found) == ["EXHAUSTED"] * 4
-    assert {result.passed for result in found.values()} == {86}
+    assert {standing.passed for standing in found.values()} == {86}
     assert found["cost"].cost.ratio == 1.0
     assert len(found["cost"].priced) == 86
 
 
 def test_a_corpus_that_is_no_finite_class_is_sampled() -> None:
-    assert verdicts(level_results(Job(target="basic"), "edges<=2", "nyc")) == ["SAMPLED"] * 3
+    assert verdicts(standings(Job(target="basic"), "edges<=2", "nyc")) == ["SAMPLED"] * 3
 
 
 def test_each_level_is_reported_apart() -> None:
-    found = level_results(Job(target="basic", like="enhancement-ii"), "m4/41", "m1/0")
+    found = standings(Job(target="basic", like="enhancement-ii"), "m4/41", "m1/0")
     assert [(s.passed, s.failed) for s in found.values()] == [(2, 0), (2, 0), (1, 1), (2, 0)]
     (parted,) = found["decisions"].findings
     assert parted.world == "m4/41"
@@ -57,15 +57,15 @@ def test_each_level_is_reported_apart() -> None:
 
 def test_policies_are_those_of_the_reference() -> None:
     world = "family:lattice(3,3)"
-    alike = level_results(Job(target="basic", like="basic"), world)
+    alike = standings(Job(target="basic", like="basic"), world)
     assert alike["decisions"].passed == 1
     policies = msgspec.structs.replace(Job(target="").policies, pick="last")
-    other = level_results(Job(target="basic", like="basic", policies=policies), world)
+    other = standings(Job(target="basic", like="basic", policies=policies), world)
     assert other["decisions"].failed == 1
 
 
 def test_a_mapper_that_declares_nothing_is_never_said_to_decide_alike() -> None:
-    found = level_results(Job(target=f"{MAPPERS}:silent", like="enhancement-i"), "edges<=2")
+    found = standings(Job(target=f"{MAPPERS}:silent", like="enhancement-i"), "edges<=2")
     assert found["result"].passed == 12
     assert found["decisions"].not_declared == 12
     assert found["decisions"].verdict == "UNKNOWN"
@@ -73,14 +73,14 @@ def test_a_mapper_that_declares_nothing_is_never_said_to_decide_alike() -> None:
 
 
 def test_claims_fail_on_their_own_level() -> None:
-    found = level_results(Job(target=f"{MAPPERS}:ignores_direction"), "edges<=2")
+    found = standings(Job(target=f"{MAPPERS}:ignores_direction"), "edges<=2")
     assert found["result"].verdict == found["claims"].verdict == "REFUTED"
     assert "true-hypothesis-kept" in found["claims"].kinds
     assert "true-hypothesis-kept" not in found["result"].kinds
 
 
 def test_costs_are_those_of_worlds_that_are_mapped_rightly() -> None:
-    found = level_results(Job(target=f"{MAPPERS}:guesses"), "edges<=2")
+    found = standings(Job(target=f"{MAPPERS}:guesses"), "edges<=2")
     assert found["cost"].passed == found["result"].passed < 12
     assert len(found["cost"].priced) == found["cost"].passed
 
@@ -89,8 +89,8 @@ def test_costs_are_those_of_worlds_that_are_mapped_rightly() -> None:
 def test_the_number_of_workers_changes_nothing(workers: int) -> None:
     job = Job(target=served(f"{MAPPERS}:ignores_direction"), like="basic", limits=Limits(budget=60))
     texts = ("edges<=2", "m3/14", "m4/41")
-    alone = level_results(job, *texts)
-    assert msgspec.json.encode(level_results(job, *texts, workers=workers)) == msgspec.json.encode(
+    alone = standings(job, *texts)
+    assert msgspec.json.encode(standings(job, *texts, workers=workers)) == msgspec.json.encode(
         alone
     )
 
@@ -103,7 +103,7 @@ def test_a_python_mapper_that_ends_its_worker_is_a_finding(tmp_path: Path) -> No
         "    if robot.percept.degree == 2:\n        os._exit(9)\n"
         "    return tv.CATALOGUE['basic'](robot)\n"
     )
-    found = level_results(Job(target=f"{mapper}:explore"), "m1/0", "m1/1", "m2/0", workers=2)
+    found = standings(Job(target=f"{mapper}:explore"), "m1/0", "m1/1", "m2/0", workers=2)
     assert found["result"].kinds == {"worker-lost": 1}
     assert found["result"].passed == 2
     assert "exit code 9" in found["result"].findings[0].message
@@ -112,13 +112,13 @@ def test_a_python_mapper_that_ends_its_worker_is_a_finding(tmp_path: Path) -> No
 def test_after_many_time_outs_the_rest_is_not_tried() -> None:
     limits = Limits(move_timeout=0.06)
     texts = ["m1/1"] * (MAX_TIMEOUTS + 5)
-    found = level_results(Job(target=misbehaving("hangs"), limits=limits), *texts)
+    found = standings(Job(target=misbehaving("hangs"), limits=limits), *texts)
     assert found["result"].failed == MAX_TIMEOUTS
     assert found["result"].not_tried == 5
 
 
 def test_worlds_that_are_declined_leave_the_verdict_open() -> None:
-    found = level_results(Job(target=misbehaving("skips")), "edges<=1")
+    found = standings(Job(target=misbehaving("skips")), "edges<=1")
     assert (found["result"].passed, found["result"].skipped) == (1, 1)
     assert verdicts(found) == ["UNKNOWN"] * 3
     assert found["result"].why == ("m1/1: the program skips this world: no loops, please",)
@@ -135,7 +135,7 @@ def test_worlds_that_are_declined_leave_the_verdict_open() -> None:
 )
 def test_bad_input_is_told_whoever_meets_it(job: Job, words: str, workers: int) -> None:
     with pytest.raises(InputError, match=words):
-        level_results(job, "edges<=1", workers=workers)
+        standings(job, "edges<=1", workers=workers)
 
 
 # ---------------------------------------------------------------- transcripts
@@ -143,7 +143,7 @@ def test_bad_input_is_told_whoever_meets_it(job: Job, words: str, workers: int) 
 
 def test_of_a_failing_world_what_was_said_is_kept(tmp_path: Path) -> None:
     job = Job(target=misbehaving("says an unknown type"), transcript=str(tmp_path))
-    level_results(job, "edges<=1")
+    standings(job, "edges<=1")
     (file,) = tmp_path.iterdir()
     assert file.name == "m1-1.jsonl"
     head, *lines = map(msgspec.json.decode, file.read_text().splitlines())
@@ -155,9 +155,7 @@ def test_of_a_failing_world_what_was_said_is_kept(tmp_path: Path) -> None:
 
 
 def test_of_a_python_mapper_the_trace_is_kept(tmp_path: Path) -> None:
-    level_results(
-        Job(target=f"{MAPPERS}:guesses", transcript=str(tmp_path)), "m2/0", "family:path(4)"
-    )
+    standings(Job(target=f"{MAPPERS}:guesses", transcript=str(tmp_path)), "m2/0", "family:path(4)")
     names = sorted(file.name for file in tmp_path.iterdir())
     assert names[0] == "family-path(4)-" + names[0].split("-")[-1]
     assert names[1] == "m2-0.jsonl"
@@ -177,9 +175,9 @@ def test_the_examples_decide_as_the_reference_event_for_event(
         "python": lambda: f"{EXAMPLES / 'mapper_python' / 'mapper.py'}:explore",
         "short python": lambda: f"{EXAMPLES / 'mapper_python' / 'short.py'}:explore",
     }[language]()
-    found = level_results(Job(target=target, like="basic", validate=True), "corpus")
+    found = standings(Job(target=target, like="basic", validate=True), "corpus")
     assert verdicts(found) == ["SAMPLED"] * 4, found["decisions"].findings[:1]
-    assert {result.passed for result in found.values()} == {953}
+    assert {standing.passed for standing in found.values()} == {953}
 
 
 @pytest.mark.parametrize(
@@ -198,7 +196,7 @@ def test_the_wrong_examples_are_found_out(
         "js": lambda: javascript(EXAMPLES / "mapper_js" / "mapper.js") + " --wrong",
         "python": lambda: f"{EXAMPLES / 'mapper_python' / 'wrong.py'}:explore",
     }[language]()
-    found = level_results(Job(target=target, like="basic"), "edges<=3")
+    found = standings(Job(target=target, like="basic"), "edges<=3")
     assert found["result"].verdict == "REFUTED"
     assert found["result"].findings[0].world == first
     assert words in found["result"].findings[0].message
