@@ -53,7 +53,7 @@ def room_arrows(modules: Mapping[str, str]) -> set[tuple[str, str]]:
 
 
 def types_of(source: str) -> Iterator[str]:
-    """The public top-level types of a file: classes and aliases (a capital, then a small letter)."""
+    """The public top-level types of a file: classes, and aliases such as `Name = int`."""
     for node in ast.parse(source).body:
         match node:
             case ast.ClassDef(name=name):

@@ -3,20 +3,20 @@
 The search itself lives in `topo_verify.harness.search`; docs/search.md says what it does.
 """
 
-from topo_verify.harness.search.exhaustive import Found, Search, Size, search
+from topo_verify.harness.search.exhaustive import Search, SearchResult, Size, search
 from topo_verify.harness.search.plan import Choices, Plan
-from topo_verify.harness.tally import Compared, Costs, Failing, Failure, Pair, Tally
+from topo_verify.harness.tally import CostComparison, CostPair, CostTotals, Failing, Failure, Tally
 
 __all__ = [
     "Choices",
-    "Compared",
-    "Costs",
+    "CostComparison",
+    "CostPair",
+    "CostTotals",
     "Failing",
     "Failure",
-    "Found",
-    "Pair",
     "Plan",
     "Search",
+    "SearchResult",
     "Size",
     "Tally",
     "search",

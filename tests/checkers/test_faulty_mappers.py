@@ -11,7 +11,7 @@ from tests.helpers import EIGHT, worlds
 from topo_verify import CATALOGUE, Limits, World, examine
 from topo_verify.algorithms.chart import Survey
 from topo_verify.faults import FAULTS as SEEDED
-from topo_verify.faults.fault import Told
+from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.programs.loading import Mapper
 from topo_verify.robot.events import Robot
 from topo_verify.robot.percept import Door, Percept, Purpose
@@ -23,7 +23,7 @@ def failing(mapper: Mapper, world: World, *, budget: int | None = None) -> set[s
     return {claim for claim, status in report.claims.items() if status == "failed"} & EIGHT
 
 
-class Wandering(Told):
+class Wandering(ForwardingRobot):
     """A robot that walks every edge two hundred times more."""
 
     cost = 0

@@ -20,7 +20,7 @@ import pytest
 from topo_verify import InputError, InternalError, Limits
 from topo_verify.harness import ledger as ledgers
 from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.search.exhaustive import Found, Search, search
+from topo_verify.harness.search.exhaustive import Search, SearchResult, search
 from topo_verify.harness.search.plan import SHARD, Plan, Shard
 from topo_verify.harness.tally import Tally
 from topo_verify.harness.targets import targets
@@ -37,7 +37,7 @@ def opened(plan: Plan = BASIC, *, path: str = "search.ledger", tool: str = "1") 
     return Ledger(path, plan, targets(",".join(plan.targets)), tool)
 
 
-def searched(plan: Plan = BASIC, *, workers: int = 0) -> Found:
+def searched(plan: Plan = BASIC, *, workers: int = 0) -> SearchResult:
     """The search of a plan, with the ledger."""
     with opened(plan) as ledger:
         work = Search(plan, targets(",".join(plan.targets)), workers=workers, ledger=ledger)

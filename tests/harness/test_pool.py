@@ -1,4 +1,4 @@
-"""Shards in other processes: the same results, whatever the mapper does to its process."""
+"""The pool: the same results in the same order, whatever a task does to its process."""
 
 # A test may look inside.
 # pyright: reportPrivateUsage=false
@@ -10,22 +10,26 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from itertools import chain
 from pathlib import Path
 
 import msgspec
 import pytest
 
 from topo_verify import InputError, InternalError, Limits
-from topo_verify.harness import pool as workers
-from topo_verify.harness.search.exhaustive import Found, search
-from topo_verify.harness.search.plan import SHARD, Plan, Shard
+from topo_verify.harness.pool import Division, Loss, Pool, Work, in_order
+from topo_verify.harness.search import parallel
+from topo_verify.harness.search.exhaustive import SearchResult, search
+from topo_verify.harness.search.plan import SHARD, Shard
+from topo_verify.harness.tally import Tally
+from topo_verify.harness.worker import WorkerProcess
 from topo_verify.world.enumeration.classes import WorldClass
 
 SHORT = Limits(move_timeout=0.2, world_timeout=0.5)
 
 
-def json(found: Found) -> bytes:
+def json(found: SearchResult) -> bytes:
     return msgspec.json.encode(found)
 
 
@@ -112,48 +116,45 @@ def test_all_worlds_that_kill_their_workers_are_found() -> None:
 
 
 def test_a_shard_that_a_stranger_kills_once_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    hands = workers._Worker.start
-    started: list[int] = []
+    hears = Pool._hear
+    kills: list[Shard] = []
 
-    def start(worker: workers._Worker, piece: workers._Piece) -> None:
-        hands(worker, piece)
-        started.append(worker.process.pid)
-        if len(started) == 2:
-            while not worker.ready and not worker.pulse.read()[1]:
-                time.sleep(0.01)
-            worker.ready = True
+    def hear(pool: Pool[Shard, Tally], worker: WorkerProcess) -> None:
+        if worker.ready and not kills:
             os.kill(worker.process.pid, signal.SIGKILL)
+            kills.append(pool._at[worker].task)
+            pool._lose(worker, None)
+        else:
+            hears(pool, worker)
 
-    monkeypatch.setattr(workers._Worker, "start", start)
-    found = search("basic", edges=3, workers=2)
-    assert len(set(started)) == 3
-    assert json(found) == json(search("basic", edges=3))
+    monkeypatch.setattr(Pool, "_hear", hear)
+    assert json(search("basic", edges=3, workers=2)) == json(search("basic", edges=3))
+    assert len(kills) == 1
 
 
 def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_done(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    hears = workers.Crew._hear
+    hears = Pool._hear
     kills: list[Shard] = []
 
-    def hear(crew: workers.Crew, worker: workers._Worker) -> None:
-        piece = worker.piece
-        if piece is not None and worker.ready and piece.shard.stop - piece.shard.start > 1:
+    def hear(pool: Pool[Shard, Tally], worker: WorkerProcess) -> None:
+        piece = pool._at.get(worker)
+        if piece is not None and worker.ready and piece.task.stop - piece.task.start > 1:
             os.kill(worker.process.pid, signal.SIGKILL)
-            worker.process.wait()
-            kills.append(piece.shard)
-            crew._lost(worker, "")
+            kills.append(piece.task)
+            pool._lose(worker, None)
         else:
-            hears(crew, worker)
+            hears(pool, worker)
 
-    monkeypatch.setattr(workers.Crew, "_hear", hear)
+    monkeypatch.setattr(Pool, "_hear", hear)
     assert json(search("basic", edges=2, workers=1)) == json(search("basic", edges=2))
     assert kills
     assert all(kills.count(shard) <= 2 for shard in kills)
 
 
 def test_a_mapper_that_cannot_be_interrupted_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workers, "GRACE", 0.5 - Limits().world_timeout)
+    monkeypatch.setattr(parallel, "GRACE", 2.5 - Limits().world_timeout)
     found = search("mappers.py:holds", edges=3, workers=2, limits=SHORT)
     first = found.counterexample
     assert first is not None
@@ -174,14 +175,14 @@ def test_a_mapper_that_loops_ends_at_its_time_limit() -> None:
 def test_a_mapper_whose_source_changes_meanwhile_is_refused(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    begins = workers._Worker.__init__
+    begins = WorkerProcess.__init__
 
-    def begin(worker: workers._Worker, plan: Plan) -> None:
+    def begin(worker: WorkerProcess, serve: str, job: object) -> None:
         with (folder / "mappers.py").open("a") as file:
             file.write("changed = True\n")
-        begins(worker, plan)
+        begins(worker, serve, job)
 
-    monkeypatch.setattr(workers._Worker, "__init__", begin)
+    monkeypatch.setattr(WorkerProcess, "__init__", begin)
     with pytest.raises(InputError, match="its source, or topo-verify's, has changed since"):
         search("mappers.py:right", edges=2, workers=1)
 
@@ -202,19 +203,6 @@ def test_a_mapper_that_only_a_worker_cannot_load_is_refused(folder: Path) -> Non
     )
     with pytest.raises(InputError, match=r"'shy\.py' fails: ValueError: no"):
         search("shy.py:explore", edges=2, workers=1)
-
-
-def test_our_bug_in_a_worker_is_told_as_such(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(
-        workers,
-        "_START",
-        workers._START.replace(
-            "main(*",
-            "import topo_verify.harness.worker as w; w.examine_shard = None; main(*",
-        ),
-    )
-    with pytest.raises(InternalError, match=r"(?s)in a worker: Traceback.*TypeError"):
-        search("basic", edges=2, workers=1)
 
 
 # ---------------------------------------------------------------- nobody is left behind
@@ -277,3 +265,124 @@ def test_no_worker_is_left_when_a_search_is_over() -> None:
     before = children()
     search("mappers.py:forgets", edges=4, workers=2)
     assert children() <= before
+
+
+# ---------------------------------------------------------------- tasks of any kind
+
+TOY = """
+import contextlib, os, signal, time
+import msgspec
+
+@contextlib.contextmanager
+def serve(job):
+    job = msgspec.json.decode(job)
+    if job == "dies":
+        os._exit(4)
+    if job == "fails":
+        raise ZeroDivisionError
+    def handle(task, beat):
+        numbers = msgspec.json.decode(task)
+        for done, number in enumerate(numbers):
+            beat(done)
+            if number == -1:
+                os._exit(5)
+            if number == -2:
+                time.sleep(1000)
+            if number == -3:
+                while not os.path.exists("go"):
+                    time.sleep(0.01)
+        return numbers
+    yield handle
+    with open("left", "a") as file:
+        file.write("left\\n")
+"""
+"""Takes lists of numbers and returns them; some of them kill, hang, or wait for a file `go`."""
+
+Numbers = list[int]
+
+
+@pytest.fixture
+def toy(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (folder / "toy.py").write_text(TOY)
+    monkeypatch.syspath_prepend(str(folder))
+    return folder
+
+
+def toy_work(*, job: str = "", silence: float = 60.0, attempts: int = 2) -> Work[Numbers, Numbers]:
+    def cut(task: Numbers, at: int) -> list[Numbers]:
+        return [part for part in (task[:at], task[at : at + 1], task[at + 1 :]) if part]
+
+    def lost(_task: Numbers, loss: Loss) -> Numbers:
+        return [-9 if loss.silence is not None else -5 - loss.loading]
+
+    return Work(
+        serve="toy:serve",
+        job=job,
+        result=Numbers,
+        lost=lost,
+        silence=silence,
+        attempts=attempts,
+        division=Division(cut, join=lambda parts: [*chain(*parts)], last=lambda part: 99 in part),
+    )
+
+
+def results(work: Work[Numbers, Numbers], *tasks: Numbers, size: int = 2) -> list[Numbers]:
+    with Pool(work, size) as pool:
+        return list(in_order(pool, tasks, ahead=4))
+
+
+@pytest.mark.usefixtures("toy")
+@pytest.mark.parametrize("size", [1, 3])
+def test_results_come_in_the_order_of_the_tasks(size: int) -> None:
+    tasks = [[n, n + 1] for n in range(20)]
+    assert results(toy_work(), *tasks, size=size) == tasks
+
+
+def test_a_slow_task_holds_back_the_results_of_a_few_others_only(toy: Path) -> None:
+    taken: list[int] = []
+
+    def tasks() -> Iterator[Numbers]:
+        for number in (-3, *range(20)):
+            taken.append(number)
+            if len(taken) == 4:  # as many as may be taken: now the first of them may go on
+                (toy / "go").touch()
+            yield [number]
+
+    with Pool(toy_work(), 2) as pool:
+        ordered = in_order(pool, tasks(), ahead=4)
+        assert next(ordered) == [-3]
+        assert len(taken) == 4
+        assert list(ordered) == [[n] for n in range(20)]
+
+
+@pytest.mark.usefixtures("toy")
+@pytest.mark.parametrize("attempts", [1, 2])
+def test_the_item_that_kills_is_found_and_the_others_are_done(attempts: int) -> None:
+    killed = results(toy_work(attempts=attempts), [1, 2, -1, 3], [4], [-1], [5, -1])
+    assert killed == [[1, 2, -5, 3], [4], [-5], [5, -5]]
+
+
+@pytest.mark.usefixtures("toy")
+def test_the_item_that_hangs_is_found() -> None:
+    assert results(toy_work(silence=3.0, attempts=1), [1, -2, 3]) == [[1, -9, 3]]
+
+
+@pytest.mark.usefixtures("toy")
+def test_nothing_behind_the_last_piece_that_is_wanted_is_joined() -> None:
+    assert results(toy_work(attempts=1), [1, 99, -1, 2, -1]) == [[1, 99]]
+
+
+@pytest.mark.usefixtures("toy")
+def test_a_worker_that_dies_while_it_loads_is_lost_with_its_whole_task() -> None:
+    assert results(toy_work(job="dies"), [1, 2]) == [[-6]]
+
+
+@pytest.mark.usefixtures("toy")
+def test_our_bug_in_a_worker_is_told_as_such() -> None:
+    with pytest.raises(InternalError, match=r"(?s)in a worker: Traceback.*ZeroDivisionError"):
+        results(toy_work(job="fails"), [1])
+
+
+def test_an_idle_worker_leaves_its_context_before_it_ends(toy: Path) -> None:
+    assert results(toy_work(), [1], [2], size=1) == [[1], [2]]
+    assert (toy / "left").read_text() == "left\n"

@@ -12,7 +12,7 @@ from tests.programs.programs import served
 
 SCRIPT = """
 import resource, sys
-from topo_verify.harness.conform.conform import Books
+from topo_verify.harness.conform.conform import ConformTally
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.harness.conform.examiner import Examiner
 from topo_verify.harness.conform.outcome import ConformJob
@@ -23,7 +23,7 @@ def size():
 
 corpus = corpus_from(["edges<=5", "generated:1046"])
 job = ConformJob(target=sys.argv[1], like="basic")
-books = Books(job, corpus)
+books = ConformTally(job, corpus)
 with Examiner(job) as examiner:
     for at in corpus:
         books.enter(examiner.examine(at))

@@ -12,7 +12,7 @@ from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import undeclared
-from topo_verify.harness.conform.conform import Books, Standing
+from topo_verify.harness.conform.conform import ConformTally, LevelResult
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
 from topo_verify.harness.corpus import Corpus, corpus_from
@@ -101,7 +101,7 @@ def conform(  # noqa: PLR0913  an argument an option
     program that speaks protocol 1.
     """
 
-    def standings() -> Iterator[Result[Standing]]:
+    def standings() -> Iterator[Result[LevelResult]]:
         text = target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
         asked = _ConformOptions(
@@ -127,25 +127,27 @@ def conform(  # noqa: PLR0913  an argument an option
     return output.run("conform", standings, _show, seed=seed, corpus=list(texts) or ["corpus"])
 
 
-def _tried(output: Output, job: ConformJob, asked: _ConformOptions) -> Iterator[Result[Standing]]:
+def _tried(
+    output: Output, job: ConformJob, asked: _ConformOptions
+) -> Iterator[Result[LevelResult]]:
     """The results of one implementation; after Ctrl-C, those so far."""
-    books = Books(job, asked.corpus)
+    tally = ConformTally(job, asked.corpus)
     try:
         try_all(
             job,
             asked.corpus,
-            books,
+            tally,
             workers=asked.workers,
             batch=asked.batch,
             tell=output.progress,
         )
     except KeyboardInterrupt:
-        yield from map(_result, books.standings())
+        yield from map(_result, tally.level_results())
         raise
-    yield from map(_result, books.standings())
+    yield from map(_result, tally.level_results())
 
 
-def _result(standing: Standing) -> Result[Standing]:
+def _result(standing: LevelResult) -> Result[LevelResult]:
     verdict = standing.verdict
     return Result(standing, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
 
@@ -172,7 +174,7 @@ def _replay_command(
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[Standing]) -> Iterator[Block]:
+def _show(entries: Sequence[LevelResult]) -> Iterator[Block]:
     for target in dict.fromkeys(entry.target for entry in entries):
         yield from _shown([entry for entry in entries if entry.target == target])
 
@@ -180,7 +182,7 @@ def _show(entries: Sequence[Standing]) -> Iterator[Block]:
 _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")
 
 
-def _shown(levels: Sequence[Standing]) -> Iterator[Block]:
+def _shown(levels: Sequence[LevelResult]) -> Iterator[Block]:
     rows = [(one.level, one.verdict, *_numbers(one)) for one in levels]
     yield TextTable(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
     first = levels[0]
@@ -209,12 +211,12 @@ def _shown(levels: Sequence[Standing]) -> Iterator[Block]:
         yield Text(undeclared(first.target, silent))
 
 
-def _numbers(one: Standing) -> tuple[str, ...]:
+def _numbers(one: LevelResult) -> tuple[str, ...]:
     rest = one.worlds - one.passed - one.failed
     return (str(one.passed), str(one.failed), str(rest), str(one.worlds))
 
 
-def _findings(level: Standing) -> Iterator[Block]:
+def _findings(level: LevelResult) -> Iterator[Block]:
     """The first world of each kind of finding."""
     for kind, worlds in level.kinds.items():
         found = next(one for one in level.findings if one.kind == kind)
@@ -225,7 +227,7 @@ def _findings(level: Standing) -> Iterator[Block]:
         yield Command(found.replay, "again: ")
 
 
-def _difference(found: WorldFinding, level: Standing) -> Iterator[Block]:
+def _difference(found: WorldFinding, level: LevelResult) -> Iterator[Block]:
     """One finding; if two runs part, both side by side and what was known until then."""
     parted = found.difference
     if parted is None:
@@ -243,7 +245,7 @@ def _difference(found: WorldFinding, level: Standing) -> Iterator[Block]:
     yield Bullets((f"{known}{here}; {plural(state.moves, 'move')} so far",))
 
 
-def _costs(level: Standing) -> Iterator[Block]:
+def _costs(level: LevelResult) -> Iterator[Block]:
     """The total cost, and the worlds in which it differs most from the reference."""
     if level.level != "cost" or level.cost.ratio is None:
         return

@@ -18,9 +18,9 @@ from topo_verify.cli.runs import undeclared
 from topo_verify.errors import InputError
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import processors
-from topo_verify.harness.search.exhaustive import Found, Search, Size
+from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
-from topo_verify.harness.tally import Compared, Costs, Failure
+from topo_verify.harness.tally import CostComparison, CostTotals, Failure
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
@@ -71,7 +71,7 @@ class ByEdges(msgspec.Struct, frozen=True):
     total_cost: int
     attained: int
     worst: tuple[str, ...]
-    compare: Compared | None
+    compare: CostComparison | None
 
 
 class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
@@ -233,7 +233,7 @@ def _searched(
         yield _result(work.found(), asked)
 
 
-def _result(found: Found, asked: _SearchOptions) -> Result[SearchEntry]:
+def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
     first = found.counterexample
     tally = found.tally
     silent = (
@@ -265,7 +265,7 @@ def _counterexample(failure: Failure) -> Counterexample:
 
 
 def _by_edges(size: Size, plan: Plan, asked: _SearchOptions) -> ByEdges:
-    costs = size.tally.costs.get(plan.targets[0], Costs())
+    costs = size.tally.costs.get(plan.targets[0], CostTotals())
     return ByEdges(
         edges=size.edges,
         checked=size.checked,
@@ -320,7 +320,7 @@ def _costs(entry: ByEdges) -> tuple[str, ...]:
     return str(entry.max_cost), mean, str(entry.attained), worst
 
 
-def _compared(edges: int, pair: Compared) -> tuple[str, ...]:
+def _compared(edges: int, pair: CostComparison) -> tuple[str, ...]:
     first = [f"{world.world} ({world.cost}, {world.other})" for world in pair.first]
     row = map(str, (edges, pair.dearer, pair.most, pair.cheaper))
     return (*row, _some(first, pair.dearer))

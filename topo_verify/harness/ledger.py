@@ -191,7 +191,7 @@ class Ledger:
 
     def _require_count(self, shard: Shard, tally: Tally) -> None:
         """In class `any` a shard has as many worlds as ranks, unless it stopped at a failure."""
-        whole = (self._plan.keep_going or not tally.failing) and self._plan.patience is None
+        whole = (self._plan.keep_going or not tally.failing) and self._plan.max_timeouts is None
         if self._plan.kind == "any" and whole and tally.worlds != shard.stop - shard.start:
             raise InternalError(
                 f"{tally.worlds} worlds were gone into in the shard m{shard.edges}/{shard.start} …"

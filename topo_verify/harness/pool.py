@@ -1,60 +1,56 @@
-"""Shards examined by other processes: started afresh, never forked, and none survives this one.
+"""The pool of worker processes: tasks in, results out, whatever a task does to its process.
 
-A worker that dies takes its shard with it; the shard is tried again. If it kills its worker a
-second time it is cut around the world where the worker was last seen, and the pieces are tried,
-down to the one world that does it twice: a finding, for no map was delivered. So is a world in
-which a worker gives no sign of life for longer than any limit allows: a mapper that cannot be
-interrupted.
+A mapper under test may end its process, crash it, or hold it for ever. So the pool expects to lose
+workers, and finds out over what:
 
-Life cycle of a `Crew`: `with` it, `examine` once; on leaving, whatever still works is killed.
+- Each worker writes heartbeats while it works. One that ends, or that writes no heartbeat for
+  longer than any limit allows, is lost; what is left of its process group is killed.
+- A task that loses its worker is tried again, as often as `Work.attempts` says: a stranger may have
+  killed the worker. After that it is cut around the item where the worker was last seen, and the
+  pieces are tried, down to the one item that kills. A task that cannot be cut is given to
+  `Work.lost`, which says what its result is.
+- Workers are started afresh, never forked, import from where this process imports, sit in process
+  groups of their own, and end with this process, even if that is killed (`worker.py`).
+
+Results come in the order in which tasks are finished; `in_order` puts them into that of the tasks.
+A job, a task and a result are data (JSON); a pool knows nothing of what they mean.
+
+**Why not a library?** `concurrent.futures` gives the whole pool up (`BrokenProcessPool`) when one
+worker dies, does not say which task was to blame, and cannot end a worker that hangs. `pebble`
+replaces a dead worker and names its task, but its timeout is one for the whole task, however far it
+came: no heartbeat, so no bisection, and a task of many worlds has no useful limit. The workers of
+both keep standard output where a mapper can write to it, ignore how their parent was killed until
+they next read its pipe, and fetch tasks under a lock that they share, with which one of them may
+die.
+
+Life cycle of a `Pool`: `with` it, `run` once. On leaving, idle workers end by themselves, busy ones
+are told to (SIGTERM), and what is still there after that is killed.
 """
 
 from __future__ import annotations
 
-import json
 import os
 import selectors
-import signal
-import subprocess
-import sys
 from collections import deque
-from collections.abc import Generator, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
-from tempfile import TemporaryFile
-from time import monotonic
 from types import TracebackType
-from typing import IO, Self
+from typing import Any, Generic, Protocol, Self, TypeVar
 
 import msgspec
 
-from topo_verify.checkers import Finding
 from topo_verify.errors import InputError, InternalError
-from topo_verify.harness.progress import ProgressRate
-from topo_verify.harness.run import replay_line
-from topo_verify.harness.search.identity import source_hash
-from topo_verify.harness.search.plan import Plan, Shard
-from topo_verify.harness.tally import Failing, Failure, Tally
-from topo_verify.harness.worker import Done, Failed, Message, Pulse, Ready
-from topo_verify.programs.loading import Target
-from topo_verify.robot.limits import Limits
-from topo_verify.world.enumeration.pruned import ranked_tables
-
-GRACE = 5.0
-"""Seconds without a sign of life, beyond all limits, until a worker is given up."""
+from topo_verify.harness.worker import Done, Failed, Ready, WorkerProcess
 
 LOADING = 120.0
-"""Seconds for a worker to load its mappers."""
+"""Seconds that a worker has to get ready."""
 
 TURN = 0.2
-"""Seconds between two looks at who gave no sign of life."""
+"""Seconds between two looks at the heartbeats."""
 
-_START = (
-    "import sys, json; sys.path[:] = json.loads(sys.argv[1]);"
-    "from topo_verify.harness.worker import main; main(*map(int, sys.argv[2:]))"
-)
-"""What a worker runs. It imports from where this process imports, and nothing by accident."""
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+Result_co = TypeVar("Result_co", covariant=True)
 
 
 def processors() -> int:
@@ -63,110 +59,162 @@ def processors() -> int:
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
-@dataclass
-class _Whole:
-    """A shard as it was asked for, and what is known of its pieces, by their first rank."""
-
-    shard: Shard
-    pieces: dict[int, Tally] = field(default_factory=dict[int, Tally])
-    open: int = 1
+# ---------------------------------------------------------------- what a pool works at
 
 
-@dataclass
-class _Piece:
-    """A shard or a part of it, to be examined in one go; `deaths`: of the workers that tried."""
+@dataclass(frozen=True)
+class Loss:
+    """How a worker was lost.
 
-    shard: Shard
-    whole: _Whole
-    deaths: int = 0
+    Attributes:
+        status: its exit status in words, `exit code 3` or `signal 9`.
+        silence: after how many seconds without a heartbeat it was killed; None: it ended itself.
+        loading: it was not ready for its first task yet.
+    """
 
-
-class _Worker:
-    """One process, and what it is at."""
-
-    def __init__(self, plan: Plan) -> None:
-        path = json.dumps(sys.path)
-        self._file = TemporaryFile()  # noqa: SIM115  closed by `end`
-        self.pulse = Pulse(self._file.fileno())
-        self.process = subprocess.Popen(  # noqa: S603  this very Python
-            [sys.executable, "-P", "-c", _START, path, str(os.getpid()), str(self.pulse.file)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            pass_fds=[self.pulse.file],
-            process_group=0,  # Ctrl-C is for the parent; and what a mapper starts is ended with it
-        )
-        self.piece: _Piece | None = None
-        self.ready = False
-        self.worlds = self._beats = 0
-        self._heard = monotonic()
-        self._rest = b""
-        self.send(plan)
+    status: str
+    silence: float | None
+    loading: bool
 
     @property
-    def out(self) -> IO[bytes]:
-        """Where its messages come from."""
-        assert self.process.stdout is not None
-        return self.process.stdout
+    def cause(self) -> str:
+        """What happened, in brief."""
+        if self.silence is None:
+            return self.status
+        return f"it gave no sign of life for {self.silence:.0f} s"
 
-    def send(self, what: Plan | Shard) -> None:
-        """Hand it something to do. That it is dead is noticed where it is listened to."""
-        assert self.process.stdin is not None
-        with suppress(BrokenPipeError):
-            self.process.stdin.write(msgspec.json.encode(what) + b"\n")
-            self.process.stdin.flush()
-
-    def start(self, piece: _Piece) -> None:
-        """Let it examine a piece."""
-        self.piece, self.worlds, self._heard = piece, 0, monotonic()
-        self.send(piece.shard)
-
-    def hear(self) -> list[Message] | None:
-        """What it says; None if it has ended."""
-        text = os.read(self.out.fileno(), 1 << 16)
-        if not text:
-            return None
-        *lines, self._rest = (self._rest + text).split(b"\n")
-        return [msgspec.json.decode(line, type=Message) for line in lines]
-
-    def silence(self) -> float:
-        """For how many seconds there has been no beat."""
-        worlds, beats = self.pulse.read()
-        if beats != self._beats:
-            self.worlds, self._beats, self._heard = worlds, beats, monotonic()
-        return monotonic() - self._heard
-
-    def end(self) -> str:
-        """Kill it, with whatever it started; how it ended, in words."""
-        with suppress(ProcessLookupError, PermissionError):
-            os.killpg(self.process.pid, signal.SIGKILL)
-        code = self.process.wait()
-        self.silence()
-        for pipe in (self.process.stdin, self.process.stdout, self._file):
-            if pipe is not None:
-                with suppress(BrokenPipeError):
-                    pipe.close()
-        return f"signal {-code}" if code < 0 else f"exit code {code}"
+    def __str__(self) -> str:
+        if self.silence is None:
+            return f"it ended its process ({self.status})"
+        return f"its process was ended, for {self.cause}"
 
 
-class Crew:
-    """Some workers.
+@dataclass(frozen=True)
+class Division(Generic[Task, Result]):
+    """How a task is cut into pieces, which are tasks, too.
+
+    Attributes:
+        cut: the pieces in their order, given how many items were finished when the worker was lost;
+            fewer than two: the task cannot be cut.
+        join: one result from those of the pieces, in their order.
+        last: no piece behind one with such a result is wanted, and none is joined.
+    """
+
+    cut: Callable[[Task, int], Sequence[Task]]
+    join: Callable[[list[Result]], Result]
+    last: Callable[[Result], bool]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Work(Generic[Task, Result]):
+    """What the workers of a pool do, and what becomes of a task that loses them.
+
+    Attributes:
+        serve: the function that a worker runs, `module:function`; a `worker.Serve`.
+        job: what each worker is handed once, before its first task.
+        result: the type of a result, to read it from JSON.
+        lost: the result of a task that was lost with its last worker; it may raise.
+        silence: a worker that writes no heartbeat for so many seconds is lost.
+        attempts: so many workers may be lost with a task.
+        division: how a task is cut; None: it cannot be.
+    """
+
+    serve: str
+    job: Any
+    result: type[Result]
+    lost: Callable[[Task, Loss], Result]
+    silence: float
+    attempts: int = 2
+    division: Division[Task, Result] | None = None
+
+
+class Backend(Protocol[Task, Result_co]):
+    """Whoever does tasks: the pool here; another one may do them on other machines."""
+
+    def run(
+        self, tasks: Iterable[Task], *, room: Callable[[], bool] = ...
+    ) -> Iterator[tuple[Task, Result_co]]:
+        """Each task, the very object, and its result, in the order in which tasks are finished.
+
+        Args:
+            room: asked before a task is taken; while it says no, none is.
+        """
+        ...
+
+
+def in_order(
+    backend: Backend[Task, Result], tasks: Iterable[Task], *, ahead: int
+) -> Iterator[Result]:
+    """The results in the order of the tasks.
 
     Args:
-        mappers: the targets of the plan, as this process found them.
-        size: how many workers at most.
-        rate: told how many worlds are done in shards that are not.
+        tasks: each an object of its own.
+        ahead: at most so many tasks are taken before the first of them is finished: a slow one must
+            not fill the memory with results that wait for it.
+    """
+    taken: deque[Task] = deque()
+    results: dict[int, Result] = {}  # by the identity of the task, which `taken` keeps alive
+
+    def take() -> Iterator[Task]:
+        for task in tasks:
+            taken.append(task)
+            yield task
+
+    for finished, result in backend.run(take(), room=lambda: len(taken) < ahead):
+        results[id(finished)] = result
+        while taken and id(taken[0]) in results:
+            yield results.pop(id(taken.popleft()))
+
+
+# ---------------------------------------------------------------- the pool
+
+
+@dataclass(eq=False)
+class _Whole(Generic[Task, Result]):
+    """A task as it was taken, and its pieces in their order; at first, it is its only piece."""
+
+    task: Task
+    pieces: list[_Piece[Task, Result]] = field(default_factory=list["_Piece[Task, Result]"])
+
+
+@dataclass(eq=False)
+class _Piece(Generic[Task, Result]):
+    """A task or a part of one, done in one go.
+
+    Attributes:
+        deaths: how many workers were lost with it.
+        results: its result, once it is there.
+    """
+
+    task: Task
+    whole: _Whole[Task, Result]
+    deaths: int = 0
+    results: list[Result] = field(default_factory=list[Result])
+
+
+class Pool(Generic[Task, Result]):
+    """Workers on this machine. A `Backend`; see above.
+
+    Args:
+        size: how many workers at most. Each is started when there is a task for it.
+        in_flight: told now and then how many items are finished in tasks that are not.
+    Raises (by `run`):
+        InputError: a worker says that the input is bad.
+        InternalError: there is a bug of ours in a worker.
     """
 
     def __init__(
-        self, plan: Plan, mappers: Sequence[Target], size: int, rate: ProgressRate
+        self,
+        work: Work[Task, Result],
+        size: int,
+        *,
+        in_flight: Callable[[int], None] | None = None,
     ) -> None:
-        self._plan, self._size, self._rate = plan, size, rate
-        self._sources = source_hash(mappers)
-        # A failing mapper is run in a witness world, too, under the usual limits.
-        self._patience = GRACE + max(plan.limits.world_timeout, Limits().world_timeout)
-        self._workers: list[_Worker] = []
-        self._queue: deque[_Piece] = deque()  # pieces that come before everything else
-        self._landed: deque[tuple[Shard, Tally]] = deque()
+        self._work, self._size, self._in_flight = work, size, in_flight
+        self._workers: list[WorkerProcess] = []
+        self._at: dict[WorkerProcess, _Piece[Task, Result]] = {}  # what the busy ones are at
+        self._queue: deque[_Piece[Task, Result]] = deque()  # pieces that go before new tasks
+        self._finished: deque[tuple[Task, Result]] = deque()
 
     def __enter__(self) -> Self:
         return self
@@ -177,136 +225,129 @@ class Crew:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        for worker in self._workers:  # all of them first, so that they end at the same time
+            worker.dismiss(busy=worker in self._at)
         for worker in self._workers:
-            worker.end()
+            worker.await_end()
+            worker.kill()
 
-    def examine(self, todo: Iterator[Shard]) -> Generator[tuple[Shard, Tally]]:
-        """The shards and what was found there, in the order in which they are done."""
-        self._hand_out(todo)
-        while any(worker.piece for worker in self._workers):
+    def run(
+        self, tasks: Iterable[Task], *, room: Callable[[], bool] = lambda: True
+    ) -> Generator[tuple[Task, Result]]:
+        """Each task and its result, in the order in which tasks are finished; see `Backend`."""
+        todo = iter(tasks)
+        self._hand_out(todo, room)
+        while self._at:
             self._listen()
-            self._hand_out(todo)
-            while self._landed:
-                yield self._landed.popleft()
+            self._hand_out(todo, room)  # first: workers are busy while a result is looked at
+            while self._finished:
+                yield self._finished.popleft()
+            self._hand_out(todo, room)  # again: results that were looked at make room
 
-    def _hand_out(self, todo: Iterator[Shard]) -> None:
-        """Give everybody something to do, as long as there is something."""
-        for place in range(self._size):
-            if place < len(self._workers) and self._workers[place].piece is not None:
-                continue
-            if self._queue:
-                piece = self._queue.popleft()
-            elif (shard := next(todo, None)) is not None:
-                piece = _Piece(shard, _Whole(shard))
-            else:
+    def _hand_out(self, todo: Iterator[Task], room: Callable[[], bool]) -> None:
+        """Give every idle worker a piece, as long as there are any."""
+        idle = [worker for worker in self._workers if worker not in self._at]
+        while len(self._at) < self._size:
+            piece = self._next_piece(todo, room)
+            if piece is None:
                 return
-            if place == len(self._workers):
-                self._workers.append(_Worker(self._plan))
-            self._workers[place].start(piece)
+            if not idle:
+                idle = [WorkerProcess(self._work.serve, self._work.job)]
+                self._workers += idle
+            worker = idle.pop()
+            self._at[worker] = piece
+            worker.start(piece.task)
+
+    def _next_piece(
+        self, todo: Iterator[Task], room: Callable[[], bool]
+    ) -> _Piece[Task, Result] | None:
+        if self._queue:
+            return self._queue.popleft()
+        if not room():
+            return None
+        for task in todo:
+            whole: _Whole[Task, Result] = _Whole(task)
+            whole.pieces.append(_Piece(task, whole))
+            return whole.pieces[0]
+        return None
 
     def _listen(self) -> None:
-        """Wait for what the workers say, but not for long; give up those that are silent."""
+        """Take what the workers say, and wait for it, but not for long; give up those that hang."""
         with selectors.DefaultSelector() as selector:
             for worker in self._workers:
                 selector.register(worker.out, selectors.EVENT_READ, worker)
             for key, _ in selector.select(TURN):
                 self._hear(key.data)
-        for worker in tuple(self._workers):
-            silent = worker.silence()
-            if worker.piece is not None and silent > (self._patience if worker.ready else LOADING):
-                self._lost(worker, f"it gave no sign of life for {silent:.0f} s")
-        self._rate.in_flight(sum(worker.worlds for worker in self._workers if worker.piece))
+        for worker in tuple(self._at):
+            silence = worker.silence()
+            if silence > (self._work.silence if worker.ready else LOADING):
+                self._lose(worker, silence)
+        if self._in_flight is not None:
+            self._in_flight(sum(worker.items for worker in self._at))
 
-    def _hear(self, worker: _Worker) -> None:
-        """One worker has said something, or has ended."""
+    def _hear(self, worker: WorkerProcess) -> None:
+        """Take what one worker says."""
         messages = worker.hear()
         if messages is None:
-            self._lost(worker, "")
+            self._lose(worker, None)
             return
         for message in messages:
             match message:
-                case Ready(sources):
+                case Ready():
                     worker.ready = True
-                    if sources != self._sources:
-                        raise InputError(
-                            f"target {self._plan.targets[0]!r}: its source, or topo-verify's, has"
-                            " changed since the search began: start it again"
-                        )
-                case Done(tally):
-                    piece = worker.piece
-                    assert piece is not None, "it was given one"
-                    worker.piece = None
-                    self._land(piece, tally)
+                case Done(result):
+                    piece = self._at.pop(worker)
+                    self._finish(piece, msgspec.json.decode(result, type=self._work.result))
                 case Failed(text, bug):
                     raise InternalError(f"in a worker: {text}") if bug else InputError(text)
 
     # ------------------------------------------------------------ pieces
 
-    def _land(self, piece: _Piece, tally: Tally) -> None:
-        """A piece is done, and perhaps its shard."""
-        whole = piece.whole
-        whole.pieces[piece.shard.start] = tally
-        whole.open -= 1
-        if tally.failing and not self._plan.keep_going:  # nothing behind it matters
-            behind = [
-                p for p in self._queue if p.whole is whole and p.shard.start > piece.shard.start
-            ]
-            self._queue = deque(p for p in self._queue if p not in behind)
-            whole.open -= len(behind)
-        if not whole.open:
-            total = Tally()
-            for _, part in sorted(whole.pieces.items()):
-                total += part
-                if part.failing and not self._plan.keep_going:
+    def _finish(self, piece: _Piece[Task, Result], result: Result) -> None:
+        """Note the result of a piece; with the last of its pieces a task is finished."""
+        piece.results.append(result)
+        whole, division = piece.whole, self._work.division
+        if division is None:
+            self._finished.append((whole.task, result))
+            return
+        if division.last(result):
+            behind = whole.pieces[whole.pieces.index(piece) + 1 :]
+            dropped = [other for other in behind if other in self._queue]
+            self._queue = deque(other for other in self._queue if other not in dropped)
+            whole.pieces = [other for other in whole.pieces if other not in dropped]
+        if all(other.results for other in whole.pieces):
+            results: list[Result] = []
+            for other in whole.pieces:
+                results += other.results
+                if division.last(results[-1]):  # a worker may have been at what lies behind
                     break
-            self._landed.append((whole.shard, total))
+            self._finished.append((whole.task, division.join(results)))
 
-    def _lost(self, worker: _Worker, why: str) -> None:
-        """A worker is dead, or as good as dead: another one tries what it was at."""
+    def _lose(self, worker: WorkerProcess, silence: float | None) -> None:
+        """The worker died or hung: try its piece again, then cut it, then give it up."""
         self._workers.remove(worker)
-        how = worker.end()
-        piece = worker.piece
-        if not worker.ready:
-            raise InputError(
-                f"target {self._plan.targets[0]!r}: a process that loads it ends ({why or how})"
-            )
-        if piece is None:
+        status = worker.kill()
+        piece = self._at.pop(worker, None)
+        if piece is None:  # it was idle: whoever killed it, no task is to blame
             return
-        piece.deaths += 1
-        if piece.deaths < 2:
-            self._queue.appendleft(piece)
-            return
-        shard = piece.shard
-        listed = ranked_tables(shard.edges, self._plan.world_class, shard.start, shard.stop)
-        ranks = [rank for rank, _ in listed]
-        if len(ranks) > 1:
-            self._cut(piece, ranks, worker.worlds)
-        elif ranks:
-            told = f"its process was ended, for {why}" if why else f"it ended its process ({how})"
-            self._land(piece, self._convicted(shard.edges, ranks[0], told))
-        else:
-            self._land(piece, Tally())
+        if worker.ready:  # one that dies while it loads would do so over any piece
+            piece.deaths += 1
+            if piece.deaths < self._work.attempts:
+                self._queue.appendleft(piece)
+                return
+            if self._cut(piece, worker.items):
+                return
+        loss = Loss(status, silence, loading=not worker.ready)
+        self._finish(piece, self._work.lost(piece.task, loss))
 
-    def _cut(self, piece: _Piece, ranks: list[int], seen: int) -> None:
-        """Cut a piece around the world where its worker was last seen."""
-        at = min(seen, len(ranks) - 1)
-        shard = piece.shard
-        cuts = [shard.start, *ranks[max(at, 1) : at + 2], shard.stop]
-        parts = [Shard(shard.edges, a, b) for a, b in pairwise(cuts)]
-        piece.whole.open += len(parts) - 1
-        self._queue.extendleft(_Piece(part, piece.whole) for part in reversed(parts))
-
-    def _convicted(self, edges: int, rank: int, told: str) -> Tally:
-        """One world, in which the mapper took its process with it."""
-        target, world, claim = self._plan.targets[0], f"m{edges}/{rank}", "map-isomorphic"
-        again = replay_line(world, target, None, self._plan.limits.options)
-        message = f"no map was delivered: {told}"
-        finding = Finding(claim, None, "a map", None, message, None, world, again)
-        failure = Failure(edges, rank, target, (finding,))
-        return Tally(
-            worlds=1,
-            failing=1,
-            statuses={claim: {"failed": 1}},
-            claims={claim: Failing(1, failure)},
-            failures=(failure,),
-        )
+    def _cut(self, piece: _Piece[Task, Result], items: int) -> bool:
+        """Replace a piece by its parts; False if it has none."""
+        division, whole = self._work.division, piece.whole
+        tasks = division.cut(piece.task, items) if division is not None else ()
+        if len(tasks) < 2:
+            return False
+        parts = [_Piece(task, whole) for task in tasks]
+        place = whole.pieces.index(piece)
+        whole.pieces[place : place + 1] = parts
+        self._queue.extendleft(reversed(parts))
+        return True

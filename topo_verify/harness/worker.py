@@ -1,57 +1,79 @@
-"""A process that examines shards for its parent: commands come in on one pipe, tallies go out.
+"""One worker of a `Pool`: the process, which does tasks, and the handle that its parent has on it.
 
-    in      the plan, then a shard a line, each as JSON
-    out     Ready, then one Done for each shard; or Failed, the last word
-    pulse   a file of one line: how many worlds of the shard are done, and a number that grows; the
-            parent looks it up to see how far the work is, that it goes on, and where it stood when
-            it died
+    in          the job, then the tasks: a JSON value a line
+    out         a message a line: Ready, then a Done for each task; or Failed, the last one
+    heartbeat   a small file: how many items of the task are finished, and a number that grows
 
-A worker must not outlive its parent, not even one that was killed. A thread reads the commands:
-when the pipe ends, the process does. And on Linux the kernel is asked to end it with its parent: a
-mapper that sits in C code would not let the thread run.
+What the process works at is named by `module:function` (`Serve`): the pool, which starts it, knows
+nothing of its own of searches, mappers or worlds.
 
-Standard input and output belong to the pipes; a mapper that reads finds nothing, and what it prints
-goes to stderr.
+Three things the code here must see to:
+
+- **A worker ends with its parent, however that ends.** On Linux the kernel kills it, for a mapper
+  that sits in C code lets no thread run. Elsewhere the thread that reads tasks sees the pipe end.
+- **A mapper cannot disturb the pipes.** They are moved away from standard input and output before
+  any mapper is loaded; one that reads finds nothing, and what it prints goes to standard error.
+- **Ctrl-C is for the parent**, which decides what becomes of the workers.
 """
 
 from __future__ import annotations
 
 import ctypes
+import importlib
+import json
 import os
 import signal
+import subprocess
 import sys
 import threading
 import traceback
 from collections.abc import Callable
+from contextlib import AbstractContextManager, suppress
 from queue import SimpleQueue
-from typing import BinaryIO
+from tempfile import TemporaryFile
+from time import monotonic, sleep
+from typing import IO, Any, BinaryIO
 
 import msgspec
 
 from topo_verify.errors import InputError
-from topo_verify.harness.search.identity import source_hash
-from topo_verify.harness.search.plan import Plan, Shard
-from topo_verify.harness.search.shard import examine_shard
-from topo_verify.harness.tally import Tally
-from topo_verify.harness.targets import targets
 
-PR_SET_PDEATHSIG = 1
+Beat = Callable[[int], None]
+"""Called in the course of a task, before anything that may take long: (items finished so far)."""
+
+Handler = Callable[[bytes, Beat], Any]
+"""Does one task: takes it as JSON, returns the result, which msgspec can write as JSON."""
+
+Serve = Callable[[bytes], AbstractContextManager[Handler]]
+"""Takes the job as JSON, and prepares for its tasks; on leaving the context, clears up."""
+
+END_GRACE = 5.0
+"""Seconds that an idle worker has to leave its context and end."""
+
+TERM_GRACE = 2.0
+"""Seconds that a busy worker has to end after SIGTERM."""
+
+_START = (
+    "import sys, json; sys.path[:] = json.loads(sys.argv[1]);"
+    "from topo_verify.harness.worker import main; main(sys.argv[2], *map(int, sys.argv[3:]))"
+)
+"""The program of a worker. It imports from where its parent imports, and nothing by accident."""
+
+_PR_SET_PDEATHSIG = 1
 
 
 class Ready(msgspec.Struct, frozen=True, tag=True):
-    """The mappers are loaded; from which sources."""
-
-    sources: str
+    """The worker is prepared and waits for tasks."""
 
 
 class Done(msgspec.Struct, frozen=True, tag=True):
-    """A shard is done."""
+    """A task is finished."""
 
-    tally: Tally
+    result: msgspec.Raw
 
 
 class Failed(msgspec.Struct, frozen=True, tag=True):
-    """It cannot go on: bad input, or a bug of ours."""
+    """The worker cannot go on: the input is bad, or there is a bug of ours (`bug`)."""
 
     text: str
     bug: bool
@@ -60,58 +82,183 @@ class Failed(msgspec.Struct, frozen=True, tag=True):
 Message = Ready | Done | Failed
 
 
-class Pulse:
-    """The pulse file, written by a worker (`beat`) and read by its parent (`read`)."""
+class Heartbeat:
+    """The file that a worker writes its signs of life to, and its parent reads.
+
+    It is one write of fixed width, so a reader never sees half of one. A pipe would fill up while
+    the parent is busy, and would have to be drained; of a file only the last beat is ever read.
+
+    Args:
+        file: its file descriptor.
+    """
 
     def __init__(self, file: int) -> None:
         self.file = file
         self._count = 0
 
-    def beat(self, worlds: int) -> None:
-        """So many worlds of the shard are done, and the next thing begins."""
+    def beat(self, items: int) -> None:
+        """Report that so many items of the task are finished, and that something new begins."""
         self._count += 1
-        os.pwrite(self.file, b"%12d %12d" % (worlds, self._count), 0)
+        os.pwrite(self.file, b"%12d %12d" % (items, self._count), 0)
 
     def read(self) -> tuple[int, int]:
-        """How many worlds are done, and how many beats there were."""
-        worlds, count = os.pread(self.file, 25, 0).split() or (0, 0)
-        return int(worlds), int(count)
+        """How many items are finished, and how many beats there were."""
+        items, count = os.pread(self.file, 25, 0).split() or (0, 0)
+        return int(items), int(count)
 
 
-def main(parent: int, pulse: int) -> None:
-    """Work for the parent with this process id until it has no more work.
+# ---------------------------------------------------------------- in the parent
+
+
+class WorkerProcess:
+    """A worker, as its parent sees it. Life cycle: made, `start` tasks, `kill`.
 
     Args:
-        pulse: the file descriptor of the pulse.
+        serve: what it is to run, `module:function`; a `Serve`.
+        job: what it is handed before its first task.
+    Attributes:
+        ready: it has said that it waits for tasks.
+        items: how many items of its task were finished when its heartbeat was last read.
     """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears it, and decides
+
+    def __init__(self, serve: str, job: object) -> None:
+        self._file = TemporaryFile()  # noqa: SIM115  closed by `kill`
+        self.heartbeat = Heartbeat(self._file.fileno())
+        arguments = [json.dumps(sys.path), serve, str(os.getpid()), str(self.heartbeat.file)]
+        self.process = subprocess.Popen(  # noqa: S603  this very Python
+            [sys.executable, "-P", "-c", _START, *arguments],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            pass_fds=[self.heartbeat.file],
+            process_group=0,  # Ctrl-C is for the parent; and what a mapper starts is killed with it
+        )
+        self.ready = False
+        self.items: int = 0
+        self._beats: int = 0
+        self._heard = monotonic()
+        self._rest = b""
+        self._grace = 0.0
+        self._write(job)
+
+    @property
+    def out(self) -> IO[bytes]:
+        """The pipe on which its messages come."""
+        assert self.process.stdout is not None
+        return self.process.stdout
+
+    def start(self, task: object) -> None:
+        """Hand it a task. It must be idle: a busy one would not read, and the pipe may fill up."""
+        self.items, self._heard = 0, monotonic()
+        self._write(task)
+
+    def _write(self, data: object) -> None:
+        assert self.process.stdin is not None
+        with suppress(BrokenPipeError):  # it is dead: reading from it will tell
+            self.process.stdin.write(msgspec.json.encode(data) + b"\n")
+            self.process.stdin.flush()
+
+    def hear(self) -> list[Message] | None:
+        """The messages that have come; None if it has ended."""
+        text = os.read(self.out.fileno(), 1 << 16)
+        if not text:
+            return None
+        *lines, self._rest = (self._rest + text).split(b"\n")
+        return [msgspec.json.decode(line, type=Message) for line in lines]
+
+    def silence(self) -> float:
+        """For how many seconds it has written no heartbeat."""
+        items, beats = self.heartbeat.read()
+        if beats != self._beats:
+            self.items, self._beats, self._heard = items, beats, monotonic()
+        return monotonic() - self._heard
+
+    def dismiss(self, *, busy: bool) -> None:
+        """Have it end: an idle worker leaves its context, a busy one gets SIGTERM."""
+        assert self.process.stdin is not None
+        with suppress(BrokenPipeError):
+            self.process.stdin.close()
+        if busy:
+            with suppress(ProcessLookupError):
+                os.kill(self.process.pid, signal.SIGTERM)  # `Popen.terminate` may reap it
+        self._grace = TERM_GRACE if busy else END_GRACE
+
+    def await_end(self) -> None:
+        """Wait until it has ended by itself after `dismiss`, but not for long."""
+        until = monotonic() + self._grace
+        # It is not reaped here: its number must not name another group when `kill` uses it.
+        options = os.WEXITED | os.WNOWAIT | os.WNOHANG
+        while os.waitid(os.P_PID, self.process.pid, options) is None and monotonic() < until:
+            sleep(0.002)
+
+    def kill(self) -> str:
+        """Kill it and whatever it started; its exit status in words."""
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(self.process.pid, signal.SIGKILL)
+        code = self.process.wait()
+        self.silence()  # how far it came
+        for pipe in (self.process.stdin, self.process.stdout, self._file):
+            if pipe is not None:
+                with suppress(BrokenPipeError):
+                    pipe.close()
+        return f"signal {-code}" if code < 0 else f"exit code {code}"
+
+
+# ---------------------------------------------------------------- in the worker
+
+
+def main(serve: str, parent: int, heartbeat: int) -> None:
+    """Work for a parent until it has no more tasks or is gone.
+
+    Args:
+        serve: `module:function`, a `Serve`.
+        parent: its process id.
+        heartbeat: the file descriptor of the heartbeat.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     _end_with(parent)
     commands, out = _pipes()
-    lines: SimpleQueue[bytes] = SimpleQueue()
+    lines: SimpleQueue[bytes | None] = SimpleQueue()
     threading.Thread(target=_read, args=(commands, lines.put), daemon=True).start()
     try:
-        plan = msgspec.json.decode(lines.get(), type=Plan)
-        mappers = [target for text in plan.targets for target in targets(text)]
-        _send(out, Ready(source_hash(mappers)))
-        beat = Pulse(pulse).beat
-        while True:
-            beat(0)
-            shard = msgspec.json.decode(lines.get(), type=Shard)
-            _send(out, Done(examine_shard(plan, mappers, shard, beat)))
+        job = lines.get()
+        if job is not None:
+            _work(_function(serve)(job), lines, out, Heartbeat(heartbeat).beat)
+    except BrokenPipeError:
+        pass  # the parent is gone: nobody wants the result
     except InputError as error:
         _send(out, Failed(str(error), bug=False))
     except Exception:  # noqa: BLE001  whatever it is, the parent is told
         _send(out, Failed(traceback.format_exc(), bug=True))
 
 
+def _work(
+    served: AbstractContextManager[Handler],
+    lines: SimpleQueue[bytes | None],
+    out: BinaryIO,
+    beat: Beat,
+) -> None:
+    """Do tasks until there are no more."""
+    with served as handle:
+        _send(out, Ready())
+        beat(0)
+        while (task := lines.get()) is not None:
+            beat(0)
+            _send(out, Done(msgspec.Raw(msgspec.json.encode(handle(task, beat)))))
+
+
+def _function(name: str) -> Serve:
+    module, _, attribute = name.partition(":")
+    found: Serve = getattr(importlib.import_module(module), attribute)
+    return found
+
+
 def _send(out: BinaryIO, message: Message) -> None:
-    """One message, at once."""
     out.write(msgspec.json.encode(message) + b"\n")
     out.flush()
 
 
 def _pipes() -> tuple[BinaryIO, BinaryIO]:
-    """The pipes, moved to where a mapper does not find them."""
+    """The pipes to and from the parent, moved to where a mapper does not find them."""
     commands, out = os.dup(0), os.dup(1)
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
@@ -119,16 +266,18 @@ def _pipes() -> tuple[BinaryIO, BinaryIO]:
     return os.fdopen(commands, "rb"), os.fdopen(out, "wb")
 
 
-def _read(commands: BinaryIO, put: Callable[[bytes], None]) -> None:
-    """Hand on what comes in; at its end, end."""
+def _read(commands: BinaryIO, put: Callable[[bytes | None], None]) -> None:
+    """Hand on the lines; when they end, have the process end, in the midst of a task or not."""
     for line in commands:
         put(line)
-    os._exit(0)
+    put(None)  # an idle worker sees this, and leaves its context
+    sleep(END_GRACE)
+    os._exit(1)  # a busy one does not
 
 
 def _end_with(parent: int) -> None:
-    """Ask the kernel to end this process with its parent; end now if it is gone."""
+    """Ask the kernel to end this process with its parent; end now if that is gone already."""
     if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != parent:
         os._exit(0)

@@ -9,7 +9,7 @@ import pytest
 
 from tests.programs.programs import compiled, javascript, misbehaving, served
 from topo_verify.errors import InputError
-from topo_verify.harness.conform.conform import PATIENCE, Books, Standing, conform
+from topo_verify.harness.conform.conform import MAX_TIMEOUTS, ConformTally, LevelResult, conform
 from topo_verify.harness.conform.outcome import ConformJob
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.robot.limits import Limits
@@ -21,14 +21,14 @@ MAPPERS = f"{Path(__file__).parents[2] / 'cli' / 'mappers.py'}"
 
 def standings(
     job: ConformJob, *texts: str, workers: int = 0, batch: bool = False
-) -> dict[str, Standing]:
+) -> dict[str, LevelResult]:
     corpus = corpus_from(texts)
-    books = Books(job, corpus)
-    conform(job, corpus, books, workers=workers, batch=batch)
-    return {standing.level: standing for standing in books.standings()}
+    tally = ConformTally(job, corpus)
+    conform(job, corpus, tally, workers=workers, batch=batch)
+    return {standing.level: standing for standing in tally.level_results()}
 
 
-def verdicts(found: dict[str, Standing]) -> list[str]:
+def verdicts(found: dict[str, LevelResult]) -> list[str]:
     return [standing.verdict for standing in found.values()]
 
 
@@ -113,9 +113,9 @@ def test_a_python_mapper_that_ends_its_worker_is_a_finding(tmp_path: Path) -> No
 
 def test_after_many_time_outs_the_rest_is_not_tried() -> None:
     limits = Limits(move_timeout=0.06)
-    texts = ["m1/1"] * (PATIENCE + 5)
+    texts = ["m1/1"] * (MAX_TIMEOUTS + 5)
     found = standings(ConformJob(target=misbehaving("hangs"), limits=limits), *texts)
-    assert found["result"].failed == PATIENCE
+    assert found["result"].failed == MAX_TIMEOUTS
     assert found["result"].not_tried == 5
 
 

@@ -10,7 +10,7 @@ import msgspec
 from tests.programs.programs import ROOT, served
 from topo_verify import World, explore
 from topo_verify.checkers import CLAIMS
-from topo_verify.harness.conform.conform import PATIENCE
+from topo_verify.harness.conform.conform import MAX_TIMEOUTS
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.program import IN_A_ROW, MISBEHAVIOURS, Program
@@ -46,6 +46,6 @@ def test_every_kind_of_finding_is_explained() -> None:
 
 
 def test_the_figures_are_those_of_the_code() -> None:
-    assert f"After {PATIENCE} time-outs" in PAGE
+    assert f"After {MAX_TIMEOUTS} time-outs" in PAGE
     assert f"at most {IN_A_ROW:,} between two moves" in PAGE
     assert f"the {corpus_from([]).total} worlds of the default corpus" in PAGE

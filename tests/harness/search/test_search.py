@@ -127,9 +127,13 @@ def test_a_mapper_that_is_out_of_time_is_neither_right_nor_wrong() -> None:
     assert found.tally.undecided == 12
 
 
-def test_patience_ends_a_search_that_would_take_for_ever() -> None:
+def test_a_search_that_would_take_for_ever_ends_after_its_time_outs() -> None:
     plan = Plan(
-        targets=("mine",), edges=3, keep_going=True, patience=4, limits=Limits(world_timeout=0.01)
+        targets=("mine",),
+        edges=3,
+        keep_going=True,
+        max_timeouts=4,
+        limits=Limits(world_timeout=0.01),
     )
     work = Search(plan, (Target("mine", mappers.strolls),))
     work.work()

@@ -13,7 +13,7 @@ from topo_verify.harness.targets import targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.counts import Counts
 from topo_verify.harness.verify.parts import Part
-from topo_verify.harness.verify.trials import PATIENCE, Trials
+from topo_verify.harness.verify.trials import MAX_TIMEOUTS, Trials
 from topo_verify.harness.verify.verify import verify
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
@@ -148,7 +148,7 @@ def test_a_part_stops_after_a_few_time_outs() -> None:
     job.limits = Limits(move_timeout=0.05)
     job.work(silence)
     part = job.part()
-    assert (part.verdict, part.checked) == ("REFUTED", PATIENCE)
+    assert (part.verdict, part.checked) == ("REFUTED", MAX_TIMEOUTS)
     assert part.summary.endswith("stopped after 3 time-outs")
 
 

@@ -1,13 +1,14 @@
-"""An implementation in every world of a corpus: how it stands on each level.
+"""An implementation in every world of a corpus, tallied level by level.
 
-Outcomes are taken to the books in the order of the corpus, so the books are the same for any number
-of workers. After some time-outs enough is seen: what is left is not tried.
+Outcomes are tallied in corpus order, so the tally does not depend on the number of workers. After
+`MAX_TIMEOUTS` time-outs the rest of the corpus is not tried: each may cost a whole time limit.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 
 import msgspec
@@ -24,22 +25,22 @@ from topo_verify.harness.conform.outcome import (
     WorldFinding,
     WorldResult,
 )
-from topo_verify.harness.conform.parallel import Crew
+from topo_verify.harness.conform.parallel import outcomes
 from topo_verify.harness.corpus import Corpus
 from topo_verify.harness.progress import Progress
 
-PATIENCE = 20
-"""After so many time-outs enough is seen."""
+MAX_TIMEOUTS = 20
+"""After so many time-outs the rest of the corpus is not tried."""
 
 KEPT = 10
-"""Of so many failing worlds of each kind the findings are kept."""
+"""How many failing worlds of each kind have their findings kept."""
 
 
-class Cost(msgspec.Struct, frozen=True):
-    """Edge traversals, over the worlds that the implementation maps rightly.
+class CostRatio(msgspec.Struct, frozen=True):
+    """Edge traversals summed up over the worlds that the implementation maps correctly.
 
     Attributes:
-        ratio: what it pays for each edge traversal of the reference's.
+        ratio: the implementation's cost relative to that of the reference; None if that is 0.
     """
 
     mapper: int
@@ -47,8 +48,8 @@ class Cost(msgspec.Struct, frozen=True):
     ratio: float | None
 
 
-class Priced(msgspec.Struct, frozen=True):
-    """What the implementation pays in one world."""
+class WorldCost(msgspec.Struct, frozen=True):
+    """Edge traversals in one world that the implementation maps correctly."""
 
     world: str
     mapper: int
@@ -60,21 +61,22 @@ def _ratio(mapper: int, reference: int) -> float | None:
     return round(mapper / reference, 4) if reference else None
 
 
-class Standing(msgspec.Struct, frozen=True, kw_only=True):
-    """How an implementation stands on one level.
+class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
+    """The result of an implementation on one level, over all worlds of a corpus.
 
     Attributes:
         target: the implementation.
         like: the algorithm that its decisions and its cost are compared with.
         level: result, claims, decisions or cost.
-        worlds: how many there are; each is in one of the next seven numbers.
-        skipped, errored: the program said so.
+        worlds: how many there are; each is counted in one of the next seven numbers.
+        passed, failed: judged on this level.
+        skipped, errored: the program declined the world, or gave it up.
         undecided: out of time though it moved on; or no map, and so nothing to judge on this level.
         not_declared: the same moves, but no decisions to compare.
-        not_tried: after too many time-outs, or an interrupt.
+        not_tried: the work ended before, after too many time-outs or by an interrupt.
         kinds: in how many worlds each kind of finding is met.
-        claims: of the claims of this level, in how many runs each was ok, failed, not-declared …
-        findings: of the first failing worlds.
+        claims: for each claim of this level, in how many runs it has which status.
+        findings: of the first failing worlds of each kind.
         cost: over all worlds; priced: on level `cost`, world by world.
         why: of the first worlds that are not decided, why.
     """
@@ -94,74 +96,79 @@ class Standing(msgspec.Struct, frozen=True, kw_only=True):
     kinds: dict[str, int]
     claims: dict[str, dict[str, int]]
     findings: tuple[WorldFinding, ...]
-    cost: Cost
-    priced: tuple[Priced, ...] = ()
+    cost: CostRatio
+    priced: tuple[WorldCost, ...] = ()
     why: tuple[str, ...] = ()
 
 
 @dataclass
-class _Level:
-    """The books of one level."""
+class _LevelCounts:
+    """Counts the states of worlds on one level, and keeps the first findings of each kind."""
 
-    states: dict[str, int] = field(default_factory=dict[str, int])
-    kinds: dict[str, int] = field(default_factory=dict[str, int])
+    states: Counter[str] = field(default_factory=Counter[str])
+    kinds: Counter[str] = field(default_factory=Counter[str])
     findings: list[WorldFinding] = field(default_factory=list[WorldFinding])
     whys: list[str] = field(default_factory=list[str])
 
     def enter(self, made: WorldResult, level: Level) -> None:
-        state = made.states[level]
-        self.states[state] = self.states.get(state, 0) + 1
+        """Count one world."""
+        self.states[made.states[level]] += 1
         found = made.findings.get(level, ())
         for kind in dict.fromkeys(one.kind for one in found):
-            self.kinds[kind] = self.kinds.get(kind, 0) + 1
+            self.kinds[kind] += 1
             if self.kinds[kind] <= KEPT:
                 self.findings += [one for one in found if one.kind == kind]
         if made.why is not None and level == "result" and len(self.whys) < KEPT:
             self.whys.append(f"{made.world}: {made.why}")
 
 
-class Books:
-    """The books of a run. Life cycle: `enter` outcomes in their order, `standings` at any time."""
+class ConformTally:
+    """Counts the outcomes of one implementation.
+
+    Life cycle: `enter` outcomes in the order of the corpus, `level_results` at any time.
+    """
 
     def __init__(self, job: ConformJob, corpus: Corpus) -> None:
         self.job, self.total, self.finite = job, corpus.total, corpus.finite
-        self.levels: dict[Level, _Level] = {
-            level: _Level() for level in LEVELS if job.like is not None or level != "decisions"
+        self.levels: dict[Level, _LevelCounts] = {
+            level: _LevelCounts()
+            for level in LEVELS
+            if job.like is not None or level != "decisions"
         }
-        self.claims: dict[str, dict[str, int]] = {claim: {} for claim in CLAIMS}
-        self.priced: list[Priced] = []
+        self.claims = {claim: Counter[str]() for claim in CLAIMS}
+        self.priced: list[WorldCost] = []
         self.timeouts = self.tried = 0
 
     def enter(self, made: WorldResult) -> None:
-        """One world."""
+        """Count one world."""
         self.tried += 1
         self.timeouts += made.timeout
-        for level, books in self.levels.items():
-            books.enter(made, level)
+        for level, counts in self.levels.items():
+            counts.enter(made, level)
         for claim, status in made.claims.items():
-            self.claims[claim][status] = self.claims[claim].get(status, 0) + 1
+            self.claims[claim][status] += 1
         if made.states["cost"] == "passed":
             ratio = _ratio(made.cost, made.reference)
-            self.priced.append(Priced(made.world, made.cost, made.reference, ratio))
+            self.priced.append(WorldCost(made.world, made.cost, made.reference, ratio))
 
     @property
-    def enough(self) -> bool:
-        """Is enough seen?"""
-        return self.timeouts >= PATIENCE
+    def timed_out(self) -> bool:
+        """Were there so many time-outs that the rest is not to be tried?"""
+        return self.timeouts >= MAX_TIMEOUTS
 
-    def standings(self) -> Iterator[Standing]:
-        """What stands in the books, level by level."""
+    def level_results(self) -> Iterator[LevelResult]:
+        """The result on each level, of the worlds that were entered so far."""
         mapper = sum(one.mapper for one in self.priced)
         paid = sum(one.reference for one in self.priced)
-        total = Cost(mapper, paid, _ratio(mapper, paid))
-        for level, books in self.levels.items():
-            numbers = {name: books.states.get(name, 0) for name in _STATES}
+        total = CostRatio(mapper, paid, _ratio(mapper, paid))
+        for level, counts in self.levels.items():
+            numbers = {name: counts.states[name] for name in _STATES}
             claims = {
-                claim: seen
+                claim: dict(seen)
                 for claim, seen in self.claims.items()
                 if level in ("result", "claims") and (claim in RESULT) == (level == "result")
             }
-            yield Standing(
+            yield LevelResult(
                 target=self.job.target,
                 like=self.job.reference,
                 level=level,
@@ -169,12 +176,12 @@ class Books:
                 **{name.replace("-", "_"): number for name, number in numbers.items()},
                 not_tried=self.total - self.tried,
                 verdict=self._verdict(numbers),
-                kinds=books.kinds,
+                kinds=dict(counts.kinds),
                 claims=claims,
-                findings=tuple(books.findings),
+                findings=tuple(counts.findings),
                 cost=total,
                 priced=tuple(self.priced) if level == "cost" else (),
-                why=tuple(books.whys),
+                why=tuple(counts.whys),
             )
 
     def _verdict(self, numbers: dict[str, int]) -> Verdict:
@@ -191,33 +198,35 @@ _STATES = ("passed", "failed", "skipped", "errored", "undecided", "not-declared"
 def conform(
     job: ConformJob,
     corpus: Corpus,
-    books: Books,
+    tally: ConformTally,
     *,
     workers: int = 0,
     batch: bool = False,
     tell: Progress | None = None,
 ) -> None:
-    """Take what becomes of every world of the corpus to the books.
+    """Try an implementation in every world of a corpus, and enter each outcome into a tally.
 
     Args:
+        tally: what each outcome is entered into; it is complete up to where an interrupt came.
         workers: so many processes; 0: this one alone.
-        batch: the program reads worlds and writes runs; one process does it.
-        tell: told how far the work is.
+        batch: the program reads worlds and writes runs; one process of it at a time.
+        tell: the progress callback.
     Raises:
         InputError: there is no such mapper, program, algorithm or policy.
     """
     with ExitStack() as stack:
-        outcomes: Iterable[WorldResult]
+        found: Iterable[WorldResult]
         if batch:
-            outcomes = stack.enter_context(BatchExaminer(job)).examine(corpus)
+            found = stack.enter_context(BatchExaminer(job)).examine(corpus)
         elif workers:
-            outcomes = stack.enter_context(Crew(job, min(workers, corpus.total))).examine(corpus)
+            parallel = outcomes(job, corpus, min(workers, corpus.total))
+            found = stack.enter_context(closing(parallel))
         else:
             examiner = stack.enter_context(Examiner(job))
-            outcomes = map(examiner.examine, corpus)
-        for made in outcomes:
-            books.enter(made)
+            found = map(examiner.examine, corpus)
+        for made in found:
+            tally.enter(made)
             if tell is not None:
-                tell(job.target, books.tried, corpus.total)
-            if books.enough:
+                tell(job.target, tally.tried, corpus.total)
+            if tally.timed_out:
                 break

@@ -19,16 +19,14 @@ anything about larger worlds beyond those that were drawn.
 
 from __future__ import annotations
 
-import multiprocessing
-import os
-import signal
-import threading
-from collections.abc import Iterable, Iterator, Sequence
-from functools import partial
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
+from math import inf
 from typing import Literal, get_args
 
 import msgspec
 
+from topo_verify.errors import InternalError
 from topo_verify.faults import FAULTS, Fault
 from topo_verify.harness.faults.checks import (
     COUNTED,
@@ -39,7 +37,9 @@ from topo_verify.harness.faults.checks import (
     proof,
     smallest,
 )
+from topo_verify.harness.pool import Loss, Pool, Work, in_order
 from topo_verify.harness.progress import Progress
+from topo_verify.harness.worker import Beat, Handler
 
 Check = Literal["search", "properties", "proofs"]
 CHECKS: tuple[Check, ...] = get_args(Check)
@@ -92,10 +92,8 @@ def try_faults(
     faults = list(faults)
     known = all(FAULTS.get(fault.name) is fault for fault in faults)
     if workers and known and len(faults) > 1:
-        one = partial(_by_name, by=by, thorough=thorough)
-        with multiprocessing.get_context("spawn").Pool(workers, _stay_with_parent) as pool:
-            entries = pool.imap(one, [fault.name for fault in faults])
-            for fault, entry in zip(faults, entries, strict=True):
+        with closing(_in_workers(faults, FaultsJob(tuple(by), thorough), workers)) as entries:
+            for fault, entry in entries:
                 yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
     else:
         for fault in faults:
@@ -103,21 +101,43 @@ def try_faults(
             yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
 
 
-def _stay_with_parent() -> None:
-    """A worker leaves Ctrl-C to its parent, and ends when that ends, however it does."""
-    parent = multiprocessing.parent_process()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+class FaultsJob(msgspec.Struct, frozen=True):
+    """What a worker is handed before its first fault; the faults are named, one a task."""
 
-    def watch() -> None:
-        assert parent is not None
-        parent.join()
-        os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
+    by: tuple[Check, ...]
+    thorough: bool
 
 
-def _by_name(name: str, *, by: Sequence[Check], thorough: bool) -> Caught:
-    return _begun(FAULTS[name], by=by, thorough=thorough)
+def _in_workers(
+    faults: Sequence[Fault], job: FaultsJob, workers: int
+) -> Generator[tuple[Fault, Caught]]:
+    """The faults in their order, each with what the checks found in a process of their own."""
+    work = Work(
+        serve=f"{__name__}:serve_faults",
+        job=job,
+        result=Caught,
+        lost=_lost,
+        silence=inf,  # checks are counted, not clocked: a thorough one may take an hour
+    )
+    with Pool(work, workers) as pool:
+        names = [fault.name for fault in faults]
+        yield from zip(faults, in_order(pool, names, ahead=len(names)), strict=True)
+
+
+def _lost(name: str, loss: Loss) -> Caught:
+    raise InternalError(f"in a worker, which was to try the fault {name}: {loss}")
+
+
+@contextmanager
+def serve_faults(job: bytes) -> Generator[Handler]:
+    """Put the checks of a `FaultsJob` to one fault after the other."""
+    asked = msgspec.json.decode(job, type=FaultsJob)
+
+    def try_one(name: bytes, _beat: Beat) -> Caught:
+        fault = FAULTS[msgspec.json.decode(name, type=str)]
+        return _begun(fault, by=asked.by, thorough=asked.thorough)
+
+    yield try_one
 
 
 def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool) -> Caught:

@@ -21,12 +21,13 @@ import msgspec
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.pool import Crew
+from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress, ProgressRate
 from topo_verify.harness.search.choices import require_choices
+from topo_verify.harness.search.parallel import shard_work
 from topo_verify.harness.search.plan import Choices, Plan, Shard
 from topo_verify.harness.search.shard import Interrupted, examine_shard
-from topo_verify.harness.tally import Costs, Failing, Failure, Tally
+from topo_verify.harness.tally import CostTotals, Failing, Failure, Tally
 from topo_verify.harness.targets import one_target, targets
 from topo_verify.programs.loading import Mapper, Target
 from topo_verify.programs.program import Program
@@ -53,7 +54,7 @@ class Size(msgspec.Struct, frozen=True):
         return self.tally.failing
 
 
-class Found(msgspec.Struct, frozen=True):
+class SearchResult(msgspec.Struct, frozen=True):
     """The result of a search.
 
     Attributes:
@@ -78,9 +79,9 @@ class Found(msgspec.Struct, frozen=True):
         """All sizes together."""
         return sum((size.tally for size in self.by_edges), Tally())
 
-    def costs(self, edges: int, target: str) -> Costs:
+    def costs(self, edges: int, target: str) -> CostTotals:
         """What a mapper spent in the worlds of one size."""
-        return self.by_edges[edges - 1].tally.costs.get(target, Costs())
+        return self.by_edges[edges - 1].tally.costs.get(target, CostTotals())
 
 
 def search(  # noqa: PLR0913  an argument an option
@@ -93,7 +94,7 @@ def search(  # noqa: PLR0913  an argument an option
     limits: Limits | None = None,
     workers: int = 0,
     tell: Progress | None = None,
-) -> Found:
+) -> SearchResult:
     """Examine a mapper in every world of a class with 1 … `edges` edges, smallest first.
 
     Args:
@@ -190,7 +191,7 @@ class Search:
                     if tally.failing and not self.plan.keep_going:
                         return
                     timeouts += tally.timeouts
-                    if self.plan.patience is not None and timeouts >= self.plan.patience:
+                    if self.plan.max_timeouts is not None and timeouts >= self.plan.max_timeouts:
                         return
         except Interrupted as cut:
             edges = next(m for m, worlds in self.totals.items() if self.tallies[m].worlds < worlds)
@@ -234,8 +235,9 @@ class Search:
     ) -> Generator[tuple[Shard, Tally]]:
         """The shards examined, here or in other processes, in any order."""
         if self.workers:
-            with Crew(self.plan, self.mappers, self.workers, rate) as crew:
-                yield from crew.examine(todo)
+            work = shard_work(self.plan, self.mappers)
+            with Pool(work, self.workers, in_flight=rate.in_flight) as pool:
+                yield from pool.run(todo)
         else:
             for shard in todo:
                 yield shard, examine_shard(self.plan, self.mappers, shard, rate.in_flight)
@@ -249,7 +251,7 @@ class Search:
                     f" {self.plan.kind} where m = {edges}, and there are {total}"
                 )
 
-    def found(self) -> Found:
+    def found(self) -> SearchResult:
         """What was found so far."""
         sizes = tuple(
             Size(
@@ -265,7 +267,7 @@ class Search:
         verdict: Verdict = "REFUTED" if tally.failures else "UNKNOWN"
         if checked == total and not tally.failures:
             verdict = "EXHAUSTED"
-        return Found(
+        return SearchResult(
             plan=self.plan,
             verdict=verdict,
             checked=checked,

@@ -39,7 +39,7 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
         kind: the class of worlds, as text.
         choices: which policies.
         keep_going: do not stop at the first counterexample.
-        patience: stop after about so many time-outs; None: never.
+        max_timeouts: stop after about so many time-outs; None: never.
         limits: of one run.
     """
 
@@ -48,7 +48,7 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
     kind: str = "any"
     choices: Choices = "reference"
     keep_going: bool = False
-    patience: int | None = None
+    max_timeouts: int | None = None
     limits: Limits = Limits()
 
     def __post_init__(self) -> None:

@@ -6,17 +6,15 @@ Ctrl-C finds it, and its few thousand runs take seconds.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.checkers import CLAIMS
 from topo_verify.harness.pool import processors
 from topo_verify.harness.progress import Progress
-from topo_verify.harness.search.exhaustive import Found, Search
+from topo_verify.harness.search.exhaustive import Search, SearchResult
 from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.verify.parts import Part
-from topo_verify.harness.verify.trials import PATIENCE, claims_in_words
+from topo_verify.harness.verify.trials import MAX_TIMEOUTS, claims_in_words, part_claims
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -34,7 +32,7 @@ class SmallWorlds:
             targets=tuple(target.text for target in targets),
             edges=edges,
             keep_going=True,
-            patience=PATIENCE,
+            max_timeouts=MAX_TIMEOUTS,
             limits=limits,
         )
         workers = processors() if ours and edges >= WORTH else 0
@@ -48,13 +46,7 @@ class SmallWorlds:
         """What was found so far."""
         found = self.search.found()
         tally = found.tally
-        claims = {
-            claim: {
-                status: tally.statuses.get(claim, {}).get(status, 0)
-                for status in ("ok", "failed", "not-declared", "not-asked")
-            }
-            for claim in CLAIMS
-        }
+        claims = part_claims(tally.statuses)
         return Part(
             part="small-worlds",
             verdict=found.verdict,
@@ -68,7 +60,7 @@ class SmallWorlds:
         )
 
 
-def _summary(found: Found, claims: dict[str, dict[str, int]], *, interrupted: bool) -> str:
+def _summary(found: SearchResult, claims: dict[str, dict[str, int]], *, interrupted: bool) -> str:
     tally, targets = found.tally, found.plan.targets
     words = f"{tally.worlds} of {plural(found.total, 'world')}"
     words += f" of 1 to {plural(found.plan.edges, 'edge')}"
@@ -78,7 +70,7 @@ def _summary(found: Found, claims: dict[str, dict[str, int]], *, interrupted: bo
         worlds = plural(tally.failing, "of them refutes", "of them refute")
         words += f"{worlds} {failed}, first {tally.failures[0].world}"
     else:
-        words += claims_in_words({claim: Counter(seen) for claim, seen in claims.items()})
+        words += claims_in_words(claims)
     if tally.undecided:
         words += f"; {plural(tally.undecided, 'run')} out of time"
     if interrupted:

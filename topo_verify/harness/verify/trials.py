@@ -8,7 +8,6 @@ failing worlds.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
@@ -18,23 +17,21 @@ from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.progress import Progress
-from topo_verify.harness.run import Exploration, Report, explore, judge, undecided
+from topo_verify.harness.run import Exploration, Report, explore, judge
+from topo_verify.harness.tally import KEPT_FINDINGS, KEPT_RUNS, RunCounts
 from topo_verify.harness.verify.parts import MapperCost, Part
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
-PATIENCE = 3
-"""After so many time-outs (or failing worlds, where that is asked for) enough is seen."""
-
-KEPT_RUNS, KEPT_FINDINGS = 3, 5
-"""Of how many failing runs findings are kept, and how many of each."""
+MAX_TIMEOUTS = 3
+"""After so many time-outs a part stops; after so many failing worlds, too, where that is asked."""
 
 
 @dataclass
 class Trials:
-    """Every mapper in every one of some worlds, every claim. A `PartJob`.
+    """Runs every mapper in every one of some worlds and judges every claim. A `PartJob`.
 
     Attributes:
         name: of the part.
@@ -42,9 +39,10 @@ class Trials:
         total: how many worlds there are; counted apart from the worlds themselves.
         worlds: lists them, smallest first.
         finite: they are all worlds of a finite class.
-        patience: after so many failing worlds enough is seen; None: never.
+        max_failing: stop after so many failing worlds; None: never.
         where: how the command line names the one world, if it is not by its id.
-        note: told of every run.
+        note: called for every run.
+        counts: what the runs came to so far.
     """
 
     name: str
@@ -54,103 +52,97 @@ class Trials:
     targets: Sequence[Target]
     limits: Limits
     finite: bool = False
-    patience: int | None = None
+    max_failing: int | None = None
     where: str | None = None
     note: Callable[[Exploration, Report], None] | None = None
 
-    checked: int = 0
-    failing: int = 0
-    undecided: int = 0
-    timeouts: int = 0
+    counts: RunCounts = field(default_factory=RunCounts)
     failed_targets: dict[str, str] = field(default_factory=dict[str, str])
     """The mappers that failed, and the world in which each did so first."""
-    claims: dict[str, Counter[str]] = field(
-        default_factory=lambda: {name: Counter[str]() for name in CLAIMS}
-    )
     findings: list[Finding] = field(default_factory=list[Finding])
 
     def work(self, tell: Progress) -> None:
         """Go through the worlds, as far as it makes sense."""
         for world in self.worlds():
-            tell(self.name, self.checked, self.total)
-            self._try(world)
-            self.checked += 1
-            if self.timeouts >= PATIENCE or self.failing == self.patience:
+            tell(self.name, self.counts.worlds, self.total)
+            for target in self.targets:
+                run = explore(world, target, limits=self.limits)
+                report = judge(run, where=self.where, options=self.limits.options)
+                self._enter(run, report)
+            self.counts.close()
+            if self._timed_out or self.counts.failing == self.max_failing:
                 break
 
-    def _try(self, world: World) -> None:
-        """Every mapper in one world."""
-        failed = False
-        for target in self.targets:
-            run = explore(world, target, limits=self.limits)
-            report = judge(run, where=self.where, options=self.limits.options)
-            failed |= self._judged(run, report)
-        self.failing += failed
+    @property
+    def _timed_out(self) -> bool:
+        return self.counts.timeouts >= MAX_TIMEOUTS
 
-    def _judged(self, run: Exploration, report: Report) -> bool:
-        """Take one run to the books; does it fail?"""
+    def _enter(self, run: Exploration, report: Report) -> None:
+        """Count one run, and keep its findings if it is among the first that fail."""
         if self.note is not None:
             self.note(run, report)
-        self.timeouts += run.limit in ("move-timeout", "world-timeout")
-        if undecided(run, report):
-            self.undecided += 1
-            return False
-        for claim, status in report.claims.items():
-            self.claims[claim][status] += 1
-        if report.findings:
+        if self.counts.enter(run, report) and report.findings:
             self.failed_targets.setdefault(run.algorithm, report.world)
+            # A drawn world may come twice, and then takes one place among the kept.
             if len({(f.world, f.replay) for f in self.findings}) < KEPT_RUNS:
                 self.findings += report.findings[:KEPT_FINDINGS]
-        return bool(report.findings)
 
     # ------------------------------------------------------------ what was found
 
     def part(self, *, interrupted: bool = False) -> Part:
         """What was found so far."""
-        whole = self.checked == self.total and not self.undecided and not interrupted
+        counts = self.counts
+        whole = counts.worlds == self.total and not counts.undecided_runs and not interrupted
         verdict: Verdict = "UNKNOWN"
-        if self.failing or self.findings:
+        if counts.failing or self.findings:  # a world that was cut off may have failed already
             verdict = "REFUTED"
         elif whole:
             verdict = "EXHAUSTED" if self.finite else "SAMPLED"
+        claims = part_claims(counts.statuses())
         return Part(
             part=self.name,
             verdict=verdict,
             ok=whole and verdict != "REFUTED",
-            checked=self.checked,
+            checked=counts.worlds,
             total=self.total,
-            summary=self._summary(interrupted=interrupted),
-            failing=self.failing,
-            claims={name: _counts(seen) for name, seen in self.claims.items()},
+            summary=self._summary(claims, interrupted=interrupted),
+            failing=counts.failing,
+            claims=claims,
             findings=tuple(self.findings),
         )
 
-    def _summary(self, *, interrupted: bool) -> str:
+    def _summary(self, claims: dict[str, dict[str, int]], *, interrupted: bool) -> str:
+        counts = self.counts
         mappers = f" × {len(self.targets)} mappers" if len(self.targets) > 1 else ""
-        words = f"{self.checked} of {plural(self.total, 'world')}{self.about}{mappers}: "
-        words += self._failures() if self.findings else claims_in_words(self.claims)
-        if self.undecided:
-            words += f"; {plural(self.undecided, 'run')} out of time"
+        words = f"{counts.worlds} of {plural(self.total, 'world')}{self.about}{mappers}: "
+        words += self._failures(claims) if self.findings else claims_in_words(claims)
+        if counts.undecided_runs:
+            words += f"; {plural(counts.undecided_runs, 'run')} out of time"
         if interrupted:
             words += "; interrupted"
-        elif self.timeouts >= PATIENCE and self.checked < self.total:
-            words += f"; stopped after {self.timeouts} time-outs"
-        elif self.checked < self.total:
-            words += f"; stopped after {self.failing} failing worlds"
+        elif self._timed_out and counts.worlds < self.total:
+            words += f"; stopped after {counts.timeouts} time-outs"
+        elif counts.worlds < self.total:
+            words += f"; stopped after {counts.failing} failing worlds"
         return words
 
-    def _failures(self) -> str:
-        claims = ", ".join(name for name, seen in self.claims.items() if seen["failed"])
-        worlds = plural(max(self.failing, 1), "of them", "of them")
-        words = f"{worlds} refute {claims}, first {self.findings[0].world}"
+    def _failures(self, claims: dict[str, dict[str, int]]) -> str:
+        failed = ", ".join(name for name, seen in claims.items() if seen["failed"])
+        worlds = plural(max(self.counts.failing, 1), "of them", "of them")
+        words = f"{worlds} refute {failed}, first {self.findings[0].world}"
         return words + (f" ({', '.join(self.failed_targets)})" if len(self.targets) > 1 else "")
 
 
-def _counts(seen: Counter[str]) -> dict[str, int]:
-    return {status: seen[status] for status in ("ok", "failed", "not-declared", "not-asked")}
+def part_claims(statuses: dict[str, dict[str, int]]) -> dict[str, dict[str, int]]:
+    """For each claim, in how many runs it has which of the statuses that a part reports."""
+    reported = ("ok", "failed", "not-declared", "not-asked")
+    return {
+        claim: {status: statuses.get(claim, {}).get(status, 0) for status in reported}
+        for claim in CLAIMS
+    }
 
 
-def claims_in_words(claims: dict[str, Counter[str]]) -> str:
+def claims_in_words(claims: dict[str, dict[str, int]]) -> str:
     """How many claims hold in all runs, fail in one, were declared in none or not in all."""
     hold = fail = silent = partly = 0
     for seen in claims.values():
@@ -168,8 +160,8 @@ def claims_in_words(claims: dict[str, Counter[str]]) -> str:
 # ---------------------------------------------------------------- one world, and what it costs
 
 
-class Costs:
-    """Every mapper in one world, and what each of them pays there. A `PartJob`.
+class CostTrial:
+    """Runs every mapper in one world and reports what each pays there. A `PartJob`.
 
     A mapper of the user's is shown beside the catalogue. The verdict is SAMPLED at best: it is one
     world.

@@ -25,7 +25,7 @@ from topo_verify.harness.verify.generated import generated_worlds
 from topo_verify.harness.verify.parts import Part, PartJob
 from topo_verify.harness.verify.proofs import Proofs
 from topo_verify.harness.verify.small_worlds import SmallWorlds
-from topo_verify.harness.verify.trials import PATIENCE, Costs, Trials
+from topo_verify.harness.verify.trials import MAX_TIMEOUTS, CostTrial, Trials
 from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
@@ -81,7 +81,7 @@ def _jobs(
         worlds=lambda: sampled_worlds(sampled, seed),
         targets=targets,
         limits=limits,
-        patience=PATIENCE,
+        max_failing=MAX_TIMEOUTS,
     )
     generated = generated_worlds(each, seed)
     yield Trials(
@@ -91,9 +91,9 @@ def _jobs(
         worlds=lambda: generated,
         targets=targets,
         limits=limits,
-        patience=PATIENCE,
+        max_failing=MAX_TIMEOUTS,
     )
-    yield Costs("street-network", "nyc", resolve_world("nyc"), targets, limits)
+    yield CostTrial("street-network", "nyc", resolve_world("nyc"), targets, limits)
 
 
 def sampled_worlds(number: int, seed: int) -> Iterator[World]:

@@ -1,0 +1,126 @@
+"""Shards examined in other processes: what the pool's workers do for a search.
+
+A world that kills its worker twice is a finding, for no map was delivered. So is a world in which a
+worker gives no sign of life for longer than any limit allows: its mapper cannot be interrupted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
+from itertools import pairwise
+
+import msgspec
+
+from topo_verify.checkers import Finding
+from topo_verify.errors import InputError
+from topo_verify.harness.pool import Division, Loss, Work
+from topo_verify.harness.run import replay_line
+from topo_verify.harness.search.identity import source_hash
+from topo_verify.harness.search.plan import Plan, Shard
+from topo_verify.harness.search.shard import examine_shard
+from topo_verify.harness.tally import Failing, Failure, Tally
+from topo_verify.harness.targets import targets
+from topo_verify.harness.worker import Beat, Handler
+from topo_verify.programs.loading import Target
+from topo_verify.robot.limits import Limits
+from topo_verify.world.enumeration.pruned import ranked_tables
+
+GRACE = 5.0
+"""Seconds without a heartbeat, beyond all limits of a run, until a worker is given up."""
+
+
+class SearchJob(msgspec.Struct, frozen=True):
+    """What a worker is handed before its first shard; `sources`: the hash of the mappers' files."""
+
+    plan: Plan
+    sources: str
+
+
+def shard_work(plan: Plan, mappers: Sequence[Target]) -> Work[Shard, Tally]:
+    """What a pool is to do for a search.
+
+    Args:
+        mappers: the targets of the plan, as this process found them.
+    """
+
+    def lost(shard: Shard, loss: Loss) -> Tally:
+        """The shard has one world, which is to blame; or none, if it was cut behind the last."""
+        if loss.loading:
+            raise InputError(
+                f"target {plan.targets[0]!r}: a process that loads it ends ({loss.cause})"
+            )
+        ranks = _ranks(plan, shard)
+        return _convicted(plan, shard.edges, ranks[0], loss) if ranks else Tally()
+
+    # A failing mapper is run in a witness world, too, under the usual limits.
+    silence = GRACE + max(plan.limits.world_timeout, Limits().world_timeout)
+    return Work(
+        serve=f"{__name__}:serve_shards",
+        job=SearchJob(plan, source_hash(mappers)),
+        result=Tally,
+        lost=lost,
+        silence=silence,
+        division=Division(
+            cut=lambda shard, worlds: _cut(plan, shard, worlds),
+            join=lambda tallies: sum(tallies, Tally()),
+            last=lambda tally: tally.failing > 0 and not plan.keep_going,
+        ),
+    )
+
+
+def _cut(plan: Plan, shard: Shard, worlds: int) -> list[Shard]:
+    """Cut a shard around the world where its worker was last seen, after so many worlds."""
+    ranks = _ranks(plan, shard)
+    if len(ranks) < 2:
+        return []
+    at = min(worlds, len(ranks) - 1)
+    cuts = [shard.start, *ranks[max(at, 1) : at + 2], shard.stop]
+    return [Shard(shard.edges, start, stop) for start, stop in pairwise(cuts)]
+
+
+def _ranks(plan: Plan, shard: Shard) -> list[int]:
+    """The ranks of the worlds in a shard."""
+    listed = ranked_tables(shard.edges, plan.world_class, shard.start, shard.stop)
+    return [rank for rank, _ in listed]
+
+
+def _convicted(plan: Plan, edges: int, rank: int, loss: Loss) -> Tally:
+    """The tally of one world, in which the mapper took its process with it."""
+    target, world, claim = plan.targets[0], f"m{edges}/{rank}", "map-isomorphic"
+    replay = replay_line(world, target, None, plan.limits.options)
+    message = f"no map was delivered: {loss}"
+    finding = Finding(claim, None, "a map", None, message, None, world, replay)
+    failure = Failure(edges, rank, target, (finding,))
+    return Tally(
+        worlds=1,
+        failing=1,
+        statuses={claim: {"failed": 1}},
+        claims={claim: Failing(1, failure)},
+        failures=(failure,),
+    )
+
+
+# ---------------------------------------------------------------- in a worker
+
+
+@contextmanager
+def serve_shards(job: bytes) -> Generator[Handler]:
+    """Load the mappers of a `SearchJob`, then examine shards.
+
+    Raises:
+        InputError: a mapper cannot be loaded, or its source is another than when the search began.
+    """
+    search = msgspec.json.decode(job, type=SearchJob)
+    plan = search.plan
+    mappers = [target for text in plan.targets for target in targets(text)]
+    if source_hash(mappers) != search.sources:
+        raise InputError(
+            f"target {plan.targets[0]!r}: its source, or topo-verify's, has changed since the"
+            " search began: start it again"
+        )
+
+    def examine(shard: bytes, beat: Beat) -> Tally:
+        return examine_shard(plan, mappers, msgspec.json.decode(shard, type=Shard), beat)
+
+    yield examine
