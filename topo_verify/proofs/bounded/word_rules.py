@@ -1,12 +1,12 @@
 """The rules on whole words: every word of up to `steps` doors, on every map of every world.
 
-Each function says, as clauses, that a rule goes wrong: it confirms a false hypothesis, or rejects
-the true one. That nothing satisfies them is the statement. The letters and the rules: `walks.py`;
-of one door at a time, and so of words of any length: `one_door.py`. Here nothing is left to an
-induction.
+Each function returns clauses that describe a failure of a rule: it confirms a false hypothesis, or
+rejects the true one. The statement is that nothing satisfies them. `walks.py` explains the letters
+and the rules. `door_steps.py` treats one door at a time, and words of any length by induction; here
+no induction is needed, for words that are short.
 
-With a `fault` the rule is changed in one way, and there is a world in which it goes wrong; the rows
-that say what happens there are in the `Play`, for `replaying.py`.
+With a `fault` the rule is changed in one way, and there is a world in which it fails. The rows that
+say what happens there are in the `EncodedCounterexample`, for `decode.py` and `replay.py`.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from topo_verify.proofs.bounded.walks import (
 
 @dataclass(frozen=True, slots=True)
 class EncodedExcursion:
-    """An earlier one: the map before it, the dart crossed, the word executed behind."""
+    """An earlier excursion: the map before it, the dart crossed, the word executed behind it."""
 
     chart: EncodedMap
     e: CnfRow
@@ -46,12 +46,13 @@ class EncodedCounterexample:
     """A formula, and the rows that say what happens in a world that satisfies it.
 
     Attributes:
-        chart: the map S; e, h: the dart crossed and the hypothesis.
+        chart: the map S.
+        e, h: the dart crossed, and the hypothesis for its other end.
         executed: the doors that the robot takes behind e.
-        made: per door: is it taken? None: all are.
-        own: for `prefix`, the hypothesis' own way.
-        turned: for the fault of that name: the door of an earlier excursion.
-        earlier, levels: for `records`: what was recorded, and how deep it is compared.
+        made: per door, is it taken? None: all are.
+        own: for `prefix`, the doors of the hypothesis' own way home.
+        turned: for the fault of that name, the door of an earlier excursion.
+        earlier, levels: for `records`, the recorded excursion, and the depth compared.
     """
 
     world: Worlds
@@ -67,9 +68,9 @@ class EncodedCounterexample:
 
 
 def confirm(edges: int, steps: int, *, marker: MarkerDetail = "directed") -> EncodedCounterexample:
-    """A way home from h ends at v0 as it should, and yet h is not the other end of e.
+    """A way home from h ends with v0's percept as expected, and h is not the other end of e.
 
-    Only the last percept is compared: those between can only reject more.
+    Only the last percept is compared: comparing those between could only reject more.
     """
     scene = behind_an_edge(edges)
     world, h = scene.world, hypothesis(scene)
@@ -90,7 +91,7 @@ def confirm(edges: int, steps: int, *, marker: MarkerDetail = "directed") -> Enc
 
 
 def trace_way(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterexample:
-    """On a way over explored darts from the true h, a percept is not the expected one."""
+    """On a way over explored darts from the true h, a percept differs from the expected one."""
     scene = behind_an_edge(edges)
     world, h = scene.world, true_hypothesis(scene)
     word, go = doors(world, "door", steps), going(world, "way", steps)
@@ -111,7 +112,7 @@ def trace_way(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounte
 
 
 def prefix(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterexample:
-    """Any word was executed; on the common prefix with the way of the true h, percepts differ."""
+    """On the common prefix of any executed word and the way of the true h, percepts differ."""
     scene = behind_an_edge(edges)
     world, h = scene.world, true_hypothesis(scene)
     own, go = doors(world, "own", steps), going(world, "way", steps)
@@ -134,7 +135,7 @@ def prefix(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterex
 
 
 def history(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterexample:
-    """Any word was executed; traced on S from the true h, a percept differs."""
+    """Any executed word, traced on S from the true h, shows a percept that differs."""
     scene = behind_an_edge(edges)
     world, h = scene.world, true_hypothesis(scene)
     word = doors(world, "door", steps)
@@ -152,7 +153,7 @@ def history(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCountere
 def records(
     edges: int, steps: int, *, levels: int | None, fault: RuleFault = ""
 ) -> EncodedCounterexample:
-    """A word was recorded behind an unexplored dart; a true h is traced across it, and they differ.
+    """A word traced from the true h crosses a recorded dart, and a percept differs from the record.
 
     The map `before` has the unexplored dart `e1`; behind it the word `wrote` is executed, e1 turns
     out to end in `entry`, which gives the map `earlier`, and the word is traced on it again. S is
@@ -191,7 +192,7 @@ def records(
 
 
 def _root(world: Worlds, entry: CnfRow, fault: RuleFault) -> CnfRow:
-    """Where the earlier word is traced from: its entry dart, or (a fault) the vertex's first."""
+    """The dart from which the earlier word is traced: the entry dart, or (a fault) the first."""
     if fault != "first-dart":
         return entry
     first = world.position("first-dart", "root")
@@ -204,7 +205,7 @@ def _root(world: Worlds, entry: CnfRow, fault: RuleFault) -> CnfRow:
 def _links(
     world: Worlds, past: TracedWalk, now: TracedWalk, later: EncodedMap, levels: int | None
 ) -> dict[tuple[int, int], CnfLiteral]:
-    """link[j, i]: what was seen behind door j of the past is what is compared behind door i now."""
+    """link[j, i]: the percept recorded behind door j is compared with the one behind door i."""
     link: dict[tuple[int, int], CnfLiteral] = {}
     for j, ended in enumerate(past.ends):
         explored = world.at_one_of("records", past.walk.leave[j], later.explored, f"dropped.{j}")
