@@ -29,7 +29,7 @@ class Excursion:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Counterexample:
+class BoundedCounterexample:
     """A decoded counterexample. The darts of S and of the world have one numbering.
 
     Attributes:
@@ -79,13 +79,13 @@ def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
     return tuple(literal for row in rows for literal in row)
 
 
-def decode(encoded: EncodedCounterexample, model: Assignment) -> Counterexample:
+def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCounterexample:
     """The counterexample that an assignment encodes."""
     world = decode_world(encoded.world, model)
     made = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
     own = encoded.own or encoded.executed
     behind = encoded.earlier
-    return Counterexample(
+    return BoundedCounterexample(
         world=world,
         explored=_edges(world, encoded.chart, model),
         e=model.index(encoded.e),

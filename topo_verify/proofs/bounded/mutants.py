@@ -19,7 +19,7 @@ from functools import partial
 from time import perf_counter
 
 from topo_verify.proofs.bounded import negatives, word_rules
-from topo_verify.proofs.bounded.decode import Counterexample, decode, decoded_booleans
+from topo_verify.proofs.bounded.decode import BoundedCounterexample, decode, decoded_booleans
 from topo_verify.proofs.bounded.encoding import MarkerDetail
 from topo_verify.proofs.bounded.replay import (
     ReplayedCounterexample,
@@ -163,7 +163,7 @@ def _mutant(case: _FaultyRule) -> Theorem:
     )
 
 
-def _replay_of(case: _FaultyRule) -> Callable[[Counterexample], ReplayedCounterexample]:
+def _replay_of(case: _FaultyRule) -> Callable[[BoundedCounterexample], ReplayedCounterexample]:
     match case.fault:
         case "directed" | "undirected" | "none" as marker:
             return partial(replay_confirmation, marker=marker, whole=False)
@@ -173,7 +173,7 @@ def _replay_of(case: _FaultyRule) -> Callable[[Counterexample], ReplayedCountere
 
 def _refute(
     build: Callable[[], EncodedCounterexample],
-    replay: Callable[[Counterexample], ReplayedCounterexample],
+    replay: Callable[[BoundedCounterexample], ReplayedCounterexample],
     budget: Budget,
 ) -> TheoremResult:
     """The result of looking for a model; one that is found is decoded and replayed."""

@@ -23,7 +23,7 @@ from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.motion import Pilot, common_prefix
 from topo_verify.checkers import check
 from topo_verify.errors import InternalError
-from topo_verify.proofs.bounded.decode import Counterexample, DoorWord, Excursion
+from topo_verify.proofs.bounded.decode import BoundedCounterexample, DoorWord, Excursion
 from topo_verify.proofs.bounded.encoding import MarkerDetail
 from topo_verify.proofs.bounded.walks import RuleFault
 from topo_verify.robot.events import (
@@ -59,7 +59,7 @@ class ReplayedCounterexample:
 
 
 def replay_confirmation(
-    found: Counterexample, marker: MarkerDetail, *, whole: bool = True
+    found: BoundedCounterexample, marker: MarkerDetail, *, whole: bool = True
 ) -> ReplayedCounterexample:
     """Replay a false confirmation.
 
@@ -85,7 +85,9 @@ def replay_confirmation(
     return run.judge(Confirm(found.e, found.h, "motion"), "no-false-confirm")
 
 
-def replay_rejection(found: Counterexample, rule: str, fault: RuleFault) -> ReplayedCounterexample:
+def replay_rejection(
+    found: BoundedCounterexample, rule: str, fault: RuleFault
+) -> ReplayedCounterexample:
     """Replay a false rejection.
 
     Args:
@@ -112,7 +114,9 @@ def replay_rejection(found: Counterexample, rule: str, fault: RuleFault) -> Repl
 # ------------------------------------------------------------------ the faulty rules
 
 
-def _compared(run: _Replayer, found: Counterexample, rule: str, fault: RuleFault) -> PerceptPairs:
+def _compared(
+    run: _Replayer, found: BoundedCounterexample, rule: str, fault: RuleFault
+) -> PerceptPairs:
     """The pairs of percepts that the rule compares for h, in its order."""
     if rule == "records":
         return _records(run, found)
@@ -129,7 +133,7 @@ def _along(run: _Replayer, way: list[Dart], fault: RuleFault) -> PerceptPairs:
         yield step, run.chart.percepts[at], seen
 
 
-def _prefix(run: _Replayer, found: Counterexample, fault: RuleFault) -> PerceptPairs:
+def _prefix(run: _Replayer, found: BoundedCounterexample, fault: RuleFault) -> PerceptPairs:
     """The percepts on the common prefix; with the fault `one-more` one door further."""
     way = _way(run.chart, found.h, found.own)
     shared = common_prefix(found.own, found.word) + int(fault == "one-more")
@@ -137,7 +141,7 @@ def _prefix(run: _Replayer, found: Counterexample, fault: RuleFault) -> PerceptP
         yield step, run.chart.percepts[way[step]], run.pilot.percepts[step]
 
 
-def _records(run: _Replayer, found: Counterexample) -> PerceptPairs:
+def _records(run: _Replayer, found: BoundedCounterexample) -> PerceptPairs:
     """The records behind the unexplored dart where tracing ends, as deep as the doors agree."""
     assert found.earlier is not None
     step = len(_traced(run.chart, found.h, found.word))
@@ -191,7 +195,7 @@ def _seen(percept: Percept, marker: MarkerDetail) -> object:
 class _Replayer:
     """A robot that draws the map of a counterexample in its world. Lives for one replay."""
 
-    def __init__(self, found: Counterexample, fault: RuleFault = "") -> None:
+    def __init__(self, found: BoundedCounterexample, fault: RuleFault = "") -> None:
         self.world = found.world
         self.robot = SimulatedRobot(found.world, 10_000)
         self.chart = Chart(self.robot.percept)
