@@ -82,6 +82,7 @@ def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
 def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCounterexample:
     """The counterexample that an assignment encodes."""
     world = decode_world(encoded.world, model)
+    # The steps that are made are a prefix of the word, so their number says which they are.
     made = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
     own = encoded.own or encoded.executed
     behind = encoded.earlier

@@ -92,6 +92,7 @@ class Worlds(Formula):
         self.add("rotation", self.first[0])
         for f in self.darts:
             for after in range(f + 1, end + 1):
+                # No dart inside begins another vertex, and the one after the last does, if any.
                 inside = [-self.first[d] for d in range(f + 1, after)]
                 closed = [] if after == end else [self.first[after]]
                 self.vertex[f, after - f] = self.define_and(
@@ -103,12 +104,14 @@ class Worlds(Formula):
             self.exactly_one("edges", [self.edge(d, x) for x in self.darts if x != d])
         for (e, f), joined in self.joined.items():
             self.entry[e, f] = self.define_and("edges", f"entry.{e}.{f}", [self.first[f], joined])
+        # Each vertex but v0 hangs on a smaller dart: by induction every vertex is joined with v0.
         for f in self.darts[1:]:
             self.imply("connected", [self.first[f]], *(self.entry[e, f] for e in range(f)))
 
     def _first_vertex(self) -> CnfRow:
         """Per dart, the Boolean that it is a dart of v0."""
         degrees = [self.vertex[0, after] for after in range(1, len(self.darts) + 1)]
+        # Dart d is at v0 exactly if v0, which begins with dart 0, has more than d darts.
         return tuple(self.define_or("rotation", f"in_v0.{d}", degrees[d:]) for d in self.darts)
 
     # ------------------------------------------------------------ the map S
@@ -161,9 +164,10 @@ class Worlds(Formula):
             literal = self.define_and(
                 group, f"same.{a}.{b}", [-self.first[d] for d in range(a + 1, b + 1)]
             )
-            same[a, b] = same[b, a] = literal
+            same[a, b] = same[b, a] = literal  # no vertex begins between a and b
         for (a, b), joined in self.joined.items():
-            self.imply(group, [joined], -same[a, b])
+            self.imply(group, [joined], -same[a, b])  # no loop
+            # No second edge c-d beside a-b. c and d come in both orders, and a is the least dart.
             for c in self.darts if world_class == "simple" else ():
                 for d in self.darts:
                     if a < min(c, d) and b not in {c, d} and c != d:
@@ -193,6 +197,7 @@ class Worlds(Formula):
             for x in range(f, f + degree):
                 for k in self.darts:
                     here = (*guard, at[x], vertex)
+                    # A door beyond the degree does not exist: the row of doors must not choose it.
                     if k < degree:
                         place = k if absolute else (x - f + k) % degree
                         self.imply(group, (*here, door[k]), leave[f + place])
@@ -223,8 +228,10 @@ class Worlds(Formula):
         for (f, doors), vertex in self.vertex.items():
             for x in range(f, f + doors):
                 self.imply(group, [at[x], vertex], degree[doors - 1])
+                # From dart x of v0 the marked dart, 0, is x doors back: door -x modulo the degree.
                 if f == 0:
                     self.imply(group, [at[x], vertex], marker[-x % doors])
+        # Where v0 is not sensed, all of `marker` is false: at most one door, and none without it.
         for one, other in combinations(marker, 2):
             self.add(group, -one, -other)
         for door in marker:
@@ -248,6 +255,7 @@ class Worlds(Formula):
                 )
             )
         if marker == "directed":
+            # "Not here" completes the marker's row to a one-hot one, as `define_equal` needs it.
             away = (-one.here, *one.marker), (-other.here, *other.marker)
             parts.append(self.define_equal(group, f"{name}.marker", *away))
         return self.define_and(group, f"{name}.alike", parts)

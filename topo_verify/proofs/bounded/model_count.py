@@ -59,7 +59,7 @@ def missing_and_spurious(
     for code in codes(edges, world_class, budget):
         found += 1
         if code in wanted:
-            wanted.remove(code)
+            wanted.remove(code)  # so that a second model with this code counts as spurious
         else:
             spurious.append(code)
     return found, sorted(wanted), spurious

@@ -164,6 +164,7 @@ def _mutant(case: _FaultyRule) -> Theorem:
 
 
 def _replay_of(case: _FaultyRule) -> Callable[[BoundedCounterexample], ReplayedCounterexample]:
+    # A fault of `confirm` is how much of the marker is compared; any other is a `RuleFault`.
     match case.fault:
         case "directed" | "undirected" | "none" as marker:
             return partial(replay_confirmation, marker=marker, whole=False)

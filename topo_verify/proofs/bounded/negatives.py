@@ -77,6 +77,7 @@ def false_confirmation(edges: int, world_class: str, marker: MarkerDetail) -> En
     here = walk(world, "here", h, word, go)
     there = walk(world, "there", scene.vu, word, go)
     stay_explored(world, scene.chart, here, go)
+    # A step is made exactly if v0 is not reached yet, and after all steps it is.
     for i, on in enumerate(go):
         world.equate("way", (), (on,), (-here.senses[i].here,))
     world.add("way", here.senses[-1].here)
@@ -105,6 +106,7 @@ def depths(world: Worlds, chart: EncodedMap) -> tuple[CnfRow, ...]:
             for u in range(t):
                 world.add(group, -depth[d][t], -depth[d][u])
         world.imply(group, [down[d]], chart.explored[d])
+    # All darts of a vertex have one depth, and each vertex but v0 has a dart that leads nearer.
     for (f, degree), vertex in world.vertex.items():
         for x in range(f + 1, f + degree):
             world.equate(group, (vertex,), depth[x], depth[f])
@@ -116,6 +118,7 @@ def depths(world: Worlds, chart: EncodedMap) -> tuple[CnfRow, ...]:
             for t in levels[1:]:
                 joined = (world.edge(a, b), depth[x][t])
                 world.imply(group, (*joined, down[x]), depth[y][t - 1])
+                # An explored edge changes the depth by at most one: so depths are distances.
                 farther = depth[y][t - 1 : t + 2]
                 world.imply(group, (*joined, chart.explored[x]), *farther)
     return depth

@@ -212,6 +212,7 @@ class _Replayer:
         """Walk to e, cross it, and pose the hypotheses that look like the vertex behind it."""
         del self.chart.unexplored[e]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
+        # Hypotheses are posed by what does not depend on the reference dart, hence no direction.
         signature: MarkerDetail = "undirected" if marker == "directed" else marker
         seen = _seen(self.pilot.cross(self.chart, self.at, e), signature)
         percepts = self.chart.percepts
@@ -232,6 +233,7 @@ class _Replayer:
     def judge(self, result: Decision, claim: str) -> ReplayedCounterexample:
         """Declare a decision; the checkers must find that the claim fails at this very event."""
         self.robot.declare(result)
+        # The verdict of the trusted checkers counts, not that of the encoding.
         trace = (Start(percept=first_percept(self.world)), *self.robot.events)
         event = len(trace) - 1
         findings = [found for judged in check(self.world, trace) for found in judged.findings]
@@ -242,6 +244,7 @@ class _Replayer:
 
     def _draw(self, explored: frozenset[tuple[Dart, Dart]]) -> None:
         """Explore these edges: first those that find vertices, in their order, then the others."""
+        # First the edges by which vertices are found, or others would find them with other numbers.
         firsts = {rotation[0] for rotation in self.world.vertices[1:]}
         for e, end in sorted(explored, key=lambda edge: (edge[1] not in firsts, edge[1])):
             if self.chart.alpha[e] is None:

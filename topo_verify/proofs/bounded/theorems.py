@@ -159,12 +159,14 @@ def _prove(name: str, statement: BoundedStatement, sizes: range, budget: Budget)
         if result.answer != "unsat":
             return outcome(*_not_proved(formula, result, m))
         cores |= set(result.core)
+        # Unsatisfiable premises would make any conclusion hold, so they are asked for each size.
         alone = formula.premises() if statement.premises is None else statement.premises(m)
         premises.append({"sat": True, "unsat": False, "unknown": None}[solve(alone, budget).answer])
         worlds = worlds_encoded(m, statement.world_class)
         if worlds is None:
             return outcome("UNKNOWN", f"the worlds with {m} edges could not be counted")
         checked += worlds
+        # After one size without a certificate there can be none for the theorem: stop making them.
         if budget.certify and not any(isinstance(attempt, str) for attempt in attempts):
             attempts.append(drup.certify(formula, seconds=budget.timeout))
     return outcome("EXHAUSTED")

@@ -144,7 +144,7 @@ def walk(
         at.append(world.position(name, f"{name}.at.{i + 1}"))
         world.turn(name, at[i], door, leave[i], *guard)
         world.cross(name, leave[i], at[i + 1], *guard)
-        if go is not None:
+        if go is not None:  # a step that is not made stays in place
             world.equate(name, (-go[i],), at[i], at[i + 1])
         senses.append(world.sense(name, at[i + 1], f"{name}.{i + 1}"))
     return Walk(tuple(at), word, tuple(leave), tuple(senses))
@@ -175,6 +175,7 @@ def trace(
 ) -> TracedWalk:
     """The walk along a word on a map, made as far as it crosses explored darts."""
     at, leave, senses = [start], list[CnfRow](), [world.sense(name, start, f"{name}.0")]
+    # Dart 0 always begins a vertex: `first[0]` is the constant true of the encoding.
     alive, ends = [world.first[0]], list[CnfLiteral]()
     for i, door in enumerate(word):
         leave.append(world.position(name, f"{name}.leave.{i}"))
@@ -184,6 +185,7 @@ def trace(
         on = world.define_and(name, f"{name}.on.{i + 1}", [alive[i], known])
         ends.append(world.define_and(name, f"{name}.ends.{i}", [alive[i], -known]))
         world.cross(name, leave[i], at[i + 1], on)
+        # Once the walk has ended it stays in place, so that all rows keep a definite value.
         world.equate(name, (-alive[i],), at[i], at[i + 1])
         through = fault == "through-unexplored"
         world.equate(name, (ends[i],), leave[i] if through else at[i], at[i + 1])
@@ -210,6 +212,7 @@ def differ_somewhere(
     """
     reached: list[CnfLiteral] = []
     seen: list[CnfLiteral] = []
+    # Without guards a place is always reached, and `met` has nothing to require for it.
     for i, (one, other, guards) in enumerate(pairs):
         same = world.alike("percepts", one, other, f"compare.{i}")
         if guards:

@@ -98,7 +98,7 @@ def trace_way(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounte
     here = walk(world, "here", h, word, go)
     stay_explored(world, scene.chart, here, go)
     start, turned = scene.vu, None
-    if fault == "turned":
+    if fault == "turned":  # the robot is turned by any door, and takes the doors as if it were not
         start, turned = world.position("turned", "start"), world.row("turned", "turn", 2 * edges)
         world.turn("turned", scene.vu, turned, start)
     there = walk(world, "there", start, word, go)
@@ -120,6 +120,7 @@ def prefix(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterex
     here = walk(world, "here", h, own, go)
     stay_explored(world, scene.chart, here, go)
     there = walk(world, "there", scene.vu, executed)
+    # shared[i]: the first i doors agree, and the own way has that many. first[0] is always true.
     shared = [world.first[0]]
     for i in range(steps):
         same = world.define_equal("prefix", f"same.{i}", own[i], executed[i])
@@ -169,6 +170,7 @@ def records(
     world.number_the_rest(later.known)
     written, read = doors(world, "wrote", steps), doors(world, "door", steps)
     e1, entry = crossed(world, before, "e1")
+    # `earlier` is `before` with the one edge e1-entry explored as well, and no other.
     for d in world.darts:
         for dart in (before.explored[d], e1[d], entry[d]):
             world.imply("augment", [dart], earlier.explored[d])
@@ -213,8 +215,10 @@ def _links(
             tag = f"{j}.{i}"
             one, other = past.walk.leave[j], now.walk.leave[i]
             same = world.define_equal("records", f"crossed.{tag}", one, other)
+            # Both walks end by crossing the same dart, which S has not explored: a record begins.
             begins = [ended, ends, same, -explored]
             linked = world.define_and("records", f"begins.{tag}", begins)
+            # Behind linked doors, equal doors are linked as well: the record goes one place deeper.
             if levels is None and j and i:
                 words = past.walk.doors[j], now.walk.doors[i]
                 further = world.define_equal("records", f"door.same.{tag}", *words)

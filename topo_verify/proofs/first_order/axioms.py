@@ -76,6 +76,7 @@ AXIOMS: dict[str, Term] = {
     # the world
     "sigma-injective": forall((a, b), eq(sigma(a), sigma(b)), eq(a, b)),
     "alpha-involution": forall(a, eq(alpha(alpha(a)), a)),
+    # A loop has two darts: no edge consists of one dart alone.
     "alpha-no-fixed-point": forall(a, differ(alpha(a), a)),
     "degree-of-vertex": forall(a, eq(deg(sigma(a)), deg(a))),
     "marker-of-vertex": forall(a, eq(inv0(sigma(a)), inv0(a))),
@@ -99,6 +100,7 @@ AXIOMS: dict[str, Term] = {
     "map-v0-sees-root": forall(x, minv0(x), eq(mrot(x, mtoroot(x)), mroot)),
     "map-rot-zero": forall(x, eq(mrot(x, k0), x)),
     "map-rot-next": forall((x, k), eq(mrot(x, succ(k)), msigma(mrot(x, k)))),
+    # S is finite, so msigma, which is injective, is onto; no other axiom says that S is finite.
     "map-sigma-onto": forall(x, eq(msigma(mback(x)), x), tried_at=((phi(x),),)),
     "map-doors-wrap": forall(
         (x, i, j),
@@ -111,6 +113,7 @@ AXIOMS: dict[str, Term] = {
     "phi-sigma": forall(x, eq(phi(msigma(x)), sigma(phi(x)))),
     "phi-degree": forall(x, eq(mdeg(x), deg(phi(x)))),
     "phi-marker": forall(x, eq(minv0(x), inv0(phi(x)))),
+    # malpha means nothing at an unexplored dart: every use of it has `explored` as a premise.
     "phi-alpha": forall(x, explored(x), eq(phi(malpha(x)), alpha(phi(x)))),
     "explored-both-ends": forall(x, explored(x), explored(malpha(x))),
     # words

@@ -90,13 +90,13 @@ class DescribedRule:
         for step, (own, door) in enumerate(zip(h.doors, doors, strict=False), 1):
             if place.holds(self.terms["prefix"], x=h.arrivals[step - 1], own=own, k=door, b=step):
                 return step
-            if own != door:
+            if own != door:  # the common prefix ends here
                 return None
         return None
 
     def _traced(self, place: Structure, at: Dart, doors: Sequence[Door]) -> RuleRejection | None:
         hypothesis, functions = at, place.functions
-        node: int | None = None
+        node: int | None = None  # of the trie, once tracing has left S through a dart with a record
         depth = 0
         for step, door in enumerate(doors, 1):
             if node is None:
@@ -126,6 +126,7 @@ class DescribedRule:
         """Write the records of one edge, whose entry dart is now known."""
         if self.rule != "records":
             return
+        # The edge is explored now: nothing is traced out of S through its darts any more.
         self.trie.records.pop(e, None)
         self.trie.records.pop(entry, None)
         for doors, seen in words:
@@ -216,11 +217,13 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
                 if step != evidence.step or expected:
                     yield f"event {when}: motion rejects {dart} at {evidence.step}, not {step}"
                 remaining.remove(dart)
+                # A mismatch after at least one door puts the rule to all remaining hypotheses.
                 if reading.doors:
                     words.append((reading.doors.copy(), reading.seen.copy()))
                     expected = list(_sifted(described, reading, remaining, tree))
             case Reject(_, dart, rule, evidence):
                 declared = RuleRejection(dart, rule, evidence.step)
+                # The rule's rejections must come in the described order, each exactly once.
                 if not expected or expected.pop(0) != declared:
                     yield f"event {when}: {declared} is not the rejection that the rule describes"
                 remaining.remove(dart)

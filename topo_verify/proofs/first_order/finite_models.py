@@ -58,6 +58,7 @@ def smallest(assertions: Mapping[str, Term], budget: Budget) -> FiniteModel:
     for darts, others in SIZES:
         sizes = {sort: darts if sort == "W" else others for sort in sorts}
         last = model(formulas, sizes, budget)
+        # `unknown` ends the search as well: a larger model would not be the smallest.
         if last.answer != "unsat":
             return last
     return last
@@ -88,6 +89,7 @@ def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) ->
         element(sort, n).symbol.name: {(): n} for sort, size in sizes.items() for n in range(size)
     }
     structure = of_tables(sizes, {**rows, **named})
+    # Z3's model of the expanded formulas must be one of the formulas themselves.
     for formula in formulas:
         if not structure.holds(formula):
             raise InternalError(f"{formula} does not hold in the model that Z3 found for it")
@@ -140,6 +142,7 @@ def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iter
     for sort, size in sizes.items():
         for one, other in combinations(range(size), 2):
             yield differ(element(sort, one), element(sort, other))
+    # The alias makes Z3 name the value in its model; `disj` keeps it among the elements.
     for alias, symbol, _, applied in entries:
         yield eq(alias, applied)
         if symbol.result != BOOL:
@@ -159,6 +162,7 @@ def grounded(formulas: Sequence[Term], sizes: Mapping[str, int]) -> str:
     """The SMT-LIB script that asks for a structure with these numbers of elements."""
     entries = list(_entries(formulas, sizes))
     rows = [*(ground(formula, sizes) for formula in formulas), *_domains(entries, sizes)]
+    # A script names its assertions, and no name may be that of a symbol: c0, c1, ... are free.
     return script({f"c{number}": term for number, term in enumerate(rows)}, logic="QF_UF")
 
 

@@ -55,6 +55,7 @@ def _of_chart(chart: Chart) -> dict[str, Function]:
     percepts, alpha = chart.percepts, chart.alpha
     return {
         "explored": unary(lambda x: alpha[x] is not None),
+        # No rule uses malpha at an unexplored dart; any value will do there.
         "malpha": unary(lambda x: x if alpha[x] is None else chart.across(x)),
         "mrot": binary(chart.turn),
         "mdeg": unary(lambda x: percepts[x].degree),

@@ -40,6 +40,7 @@ class SceneReplay:
         self.at: Dart = 0
         self.trie = RecordTrie()
         left_out = {scene.constants[name] for name in without}
+        # Both darts of an edge are left out, whichever of them is named.
         left_out |= {self._other(x) for x in left_out}
         self.number: dict[int, Dart] = {}
         """For each dart of the scene's S, its number on the chart."""
@@ -66,6 +67,8 @@ class SceneReplay:
     def _draw(self, left_out: Collection[int]) -> None:
         edges = [x for x in sorted(self.scene.explored) if x not in left_out]
         while len(self.number) < len(self.scene.place):
+            # An edge into a vertex that is not drawn yet, by its first dart. It exists, since the
+            # scene requires that S was discovered in this way.
             x = next(
                 x
                 for x in edges

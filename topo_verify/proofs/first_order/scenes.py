@@ -39,6 +39,7 @@ from topo_verify.proofs.first_order.terms import (
 from topo_verify.proofs.theorem import Budget, SolverAnswer
 from topo_verify.world.rooted_map import World
 
+# 12 is the least common multiple of 1, 2, 3, 4: every turn comes round after so many doors.
 DOORS, MOST_DEGREE = 12, 4
 
 mfirst = Symbol("mfirst", ("M",), "M")
@@ -163,6 +164,7 @@ def _decoded(structure: Structure, darts: int, known: int, given: Mapping[str, T
         tuple(int(of["sigma"](d)) for d in range(darts)),
         int(of["root"]()),
     )
+    # Degrees are elements 0, 1, ... of the sort G, so element n - 1 stands for degree n.
     for d in range(darts):
         if of["deg"](d) != world.degrees[world.vertex_of[d]] - 1:
             raise InternalError(f"the model's degree at dart {d} is not that of its world")

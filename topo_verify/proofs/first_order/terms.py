@@ -106,6 +106,7 @@ def eq(one: Term, other: Term) -> Term:
     """The formula that they are equal; between formulas, that one holds iff the other does."""
     if one.sort != other.sort:
         raise TypeError(f"= between {one.sort} and {other.sort}")
+    # One symbol `=` for each sort, so that sorts are checked as for any other symbol.
     return App(Symbol("=", (one.sort, one.sort), BOOL), (one, other))
 
 
@@ -141,6 +142,7 @@ def symbols(term: Term) -> Iterator[Symbol]:
             pass
         case Forall(_, body, patterns):
             yield from symbols(body)
+            # A pattern may hold a symbol that the body does not: it needs a declaration, too.
             for group in patterns:
                 for hint in group:
                     yield from symbols(hint)
@@ -235,6 +237,7 @@ def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
         for symbol in symbols(term):
             if found.setdefault(symbol.name, symbol) != symbol:
                 raise TypeError(f"two symbols are called {symbol.name}")
+    # Sorted: the same terms always give the same text, and so the same question.
     lines = [f"(declare-sort {sort} 0)" for sort in sorted(sorts - {BOOL})]
     return lines + [
         f"(declare-fun {symbol.name} ({' '.join(symbol.arguments)}) {symbol.result})"

@@ -56,6 +56,7 @@ def _prover(obligation: Obligation) -> Callable[[Budget], TheoremResult]:
     def prove(budget: Budget) -> TheoremResult:
         begin = perf_counter()
         reply = refute(obligation.negation(), budget)
+        # Only `unsat` is a proof. A model with quantifiers cannot be evaluated, so `sat` refutes nothing.
         if reply.answer != "unsat":
             return TheoremResult(
                 verdict="UNKNOWN",
@@ -93,6 +94,7 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
         begin = perf_counter()
         found = finite_models.smallest(formulas, budget)
         if found.structure is None:
+            # No model of these sizes: the mutant was not refuted, and EXHAUSTED is unexpected.
             exhausted = found.answer == "unsat"
             return TheoremResult(
                 verdict="EXHAUSTED" if exhausted else "UNKNOWN",

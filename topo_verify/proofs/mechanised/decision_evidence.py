@@ -106,6 +106,7 @@ def evidence_for_decisions(trace: Sequence[Event]) -> EntailedDecisions:
         InternalError: a decision follows, and no evidence is found for it.
     Complexity: nearly linear in the length of the trace, and what each assumed edge adds.
     """
+    # With the planar prior, a decision may follow for planar worlds only and lack evidence here.
     prior = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     log = _LogSoFar()
     stated: list[EntailedDecision] = []
@@ -197,6 +198,7 @@ class _LogSoFar:
             found = [self.joined(edge, self.map_to_fold[other])]
         if isinstance(event, Augment):
             self.opened -= {edge, event.dart}
+        # All or nothing: half of the facts of an augmentation would state less than it declares.
         facts = tuple(fact for fact in found if fact is not None)
         return facts if len(facts) == len(found) else ()
 

@@ -180,6 +180,7 @@ class ProofProducingFold:
         self.edges.append((one, other))
         conflict = self.cross(number) or self.alone()
         found = tuple(self.meetings[met:])
+        # An assumed edge leaves no trace: the next decision starts from the log alone.
         self._undo(done)
         del self.meetings[met:], self.edges[number:]
         return found, conflict
@@ -231,6 +232,7 @@ class ProofProducingFold:
         """Add an arc and make all merges that follow; return the first conflict."""
         visit, dart = self.leaves(arc.visit) if arc.forwards else self.arrives(arc.visit)
         first = self.first(visit, dart, arc)
+        # A stack, not a recursion: one arc can set off as many merges as there are visits.
         todo: list[Meeting] = [] if first is arc else [(first, arc)]
         while todo:
             meeting = todo.pop()
@@ -263,6 +265,7 @@ class ProofProducingFold:
 
     def first(self, visit: int, dart: int, arc: Arc) -> Arc:
         """The arc that left first by a dart of a root: this one, if there was none."""
+        # Noted in `done` only if it is new, since `_undo` deletes what is noted there.
         first = self.leaving[visit].setdefault(dart, arc)
         if first is arc:
             self.done.append((visit, dart))

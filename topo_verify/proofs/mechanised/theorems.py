@@ -178,6 +178,7 @@ def asked(folder: Path, *, timeout: float) -> str:
     """Coq's answer about the axioms of all theorems together, asked beside the compiled library."""
     imports = " ".join(dict.fromkeys(one.file for one in STATEMENTS))
     theorems = ", ".join(f"@{one.file}.{one.theorem}" for one in STATEMENTS)
+    # One tuple of all theorems: a single `Print Assumptions` then covers every one of them.
     text = f"From Topo Require {imports}.\nDefinition every := ({theorems}).\n"
     (folder / "asked.v").write_text(f"{text}Print Assumptions every.\n", encoding="utf-8")
     return toolchain.compile_one(folder, "asked", timeout=timeout).output
@@ -216,9 +217,8 @@ def _prover(statement: MechanisedStatement) -> Callable[[Budget], TheoremResult]
             verdict="UNKNOWN" if found.why else "PROVED",
             solver="coqc" if toolchain.missing() else toolchain.version(),
             seconds=found.seconds,
-            premises_satisfiable=None
-            if found.why
-            else True,  # torus_world, run_exists: worlds and runs
+            # Coq proves that worlds and runs exist (torus_world, run_exists): nothing is vacuous.
+            premises_satisfiable=None if found.why else True,
             note=found.why or f"coqchk: {found.summary}",
         )
 

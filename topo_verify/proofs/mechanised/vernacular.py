@@ -97,7 +97,7 @@ def coq_file(certificate: CoqCertificate) -> str:
         for door, percept in zip(certificate.doors, percepts[1:], strict=True)
     ]
     rows = [f"({r.following}, {r.previous}, {_option(r.other)})" for r in fold.table]
-    conflict = fold.conflict or Illegal()
+    conflict = fold.conflict or Illegal()  # a filler: the file always defines one
     decisions = certificate.decisions
     files, imports, decisions_text = "World.v and Log.v", "CheckerCorrect", ""
     if certificate.writes_decisions:
