@@ -56,7 +56,7 @@ def _prover(obligation: Obligation) -> Callable[[Budget], TheoremResult]:
     def prove(budget: Budget) -> TheoremResult:
         begin = perf_counter()
         reply = refute(obligation.negation(), budget)
-        # Only `unsat` is a proof. A model with quantifiers cannot be evaluated, so `sat` refutes nothing.
+        # Only `unsat` is a proof. No model with quantifiers is evaluated, so `sat` refutes nothing.
         if reply.answer != "unsat":
             return TheoremResult(
                 verdict="UNKNOWN",

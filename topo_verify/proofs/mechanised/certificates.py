@@ -72,7 +72,7 @@ class CertificateCheck:
     decisions: CertificateCheck | None = None
 
 
-def state(trace: Sequence[Event]) -> CoqCertificate:
+def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
     """The certificate of what a log proves, with its evidence.
 
     Raises:
