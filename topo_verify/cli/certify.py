@@ -194,7 +194,7 @@ def _proof(
     """
     from topo_verify.proofs.mechanised import certificates, vernacular
 
-    stated = certificates.state(log)
+    stated = certificates.certificate_of(log)
     shown = "undetermined" if certificate.witnesses else "impossible"
     if stated.statement != ("map" if certificate.map is not None else shown):
         raise InternalError(f"{traces[number]}: two folds of one log differ: {stated.statement}")

@@ -14,7 +14,7 @@ from tests.helpers import failing, worlds
 from topo_verify import World
 from topo_verify.harness.run import explore
 from topo_verify.proofs.bounded import negatives, word_rules
-from topo_verify.proofs.bounded.decode import Counterexample, decode, decoded_booleans
+from topo_verify.proofs.bounded.decode import BoundedCounterexample, decode, decoded_booleans
 from topo_verify.proofs.bounded.mutants import mutant_theorems, negative_theorems
 from topo_verify.proofs.bounded.negatives import SMALLEST, Negative, false_confirmation
 from topo_verify.proofs.bounded.replay import Disagreement, replay_confirmation, replay_rejection
@@ -101,7 +101,7 @@ def test_many_models_of_a_faulty_rule_replay(
         assert replay.claim == "true-hypothesis-kept"
 
 
-def _story(case: Negative) -> Counterexample:
+def _story(case: Negative) -> BoundedCounterexample:
     encoded = false_confirmation(case.edges, case.world_class, case.marker)
     model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
     assert model is not None

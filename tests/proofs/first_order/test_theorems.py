@@ -151,7 +151,7 @@ def test_a_mutant_that_holds_is_not_refuted() -> None:
 
 
 @pytest.mark.parametrize(
-    ("outcome", "standing"),
+    ("outcome", "status"),
     [
         (TheoremResult(verdict="PROVED", solver="", premises_satisfiable=True), "ok"),
         (TheoremResult(verdict="PROVED", solver="", premises_satisfiable=None), "open"),
@@ -163,7 +163,7 @@ def test_a_mutant_that_holds_is_not_refuted() -> None:
         ),
     ],
 )
-def test_only_what_is_as_it_must_be_is_ok(outcome: TheoremResult, status: str) -> None:
+def test_only_an_expected_and_complete_result_is_ok(outcome: TheoremResult, status: str) -> None:
     assert INDUCTIVE[0].status(outcome) == status
 
 

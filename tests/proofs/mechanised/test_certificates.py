@@ -69,25 +69,27 @@ LATTICE = log_of(families.lattice(3, 3))
 
 
 def test_what_is_stated_is_what_the_checkers_say() -> None:
-    found = [certificates.state(log).statement for log in logs()]
+    found = [certificates.certificate_of(log).statement for log in logs()]
     assert found == [stated(log) for log in logs()]
     assert set(found) == {"map", "undetermined", "impossible"}
 
 
 @pytest.mark.parametrize("start", [Percept(2, None), Percept(2, 1), Percept(0, 0)])
 def test_a_log_that_does_not_start_at_the_marker_is_impossible(start: Percept) -> None:
-    assert certificates.state(edited(LATTICE[:1], 0, percept=start)).statement == "impossible"
+    assert (
+        certificates.certificate_of(edited(LATTICE[:1], 0, percept=start)).statement == "impossible"
+    )
 
 
 def test_the_stated_map_is_the_proved_map() -> None:
     for world in worlds(range(1, 4)):
-        table = certificates.state(log_of(world)).fold.table
+        table = certificates.certificate_of(log_of(world)).fold.table
         alpha = tuple(-1 if row.other is None else row.other for row in table)
         assert World(alpha, tuple(row.following for row in table), 0).is_isomorphic(world)
 
 
 def test_a_closed_fold_has_a_row_for_every_dart() -> None:
-    fold = certificates.state(LATTICE).fold
+    fold = certificates.certificate_of(LATTICE).fold
     assert fold.closed
     assert len(fold.table) == 24
     assert all(fold.table[row.following].previous == dart for dart, row in enumerate(fold.table))
@@ -95,9 +97,9 @@ def test_a_closed_fold_has_a_row_for_every_dart() -> None:
 
 def test_the_world_without_edges_and_negative_numbers_are_outside() -> None:
     with pytest.raises(InputError, match="the world without edges"):
-        certificates.state(log_of(EMPTY))
+        certificates.certificate_of(log_of(EMPTY))
     with pytest.raises(InputError, match="below 0"):
-        certificates.state(edited(LATTICE, 3, door=-1))
+        certificates.certificate_of(edited(LATTICE, 3, door=-1))
 
 
 # ---------------------------------------------------------------- by coqc
@@ -105,20 +107,20 @@ def test_the_world_without_edges_and_negative_numbers_are_outside() -> None:
 
 @pytest.mark.parametrize("cut", [len(LATTICE), len(LATTICE) // 2])
 def test_coqc_accepts_a_certificate_and_names_no_axiom(place: Path, cut: int) -> None:
-    certificate = certificates.state(LATTICE[:cut])
+    certificate = certificates.certificate_of(LATTICE[:cut])
     assert by_coqc(place, certificate) == certificates.CertificateCheck(True, toolchain.version())
 
 
 @pytest.mark.parametrize("kind", [Arrive, Marked, Alone, Illegal])
 def test_coqc_accepts_that_no_world_shows_a_log(place: Path, kind: type) -> None:
-    stated = (certificates.state(log) for log in logs())
+    stated = (certificates.certificate_of(log) for log in logs())
     certificate = next(one for one in stated if isinstance(one.fold.conflict, kind))
     assert certificate.statement == "impossible"
     assert by_coqc(place, certificate).accepted
 
 
 def test_coqc_refuses_a_tampered_map(place: Path) -> None:
-    certificate = certificates.state(LATTICE)
+    certificate = certificates.certificate_of(LATTICE)
     table = list(certificate.fold.table)
     table[0], table[1] = (
         MapRow(table[0].following, table[0].previous, table[1].other),
@@ -129,7 +131,7 @@ def test_coqc_refuses_a_tampered_map(place: Path) -> None:
 
 
 def test_coqc_refuses_a_tampered_log(place: Path) -> None:
-    certificate = certificates.state(LATTICE)
+    certificate = certificates.certificate_of(LATTICE)
     other = (*certificate.percepts[:-1], Percept(1, None))
     checked = by_coqc(place, replace(certificate, percepts=other))
     assert checked.accepted is False
@@ -137,11 +139,11 @@ def test_coqc_refuses_a_tampered_log(place: Path) -> None:
 
 
 def test_coqc_refuses_tampered_evidence(place: Path) -> None:
-    assert by_coqc(place, without_merges(certificates.state(LATTICE))).accepted is False
+    assert by_coqc(place, without_merges(certificates.certificate_of(LATTICE))).accepted is False
 
 
 def test_coqc_refuses_an_axiom_in_place_of_a_proof(place: Path) -> None:
-    text = coq_file(certificates.state(LATTICE))
+    text = coq_file(certificates.certificate_of(LATTICE))
     begin = text.index("Proof.")
     forged = text[:begin] + "Admitted.\n\nPrint Assumptions proved.\n"
     assert toolchain.claims_unproved(forged)
@@ -150,7 +152,7 @@ def test_coqc_refuses_an_axiom_in_place_of_a_proof(place: Path) -> None:
 
 @pytest.mark.slow
 def test_coqc_certifies_a_lattice_of_10_by_10(place: Path) -> None:
-    certificate = certificates.state(log_of(families.lattice(10, 10)))
+    certificate = certificates.certificate_of(log_of(families.lattice(10, 10)))
     assert certificate.statement == "map"
     assert by_coqc(place, certificate).accepted
 
@@ -161,14 +163,14 @@ def test_coqc_certifies_a_lattice_of_10_by_10(place: Path) -> None:
 @needs_ocaml
 def test_the_extracted_program_agrees_on_every_log_of_small_worlds(place: Path) -> None:
     for log in logs():
-        certificate = certificates.state(log)
+        certificate = certificates.certificate_of(log)
         assert certificates.extracted(place, certificate, timeout=LIMIT).accepted, certificate
 
 
 @needs_ocaml
 def test_the_extracted_program_refuses_what_is_tampered_with(place: Path) -> None:
-    certificate = certificates.state(LATTICE)
-    cut = certificates.state(LATTICE[:12])
+    certificate = certificates.certificate_of(LATTICE)
+    cut = certificates.certificate_of(LATTICE[:12])
     forged = [
         without_merges(certificate),
         replace(certificate, percepts=(*certificate.percepts[:-1], Percept(1, None))),
@@ -187,7 +189,7 @@ def test_the_extracted_program_refuses_what_is_tampered_with(place: Path) -> Non
 def test_the_extracted_program_certifies_ten_thousand_moves(place: Path) -> None:
     log = log_of(families.lattice(15, 15), "enhancement-ii")
     assert len(of_type(Move, log)) > 10_000
-    assert certificates.extracted(place, certificates.state(log), timeout=LIMIT).accepted
+    assert certificates.extracted(place, certificates.certificate_of(log), timeout=LIMIT).accepted
 
 
 # ---------------------------------------------------------------- which of them
@@ -204,10 +206,10 @@ def test_long_logs_go_to_the_extracted_program(
     told: list[str] = []
     monkeypatch.setattr(certificates, "build", linked)
     with certificates.checking(timeout=LIMIT, progress=told.append) as check:
-        assert check("short", certificates.state(LATTICE)).by == toolchain.version()
+        assert check("short", certificates.certificate_of(LATTICE)).by == toolchain.version()
         monkeypatch.setattr(certificates, "LONG", 10)
         if shutil.which("ocamlfind"):
-            assert check("long", certificates.state(LATTICE)).by.startswith(
+            assert check("long", certificates.certificate_of(LATTICE)).by.startswith(
                 "the checker extracted by"
             )
     assert told[:2] == ["compiling the proofs", "checking short.v"]
@@ -218,11 +220,11 @@ def test_what_is_not_checked_is_not_accepted(
 ) -> None:
     del library
     with certificates.checking(timeout=0.01) as check:
-        late = check("late", certificates.state(LATTICE))
+        late = check("late", certificates.certificate_of(LATTICE))
         assert late.accepted is None
         assert "longer than 0.01 seconds" in late.why
         monkeypatch.setattr(shutil, "which", nowhere)
-        without = check("without", certificates.state(LATTICE))
+        without = check("without", certificates.certificate_of(LATTICE))
     assert without.accepted is None
     assert "coqc and coqchk not installed" in without.why
 

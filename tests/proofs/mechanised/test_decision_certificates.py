@@ -36,7 +36,7 @@ def runs() -> tuple[CoqCertificate, ...]:
     """Every algorithm in every world of up to 2 edges, and in some of 3 to 5."""
     small = [*worlds((1, 2)), *some(3, 4), *some(4, 3), *some(5, 3)]
     found = [
-        certificates.state(trace_of(world, name))
+        certificates.certificate_of(trace_of(world, name))
         for world in small
         for name in CATALOGUE
         if fits(name, world)
@@ -44,13 +44,13 @@ def runs() -> tuple[CoqCertificate, ...]:
     trace = trace_of("m3/5")
     first = of_type(Reject, trace)[0]
     itself = edited(trace, trace.index(first), hypothesis=first.edge)
-    found += map(certificates.state, (BACKWARDS, itself))
+    found += map(certificates.certificate_of, (BACKWARDS, itself))
     return tuple(one for one in found if one.decisions.stated)
 
 
 @cache
 def lattice() -> CoqCertificate:
-    return certificates.state(trace_of(families.lattice(3, 3)))
+    return certificates.certificate_of(trace_of(families.lattice(3, 3)))
 
 
 def together(certificates: Sequence[CoqCertificate]) -> str:
@@ -95,7 +95,7 @@ def test_the_extracted_program_accepts_those_of_every_world_of_3_edges(place: Pa
     for world in worlds([3]):
         for name in CATALOGUE:
             if fits(name, world):
-                certificate = certificates.state(trace_of(world, name))
+                certificate = certificates.certificate_of(trace_of(world, name))
                 assert by_program(place, certificate), (name, world)
 
 
@@ -106,7 +106,7 @@ def test_the_extracted_program_accepts_those_of_every_world_of_3_edges(place: Pa
 )
 def test_coqc_accepts_the_decisions_of_larger_worlds(place: Path, world: str, mapper: str) -> None:
     maze = families.lattice(4, 4) if world.startswith("family") else World.from_id(world)
-    certificate = certificates.state(trace_of(maze, mapper))
+    certificate = certificates.certificate_of(trace_of(maze, mapper))
     assert certificate.decisions.stated
     assert by_coqc(place, coq_file(certificate)).accepted
 
@@ -300,7 +300,7 @@ def test_decisions_that_nobody_can_check_are_not_accepted(monkeypatch: pytest.Mo
         assert found.decisions.accepted is None
         assert "ocamlfind is not installed" in found.decisions.why
         monkeypatch.setattr(evidence, "MOST", 100)
-        given_up = check("most", certificates.state(trace_of(families.lattice(3, 3))))
+        given_up = check("most", certificates.certificate_of(trace_of(families.lattice(3, 3))))
         assert given_up.decisions is not None
         assert given_up.decisions.accepted is None
         assert "more than" in given_up.decisions.why

@@ -1,11 +1,11 @@
-"""Clauses over named Booleans: what the bounded encodings are written in.
+"""Formulas in conjunctive normal form over named Booleans, in named groups of clauses.
 
 A formula is in conjunctive normal form from the start, so every solver, and the checker of
 certificates, reads the same clauses: no translation stands between them that would have to be
 trusted. As in DIMACS a literal is a number: `v` says that Boolean `v` is true, `-v` that it is
-false. Clauses stand in named **groups**, one for each premise, so that an unsatisfiable core can be
-told in words. The group `REFUTED` is the negated conclusion; a formula without it is the premises
-alone, and must be satisfiable, or the theorem says nothing.
+false. Clauses stand in named **groups**, one for each premise, so that an unsatisfiable core names
+premises. The group `REFUTED` is the negated conclusion. A formula without it is the premises alone,
+and must be satisfiable: otherwise the theorem is vacuous.
 
     row           literals of which exactly one is true: "which dart", "which door"
     one-hot       writing a value as such a row
@@ -21,21 +21,25 @@ CnfRow = tuple[CnfLiteral, ...]
 Clause = tuple[CnfLiteral, ...]
 
 REFUTED = "refuted"
-"""The group that says: and yet the conclusion is false."""
+"""The group of the negated conclusion."""
 
 MET = "met"
-"""In the premises alone: what the conclusion speaks of does occur, so that it is not empty."""
+"""The group, in the premises alone, that makes the conclusion speak of at least one case."""
 
 
 class Formula:
-    """A conjunction of clauses that grows. Names are unique; Boolean `v` is `names[v - 1]`."""
+    """A conjunction of clauses that grows. Names are unique; Boolean `v` is `names[v - 1]`.
+
+    Attributes:
+        met: clauses of the group `MET`, kept aside until `premises` is asked for.
+    """
 
     def __init__(self) -> None:
         self.names: list[str] = []
         self.groups: dict[str, list[Clause]] = {}
         self.met: list[Clause] = []
 
-    # ------------------------------------------------------------ saying things
+    # ------------------------------------------------------------ adding clauses
 
     def boolean(self, name: str) -> CnfLiteral:
         """A new Boolean."""
@@ -43,25 +47,25 @@ class Formula:
         return len(self.names)
 
     def booleans(self, name: str, size: int) -> CnfRow:
-        """New Booleans `name.0`, `name.1`, …, with nothing said about them."""
+        """New Booleans `name.0`, `name.1`, …, under no constraint."""
         return tuple(self.boolean(f"{name}.{index}") for index in range(size))
 
     def row(self, group: str, name: str, size: int) -> CnfRow:
-        """A new one-hot row."""
+        """A new row of Booleans of which exactly one is true."""
         row = self.booleans(name, size)
         self.exactly_one(group, row)
         return row
 
     def add(self, group: str, *literals: CnfLiteral) -> None:
-        """One of these holds."""
+        """Add the clause that at least one of these holds."""
         self.groups.setdefault(group, []).append(literals)
 
     def imply(self, group: str, premises: Sequence[CnfLiteral], *conclusions: CnfLiteral) -> None:
-        """If all premises hold, one of the conclusions does."""
+        """Add the clause that one of the conclusions holds if all premises do."""
         self.add(group, *(-premise for premise in premises), *conclusions)
 
     def exactly_one(self, group: str, literals: Sequence[CnfLiteral]) -> None:
-        """One of these holds, and no two."""
+        """Add the clauses that one of these holds, and no two."""
         self.add(group, *literals)
         for one, other in combinations(literals, 2):
             self.add(group, -one, -other)
@@ -75,11 +79,11 @@ class Formula:
         return both
 
     def define_or(self, group: str, name: str, literals: Sequence[CnfLiteral]) -> CnfLiteral:
-        """A new Boolean that holds exactly if one of these does, or more."""
+        """A new Boolean that holds exactly if at least one of these does."""
         return -self.define_and(group, name, [-literal for literal in literals])
 
     def equate(self, group: str, guard: Sequence[CnfLiteral], one: CnfRow, other: CnfRow) -> None:
-        """Where the guard holds, the two rows are equal, literal by literal."""
+        """Add the clauses that two rows are equal, literal by literal, where the guard holds."""
         for a, b in zip(one, other, strict=True):
             self.imply(group, (*guard, a), b)
             self.imply(group, (*guard, b), a)
@@ -88,11 +92,12 @@ class Formula:
         """A new Boolean that holds exactly if the two one-hot rows are equal."""
         equal = self.boolean(name)
         self.equate(group, (equal,), one, other)
+        # One shared place is enough for equality, since each row has exactly one true literal.
         for a, b in zip(one, other, strict=True):
             self.imply(group, (a, b), equal)
         return equal
 
-    # ------------------------------------------------------------ what was said
+    # ------------------------------------------------------------ reading clauses
 
     @property
     def clauses(self) -> list[Clause]:
@@ -100,7 +105,7 @@ class Formula:
         return [clause for clauses in self.groups.values() for clause in clauses]
 
     def premises(self) -> Formula:
-        """The formula without its negated conclusion, where what that speaks of occurs."""
+        """The premises alone, with `MET`: satisfiable exactly if the theorem is not vacuous."""
         alone = Formula()
         alone.names = list(self.names)
         alone.groups = {name: row for name, row in self.groups.items() if name != REFUTED}
@@ -110,6 +115,7 @@ class Formula:
     def smt2(self) -> str:
         """SMT-LIB 2: one named assertion a group, no command after them."""
         lines = ["(set-logic QF_UF)"]
+        # `(and true …` and `(or false …` keep empty and single clauses well-formed.
         lines += [f"(declare-const {name} Bool)" for name in self.names]
         for group, clauses in self.groups.items():
             lines.append("(assert (! (and true")

@@ -1,6 +1,6 @@
-"""What a model says happens: from the rows of an encoding to a world, a map, and doors.
+"""Decoding: from an assignment of an encoding to a world, a map and doors.
 
-Nothing is judged here: `replaying.py` does it all again in the simulator.
+Nothing is judged here; `replay.py` repeats what was decoded in the simulator.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ DoorWord = tuple[Door, ...]
 
 @dataclass(frozen=True, slots=True)
 class Excursion:
-    """An excursion: the explored edges before it, the dart crossed, the doors taken behind it."""
+    """An earlier excursion: the explored edges before it, the dart crossed, the doors behind it."""
 
     explored: frozenset[tuple[Dart, Dart]]
     e: Dart
@@ -29,14 +29,17 @@ class Excursion:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Counterexample:
-    """What a model says happens. Darts are those of S, and of the world: they are one numbering.
+class BoundedCounterexample:
+    """A decoded counterexample. The darts of S and of the world have one numbering.
 
     Attributes:
-        explored: the edges of S, lesser dart first; v0 is known besides.
-        word: the doors executed behind e; own: those of the hypothesis' own way home.
-        turned: the door of an excursion behind e that came first, or None.
-        earlier: what was executed behind another edge before, for records; and how deep they go.
+        explored: the edges of S, smaller dart first; S knows v0 besides.
+        e, h: the dart that was crossed, and the hypothesis for its other end.
+        word: the doors executed behind e.
+        own: the doors of the hypothesis' own way home.
+        turned: the door of a first excursion behind e, or None.
+        earlier: for records, the excursion behind another edge that was recorded before.
+        levels: for records, the depth to which they are compared; None: any depth.
     """
 
     world: World
@@ -51,7 +54,7 @@ class Counterexample:
 
 
 def decode_table(world: Worlds, model: Assignment) -> Table:
-    """Degrees and alpha of a model, as they are numbered there."""
+    """The degrees and alpha of an assignment, with its numbers of darts."""
     held = sorted(place for place, vertex in world.vertex.items() if model.holds(vertex))
     alpha = [0] * len(world.darts)
     for (a, b), joined in world.joined.items():
@@ -61,12 +64,12 @@ def decode_table(world: Worlds, model: Assignment) -> Table:
 
 
 def decode_world(world: Worlds, model: Assignment) -> World:
-    """The world of a model, its darts as they are numbered there."""
+    """The world of an assignment, with its numbers of darts."""
     return World.from_code(decode_table(world, model))
 
 
 def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
-    """The Booleans from which `decode` makes the story; the rest follows, or does not matter."""
+    """The Booleans that `decode` reads; the others follow from them, or do not matter."""
     maps = [encoded.chart] if encoded.earlier is None else [encoded.earlier.chart, encoded.chart]
     rows = [encoded.world.first, tuple(encoded.world.joined.values())]
     rows += [row for chart in maps for row in (chart.known, chart.explored)]
@@ -76,13 +79,14 @@ def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
     return tuple(literal for row in rows for literal in row)
 
 
-def decode(encoded: EncodedCounterexample, model: Assignment) -> Counterexample:
-    """What the model says happens."""
+def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCounterexample:
+    """The counterexample that an assignment encodes."""
     world = decode_world(encoded.world, model)
+    # The steps that are made are a prefix of the word, so their number says which they are.
     made = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
     own = encoded.own or encoded.executed
     behind = encoded.earlier
-    return Counterexample(
+    return BoundedCounterexample(
         world=world,
         explored=_edges(world, encoded.chart, model),
         e=model.index(encoded.e),

@@ -1,8 +1,8 @@
-"""What one door can do, at any place of any map: the steps of which words are made.
+"""One arbitrary door, at any place of any map: the steps of which words are made.
 
-Each function says, as clauses, that something goes wrong at one door; that no world and no map
-satisfies them is the statement. Since a word is doors one after the other, they carry words of any
-length, by induction (docs/proofs.md), in every world with m edges.
+Each function returns clauses that describe a failure at one door. The statement is that no world
+and no map satisfies them. By induction (docs/proofs.md) the statements hold for words of any length
+in every world with m edges.
 
     p, r      what corresponds: a dart of S, and a reference dart of the robot in the world
     p', r'    the same behind the same door
@@ -18,7 +18,7 @@ from topo_verify.proofs.bounded.walks import behind_an_edge, doors, open_dart, w
 
 
 def pose(edges: int) -> Worlds:
-    """The other end of e is known, and yet is explored or e itself: so it would not be in H."""
+    """S knows the other end of e, which is explored or e itself: so it is no hypothesis."""
     scene = behind_an_edge(edges)
     world, known = scene.world, scene.chart.known
     for d in world.darts:
@@ -29,7 +29,7 @@ def pose(edges: int) -> Worlds:
 
 
 def door(edges: int) -> Worlds:
-    """Corresponding darts, one explored door: behind it they do not correspond, or look unlike."""
+    """Behind one explored door of corresponding darts, darts or percepts do not correspond."""
     world, chart = _map(edges)
     p = _known(world, chart, "p")
     r = world.position("r", "r")
@@ -44,7 +44,7 @@ def door(edges: int) -> Worlds:
 
 
 def confirm_back(edges: int) -> Worlds:
-    """Behind one explored door they correspond, and yet they did not before it."""
+    """Two darts correspond behind one explored door, and did not before it."""
     world, chart = _map(edges)
     p, r = _known(world, chart, "p"), world.position("r", "r")
     word = doors(world, "door", 1)
@@ -56,7 +56,7 @@ def confirm_back(edges: int) -> Worlds:
 
 
 def confirm_final(edges: int, *, marker: MarkerDetail = "directed") -> Worlds:
-    """At v0 the percepts are equal, marker direction included, and yet the darts are not.
+    """Two darts at v0 have equal percepts, marker direction included, and are different.
 
     Args:
         marker: "undirected" looks at its presence only (a seeded fault).
@@ -72,7 +72,7 @@ def confirm_final(edges: int, *, marker: MarkerDetail = "directed") -> Worlds:
 
 
 def record(edges: int) -> Worlds:
-    """One unexplored dart is crossed from two places, at two times: what is seen is not equal."""
+    """One unexplored dart is crossed from two places, at two times; the percepts differ."""
     world = Worlds(edges)
     earlier, later = world.map("earlier"), world.map("later")
     world.include("grows", earlier, later)
@@ -88,7 +88,7 @@ def record(edges: int) -> Worlds:
 
 
 def new_vertex(edges: int) -> Worlds:
-    """The other end of e is unknown, and yet another dart of its vertex is known."""
+    """S does not know the other end of e, and knows another dart of its vertex."""
     scene = behind_an_edge(edges)
     world, known = scene.world, scene.chart.known
     for d in world.darts:
@@ -100,7 +100,7 @@ def new_vertex(edges: int) -> Worlds:
 
 
 def closed(edges: int) -> Worlds:
-    """Everything that S knows is explored, and yet it does not know every dart."""
+    """Every dart that S knows is explored, and S does not know every dart."""
     world, chart = _map(edges)
     for known, explored in zip(chart.known, chart.explored, strict=True):
         world.imply("nothing-open", [known], explored)

@@ -1,16 +1,16 @@
-"""Certificates: that clauses cannot all hold, proved by one program and checked by another.
+"""Certificates that clauses are unsatisfiable: one program proves it, another checks the proof.
 
-A SAT solver (python-sat's) looks for a refutation and writes down the clauses that it learns: a
-DRUP proof, each line a consequence of what stands before it by unit propagation, the last line the
+A SAT solver (of python-sat) looks for a refutation and records the clauses that it learns: a DRUP
+proof, in which unit propagation derives each line from those before it, and the last line is the
 empty clause. `drup`, a checker extracted from a development verified in Why3, follows the proof. It
-calls no solver, and nothing that the solver said is believed.
+calls no solver and trusts nothing that the solver reports.
 
-The checker is slow and the solver is quick. So the solver first says which clauses it used, again
-and again; what is checked is a refutation of those, and that they are clauses of the formula is
-checked here. If some of the clauses contradict, all of them do.
+The checker is slow and the solver is fast. So the solver first reduces the clauses to those that it
+uses, several times over. The checker follows a refutation of these, and `objection` makes sure that
+they are clauses of the formula: if some of its clauses contradict each other, all of them do.
 
 What this does not show: that the clauses say what they should. The encoding is compared with the
-enumeration (`enumeration`), and its rules with the simulator (`replaying`).
+enumeration (`model_count.py`), and its rules with the simulator (`replay.py`).
 
 Source: M. Heule, W. Hunt, N. Wetzler, "Trimming while checking clausal proofs", FMCAD 2013.
 """
@@ -27,26 +27,26 @@ from topo_verify.proofs.theorem import RefutationCertificate
 
 FORMAT = "drup"
 SOLVERS = ("glucose4", "lingeling", "cadical153")
-"""The solvers that are asked for a proof; the shortest is checked."""
+"""The solvers that make a proof; the shortest proof is checked."""
 
 PER_SECOND = 100_000
-"""Clauses times steps that the checker is trusted to manage in a second, on a slow machine."""
+"""The product of clauses and steps that the checker manages in a second on a slow machine."""
 
 _ROUNDS = 8
 _FEWEST_CLAUSES = 400
-"""No formula that needs a long proof has come down to fewer: limits the search for a proof."""
+"""Formulas with long proofs keep at least so many clauses: this limits the search for a proof."""
 
 
 @dataclass(frozen=True, slots=True)
 class DrupRefutation:
-    """Clauses that contradict each other, and the learned clauses that show it, the last empty."""
+    """Contradictory clauses, and the learned clauses that show it; the last one is empty."""
 
     clauses: tuple[Clause, ...]
     steps: tuple[Clause, ...]
 
 
 def require_tools() -> None:
-    """Refuse to begin where python-sat or drup is not to be had (`InputError`)."""
+    """Raise an `InputError` where python-sat or drup cannot be loaded."""
     for package, module in (("python-sat", "pysat.solvers"), ("drup", "drup")):
         try:
             import_module(module)
@@ -64,12 +64,12 @@ def checker() -> str:
 
 
 def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate | str:
-    """A checked certificate that the formula is unsatisfiable; or why there is none.
+    """A checked certificate that the formula is unsatisfiable, or the reason why there is none.
 
-    A proof that the checker refuses is a `Certificate` that is not `checked`: something is wrong.
+    A proof that the checker refuses gives a certificate with `checked` false: a bug, not a limit.
 
     Args:
-        seconds: no proof is looked for that would keep the checker busy longer, as estimated.
+        seconds: the longest time, as estimated, that a proof may keep the checker busy.
     """
     largest = round(seconds * PER_SECOND)
     refutation = refute(formula, most_steps=largest // _FEWEST_CLAUSES)
@@ -90,8 +90,9 @@ def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate
 
 
 def refute(formula: Formula, *, most_steps: int = 1_000_000) -> DrupRefutation | str:
-    """A short refutation; or why there is none: satisfiable, or more steps than that."""
+    """A short refutation, or the reason why there is none: satisfiable, or too many steps."""
     clauses = formula.clauses
+    # Each round keeps the clauses that the last one used, until a round drops less than 3 %.
     for _ in range(_ROUNDS):
         used = _used(clauses, len(formula.names), most_steps)
         if isinstance(used, str):
@@ -104,7 +105,7 @@ def refute(formula: Formula, *, most_steps: int = 1_000_000) -> DrupRefutation |
 
 
 def objection(formula: Formula, refutation: DrupRefutation) -> str:
-    """What the checker has against the refutation; "" if it accepts it. Calls no solver."""
+    """The reason why the refutation is refused, or "" if it is accepted; calls no solver."""
     drup: Any = import_module("drup")
     if not set(refutation.clauses) <= set(formula.clauses):
         return "it refutes clauses that are not those of the formula"
@@ -115,7 +116,7 @@ def objection(formula: Formula, refutation: DrupRefutation) -> str:
 
 
 def together(certificates: list[RefutationCertificate]) -> RefutationCertificate:
-    """One for several formulas: checked if all of them are; clauses and steps are added up."""
+    """One certificate for several formulas: checked if all are; clauses and steps are summed."""
     return RefutationCertificate(
         format=FORMAT,
         checker=checker(),
@@ -127,8 +128,9 @@ def together(certificates: list[RefutationCertificate]) -> RefutationCertificate
 
 
 def _used(clauses: list[Clause], names: int, most_steps: int) -> list[Clause] | str:
-    """The clauses that a solver used to refute all of them; or why it did not."""
+    """The clauses that a solver used to refute all of them, or the reason why it did not."""
     solvers: Any = import_module("pysat.solvers")
+    # A switch for each clause: assuming all switches, the core names the clauses that were used.
     chosen = range(names + 1, names + 1 + len(clauses))
     with solvers.Solver(name=SOLVERS[0]) as solver:
         for clause, switch in zip(clauses, chosen, strict=True):
@@ -143,7 +145,7 @@ def _used(clauses: list[Clause], names: int, most_steps: int) -> list[Clause] | 
 
 
 def _proof(clauses: list[Clause], name: str) -> tuple[Clause, ...]:
-    """The clauses that a solver learned on the way to the empty one."""
+    """The clauses that a solver learned on its way to the empty one, without its deletions."""
     solvers: Any = import_module("pysat.solvers")
     with solvers.Solver(name=name, bootstrap_with=clauses, with_proof=True) as solver:
         solver.solve()

@@ -1,4 +1,4 @@
-"""Every world with m edges, and every map S that can be reached in it, as clauses.
+"""The encoding of every world with m edges, and of every reachable map S of it, as clauses.
 
 **World.** The darts are 0 … 2m-1 and a vertex is an interval of them, clockwise from the dart by
 which it was first entered (docs/semantics.md, section 3; v0 from the marked dart, which is dart 0):
@@ -10,21 +10,21 @@ which it was first entered (docs/semantics.md, section 3; v0 from the marked dar
 **Map.** S is numbered in the order of its discovery, and so is the world: first the darts that S
 knows, then the others. S is thus a part of the world, and what corresponds is equal:
 
-    known[d]        d is a dart of S: a prefix of the numbers, whole vertices
-    explored[d]     so is its other end, and S knows that they are one edge
+    known[d]        d is a dart of S: known darts are a prefix of the numbers, in whole vertices
+    explored[d]     S knows the edge of d, and so its other end
 
 Every vertex but v0 has its first dart joined with a smaller one (`entry`): the edge by which it
-was found. If S knows the vertex, that edge is explored. So everything is connected, and S is
-*reachable*: walk the entry edges in the order of the numbers, any other edge once its ends are
-known. Conversely every S that an exploration draws has these properties. The vertices that S does
+was found. If S knows the vertex, that edge is explored. So the world is connected, and S is
+*reachable*: cross the entry edges in the order of the numbers, and any other edge once its ends are
+known. Conversely, every S that an exploration draws has these properties. The vertices that S does
 not know are numbered breadth-first from all darts before them, which leaves one numbering. So each
 pair of a world and a map of it (numbered by its discovery) is one model. With S = v0 alone this is
-the world's breadth-first numbering, and each rooted map is exactly one model: `enumeration` counts
-them.
+the world's breadth-first numbering, and each rooted map is exactly one model: `model_count.py`
+counts them.
 
 **Walks.** A position is a one-hot row over darts: the robot's reference dart, or where tracing
-stands on S. Doors are one-hot rows too; turning and crossing are clauses. All rows that are
-determined by others are said to be one-hot again: redundant, and what makes words of four doors
+stands on S. Doors are one-hot rows too; turning and crossing are clauses. Rows that other rows
+determine are constrained to be one-hot again: this is redundant, and makes words of four doors
 feasible.
 
 Cost: O(m³) clauses for a world, a step, or a percept. Source: docs/semantics.md, sections 1 to 3.
@@ -39,12 +39,12 @@ from typing import Literal
 from topo_verify.proofs.bounded.cnf import CnfLiteral, CnfRow, Formula
 
 MarkerDetail = Literal["directed", "undirected", "none"]
-"""What of the marker is compared: its direction; whether it is here; nothing."""
+"""How much of the marker is compared: its direction, its presence, or nothing."""
 
 
 @dataclass(frozen=True, slots=True)
 class EncodedMap:
-    """A reachable map S of the world: which darts it knows, which of them are explored."""
+    """A reachable map S of the world: the darts that it knows, and those that are explored."""
 
     known: CnfRow
     explored: CnfRow
@@ -52,7 +52,7 @@ class EncodedMap:
 
 @dataclass(frozen=True, slots=True)
 class EncodedPercept:
-    """A percept as one-hot rows: the degree less one; is the marker here; its door, if it is."""
+    """A percept: the degree less one (one-hot), the marker's presence, and its door (one-hot)."""
 
     degree: CnfRow
     here: CnfLiteral
@@ -64,8 +64,9 @@ class Worlds(Formula):
 
     Attributes:
         darts: 2m.
-        first, joined, vertex, entry: see the head of this file; entry[e, f]: the vertex that begins
-            with dart f > 0 was found through dart e < f.
+        first, joined, vertex: see the head of this file.
+        entry: entry[e, f] says that the vertex beginning with dart f was found through dart e < f.
+        in_v0: per dart, is it a dart of v0?
     """
 
     def __init__(self, edges: int) -> None:
@@ -83,7 +84,7 @@ class Worlds(Formula):
         self.in_v0 = self._first_vertex()
 
     def edge(self, one: int, other: int) -> CnfLiteral:
-        """The two darts are joined."""
+        """The Boolean that the two darts are joined."""
         return self.joined[min(one, other), max(one, other)]
 
     def _rotation(self) -> None:
@@ -91,6 +92,7 @@ class Worlds(Formula):
         self.add("rotation", self.first[0])
         for f in self.darts:
             for after in range(f + 1, end + 1):
+                # No dart inside begins another vertex, and the one after the last does, if any.
                 inside = [-self.first[d] for d in range(f + 1, after)]
                 closed = [] if after == end else [self.first[after]]
                 self.vertex[f, after - f] = self.define_and(
@@ -102,26 +104,28 @@ class Worlds(Formula):
             self.exactly_one("edges", [self.edge(d, x) for x in self.darts if x != d])
         for (e, f), joined in self.joined.items():
             self.entry[e, f] = self.define_and("edges", f"entry.{e}.{f}", [self.first[f], joined])
+        # Each vertex but v0 hangs on a smaller dart: by induction every vertex is joined with v0.
         for f in self.darts[1:]:
             self.imply("connected", [self.first[f]], *(self.entry[e, f] for e in range(f)))
 
     def _first_vertex(self) -> CnfRow:
-        """Per dart: it is at v0."""
+        """Per dart, the Boolean that it is a dart of v0."""
         degrees = [self.vertex[0, after] for after in range(1, len(self.darts) + 1)]
+        # Dart d is at v0 exactly if v0, which begins with dart 0, has more than d darts.
         return tuple(self.define_or("rotation", f"in_v0.{d}", degrees[d:]) for d in self.darts)
 
     # ------------------------------------------------------------ the map S
 
     def map(self, name: str) -> EncodedMap:
-        """A new map of the world, reachable."""
+        """A new reachable map of the world."""
         known = self.booleans(f"{name}.known", len(self.darts))
         explored = self.booleans(f"{name}.explored", len(self.darts))
         group = f"{name}.reachable"
         self.add(group, known[0])
         for d in self.darts[1:]:
-            self.imply(group, [known[d]], known[d - 1])
-            self.imply(group, [known[d - 1], -self.first[d]], known[d])
-            self.imply(group, [known[d], self.first[d]], explored[d])
+            self.imply(group, [known[d]], known[d - 1])  # a prefix
+            self.imply(group, [known[d - 1], -self.first[d]], known[d])  # of whole vertices
+            self.imply(group, [known[d], self.first[d]], explored[d])  # entered by explored edges
         for d in self.darts:
             self.imply(group, [explored[d]], known[d])
         for (a, b), joined in self.joined.items():
@@ -130,27 +134,28 @@ class Worlds(Formula):
         return EncodedMap(known, explored)
 
     def number_the_rest(self, known: CnfRow | None = None) -> None:
-        """Number the vertices that a map does not know (None: all but v0) breadth-first."""
+        """Require that a map's unknown vertices (None: all but v0) are numbered breadth-first."""
         known = self.in_v0 if known is None else known
         group = "numbering"
         for (e1, f1), earlier in self.entry.items():
             for (e2, f2), later in self.entry.items():
+                # Of two unknown vertices, the one with the earlier entry comes first.
                 if f1 < f2 and e1 > e2:
                     self.imply(group, [earlier, later], known[f1], known[f2])
         for (f, degree), vertex in self.vertex.items():
             for g in range(f + 1, f + degree) if f else ():
-                for e in range(f):  # any other dart of the vertex comes after its entry
+                for e in range(f):  # its first dart is the one with the earliest partner
                     before = [self.entry[x, f] for x in range(e)]
                     self.imply(group, [vertex, self.edge(e, g)], *before, known[f])
 
     def include(self, group: str, smaller: EncodedMap, larger: EncodedMap) -> None:
-        """The smaller map is a part of the larger."""
+        """Require that the smaller map is a part of the larger."""
         for d in self.darts:
             self.imply(group, [smaller.known[d]], larger.known[d])
             self.imply(group, [smaller.explored[d]], larger.explored[d])
 
     def restrict(self, world_class: str) -> None:
-        """Only worlds of a class: `any`, `loopless` or `simple`."""
+        """Require that the world is of a class: `any`, `loopless` or `simple`."""
         if world_class == "any":
             return
         group = "class"
@@ -159,9 +164,10 @@ class Worlds(Formula):
             literal = self.define_and(
                 group, f"same.{a}.{b}", [-self.first[d] for d in range(a + 1, b + 1)]
             )
-            same[a, b] = same[b, a] = literal
+            same[a, b] = same[b, a] = literal  # no vertex begins between a and b
         for (a, b), joined in self.joined.items():
-            self.imply(group, [joined], -same[a, b])
+            self.imply(group, [joined], -same[a, b])  # no loop
+            # No second edge c-d beside a-b. c and d come in both orders, and a is the least dart.
             for c in self.darts if world_class == "simple" else ():
                 for d in self.darts:
                     if a < min(c, d) and b not in {c, d} and c != d:
@@ -170,7 +176,7 @@ class Worlds(Formula):
     # ------------------------------------------------------------ walking
 
     def position(self, group: str, name: str) -> CnfRow:
-        """A new position: some dart."""
+        """A new position: a one-hot row over darts."""
         return self.row(group, name, len(self.darts))
 
     def turn(
@@ -182,7 +188,7 @@ class Worlds(Formula):
         *guard: CnfLiteral,
         absolute: bool = False,
     ) -> None:
-        """Where the guard holds: `leave` is the dart that the door means at `at`, and exists.
+        """Require, where the guard holds, that `leave` is the dart of this door at `at`.
 
         Args:
             absolute: count doors from the first dart of the vertex instead (a seeded fault).
@@ -191,6 +197,7 @@ class Worlds(Formula):
             for x in range(f, f + degree):
                 for k in self.darts:
                     here = (*guard, at[x], vertex)
+                    # A door beyond the degree does not exist: the row of doors must not choose it.
                     if k < degree:
                         place = k if absolute else (x - f + k) % degree
                         self.imply(group, (*here, door[k]), leave[f + place])
@@ -198,13 +205,13 @@ class Worlds(Formula):
                         self.imply(group, here, -door[k])
 
     def cross(self, group: str, leave: CnfRow, arrive: CnfRow, *guard: CnfLiteral) -> None:
-        """Where the guard holds: `arrive` is the other dart of the edge of `leave`."""
+        """Require, where the guard holds, that `arrive` is the partner of `leave`."""
         for (a, b), joined in self.joined.items():
             self.imply(group, [*guard, leave[a], joined], arrive[b])
             self.imply(group, [*guard, leave[b], joined], arrive[a])
 
     def at_one_of(self, group: str, at: CnfRow, darts: CnfRow, name: str) -> CnfLiteral:
-        """A new Boolean: the dart of the position is one of these."""
+        """A new Boolean that holds exactly if the position is one of these darts."""
         found = self.boolean(name)
         for place, member in zip(at, darts, strict=True):
             self.imply(group, [place, member], found)
@@ -214,15 +221,17 @@ class Worlds(Formula):
     # ------------------------------------------------------------ sensing
 
     def sense(self, group: str, at: CnfRow, name: str) -> EncodedPercept:
-        """What is sensed with the position as reference dart."""
+        """The percept of a robot whose reference dart is this position."""
         degree = self.row(group, f"{name}.degree", len(self.darts))
         marker = self.booleans(f"{name}.marker", len(self.darts))
         here = self.at_one_of(group, at, self.in_v0, f"{name}.here")
         for (f, doors), vertex in self.vertex.items():
             for x in range(f, f + doors):
                 self.imply(group, [at[x], vertex], degree[doors - 1])
+                # From dart x of v0 the marked dart, 0, is x doors back: door -x modulo the degree.
                 if f == 0:
                     self.imply(group, [at[x], vertex], marker[-x % doors])
+        # Where v0 is not sensed, all of `marker` is false: at most one door, and none without it.
         for one, other in combinations(marker, 2):
             self.add(group, -one, -other)
         for door in marker:
@@ -237,7 +246,7 @@ class Worlds(Formula):
         name: str,
         marker: MarkerDetail = "directed",
     ) -> CnfLiteral:
-        """A new Boolean: two percepts are equal, as far as the marker is looked at."""
+        """A new Boolean that holds exactly if two percepts are equal in what is compared."""
         parts = [self.define_equal(group, f"{name}.degree", one.degree, other.degree)]
         if marker != "none":
             parts.append(
@@ -246,6 +255,7 @@ class Worlds(Formula):
                 )
             )
         if marker == "directed":
+            # "Not here" completes the marker's row to a one-hot one, as `define_equal` needs it.
             away = (-one.here, *one.marker), (-other.here, *other.marker)
             parts.append(self.define_equal(group, f"{name}.marker", *away))
         return self.define_and(group, f"{name}.alike", parts)

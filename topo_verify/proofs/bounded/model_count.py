@@ -1,10 +1,10 @@
-"""The worlds that the encoding speaks of, listed by the solver and compared with the enumeration.
+"""The worlds of the encoding: the solver lists them, and they are compared with the enumeration.
 
-With S = v0 alone a model of the encoding is a world in its breadth-first numbering. So asking for
-all models (each one found is forbidden before the next is asked for) must give each rooted map
-once, and the pairs (degrees, alpha) must be the canonical codes that `world.counting` lists, no
-more and no less: 2, 10, 74, 706, 8162 of them with 1 … 5 edges. That is what makes "every world" in
-the bounded theorems mean every world.
+With S = v0 alone a model of the encoding is a world in its breadth-first numbering. So the list of
+all models (each one found is forbidden before the next is asked for) must contain each rooted map
+once: the pairs (degrees, alpha) must be exactly the canonical codes of `world.enumeration`. There
+are 2, 10, 74, 706, 8162 of them with 1 … 5 edges. Hence "every world" in the bounded theorems means
+every world.
 
 Source: docs/semantics.md, section 12.
 """
@@ -25,7 +25,7 @@ from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.rank_order import Table
 
 LISTED_EDGES = 4
-"""Up to here the worlds of a theorem are counted in its own encoding; beyond, by the formulas."""
+"""Up to this size the worlds of a theorem are counted in its encoding; beyond, by formulas."""
 
 
 def every_world(edges: int, world_class: str = "any") -> Worlds:
@@ -40,7 +40,7 @@ def codes(edges: int, world_class: str = "any", budget: Budget | None = None) ->
     """The pair (degrees, alpha) of each model, in the order in which the solver finds them.
 
     Raises:
-        Undecided: the solver gave up before it had said that there are no more.
+        SolverGaveUp: the solver gave up before it had excluded further models.
     """
     world = every_world(edges, world_class)
     over = (*world.first, *world.joined.values())
@@ -51,7 +51,7 @@ def codes(edges: int, world_class: str = "any", budget: Budget | None = None) ->
 def missing_and_spurious(
     edges: int, world_class: str = "any", budget: Budget | None = None
 ) -> tuple[int, list[Table], list[Table]]:
-    """How many models there are; codes without a model; models that are no code, or come again."""
+    """The number of models; the codes without a model; the models that are no code, or repeated."""
     kind = WorldClass.parse(world_class)
     wanted = {table for table in rank_order.tables(edges) if kind.admits(table)}
     spurious: list[Table] = []
@@ -59,14 +59,14 @@ def missing_and_spurious(
     for code in codes(edges, world_class, budget):
         found += 1
         if code in wanted:
-            wanted.remove(code)
+            wanted.remove(code)  # so that a second model with this code counts as spurious
         else:
             spurious.append(code)
     return found, sorted(wanted), spurious
 
 
 def another_world(edges: int) -> Worlds:
-    """A model that is none of the canonical codes: there must be none."""
+    """The clauses of a world that is none of the canonical codes: they must contradict."""
     world = every_world(edges)
     for degrees, alpha in rank_order.tables(edges):
         firsts = {0, *accumulate(degrees[:-1])}
@@ -78,10 +78,10 @@ def another_world(edges: int) -> Worlds:
 
 @cache
 def worlds_encoded(edges: int, world_class: str = "any") -> int | None:
-    """How many worlds of the class the encoding has; None if the solver does not say.
+    """The number of worlds of the class in the encoding; None if the solver gave up.
 
-    Counted in the encoding itself up to `LISTED_EDGES`, and only codes that the enumeration has
-    too; beyond, what the formulas or the enumeration say.
+    Up to `LISTED_EDGES` the models that the enumeration confirms are counted; beyond, the formulas
+    or the enumeration give the number.
     """
     if edges > LISTED_EDGES:
         return WorldClass.parse(world_class).count(edges)

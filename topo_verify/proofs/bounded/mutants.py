@@ -1,12 +1,12 @@
-"""What must be refuted, with a world: the negatives, and rules with one thing changed.
+"""Theorems that must be refuted by a world: the negatives, and rules with one mistake.
 
     negative   a mapper that ignores the direction, or the whole, of the marker confirms a false
                hypothesis: in the smallest worlds of their class (`negatives`)
-    mutant     a rule with a fault (`walks.Fault`) confirms a false hypothesis, or rejects the
+    mutant     a rule with a fault (`walks.RuleFault`) confirms a false hypothesis, or rejects the
                true one
 
-The solver finds a world, a map and doors; then the simulator does it again and the checkers must
-object (`replaying`). A model that does not replay is not a counterexample: it raises.
+The solver finds a world, a map and doors. Then the simulator repeats them, and the checkers must
+find that the claim fails (`replay.py`). A model that does not replay is a bug, and raises.
 
 Source: docs/semantics.md, sections 7 and 10.
 """
@@ -19,7 +19,7 @@ from functools import partial
 from time import perf_counter
 
 from topo_verify.proofs.bounded import negatives, word_rules
-from topo_verify.proofs.bounded.decode import Counterexample, decode, decoded_booleans
+from topo_verify.proofs.bounded.decode import BoundedCounterexample, decode, decoded_booleans
 from topo_verify.proofs.bounded.encoding import MarkerDetail
 from topo_verify.proofs.bounded.replay import (
     ReplayedCounterexample,
@@ -35,7 +35,7 @@ from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult
 
 @dataclass(frozen=True, slots=True)
 class _FaultyRule:
-    """A rule, what is changed in it, in how small a world that goes wrong, and how to tell it."""
+    """A rule with one mistake: its name, the fault, the edges of its smallest counterexample."""
 
     rule: str
     fault: RuleFault | MarkerDetail
@@ -45,12 +45,12 @@ class _FaultyRule:
 
 
 def negative_theorems() -> tuple[Theorem, ...]:
-    """Every negative, at its smallest size."""
+    """Every negative as a theorem about its smallest size."""
     return tuple(map(_negative, negatives.SMALLEST))
 
 
 def mutant_theorems() -> tuple[Theorem, ...]:
-    """Every fault of a rule, in the smallest worlds where it goes wrong."""
+    """Every faulty rule as a theorem about the smallest worlds in which it fails."""
     return tuple(map(_mutant, _MUTANTS))
 
 
@@ -163,7 +163,8 @@ def _mutant(case: _FaultyRule) -> Theorem:
     )
 
 
-def _replay_of(case: _FaultyRule) -> Callable[[Counterexample], ReplayedCounterexample]:
+def _replay_of(case: _FaultyRule) -> Callable[[BoundedCounterexample], ReplayedCounterexample]:
+    # A fault of `confirm` is how much of the marker is compared; any other is a `RuleFault`.
     match case.fault:
         case "directed" | "undirected" | "none" as marker:
             return partial(replay_confirmation, marker=marker, whole=False)
@@ -173,10 +174,10 @@ def _replay_of(case: _FaultyRule) -> Callable[[Counterexample], ReplayedCountere
 
 def _refute(
     build: Callable[[], EncodedCounterexample],
-    replay: Callable[[Counterexample], ReplayedCounterexample],
+    replay: Callable[[BoundedCounterexample], ReplayedCounterexample],
     budget: Budget,
 ) -> TheoremResult:
-    """Look for a model; decode it; replay it."""
+    """The result of looking for a model; one that is found is decoded and replayed."""
     began = perf_counter()
     encoded = build()
     result = first_model(encoded.world, decoded_booleans(encoded), budget)

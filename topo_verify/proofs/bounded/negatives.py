@@ -1,17 +1,17 @@
-"""What is not true: without the marker's direction, false hypotheses are confirmed.
+"""The negatives: without the marker's direction, mappers confirm false hypotheses.
 
-A mapper walks the way home of a hypothesis h, a shortest way on S from h to v0, from where it
-really is, and compares percepts at each door and at both ends; but of the marker it looks only at
-its presence (`undirected`), or at nothing (`none`). Then there are worlds in which everything is as
-expected although e does not end in h. From this many edges on, and not below:
+A mapper stands behind e and walks the way home of a hypothesis h, a shortest way on S from h to v0.
+It compares the percepts at each door and at both ends, but of the marker it compares only the
+presence (`undirected`), or nothing (`none`). Then there are worlds in which every percept is as
+expected although e does not end in h. The smallest have this many edges:
 
     class       undirected   none
     any         2            2
     loopless    3            2
     simple      4            3
 
-The way is any shortest one: which of several a breadth-first search takes is left open, so what is
-unsatisfiable below holds for every policy. Depths on S are one-hot:
+The way is any shortest one, whichever a breadth-first search would take: so there is no smaller
+world for any policy. Depths on S are one-hot:
 
     depth[x][t]   the vertex of x is t edges from v0 on S       down[x]   x leads one nearer to v0
 
@@ -30,7 +30,7 @@ from topo_verify.proofs.bounded.word_rules import EncodedCounterexample
 
 @dataclass(frozen=True, slots=True)
 class Negative:
-    """How much of the marker is compared; the fewest edges of a world of the class."""
+    """A false claim about a class of worlds, and the edges of the smallest that refutes it."""
 
     marker: MarkerDetail
     world_class: str
@@ -38,7 +38,7 @@ class Negative:
 
     @property
     def name(self) -> str:
-        """Of the theorem: `undirected-simple`."""
+        """The name of the theorem, such as `undirected-simple`."""
         return f"{self.marker}-{self.world_class}"
 
     @property
@@ -64,12 +64,12 @@ SMALLEST = (
 
 
 def premises(edges: int, world_class: str) -> Formula:
-    """A world of the class, a map of it, and an unexplored dart: nothing yet of hypotheses."""
+    """Any unexplored dart of any map of any world of the class, without a hypothesis."""
     return behind_an_edge(edges, world_class=world_class).world
 
 
 def false_confirmation(edges: int, world_class: str, marker: MarkerDetail) -> EncodedCounterexample:
-    """Everything on a shortest way home from h is as expected, and yet e does not end in h."""
+    """Every percept on a shortest way home from h is as expected, and e does not end in h."""
     scene = behind_an_edge(edges, world_class=world_class)
     world, h = scene.world, hypothesis(scene)
     word = doors(world, "door", edges)
@@ -77,6 +77,7 @@ def false_confirmation(edges: int, world_class: str, marker: MarkerDetail) -> En
     here = walk(world, "here", h, word, go)
     there = walk(world, "there", scene.vu, word, go)
     stay_explored(world, scene.chart, here, go)
+    # A step is made exactly if v0 is not reached yet, and after all steps it is.
     for i, on in enumerate(go):
         world.equate("way", (), (on,), (-here.senses[i].here,))
     world.add("way", here.senses[-1].here)
@@ -93,7 +94,7 @@ def false_confirmation(edges: int, world_class: str, marker: MarkerDetail) -> En
 
 
 def depths(world: Worlds, chart: EncodedMap) -> tuple[CnfRow, ...]:
-    """How far each known dart's vertex is from v0 on the map: a row a dart."""
+    """Per dart, a one-hot row: the distance of its vertex from v0 on the map."""
     group, levels = "depths", range(world.edges + 1)
     depth = tuple(world.booleans(f"depth.{d}", len(levels)) for d in world.darts)
     down = world.booleans("down", len(world.darts))
@@ -105,6 +106,7 @@ def depths(world: Worlds, chart: EncodedMap) -> tuple[CnfRow, ...]:
             for u in range(t):
                 world.add(group, -depth[d][t], -depth[d][u])
         world.imply(group, [down[d]], chart.explored[d])
+    # All darts of a vertex have one depth, and each vertex but v0 has a dart that leads nearer.
     for (f, degree), vertex in world.vertex.items():
         for x in range(f + 1, f + degree):
             world.equate(group, (vertex,), depth[x], depth[f])
@@ -116,6 +118,7 @@ def depths(world: Worlds, chart: EncodedMap) -> tuple[CnfRow, ...]:
             for t in levels[1:]:
                 joined = (world.edge(a, b), depth[x][t])
                 world.imply(group, (*joined, down[x]), depth[y][t - 1])
+                # An explored edge changes the depth by at most one: so depths are distances.
                 farther = depth[y][t - 1 : t + 2]
                 world.imply(group, (*joined, chart.explored[x]), *farther)
     return depth
@@ -124,7 +127,7 @@ def depths(world: Worlds, chart: EncodedMap) -> tuple[CnfRow, ...]:
 def _one_nearer(
     world: Worlds, depth: tuple[CnfRow, ...], leave: CnfRow, arrive: CnfRow, on: int
 ) -> None:
-    """A step that is made leads from depth t to depth t - 1."""
+    """Require that a step that is made leads from depth t to depth t - 1."""
     for x in world.darts:
         for y in world.darts:
             for t in range(1, world.edges + 1):

@@ -1,14 +1,15 @@
-"""What a model says happens, done again in the simulator, with no solver in it.
+"""Replay: a decoded counterexample is repeated in the simulator, without a solver.
 
-The simulated robot draws the story's map edge by edge, crosses e and takes the doors; then the
-checkers are asked about the trace.
+The simulated robot draws the map of the counterexample edge by edge, crosses e and takes the doors;
+then the checkers judge the trace.
 
-    false confirmation   the percepts are the expected ones, as far as the mapper looks at them; it
-                         confirms h, and claim `no-false-confirm` must fail just there
-    false rejection      the faulty rule, in plain code on the map, finds a percept that is not the
-                         expected one; it rejects h, and claim `true-hypothesis-kept` must fail
+    false confirmation   all percepts that the mapper compares are as expected; it confirms h, and
+                         claim `no-false-confirm` must fail at this very event
+    false rejection      the faulty rule, written here a second time as plain code on the map, finds
+                         an unexpected percept; it rejects h, and claim `true-hypothesis-kept` must
+                         fail at this very event
 
-A model that does not replay is a bug of the encoding, and is reported as one (`Disagreement`).
+A model that does not replay is a bug of the encoding and raises `Disagreement`.
 
 Source: docs/semantics.md, sections 4, 6, 7 and 9.
 """
@@ -22,7 +23,7 @@ from topo_verify.algorithms.chart import Chart, Dart
 from topo_verify.algorithms.motion import Pilot, common_prefix
 from topo_verify.checkers import check
 from topo_verify.errors import InternalError
-from topo_verify.proofs.bounded.decode import Counterexample, DoorWord, Excursion
+from topo_verify.proofs.bounded.decode import BoundedCounterexample, DoorWord, Excursion
 from topo_verify.proofs.bounded.encoding import MarkerDetail
 from topo_verify.proofs.bounded.walks import RuleFault
 from topo_verify.robot.events import (
@@ -40,16 +41,16 @@ from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.world.rooted_map import World
 
 PerceptPairs = Iterator[tuple[int, Percept, Percept]]
-"""Step, the percept that the rule expects, the one that it takes for observed."""
+"""(step, the percept that the rule expects, the percept that it compares with it)."""
 
 
 class Disagreement(InternalError):
-    """What a solver's model says does not happen in the simulator: please report it."""
+    """A solver's model does not replay in the simulator. This is our bug: please report it."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReplayedCounterexample:
-    """A story that came true: the doors of all moves; the event that fails the claim."""
+    """A replayed counterexample: the doors of all moves, and the event that fails the claim."""
 
     world: World
     doors: DoorWord
@@ -58,15 +59,16 @@ class ReplayedCounterexample:
 
 
 def replay_confirmation(
-    found: Counterexample, marker: MarkerDetail, *, whole: bool = True
+    found: BoundedCounterexample, marker: MarkerDetail, *, whole: bool = True
 ) -> ReplayedCounterexample:
-    """The story of a false confirmation, done.
+    """Replay a false confirmation.
 
     Args:
-        marker: what of it the mapper looks at.
-        whole: all percepts are as expected, and the way is a shortest one; else only the last.
+        marker: how much of the marker the mapper compares.
+        whole: require that all percepts are as expected and that the way is a shortest one; else
+            only that the last percept is as expected.
     Raises:
-        Disagreement: it does not happen.
+        Disagreement: the confirmation does not happen.
     """
     run = _Replayer(found)
     run.cross(found.e, marker)
@@ -79,18 +81,20 @@ def replay_confirmation(
     if wanted != [_seen(percept, marker) for percept in run.pilot.percepts[since:]]:
         raise Disagreement(f"{found}: the robot sees {run.pilot.percepts}, expected {expected}")
     if vertices[-1] != 0 or (whole and run.chart.tree(0).depth[vertices[0]] != len(found.word)):
-        raise Disagreement(f"{found}: this is no shortest way home")
+        raise Disagreement(f"{found}: the doors are not a shortest way home")
     return run.judge(Confirm(found.e, found.h, "motion"), "no-false-confirm")
 
 
-def replay_rejection(found: Counterexample, rule: str, fault: RuleFault) -> ReplayedCounterexample:
-    """The story of a false rejection, done.
+def replay_rejection(
+    found: BoundedCounterexample, rule: str, fault: RuleFault
+) -> ReplayedCounterexample:
+    """Replay a false rejection.
 
     Args:
         rule: `trace`, `prefix`, `history` or `records`.
-        fault: what is changed in it.
+        fault: the mistake in the rule.
     Raises:
-        Disagreement: it does not happen.
+        Disagreement: the rejection does not happen.
     """
     run = _Replayer(found, fault)
     run.cross(found.e)
@@ -110,8 +114,10 @@ def replay_rejection(found: Counterexample, rule: str, fault: RuleFault) -> Repl
 # ------------------------------------------------------------------ the faulty rules
 
 
-def _compared(run: _Replayer, found: Counterexample, rule: str, fault: RuleFault) -> PerceptPairs:
-    """What the rule compares for h, in its order."""
+def _compared(
+    run: _Replayer, found: BoundedCounterexample, rule: str, fault: RuleFault
+) -> PerceptPairs:
+    """The pairs of percepts that the rule compares for h, in its order."""
     if rule == "records":
         return _records(run, found)
     if rule == "prefix":
@@ -127,7 +133,7 @@ def _along(run: _Replayer, way: list[Dart], fault: RuleFault) -> PerceptPairs:
         yield step, run.chart.percepts[at], seen
 
 
-def _prefix(run: _Replayer, found: Counterexample, fault: RuleFault) -> PerceptPairs:
+def _prefix(run: _Replayer, found: BoundedCounterexample, fault: RuleFault) -> PerceptPairs:
     """The percepts on the common prefix; with the fault `one-more` one door further."""
     way = _way(run.chart, found.h, found.own)
     shared = common_prefix(found.own, found.word) + int(fault == "one-more")
@@ -135,8 +141,8 @@ def _prefix(run: _Replayer, found: Counterexample, fault: RuleFault) -> PerceptP
         yield step, run.chart.percepts[way[step]], run.pilot.percepts[step]
 
 
-def _records(run: _Replayer, found: Counterexample) -> PerceptPairs:
-    """What was recorded behind the unexplored dart where tracing ends, as deep as doors agree."""
+def _records(run: _Replayer, found: BoundedCounterexample) -> PerceptPairs:
+    """The records behind the unexplored dart where tracing ends, as deep as the doors agree."""
     assert found.earlier is not None
     step = len(_traced(run.chart, found.h, found.word))
     if run.recorded is None or step > len(found.word):
@@ -173,7 +179,7 @@ def _traced(chart: Chart, at: Dart, word: DoorWord, fault: RuleFault = "") -> li
 
 
 def _seen(percept: Percept, marker: MarkerDetail) -> object:
-    """What a mapper compares that looks at so much of the marker."""
+    """The part of a percept that a mapper compares."""
     match marker:
         case "directed":
             return percept
@@ -187,24 +193,26 @@ def _seen(percept: Percept, marker: MarkerDetail) -> object:
 
 
 class _Replayer:
-    """A robot in the story's world that draws the story's map. Lives for one replay."""
+    """A robot that draws the map of a counterexample in its world. Lives for one replay."""
 
-    def __init__(self, found: Counterexample, fault: RuleFault = "") -> None:
+    def __init__(self, found: BoundedCounterexample, fault: RuleFault = "") -> None:
         self.world = found.world
         self.robot = SimulatedRobot(found.world, 10_000)
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
         self.at: Dart = 0
-        self.recorded: tuple[Dart, int] | None = None  # T's dart; the place of its first percept
+        # The dart under which records are kept, and the index of its first percept.
+        self.recorded: tuple[Dart, int] | None = None
         self.recorded_percepts: tuple[Percept, ...] = ()
         if found.earlier is not None:
             self._learn(found.earlier, fault)
         self._draw(found.explored)
 
     def cross(self, e: Dart, marker: MarkerDetail = "undirected") -> None:
-        """Walk to e, cross it, pose the hypotheses that look like what is there."""
+        """Walk to e, cross it, and pose the hypotheses that look like the vertex behind it."""
         del self.chart.unexplored[e]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
+        # Hypotheses are posed by what does not depend on the reference dart, hence no direction.
         signature: MarkerDetail = "undirected" if marker == "directed" else marker
         seen = _seen(self.pilot.cross(self.chart, self.at, e), signature)
         percepts = self.chart.percepts
@@ -217,14 +225,15 @@ class _Replayer:
             self.pilot.forward(door)
 
     def excursion(self, word: DoorWord) -> None:
-        """Out and back, and then forget that the reference dart is turned."""
+        """Go out and back, then forget that the reference dart is turned (the fault `turned`)."""
         self.out(word)
         self.pilot.back(0)
         self.pilot.turned = 0
 
     def judge(self, result: Decision, claim: str) -> ReplayedCounterexample:
-        """Declare it; the checkers must find that the claim fails, at just this event."""
+        """Declare a decision; the checkers must find that the claim fails at this very event."""
         self.robot.declare(result)
+        # The verdict of the trusted checkers counts, not that of the encoding.
         trace = (Start(percept=first_percept(self.world)), *self.robot.events)
         event = len(trace) - 1
         findings = [found for judged in check(self.world, trace) for found in judged.findings]
@@ -235,6 +244,7 @@ class _Replayer:
 
     def _draw(self, explored: frozenset[tuple[Dart, Dart]]) -> None:
         """Explore these edges: first those that find vertices, in their order, then the others."""
+        # First the edges by which vertices are found, or others would find them with other numbers.
         firsts = {rotation[0] for rotation in self.world.vertices[1:]}
         for e, end in sorted(explored, key=lambda edge: (edge[1] not in firsts, edge[1])):
             if self.chart.alpha[e] is None:
@@ -242,7 +252,7 @@ class _Replayer:
                 self._augment(e, end)
 
     def _augment(self, e: Dart, end: Dart) -> None:
-        """Back behind e: join it with its end, at a new vertex if S has none there."""
+        """Go back behind e and join it with its end, a new vertex if S does not know it."""
         self.pilot.back(0)
         percept = self.robot.percept
         new = end >= len(self.chart.alpha)

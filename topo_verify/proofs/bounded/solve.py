@@ -1,7 +1,7 @@
-"""Put clauses to Z3, and read assignments back.
+"""The satisfiability of clauses, and their models, found by Z3.
 
 Z3 reads the SMT-LIB 2 text that is also exported and handed to other solvers, so all of them answer
-the same question. The answer is one of three; a time-out is `unknown`, whatever words come with it.
+the same question.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from topo_verify.proofs.theorem import Budget, SolverAnswer
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """An assignment that satisfies a formula: the Booleans that are true."""
+    """A model of a formula: the Booleans that are true; all others are false."""
 
     true: frozenset[int]
 
     def holds(self, literal: int) -> bool:
-        """Is the literal true?"""
+        """Whether the literal is true."""
         return (abs(literal) in self.true) == (literal > 0)
 
     def index(self, row: CnfRow) -> int:
-        """Which literal of a one-hot row is true."""
+        """The index of the literal of a one-hot row that is true."""
         (place,) = (index for index, literal in enumerate(row) if self.holds(literal))
         return place
 
@@ -36,9 +36,9 @@ class SatResult:
     """Z3's answer about a formula.
 
     Attributes:
-        model: if the answer is sat.
+        model: an assignment, if the answer is sat.
         core: the groups of clauses that an unsat answer used; not minimal.
-        why: why it is unknown.
+        why: the reason for unknown, in Z3's words.
     """
 
     answer: SolverAnswer
@@ -49,7 +49,7 @@ class SatResult:
 
 
 def solve(formula: Formula, budget: Budget) -> SatResult:
-    """Is the formula satisfiable? Never raises for a time-out."""
+    """Z3's answer to the question whether the formula is satisfiable; a time-out is `unknown`."""
     began = perf_counter()
     question = Z3Question(formula.smt2(), budget, setup="clauses", labels=tuple(formula.groups))
     answer = question.check()
@@ -59,10 +59,10 @@ def solve(formula: Formula, budget: Budget) -> SatResult:
 
 
 def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
-    """As `decide`, and a model is always the same one: the first of all, by the Booleans `over`.
+    """As `solve`, but the model is the first of all in the order of the literals `over`.
 
-    First is the one in which the earliest of them are true. (What Z3 finds first varies from run to
-    run.)
+    The first makes the earliest literals true. Which model Z3 finds by itself may vary from run to
+    run, and a counterexample that is printed must not.
     """
     began = perf_counter()
     question = Z3Question(formula.smt2(), budget, setup="clauses")
@@ -72,7 +72,7 @@ def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
     assumed: dict[str, bool] = {}
     for literal in over:
         name = formula.names[abs(literal) - 1]
-        # One Boolean after the other is made true where it can be; what can be is then assumed.
+        # Make one literal after the other true where that is possible, and assume the outcome.
         if not model.holds(literal):
             answer = question.check(assumed | {name: literal > 0})
             if answer == "unknown":
@@ -87,7 +87,7 @@ def models(formula: Formula, over: CnfRow, budget: Budget) -> Iterator[Assignmen
     """All models, one for each assignment of the Booleans `over`; the order is Z3's.
 
     Raises:
-        Undecided: Z3 gave up before it had said that there are no more.
+        SolverGaveUp: Z3 gave up before it had excluded further models.
     """
     question = Z3Question(formula.smt2(), budget, setup="clauses")
     names = {abs(literal): formula.names[abs(literal) - 1] for literal in over}
@@ -100,7 +100,7 @@ def models(formula: Formula, over: CnfRow, budget: Budget) -> Iterator[Assignmen
 
 
 class SolverGaveUp(Exception):
-    """The solver gave up: give it more time with `--timeout`."""
+    """The solver gave up. Give it more time with `--timeout`."""
 
 
 def _model(formula: Formula, question: Z3Question) -> Assignment:

@@ -1,6 +1,7 @@
-"""What the bounded theorems state, in words, in symbols, and as clauses.
+"""The statements of the bounded theorems, in words, in symbols, and as clauses.
 
-One door at a time: `one_door.py`; whole words: `whole_words.py`. How they are proved: `bounded.py`.
+Their clauses are in `door_steps.py` (one door) and `word_rules.py` (whole words); `theorems.py`
+proves them. A new statement is one entry here.
 
     S, U        a map that can be reached; its unexplored darts         W     the world
     p, r        a dart of S, a reference dart of the robot              p'    behind the door
@@ -20,12 +21,13 @@ from topo_verify.proofs.bounded.encoding import Worlds
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundedStatement:
-    """A bounded theorem before it is given its sizes.
+    """A bounded theorem, for any number of edges.
 
     Attributes:
-        refuted: the clauses that say that it is false in a world with so many edges.
-        premises: what must be satisfiable; None: the same without the negated conclusion.
-        least: the fewest edges with which it speaks of anything.
+        refuted: given a number of edges, the clauses of a counterexample: they must contradict.
+        premises: the clauses that must be satisfiable, or the statement is vacuous; None: those of
+            `refuted` without the negated conclusion.
+        least: the fewest edges with which it is not vacuous.
     """
 
     name: str
@@ -40,13 +42,13 @@ class BoundedStatement:
 
 
 _BY_DOORS = ("doors",)
-"""The step from one door to words of any length, as docs/proofs.md calls it."""
+"""The induction from one door to words of any length, by its name in docs/proofs.md."""
 
 ONE_DOOR_STATEMENTS = (
     BoundedStatement(
         name="bounded-pose",
         claims=("true-hypothesis-posed",),
-        words="If e leads to a known vertex, its other end is unexplored and not e: it is in H.",
+        words="If e leads to a known vertex, its other end is unexplored and not e: a hypothesis.",
         symbols="alpha(e) ∈ S ⇒ alpha(e) ∈ U \\ {e}",
         refuted=door_steps.pose,
     ),
@@ -78,7 +80,7 @@ ONE_DOOR_STATEMENTS = (
     BoundedStatement(
         name="bounded-record",
         claims=("true-hypothesis-kept",),
-        words="What was seen behind an unexplored dart is what is seen there on any later map.",
+        words="The percept recorded behind an unexplored dart is seen there on any later map, too.",
         symbols="S ⊆ S', sigma^k(q) = sigma^l(p) = d ∈ U' ⇒ percept(q') = percept(p')",
         refuted=door_steps.record,
     ),
@@ -92,7 +94,7 @@ ONE_DOOR_STATEMENTS = (
     BoundedStatement(
         name="bounded-closed",
         claims=("map-isomorphic",),
-        words="A map on which everything is explored is the whole world.",
+        words="A map with no unexplored dart is the whole world.",
         symbols="U = ∅ ⇒ S = W",
         refuted=door_steps.closed,
     ),

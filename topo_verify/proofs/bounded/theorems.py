@@ -1,13 +1,13 @@
-"""The bounded theorems: every world with m edges, every map that can be reached in it.
+"""The bounded theorems: they hold in every world with m edges, on every reachable map of it.
 
     one-door   one arbitrary door at an arbitrary place, m = 1 … 6; words of any length by induction
     words      whole words of up to m doors, m = 1 … 3; with --deep m = 4, where that is feasible
     below      no false confirmation without the marker's direction, below the sizes of `negatives`
-    worlds     the worlds that all these speak of are the canonical codes
+    worlds     the worlds of the encoding are the canonical codes, each of them once
 
-A theorem holds if its clauses are unsatisfiable for each m: EXHAUSTED, and the worlds are counted
-in the encoding (`enumeration`) and by the formulas. Its premises alone must be satisfiable for each
-m. Should one fail, the model is decoded to a world and the theorem is REFUTED by it.
+A theorem is EXHAUSTED if its clauses are unsatisfiable for each m; the worlds are counted in the
+encoding (`model_count.py`) and by the formulas. Its premises alone must be satisfiable for each m.
+If the clauses are satisfiable, the model is decoded to a world that makes the theorem REFUTED.
 
 Source: docs/semantics.md, sections 4 to 10.
 """
@@ -41,14 +41,14 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 
 MOST_EDGES = 6
-"""One-door theorems are asked up to here: a few seconds in all."""
+"""The largest size of the one-door theorems: a few seconds in all."""
 
 WORD_EDGES, DEEP_WORD_EDGES = 3, 4
-"""Whole words grow fast: with 4 edges a minute each, and records are out of reach."""
+"""The largest sizes of whole words: 4 edges take a minute each, and records longer."""
 
 
 def bounded(edges: int = MOST_EDGES) -> tuple[Theorem, ...]:
-    """All bounded theorems, the one-door ones up to so many edges.
+    """All bounded theorems; the one-door ones speak of worlds up to this size.
 
     Raises:
         InputError: no edges, or too many to be feasible.
@@ -102,7 +102,7 @@ def theorem(
 
 
 def _below(negative: negatives.Negative) -> Theorem:
-    """Below its smallest size a negative is no counterexample."""
+    """The theorem that a negative has no counterexample below its smallest size."""
 
     def refuted(edges: int) -> Worlds:
         kind, marker = negative.world_class, negative.marker
@@ -124,7 +124,7 @@ def _below(negative: negatives.Negative) -> Theorem:
 
 
 def _prove(name: str, statement: BoundedStatement, sizes: range, budget: Budget) -> TheoremResult:
-    """Ask for each size; the first that is not unsatisfiable decides."""
+    """The result over all sizes; the first size with an unexpected answer decides it."""
     if budget.certify:
         drup.require_tools()
     began = perf_counter()
@@ -159,19 +159,21 @@ def _prove(name: str, statement: BoundedStatement, sizes: range, budget: Budget)
         if result.answer != "unsat":
             return outcome(*_not_proved(formula, result, m))
         cores |= set(result.core)
+        # Unsatisfiable premises would make any conclusion hold, so they are asked for each size.
         alone = formula.premises() if statement.premises is None else statement.premises(m)
         premises.append({"sat": True, "unsat": False, "unknown": None}[solve(alone, budget).answer])
         worlds = worlds_encoded(m, statement.world_class)
         if worlds is None:
             return outcome("UNKNOWN", f"the worlds with {m} edges could not be counted")
         checked += worlds
+        # After one size without a certificate there can be none for the theorem: stop making them.
         if budget.certify and not any(isinstance(attempt, str) for attempt in attempts):
             attempts.append(drup.certify(formula, seconds=budget.timeout))
     return outcome("EXHAUSTED")
 
 
 def _not_proved(formula: Worlds, result: SatResult, m: int) -> tuple[Verdict, str, str | None]:
-    """Verdict, note and counterexample where the clauses were not unsatisfiable."""
+    """Verdict, note and counterexample if the clauses of one size were not unsatisfiable."""
     if result.model is not None:
         world = decode_world(formula, result.model).id
         return "REFUTED", f"it is false in {world}: `--smt2` writes the question", world
@@ -182,7 +184,7 @@ def _not_proved(formula: Worlds, result: SatResult, m: int) -> tuple[Verdict, st
 def _one_certificate(
     attempts: list[RefutationCertificate | str], sizes: range
 ) -> tuple[RefutationCertificate | None, str]:
-    """The certificates of all sizes as one, if each has one; else up to where there is one."""
+    """The certificates of all sizes as one; or, if a size has none, a note that says why."""
     made = [attempt for attempt in attempts if isinstance(attempt, RefutationCertificate)]
     if not attempts or any(not attempt.checked for attempt in made):
         return (drup.together(made) if made else None), ""
@@ -207,8 +209,8 @@ def _questions(
 def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> Theorem:
     """The models of the encoding are the canonical codes, each once.
 
-    What is exported and certified is that there is no other model; that there is one for each code
-    is seen in the list.
+    The exported and certified question is that there is no other model; the list shows that there
+    is one for each code.
     """
 
     def prove(budget: Budget) -> TheoremResult:

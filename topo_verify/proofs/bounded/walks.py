@@ -1,13 +1,13 @@
-"""Words of doors, executed in the world and traced on a map: the rules, as clauses.
+"""Walks as clauses: a word of doors, executed in the world and traced on a map.
 
 A robot has crossed the unexplored dart `e` and stands at `vu`, its reference dart `alpha(e)`. A
 hypothesis `h` says that this is dart h of S. Then a word of doors can be followed twice:
 
-    there     in the world, from alpha(e): where the robot really is
-    here      on S, from h: where it would be if the hypothesis were true; over explored darts only
+    there     in the world, from alpha(e): the true positions of the robot
+    here      on S, from h, over explored darts: the positions that the hypothesis predicts
 
-The rules compare what is sensed there with what S shows here. All statements are about any word,
-any map and any world with m edges, up to a number of steps:
+The rules compare the percepts there with those that S shows here. The statements speak of any word
+up to a number of doors, any map, and any world with m edges:
 
     confirm   here ends at v0 and the last percepts are equal            ⇒  h = alpha(e)
     trace     h = alpha(e), every door crosses an explored dart          ⇒  all percepts are equal
@@ -16,8 +16,8 @@ any map and any world with m edges, up to a number of steps:
     records   as history, and behind the unexplored dart the percepts of an earlier word that
               crossed it are compared, one place deep or as deep as the doors agree
 
-A `Fault` changes a rule in one way. Each makes a rule reject a true hypothesis or confirm a false
-one in a small world: that is how it is seen that the statements can fail.
+A `RuleFault` changes a rule in one way, so that it rejects a true hypothesis or confirms a false
+one in a small world. This shows that the statements can fail.
 
 Source: docs/semantics.md, sections 6, 7 and 9.
 """
@@ -35,7 +35,7 @@ from topo_verify.proofs.bounded.encoding import EncodedMap, EncodedPercept, Worl
 RuleFault = Literal[
     "", "through-unexplored", "absolute-doors", "shifted", "turned", "one-more", "first-dart"
 ]
-"""One thing changed in a rule:
+"""One mistake in a rule; "" is none:
 
     through-unexplored  an unexplored dart is traced as if it led back to itself
     absolute-doors      doors are counted on S from the first dart of the vertex
@@ -48,7 +48,7 @@ RuleFault = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """Positions, the doors taken, and what is sensed at each position."""
+    """A walk of n doors: n + 1 positions, the doors, the darts left by, and n + 1 percepts."""
 
     at: tuple[CnfRow, ...]
     doors: tuple[CnfRow, ...]
@@ -61,7 +61,8 @@ class EdgeCrossing:
     """A world, a map of it, and the robot behind an unexplored dart.
 
     Attributes:
-        e, vu: the dart crossed; the reference dart behind it.
+        e: the dart crossed.
+        vu: the reference dart behind it.
     """
 
     world: Worlds
@@ -71,7 +72,7 @@ class EdgeCrossing:
 
 
 def behind_an_edge(edges: int, *, world_class: str = "any") -> EdgeCrossing:
-    """Any world of the class, any reachable map S, any unexplored dart e."""
+    """A robot behind any unexplored dart e of any reachable map S in any world of the class."""
     world = Worlds(edges)
     world.restrict(world_class)
     chart = world.map("S")
@@ -81,7 +82,7 @@ def behind_an_edge(edges: int, *, world_class: str = "any") -> EdgeCrossing:
 
 
 def crossed(world: Worlds, chart: EncodedMap, name: str) -> tuple[CnfRow, CnfRow]:
-    """Any unexplored dart of a map, and the reference dart behind it."""
+    """Any unexplored dart of a map, and the robot's reference dart after crossing it."""
     e = open_dart(world, chart, name)
     vu = world.position(name, f"{name}.behind")
     world.cross(name, e, vu)
@@ -89,7 +90,7 @@ def crossed(world: Worlds, chart: EncodedMap, name: str) -> tuple[CnfRow, CnfRow
 
 
 def open_dart(world: Worlds, chart: EncodedMap, name: str) -> CnfRow:
-    """Any dart of a map that is unexplored."""
+    """Any unexplored dart of a map."""
     dart = world.position(name, name)
     for d in world.darts:
         world.add(name, -dart[d], chart.known[d])
@@ -106,7 +107,7 @@ def hypothesis(scene: EdgeCrossing) -> CnfRow:
 
 
 def true_hypothesis(scene: EdgeCrossing) -> CnfRow:
-    """The hypothesis that is true: the other end of e, where S knows it."""
+    """The true hypothesis for e: its other end, in worlds where S knows it."""
     h = hypothesis(scene)
     scene.world.equate("h", (), h, scene.vu)
     return h
@@ -121,7 +122,7 @@ def doors(world: Worlds, name: str, steps: int) -> tuple[CnfRow, ...]:
 
 
 def going(world: Worlds, name: str, steps: int) -> tuple[CnfLiteral, ...]:
-    """Per step: is it still made? A word may be shorter than the number of steps."""
+    """Per step, is it made? This lets a word be shorter than the number of steps."""
     go = world.booleans(f"{name}.go", steps)
     for before, after in pairwise(go):
         world.add(name, -after, before)
@@ -135,7 +136,7 @@ def walk(
     word: tuple[CnfRow, ...],
     go: tuple[CnfLiteral, ...] | None = None,
 ) -> Walk:
-    """Follow a word in the world; where `go` has ended, stay."""
+    """The walk along a word in the world, which stays in place once `go` has ended."""
     at, leave, senses = [start], list[CnfRow](), [world.sense(name, start, f"{name}.0")]
     for i, door in enumerate(word):
         guard = () if go is None else (go[i],)
@@ -143,7 +144,7 @@ def walk(
         at.append(world.position(name, f"{name}.at.{i + 1}"))
         world.turn(name, at[i], door, leave[i], *guard)
         world.cross(name, leave[i], at[i + 1], *guard)
-        if go is not None:
+        if go is not None:  # a step that is not made stays in place
             world.equate(name, (-go[i],), at[i], at[i + 1])
         senses.append(world.sense(name, at[i + 1], f"{name}.{i + 1}"))
     return Walk(tuple(at), word, tuple(leave), tuple(senses))
@@ -151,11 +152,11 @@ def walk(
 
 @dataclass(frozen=True, slots=True)
 class TracedWalk:
-    """A word followed on a map until it crosses an unexplored dart.
+    """A walk on a map, made until it crosses an unexplored dart.
 
     Attributes:
-        alive: per position, is tracing still on explored darts there?
-        ends: per step, does it cross an unexplored dart for the first time?
+        alive: per position, has the walk crossed only explored darts so far?
+        ends: per step, is it the first to cross an unexplored dart?
     """
 
     walk: Walk
@@ -172,8 +173,9 @@ def trace(
     *,
     fault: RuleFault = "",
 ) -> TracedWalk:
-    """Follow a word on a map, over explored darts, as far as that goes."""
+    """The walk along a word on a map, made as far as it crosses explored darts."""
     at, leave, senses = [start], list[CnfRow](), [world.sense(name, start, f"{name}.0")]
+    # Dart 0 always begins a vertex: `first[0]` is the constant true of the encoding.
     alive, ends = [world.first[0]], list[CnfLiteral]()
     for i, door in enumerate(word):
         leave.append(world.position(name, f"{name}.leave.{i}"))
@@ -183,6 +185,7 @@ def trace(
         on = world.define_and(name, f"{name}.on.{i + 1}", [alive[i], known])
         ends.append(world.define_and(name, f"{name}.ends.{i}", [alive[i], -known]))
         world.cross(name, leave[i], at[i + 1], on)
+        # Once the walk has ended it stays in place, so that all rows keep a definite value.
         world.equate(name, (-alive[i],), at[i], at[i + 1])
         through = fault == "through-unexplored"
         world.equate(name, (ends[i],), leave[i] if through else at[i], at[i + 1])
@@ -194,7 +197,7 @@ def trace(
 def stay_explored(
     world: Worlds, chart: EncodedMap, walked: Walk, go: tuple[CnfLiteral, ...]
 ) -> None:
-    """Every door of a walk crosses an explored dart of the map."""
+    """Require that every step made crosses an explored dart of the map."""
     for leave, on in zip(walked.leave, go, strict=True):
         for d in world.darts:
             world.add("explored-way", -on, -leave[d], chart.explored[d])
@@ -203,12 +206,13 @@ def stay_explored(
 def differ_somewhere(
     world: Worlds, pairs: Sequence[tuple[EncodedPercept, EncodedPercept, tuple[CnfLiteral, ...]]]
 ) -> None:
-    """Refuted if at one of these places all guards hold and the two percepts differ.
+    """Negate the conclusion: somewhere all guards hold and the two percepts differ.
 
-    The premises alone must let a place with guards be reached: else nothing would be compared.
+    The premises alone must let a guarded place be reached: otherwise nothing would be compared.
     """
     reached: list[CnfLiteral] = []
     seen: list[CnfLiteral] = []
+    # Without guards a place is always reached, and `met` has nothing to require for it.
     for i, (one, other, guards) in enumerate(pairs):
         same = world.alike("percepts", one, other, f"compare.{i}")
         if guards:

@@ -1,12 +1,12 @@
 """The rules on whole words: every word of up to `steps` doors, on every map of every world.
 
-Each function says, as clauses, that a rule goes wrong: it confirms a false hypothesis, or rejects
-the true one. That nothing satisfies them is the statement. The letters and the rules: `walks.py`;
-of one door at a time, and so of words of any length: `one_door.py`. Here nothing is left to an
-induction.
+Each function returns clauses that describe a failure of a rule: it confirms a false hypothesis, or
+rejects the true one. The statement is that nothing satisfies them. `walks.py` explains the letters
+and the rules. `door_steps.py` treats one door at a time, and words of any length by induction; here
+no induction is needed, for words that are short.
 
-With a `fault` the rule is changed in one way, and there is a world in which it goes wrong; the rows
-that say what happens there are in the `Play`, for `replaying.py`.
+With a `fault` the rule is changed in one way, and there is a world in which it fails. The rows that
+say what happens there are in the `EncodedCounterexample`, for `decode.py` and `replay.py`.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from topo_verify.proofs.bounded.walks import (
 
 @dataclass(frozen=True, slots=True)
 class EncodedExcursion:
-    """An earlier one: the map before it, the dart crossed, the word executed behind."""
+    """An earlier excursion: the map before it, the dart crossed, the word executed behind it."""
 
     chart: EncodedMap
     e: CnfRow
@@ -46,12 +46,13 @@ class EncodedCounterexample:
     """A formula, and the rows that say what happens in a world that satisfies it.
 
     Attributes:
-        chart: the map S; e, h: the dart crossed and the hypothesis.
+        chart: the map S.
+        e, h: the dart crossed, and the hypothesis for its other end.
         executed: the doors that the robot takes behind e.
-        made: per door: is it taken? None: all are.
-        own: for `prefix`, the hypothesis' own way.
-        turned: for the fault of that name: the door of an earlier excursion.
-        earlier, levels: for `records`: what was recorded, and how deep it is compared.
+        made: per door, is it taken? None: all are.
+        own: for `prefix`, the doors of the hypothesis' own way home.
+        turned: for the fault of that name, the door of an earlier excursion.
+        earlier, levels: for `records`, the recorded excursion, and the depth compared.
     """
 
     world: Worlds
@@ -67,9 +68,9 @@ class EncodedCounterexample:
 
 
 def confirm(edges: int, steps: int, *, marker: MarkerDetail = "directed") -> EncodedCounterexample:
-    """A way home from h ends at v0 as it should, and yet h is not the other end of e.
+    """A way home from h ends with v0's percept as expected, and h is not the other end of e.
 
-    Only the last percept is compared: those between can only reject more.
+    Only the last percept is compared: comparing those between could only reject more.
     """
     scene = behind_an_edge(edges)
     world, h = scene.world, hypothesis(scene)
@@ -90,14 +91,14 @@ def confirm(edges: int, steps: int, *, marker: MarkerDetail = "directed") -> Enc
 
 
 def trace_way(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterexample:
-    """On a way over explored darts from the true h, a percept is not the expected one."""
+    """On a way over explored darts from the true h, a percept differs from the expected one."""
     scene = behind_an_edge(edges)
     world, h = scene.world, true_hypothesis(scene)
     word, go = doors(world, "door", steps), going(world, "way", steps)
     here = walk(world, "here", h, word, go)
     stay_explored(world, scene.chart, here, go)
     start, turned = scene.vu, None
-    if fault == "turned":
+    if fault == "turned":  # the robot is turned by any door, and takes the doors as if it were not
         start, turned = world.position("turned", "start"), world.row("turned", "turn", 2 * edges)
         world.turn("turned", scene.vu, turned, start)
     there = walk(world, "there", start, word, go)
@@ -111,7 +112,7 @@ def trace_way(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounte
 
 
 def prefix(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterexample:
-    """Any word was executed; on the common prefix with the way of the true h, percepts differ."""
+    """On the common prefix of any executed word and the way of the true h, percepts differ."""
     scene = behind_an_edge(edges)
     world, h = scene.world, true_hypothesis(scene)
     own, go = doors(world, "own", steps), going(world, "way", steps)
@@ -119,6 +120,7 @@ def prefix(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterex
     here = walk(world, "here", h, own, go)
     stay_explored(world, scene.chart, here, go)
     there = walk(world, "there", scene.vu, executed)
+    # shared[i]: the first i doors agree, and the own way has that many. first[0] is always true.
     shared = [world.first[0]]
     for i in range(steps):
         same = world.define_equal("prefix", f"same.{i}", own[i], executed[i])
@@ -134,7 +136,7 @@ def prefix(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterex
 
 
 def history(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCounterexample:
-    """Any word was executed; traced on S from the true h, a percept differs."""
+    """Any executed word, traced on S from the true h, shows a percept that differs."""
     scene = behind_an_edge(edges)
     world, h = scene.world, true_hypothesis(scene)
     word = doors(world, "door", steps)
@@ -152,7 +154,7 @@ def history(edges: int, steps: int, *, fault: RuleFault = "") -> EncodedCountere
 def records(
     edges: int, steps: int, *, levels: int | None, fault: RuleFault = ""
 ) -> EncodedCounterexample:
-    """A word was recorded behind an unexplored dart; a true h is traced across it, and they differ.
+    """A word traced from the true h crosses a recorded dart, and a percept differs from the record.
 
     The map `before` has the unexplored dart `e1`; behind it the word `wrote` is executed, e1 turns
     out to end in `entry`, which gives the map `earlier`, and the word is traced on it again. S is
@@ -168,6 +170,7 @@ def records(
     world.number_the_rest(later.known)
     written, read = doors(world, "wrote", steps), doors(world, "door", steps)
     e1, entry = crossed(world, before, "e1")
+    # `earlier` is `before` with the one edge e1-entry explored as well, and no other.
     for d in world.darts:
         for dart in (before.explored[d], e1[d], entry[d]):
             world.imply("augment", [dart], earlier.explored[d])
@@ -191,7 +194,7 @@ def records(
 
 
 def _root(world: Worlds, entry: CnfRow, fault: RuleFault) -> CnfRow:
-    """Where the earlier word is traced from: its entry dart, or (a fault) the vertex's first."""
+    """The dart from which the earlier word is traced: the entry dart, or (a fault) the first."""
     if fault != "first-dart":
         return entry
     first = world.position("first-dart", "root")
@@ -204,7 +207,7 @@ def _root(world: Worlds, entry: CnfRow, fault: RuleFault) -> CnfRow:
 def _links(
     world: Worlds, past: TracedWalk, now: TracedWalk, later: EncodedMap, levels: int | None
 ) -> dict[tuple[int, int], CnfLiteral]:
-    """link[j, i]: what was seen behind door j of the past is what is compared behind door i now."""
+    """link[j, i]: the percept recorded behind door j is compared with the one behind door i."""
     link: dict[tuple[int, int], CnfLiteral] = {}
     for j, ended in enumerate(past.ends):
         explored = world.at_one_of("records", past.walk.leave[j], later.explored, f"dropped.{j}")
@@ -212,8 +215,10 @@ def _links(
             tag = f"{j}.{i}"
             one, other = past.walk.leave[j], now.walk.leave[i]
             same = world.define_equal("records", f"crossed.{tag}", one, other)
+            # Both walks end by crossing the same dart, which S has not explored: a record begins.
             begins = [ended, ends, same, -explored]
             linked = world.define_and("records", f"begins.{tag}", begins)
+            # Behind linked doors, equal doors are linked as well: the record goes one place deeper.
             if levels is None and j and i:
                 words = past.walk.doors[j], now.walk.doors[i]
                 further = world.define_equal("records", f"door.same.{tag}", *words)

@@ -1,4 +1,4 @@
-"""The theory: worlds, the map S, the correspondence between them, as first-order axioms.
+"""The first-order theory of worlds, of the map S, and of the correspondence between them.
 
     sort   what it is                      letters
     W      darts of the world              a, b
@@ -14,13 +14,13 @@
     rot    rot(a,k)=sigma^k(a)  mrot
                                 explored: is malpha known?
 
-Doors are built from k0 and succ and are never integers: they are all that the robot counts with,
-and Z3 answers `unknown` about them at once where they are integers. `wraps(g,i,j)`: at a vertex of
-degree g, doors i and j are the same (i = j modulo g). `toroot(a)`: a door that leads from a to the
-root, if a is a dart of v0; it replaces an existential quantifier.
+Doors are built from k0 and succ. They are never integers, about which Z3 answers `unknown` at once;
+the robot needs no more than to count. `wraps(g,i,j)`: at a vertex of degree g, doors i and j are
+the same (i = j modulo g). `toroot(a)`: a door that leads from a to the root, if a is a dart of v0;
+this function replaces an existential quantifier.
 
-Percept at a: deg(a), inv0(a), and for each door i whether rot(a,i) = root. Nothing says that W is
-finite or connected: what needs it is argued in words (docs/proofs.md).
+The percept at a is deg(a), inv0(a), and for each door i whether rot(a,i) = root. No axiom says that
+W is finite or connected: the steps that need this are argued in words (docs/proofs.md).
 
 Source: docs/semantics.md, sections 1-3.
 """
@@ -76,6 +76,7 @@ AXIOMS: dict[str, Term] = {
     # the world
     "sigma-injective": forall((a, b), eq(sigma(a), sigma(b)), eq(a, b)),
     "alpha-involution": forall(a, eq(alpha(alpha(a)), a)),
+    # A loop has two darts: no edge consists of one dart alone.
     "alpha-no-fixed-point": forall(a, differ(alpha(a), a)),
     "degree-of-vertex": forall(a, eq(deg(sigma(a)), deg(a))),
     "marker-of-vertex": forall(a, eq(inv0(sigma(a)), inv0(a))),
@@ -83,6 +84,7 @@ AXIOMS: dict[str, Term] = {
     "v0-sees-root": forall(a, inv0(a), eq(rot(a, toroot(a)), root)),
     "rot-zero": forall(a, eq(rot(a, k0), a)),
     "rot-next": forall((a, k), eq(rot(a, succ(k)), sigma(rot(a, k)))),
+    # `tried_at` tells Z3 at which terms to instantiate, where its own choice is not enough.
     "doors-wrap": forall(
         (a, i, j),
         eq(eq(rot(a, i), rot(a, j)), wraps(deg(a), i, j)),
@@ -98,18 +100,20 @@ AXIOMS: dict[str, Term] = {
     "map-v0-sees-root": forall(x, minv0(x), eq(mrot(x, mtoroot(x)), mroot)),
     "map-rot-zero": forall(x, eq(mrot(x, k0), x)),
     "map-rot-next": forall((x, k), eq(mrot(x, succ(k)), msigma(mrot(x, k)))),
+    # S is finite, so msigma, which is injective, is onto; no other axiom says that S is finite.
     "map-sigma-onto": forall(x, eq(msigma(mback(x)), x), tried_at=((phi(x),),)),
     "map-doors-wrap": forall(
         (x, i, j),
         eq(eq(mrot(x, i), mrot(x, j)), wraps(mdeg(x), i, j)),
         tried_at=((mrot(x, i), mrot(x, j)),),
     ),
-    # the invariant: S is a part of the world
+    # the invariant of an exploration: S is a part of the world, by the map phi
     "phi-root": eq(phi(mroot), root),
     "phi-injective": forall((x, y), eq(phi(x), phi(y)), eq(x, y)),
     "phi-sigma": forall(x, eq(phi(msigma(x)), sigma(phi(x)))),
     "phi-degree": forall(x, eq(mdeg(x), deg(phi(x)))),
     "phi-marker": forall(x, eq(minv0(x), inv0(phi(x)))),
+    # malpha means nothing at an unexplored dart: every use of it has `explored` as a premise.
     "phi-alpha": forall(x, explored(x), eq(phi(malpha(x)), alpha(phi(x)))),
     "explored-both-ends": forall(x, explored(x), explored(malpha(x))),
     # words
@@ -122,16 +126,16 @@ AXIOMS: dict[str, Term] = {
         (x, k, w),
         eq(stays(x, cons(k, w)), conj(explored(mrot(x, k)), stays(malpha(mrot(x, k)), w))),
     ),
-    # what the inductions over doors have shown; each is an obligation of its own
+    # lemmas: proved by induction over doors, each by an obligation of its own
     "rot-injective": forall((a, b, k), eq(rot(a, k), rot(b, k)), eq(a, b)),
     "rot-degree": forall((a, k), eq(deg(rot(a, k)), deg(a))),
     "rot-marker": forall((a, k), eq(inv0(rot(a, k)), inv0(a))),
     "phi-rot": forall((x, k), eq(phi(mrot(x, k)), rot(phi(x), k))),
     "turning-adds": forall((a, i, j), eq(rot(rot(a, i), j), rot(a, plus(i, j)))),
-    # what the inductions over words have shown; each is an obligation of its own
+    # lemmas: proved by induction over words
     "trace": forall((x, w), stays(x, w), eq(phi(mwalk(x, w)), walk(phi(x), w))),
 }
-"""Every axiom and every lemma under its name. Lemmas are proved before they are used."""
+"""Every axiom and every lemma by name. A lemma is proved before an obligation may use it."""
 
 LEMMAS = {
     "rot-injective": "rot-injective",
@@ -141,7 +145,7 @@ LEMMAS = {
     "turning-adds": "turning-adds",
     "trace": "word-trace",
 }
-"""Which of the axioms are lemmas, and the obligations (base and step) that prove each."""
+"""The lemmas among the axioms, and the induction (obligations `-base` and `-step`) of each."""
 
 WORLD = (
     "sigma-injective",
@@ -165,7 +169,7 @@ INVARIANT = (
     "explored-both-ends",
 )
 ALL_DOORS = ("rot-injective", "rot-degree", "rot-marker", "phi-rot")
-"""The lemmas on doors that need no addition."""
+"""The lemmas on doors that do not speak of addition."""
 
 CORRESPONDENCE = (*WORLD, *DOORS, *MAP, *MAP_DOORS, *INVARIANT, *ALL_DOORS)
-"""A world, a map S that is a part of it, and what is known of doors."""
+"""The axioms of a world and of a map S that is a part of it, and the lemmas on doors."""

@@ -1,12 +1,13 @@
-"""What the described rules decide in a run: the terms of `rules.py` on a real map and percepts.
+"""Conformance: the terms of `rules.py`, evaluated on real runs, decide as the code does.
 
-The link from the proofs to the code. A trace is read event by event. S is drawn from the declared
-augmentations, percepts are taken from the moves, and at each point where the algorithm decides, the
-terms that Z3 was given are evaluated on S and those percepts: which darts are hypotheses, which of
-them the rule rejects and at which step, where the motion stops. `compare` says where the two
-differ.
+This is the link from the proofs to the code. A trace is read event by event: S is drawn from the
+declared augmentations, and percepts are taken from the moves. Wherever the algorithm decides, the
+terms that Z3 was given are evaluated on S and those percepts. They tell which darts are hypotheses,
+which of them the rule rejects and at which step, and where the motion stops. `compare` yields every
+difference.
+
 What this does not show: policies, walks and costs, on which no claim rests; rule `folding`, which
-has another second opinion (`checkers/folding.py`), and `planar`, which is not sound.
+is compared with `checkers/folding.py` instead; and `planar`, which is not sound.
 
 Source: docs/semantics.md, sections 4, 6, 7 and 13.
 """
@@ -28,7 +29,7 @@ from topo_verify.robot.percept import Door, Percept
 
 @dataclass(frozen=True, slots=True)
 class RuleRejection:
-    """A rejection: of which hypothesis, by which rule, at which step of the sequence."""
+    """The rejection of a hypothesis by a rule at a step of the executed sequence."""
 
     hypothesis: Dart
     rule: str
@@ -37,12 +38,13 @@ class RuleRejection:
 
 @dataclass
 class DescribedRule:
-    """The described rules at work. Lives as long as one trace is read.
+    """A rule as its terms describe it, with its records. It lives while one trace is read.
 
     Attributes:
         rule: `none`, `prefix`, `history` or `records`.
-        levels: how many places deep records go; None: as deep as was seen.
-        terms: the rules; others than `RULES` to see a change.
+        levels: the depth of records; None: as deep as was seen.
+        terms: the terms; default: `RULES`. A test passes changed ones, which must be noticed.
+        trie: the records so far.
     """
 
     rule: str
@@ -51,13 +53,13 @@ class DescribedRule:
     trie: RecordTrie = field(default_factory=RecordTrie)
 
     def posed(self, chart: Chart, e: Dart, seen: Percept) -> set[Dart]:
-        """The hypotheses."""
+        """The hypotheses for e, behind which this percept was sensed."""
         place = structure(chart, [seen], self.trie)
         open_darts = [d for d in range(len(chart.alpha)) if chart.alpha[d] is None]
         return {h for h in open_darts if place.holds(self.terms["posed"], e=e, h=h, b=0)}
 
     def moved(self, chart: Chart, h: Hypothesis, seen: Sequence[Percept]) -> int | None:
-        """The step at which the motion rejects, of as much as was executed."""
+        """The executed step at which the motion rejects h; None if it does not."""
         place = structure(chart, seen, self.trie)
         if not place.holds(self.terms["alike"], x=h.dart, b=0):
             return 0
@@ -70,13 +72,13 @@ class DescribedRule:
     def refuted(
         self, chart: Chart, h: Hypothesis, doors: Sequence[Door], seen: Sequence[Percept]
     ) -> RuleRejection | None:
-        """What the rule says of a hypothesis after a sequence."""
+        """The rejection of a hypothesis by the rule after a sequence; None if it is kept."""
         return self.refuted_at(structure(chart, seen, self.trie), h, doors)
 
     def refuted_at(
         self, place: Structure, h: Hypothesis, doors: Sequence[Door]
     ) -> RuleRejection | None:
-        """The same, of S and percepts as a structure."""
+        """The same, given S and the percepts as a structure."""
         if self.rule == "none":
             return None
         if self.rule == "prefix":
@@ -88,13 +90,13 @@ class DescribedRule:
         for step, (own, door) in enumerate(zip(h.doors, doors, strict=False), 1):
             if place.holds(self.terms["prefix"], x=h.arrivals[step - 1], own=own, k=door, b=step):
                 return step
-            if own != door:
+            if own != door:  # the common prefix ends here
                 return None
         return None
 
     def _traced(self, place: Structure, at: Dart, doors: Sequence[Door]) -> RuleRejection | None:
         hypothesis, functions = at, place.functions
-        node: int | None = None
+        node: int | None = None  # of the trie, once tracing has left S through a dart with a record
         depth = 0
         for step, door in enumerate(doors, 1):
             if node is None:
@@ -121,9 +123,10 @@ class DescribedRule:
     def learn(
         self, chart: Chart, e: Dart, entry: Dart, words: Iterable[tuple[list[Door], list[Percept]]]
     ) -> None:
-        """Write the records of one edge."""
+        """Write the records of one edge, whose entry dart is now known."""
         if self.rule != "records":
             return
+        # The edge is explored now: nothing is traced out of S through its darts any more.
         self.trie.records.pop(e, None)
         self.trie.records.pop(entry, None)
         for doors, seen in words:
@@ -154,7 +157,7 @@ class DescribedRule:
 
 
 class TraceReader:
-    """A trace as it is read: S so far, and the robot's word behind the edge at hand."""
+    """S and the robot's word behind the current edge, as far as a trace has been read."""
 
     def __init__(self, start: Percept) -> None:
         self.chart = Chart(start)
@@ -163,7 +166,7 @@ class TraceReader:
         self.turned: Door = 0
 
     def move(self, move: Move) -> None:
-        """Extend the word, or take back its last door."""
+        """Extend the word by a door, take back its last door, or begin a new word."""
         if move.purpose in ("walk", "cross"):
             self.doors, self.seen, self.turned = [], [move.percept], 0
         elif move.purpose == "retrace":
@@ -175,7 +178,7 @@ class TraceReader:
             self.turned = 0
 
     def augment(self, event: Augment) -> Dart:
-        """S grows; the entry dart."""
+        """Let S grow, and return the entry dart."""
         if event.kind == "loop":
             self.chart.join(event.edge, event.dart)
             return event.dart
@@ -185,12 +188,12 @@ class TraceReader:
 
     @property
     def at_vu(self) -> Percept:
-        """What was sensed behind the edge."""
+        """The percept directly behind the edge."""
         return self.seen[0]
 
 
 def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
-    """Where the decisions of a run differ from those of the described rules, a sentence each."""
+    """The differences between the decisions of a run and those of the terms, a sentence each."""
     start = trace[0]
     assert isinstance(start, Start)
     reading = TraceReader(start.percept)
@@ -214,22 +217,24 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
                 if step != evidence.step or expected:
                     yield f"event {when}: motion rejects {dart} at {evidence.step}, not {step}"
                 remaining.remove(dart)
+                # A mismatch after at least one door puts the rule to all remaining hypotheses.
                 if reading.doors:
                     words.append((reading.doors.copy(), reading.seen.copy()))
                     expected = list(_sifted(described, reading, remaining, tree))
             case Reject(_, dart, rule, evidence):
                 declared = RuleRejection(dart, rule, evidence.step)
+                # The rule's rejections must come in the described order, each exactly once.
                 if not expected or expected.pop(0) != declared:
-                    yield f"event {when}: {declared} is not what the rule describes"
+                    yield f"event {when}: {declared} is not the rejection that the rule describes"
                 remaining.remove(dart)
             case Confirm(_, dart):
                 h = Hypothesis(dart, reading.chart, tree)
                 seen = reading.seen[: len(h.doors) + 1]
                 if expected or described.moved(reading.chart, h, seen) is not None:
-                    yield f"event {when}: {dart} is confirmed against what is described"
+                    yield f"event {when}: {dart} is confirmed, which the rule does not describe"
             case Augment(edge):
                 if expected:
-                    yield f"event {when}: the rule describes {expected}, which did not come"
+                    yield f"event {when}: the rule describes {expected}, which were not declared"
                 entry = reading.augment(event)
                 described.learn(reading.chart, edge, entry, words)
             case _:

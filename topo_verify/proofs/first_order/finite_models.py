@@ -1,12 +1,12 @@
-"""Models over tiny domains: the same formulas, their quantifiers written out.
+"""Models over tiny domains, found by writing out the quantifiers.
 
-Z3 proves over uninterpreted sorts, but cannot show there that something is satisfiable: it answers
-unknown. So each sort gets a few named elements, every `for all` becomes a conjunction, and every
-value of every function is one of the elements. What is left has no quantifier, and Z3 decides it. A
-model is read off value by value and each formula is evaluated in it again without Z3: a model that
-does not stand that is a bug of ours, never a result.
+With quantifiers Z3 finds contradictions, but no models: it answers `unknown`. So each sort gets a
+few named elements, each `for all` becomes a conjunction, and each value of each function is one of
+the elements. Z3 decides the formulas that are left, which have no quantifier. A model is then read
+value by value, and each formula is evaluated in it again without Z3. If one fails there, that is a
+bug of ours and raises; it is never a result.
 
-What this does not show: that there is no larger model where none of these sizes has one.
+What this does not show: that there is no larger model, where none of these sizes has one.
 """
 
 from __future__ import annotations
@@ -37,12 +37,12 @@ from topo_verify.proofs.solvers import z3_solver
 from topo_verify.proofs.theorem import Budget, SolverAnswer
 
 SIZES = ((1, 1), (2, 1), (2, 2), (3, 2), (3, 3), (4, 4))
-"""How many darts the world gets, and how many elements every other sort, in the order tried."""
+"""The number of darts of the world, and of elements of every other sort, in the order tried."""
 
 
 @dataclass(frozen=True, slots=True)
 class FiniteModel:
-    """What was found: an answer, and the structure if it is `sat`."""
+    """The answer to a search for a model, with the structure and its tables if it is `sat`."""
 
     answer: SolverAnswer
     structure: Structure | None = None
@@ -58,6 +58,7 @@ def smallest(assertions: Mapping[str, Term], budget: Budget) -> FiniteModel:
     for darts, others in SIZES:
         sizes = {sort: darts if sort == "W" else others for sort in sorts}
         last = model(formulas, sizes, budget)
+        # `unknown` ends the search as well: a larger model would not be the smallest.
         if last.answer != "unsat":
             return last
     return last
@@ -67,7 +68,7 @@ def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) ->
     """A model with these numbers of elements, if there is one.
 
     Raises:
-        InternalError: the solver's model is none.
+        InternalError: a formula does not hold in the solver's model.
     """
     entries = list(_entries(formulas, sizes))
     wanted = (*_elements(sizes), *(alias for alias, _, _, _ in entries))
@@ -88,9 +89,10 @@ def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) ->
         element(sort, n).symbol.name: {(): n} for sort, size in sizes.items() for n in range(size)
     }
     structure = of_tables(sizes, {**rows, **named})
+    # Z3's model of the expanded formulas must be one of the formulas themselves.
     for formula in formulas:
         if not structure.holds(formula):
-            raise InternalError(f"the solver's model is none: {formula} does not hold in it")
+            raise InternalError(f"{formula} does not hold in the model that Z3 found for it")
     return FiniteModel("sat", structure, rows)
 
 
@@ -120,11 +122,11 @@ def _elements(sizes: Mapping[str, int]) -> Iterator[App]:
 
 
 FunctionValue = tuple[App, Symbol, tuple[int, ...], App]
-"""One value of one function: a name for it, the symbol, the arguments, the application."""
+"""One value of one function: a constant that names it, the symbol, the arguments, the term."""
 
 
 def _entries(formulas: Sequence[Term], sizes: Mapping[str, int]) -> Iterator[FunctionValue]:
-    """Every value of every function in the formulas."""
+    """Every value of every function that occurs in the formulas, in a fixed order."""
     found = {symbol.name: symbol for formula in formulas for symbol in symbols(formula)}
     named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
     for name in sorted(found.keys() - named):
@@ -136,10 +138,11 @@ def _entries(formulas: Sequence[Term], sizes: Mapping[str, int]) -> Iterator[Fun
 
 
 def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iterator[Term]:
-    """Elements are different, and every value is one of them."""
+    """The formulas that elements are different and that every value is one of them."""
     for sort, size in sizes.items():
         for one, other in combinations(range(size), 2):
             yield differ(element(sort, one), element(sort, other))
+    # The alias makes Z3 name the value in its model; `disj` keeps it among the elements.
     for alias, symbol, _, applied in entries:
         yield eq(alias, applied)
         if symbol.result != BOOL:
@@ -148,7 +151,7 @@ def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iter
 
 
 def question(assertions: Mapping[str, Term]) -> str:
-    """The SMT-LIB script that asks for a structure of the last of `SIZES`, quantifiers gone."""
+    """The SMT-LIB script that asks for a structure of the last of `SIZES`."""
     formulas = list(assertions.values())
     sorts = sorted(set[str]().union(*map(sorts_of, formulas)) - {BOOL})
     darts, others = SIZES[-1]
@@ -159,11 +162,12 @@ def grounded(formulas: Sequence[Term], sizes: Mapping[str, int]) -> str:
     """The SMT-LIB script that asks for a structure with these numbers of elements."""
     entries = list(_entries(formulas, sizes))
     rows = [*(ground(formula, sizes) for formula in formulas), *_domains(entries, sizes)]
+    # A script names its assertions, and no name may be that of a symbol: c0, c1, ... are free.
     return script({f"c{number}": term for number, term in enumerate(rows)}, logic="QF_UF")
 
 
 def described(found: FiniteModel) -> str:
-    """A structure in one line: sizes, then the values of each symbol in the order of arguments."""
+    """The structure in one line: sizes, then each symbol's values in the order of arguments."""
     assert found.structure is not None
     assert found.tables is not None
     sizes = ", ".join(f"{size} {sort}" for sort, size in found.structure.sizes.items())

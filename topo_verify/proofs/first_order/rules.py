@@ -1,9 +1,9 @@
-"""The rules of the algorithms, one transition each, as terms.
+"""The rules of the algorithms as terms: one step of each.
 
-Each term says what one step of a rule decides, about a place of S (x), a door (k) and the place of
-the world where the robot sensed what it compares (b). Z3 proves things about these very terms, and
-`decisions.py` runs these very terms on real runs, decision by decision, against the code in
-algorithms/. A rule that is changed there and not here makes a test fail.
+A term says what one step of a rule decides about a dart of S (x), a door (k) and the dart of the
+world where the robot sensed the percept that it compares (b). Z3 proves theorems about these terms,
+and `conformance.py` evaluates the same terms on real runs and compares every decision with that of
+the code in algorithms/. A rule that is changed there and not here makes a test fail.
 
     term             rule             true iff
     ALIKE            all              S shows at x what the robot senses at b
@@ -16,7 +16,7 @@ algorithms/. A rule that is changed there and not here makes a test fail.
 
 Records (sort R) are the places of the tries T: `record(x)` is T[x], where `recorded(x)`;
 `behind(r,k)` is the place recorded behind door k, where `deeper(r,k)`. `spot(r)` is the dart of the
-world at which the record was seen: no robot knows it; that it exists is what makes a record true.
+world at which the record was seen. No robot knows it; a record is true if it exists.
 
 Source: docs/semantics.md, sections 4, 6 and 7.
 """
@@ -51,33 +51,33 @@ e, h = Var("e", "M"), Var("h", "M")
 
 
 def signature_alike(x: Term, b: Term) -> Term:
-    """Degree, and is the marker here: what does not depend on the reference dart."""
+    """The parts of the percepts that do not depend on the reference dart are equal."""
     return conj(eq(t.mdeg(x), t.deg(b)), eq(t.minv0(x), t.inv0(b)))
 
 
 def marker_alike(x: Term, b: Term) -> Term:
-    """Where the marker lies: it points at the same door."""
+    """The marker, where it is present, points at the same door."""
     same = eq(eq(t.mrot(x, i), t.mroot), eq(t.rot(b, i), t.root))
     return forall(i, t.minv0(x), same)
 
 
 def alike(x: Term, b: Term) -> Term:
-    """What S shows at x is what is sensed at b: degree, presence and direction of the marker."""
+    """S shows at x the percept sensed at b: degree, presence and direction of the marker."""
     return conj(signature_alike(x, b), marker_alike(x, b))
 
 
 def arrival(x: Term, door: Term) -> Term:
-    """Where S says that a door leads."""
+    """The dart of S where a door of x leads."""
     return t.malpha(t.mrot(x, door))
 
 
 def beyond(b: Term, door: Term) -> Term:
-    """Where a door leads in the world."""
+    """The dart of the world where a door of b leads."""
     return t.alpha(t.rot(b, door))
 
 
 def record_alike(r: Term, b: Term) -> Term:
-    """What was recorded is what is sensed at b."""
+    """The recorded percept is the one sensed at b."""
     same = eq(rpoints(r, i), eq(t.rot(b, i), t.root))
     return conj(eq(rdeg(r), t.deg(b)), eq(rinv0(r), t.inv0(b)), forall(i, rinv0(r), same))
 
@@ -107,4 +107,4 @@ TRUE_RECORDS: dict[str, Term] = {
     "record-marker": forall(r, eq(rinv0(r), t.inv0(spot(r)))),
     "record-direction": forall((r, i), eq(rpoints(r, i), eq(t.rot(spot(r), i), t.root))),
 }
-"""What it means that the records are true."""
+"""The axioms that the records are true."""

@@ -1,7 +1,7 @@
-"""S, percepts and records as a structure of the theory: the terms of `rules.py` meet a real run.
+"""S, percepts and records of a real run as a structure in which `rules.py` can be evaluated.
 
-No world is needed and none is looked at: the robot's place b of the terms is the number of a
-percept, and `rot(b, i) = root` means that the marker was sensed at door i.
+No world is needed: the dart b of the terms is the number of a percept, and `rot(b, i) = root` means
+that the marker was sensed at door i.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ from topo_verify.proofs.first_order.structures import Function, Structure, Value
 from topo_verify.robot.percept import Door, Percept
 
 NO_DOOR = -1
+"""The value of `rot(b, i)` for every dart but the root: it only has to differ from 0."""
 
 
 class RecordTrie:
-    """The records, as nodes with numbers: what was seen, and by door what was seen behind."""
+    """The records as numbered nodes: the percept seen, and by door the node behind it."""
 
     def __init__(self) -> None:
         self.percepts: list[Percept] = []
@@ -24,19 +25,19 @@ class RecordTrie:
         self.records: dict[Dart, int] = {}
 
     def node(self, percept: Percept) -> int:
-        """A new node."""
+        """Add a node for this percept, and return its number."""
         self.percepts.append(percept)
         self.behind.append({})
         return len(self.percepts) - 1
 
 
 def points(percept: Percept, door: Door) -> bool:
-    """Does the marker point at this door?"""
+    """Whether the marker points at this door."""
     return percept.marker is not None and (door - percept.marker) % percept.degree == 0
 
 
 def structure(chart: Chart, seen: Sequence[Percept], trie: RecordTrie) -> Structure:
-    """S, what was sensed, and the records, as a structure of the theory."""
+    """The structure of S, the sensed percepts, and the records."""
     rows = {
         "root": nullary(0),
         "mroot": nullary(0),
@@ -45,6 +46,7 @@ def structure(chart: Chart, seen: Sequence[Percept], trie: RecordTrie) -> Struct
         **_of_percepts(seen),
         **_of_records(trie),
     }
+    # Quantifiers over doors range up to the largest degree: beyond it, doors repeat.
     degrees = [*chart.degree, *(percept.degree for percept in seen), 1]
     return Structure({"K": max(degrees), "M": len(chart.alpha)}, rows)
 
@@ -53,6 +55,7 @@ def _of_chart(chart: Chart) -> dict[str, Function]:
     percepts, alpha = chart.percepts, chart.alpha
     return {
         "explored": unary(lambda x: alpha[x] is not None),
+        # No rule uses malpha at an unexplored dart; any value will do there.
         "malpha": unary(lambda x: x if alpha[x] is None else chart.across(x)),
         "mrot": binary(chart.turn),
         "mdeg": unary(lambda x: percepts[x].degree),

@@ -1,9 +1,9 @@
-"""A scene played by the plain simulator: S is drawn by moving, a mutated rule is put to the test.
+"""The replay of a scene in the simulator, without a solver, to put a faulty rule to the test.
 
-No solver takes part. The robot of the trusted core starts at the marker of the scene's world,
-crosses the edges that S of the scene has explored, in an order in which each vertex is entered by
-its first dart, then does what the mutant's story says. What it senses on the way must be what S
-shows, and the rule is evaluated on S and on what was sensed.
+The robot of the trusted core starts at the marker of the scene's world. It crosses the edges that S
+of the scene has explored, in an order in which each vertex is entered by its first dart. Then it
+makes the moves of the mutant. The percepts on the way must be those that S shows; the rule is
+evaluated on S and on the percepts sensed behind e.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ MOVES = 10_000
 
 
 class SceneReplay:
-    """A robot in the world of a scene. Lives for one replay; its map grows as it moves.
+    """A robot in the world of a scene. It lives for one replay; its map grows as it moves.
 
     Attributes:
         chart: S as it was drawn; its darts are numbered in the order of discovery.
-        without: constants of the scene; the edges of these darts of S are not crossed yet.
+        without: constants of the scene: the edges of these darts are left for the mutant to cross.
     """
 
     def __init__(self, scene: Scene, *, without: Collection[str] = ()) -> None:
@@ -40,23 +40,24 @@ class SceneReplay:
         self.at: Dart = 0
         self.trie = RecordTrie()
         left_out = {scene.constants[name] for name in without}
+        # Both darts of an edge are left out, whichever of them is named.
         left_out |= {self._other(x) for x in left_out}
         self.number: dict[int, Dart] = {}
-        """Of each dart of the scene's S, its number on the chart."""
+        """For each dart of the scene's S, its number on the chart."""
         self._enter(self._at_place(scene.world.root), 0)
         self._draw(left_out)
 
     # ------------------------------------------------------------ drawing S
 
     def _at_place(self, dart: int | None) -> int:
-        """The dart of the scene's S that is this dart of the world."""
+        """The dart of the scene's S at this dart of the world."""
         return self.scene.place.index(dart if dart is not None else -1)
 
     def _other(self, x: int) -> int:
         return self._at_place(self.scene.world.alpha[self.scene.place[x]])
 
     def _enter(self, x: int, first: Dart) -> None:
-        """The vertex of x, a dart of the scene's S, has the darts from `first` on."""
+        """Number the vertex of x, a dart of the scene's S, from dart `first` of the chart on."""
         world, degree = self.scene.world, self.chart.degree[self.chart.vertex[first]]
         dart = self.scene.place[x]
         for door in range(degree):
@@ -66,6 +67,8 @@ class SceneReplay:
     def _draw(self, left_out: Collection[int]) -> None:
         edges = [x for x in sorted(self.scene.explored) if x not in left_out]
         while len(self.number) < len(self.scene.place):
+            # An edge into a vertex that is not drawn yet, by its first dart. It exists, since the
+            # scene requires that S was discovered in this way.
             x = next(
                 x
                 for x in edges
@@ -83,18 +86,18 @@ class SceneReplay:
                 self._join(x, self.number[self._other(x)])
 
     def _cross(self, x: int) -> Percept:
-        """Walk to a dart of the scene's S and cross it."""
+        """Walk to a dart of the scene's S, cross it, and return the percept behind it."""
         e = self.number[x]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
         if self.robot.percept != self.chart.percepts[self.at]:
-            raise InternalError(f"S of {self.scene.world.id} shows what the robot does not sense")
+            raise InternalError(f"S of {self.scene.world.id} differs from what the robot senses")
         return self.pilot.cross(self.chart, self.at, e)
 
     def _join(self, x: int, other: Dart) -> None:
         self.chart.join(self.number[x], other)
         self.at = other
 
-    # ------------------------------------------------------------ the story
+    # ------------------------------------------------------------ the moves of the mutant
 
     def dart(self, name: str) -> Dart:
         """The number on the chart of a constant that is a dart of S."""
@@ -105,19 +108,19 @@ class SceneReplay:
         return self.chart.first[self.chart.vertex[dart]]
 
     def door(self, name: str, degree: int) -> Door:
-        """A constant that is a door."""
+        """The door that a constant means at a vertex of this degree."""
         return self.scene.constants[name] % degree
 
     def behind(self, name: str) -> Percept:
-        """Cross a dart of S; what is sensed behind it."""
+        """Cross a dart of S, and return the percept behind it."""
         return self._cross(self.scene.constants[name])
 
     def forward(self, name: str) -> Percept:
-        """Take a door of the excursion, as a mapper does that knows how it is turned."""
+        """Take a door of the excursion as a mapper does that knows how it is turned."""
         return self.pilot.forward(self.door(name, self.robot.percept.degree))
 
     def take(self, name: str) -> Percept:
-        """Take a door as it is, turned or not."""
+        """Take a door without regard to how the robot is turned."""
         return self.robot.move(self.door(name, self.robot.percept.degree))
 
     def close(self, e: str, h: str) -> None:
@@ -134,11 +137,11 @@ class SceneReplay:
     # ------------------------------------------------------------ judging
 
     def says(self, rule: Term, *seen: Percept, **values: int) -> bool:
-        """Is a term true of S and of these percepts, which b = 0, 1, ... stand for?"""
+        """Whether a term is true of S and of these percepts, which b = 0, 1, ... stand for."""
         return structure(self.chart, seen, self.trie).holds(rule, **values)
 
     def truth(self, e: str, h: str) -> bool:
-        """Does e end in h, in the world?"""
+        """Whether e ends in h in the world."""
         place, constants = self.scene.place, self.scene.constants
         return self.scene.world.alpha[place[constants[e]]] == place[constants[h]]
 

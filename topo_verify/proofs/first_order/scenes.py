@@ -1,11 +1,11 @@
-"""Scenes: a world, a map S of it and a place behind an edge, all exact, for the mutants of rules.
+"""Scenes: exact worlds with a map S and a place behind an edge, in which a faulty rule fails.
 
-In a tiny structure "is at v0", "degree" and "door" must mean what they mean in a world, or what
-breaks a rule there is an illusion. So, beside the axioms: doors are the numbers modulo 12, which
-all degrees up to 4 divide; the degree is the least number of doors after which a turn comes round;
-the world is connected; S consists of v0 and of vertices that were entered by their first dart over
-an explored edge; an unexplored dart of S is its own other end. A model is then a world and a map
-that an exploration can have drawn, and is decoded as such.
+In a tiny structure, "is at v0", "degree" and "door" must mean what they mean in a world; otherwise
+a rule could fail there that fails in no world. So formulas beside the axioms require: doors are the
+numbers modulo 12, which all degrees up to 4 divide; the degree is the least number of doors after
+which a turn comes round; the world is connected; S consists of v0 and of vertices that were entered
+by their first dart over an explored edge; malpha maps an unexplored dart of S to itself. A model is
+then a world with a map that an exploration can have drawn, and is decoded as such.
 
     mfirst(x)   the first dart of x's vertex in S: the one by which it was entered
 
@@ -39,22 +39,23 @@ from topo_verify.proofs.first_order.terms import (
 from topo_verify.proofs.theorem import Budget, SolverAnswer
 from topo_verify.world.rooted_map import World
 
+# 12 is the least common multiple of 1, 2, 3, 4: every turn comes round after so many doors.
 DOORS, MOST_DEGREE = 12, 4
 
 mfirst = Symbol("mfirst", ("M",), "M")
 mtofirst = Symbol("mtofirst", ("M",), "K")
 
 AXIOMS = tuple(name for name in t.CORRESPONDENCE if name not in t.LEMMAS)
-"""The axioms; the lemmas on doors follow from them and would only slow the solver down."""
+"""The axioms without the lemmas on doors, which follow and would only slow Z3 down."""
 
 
 def door(number: int) -> App:
-    """A door as a constant."""
+    """The constant for a door."""
     return element("K", number % DOORS)
 
 
 def exact(darts: int, known: int) -> dict[str, Term]:
-    """What makes a structure with these numbers of darts, of the world and of S, a real one."""
+    """The formulas that make a structure with these numbers of darts, in world and S, exact."""
     return {
         **{name: t.AXIOMS[name] for name in AXIOMS},
         **_doors(),
@@ -82,7 +83,7 @@ def _degrees() -> dict[str, Term]:
 
 
 def _connected(darts: int) -> dict[str, Term]:
-    """Every dart is reached from the root in at most so many turns and crossings."""
+    """Every dart is reached from the root in fewer turns and crossings than there are darts."""
     reached = [Symbol(f"reached{n}", ("W",), BOOL) for n in range(darts)]
     a = t.a
     rows = [forall(a, eq(reached[0](a), eq(a, t.root)))]
@@ -93,7 +94,7 @@ def _connected(darts: int) -> dict[str, Term]:
 
 
 def _discovered(known: int) -> dict[str, Term]:
-    """S is v0 and vertices entered by their first dart, from a vertex discovered before."""
+    """S consists of v0 and of vertices entered by their first dart from one found before."""
     found = [Symbol(f"found{n}", ("M",), BOOL) for n in range(known)]
     x = t.x
     entered = [forall(x, eq(found[0](x), t.minv0(x)))]
@@ -117,11 +118,11 @@ class Scene:
     """A decoded model: the world, S as darts of the world, and the constants of the mutant.
 
     Attributes:
-        world: its darts are the model's.
-        place: the dart of the world that each dart of S is (phi).
-        first: the first dart of the vertex of each dart of S, as a dart of S.
+        world: has the darts of the model.
+        place: for each dart of S, the dart of the world that it is (phi).
+        first: for each dart of S, the first dart of its vertex.
         explored: the explored darts of S.
-        constants: elements by name: darts of S, of the world, or doors.
+        constants: by name, darts of S, darts of the world, or doors.
     """
 
     world: World
@@ -134,12 +135,12 @@ class Scene:
 def find(
     given: Mapping[str, Term], budget: Budget, *, edges: int, known: int
 ) -> tuple[Scene | None, SolverAnswer, str]:
-    """A scene with so many edges, and so many darts in S, of which these things are true.
+    """A scene of this size in which these formulas hold.
 
     Returns:
-        The scene, if the answer is `sat`; the answer; the solver's reason if it is `unknown`.
+        The scene if the answer is `sat`, the answer, and Z3's reason if it is `unknown`.
     Raises:
-        InternalError: the solver's model is no world.
+        InternalError: the model is not a world.
     """
     sizes = {"W": 2 * edges, "M": known, "K": DOORS, "G": MOST_DEGREE}
     formulas = [*exact(2 * edges, known).values(), *given.values()]
@@ -150,7 +151,7 @@ def find(
 
 
 def question(given: Mapping[str, Term], *, edges: int, known: int) -> str:
-    """The SMT-LIB script of that question."""
+    """The SMT-LIB script that asks for such a scene."""
     sizes = {"W": 2 * edges, "M": known, "K": DOORS, "G": MOST_DEGREE}
     return finite_models.grounded([*exact(2 * edges, known).values(), *given.values()], sizes)
 
@@ -163,6 +164,7 @@ def _decoded(structure: Structure, darts: int, known: int, given: Mapping[str, T
         tuple(int(of["sigma"](d)) for d in range(darts)),
         int(of["root"]()),
     )
+    # Degrees are elements 0, 1, ... of the sort G, so element n - 1 stands for degree n.
     for d in range(darts):
         if of["deg"](d) != world.degrees[world.vertex_of[d]] - 1:
             raise InternalError(f"the model's degree at dart {d} is not that of its world")

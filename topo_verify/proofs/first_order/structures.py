@@ -1,8 +1,8 @@
-"""Formulas evaluated in a concrete structure: no solver takes part.
+"""Concrete structures, in which formulas are evaluated without a solver.
 
-A structure says how many elements each sort has and what each symbol does with them; elements are
-the integers from 0. This is the last word on every model that a solver finds, and it is how tests
-put the formulas of the theory to real worlds and real runs.
+A structure gives the number of elements of each sort and a function for each symbol; elements are
+the integers from 0. Every model that a solver finds is evaluated here before it counts, and tests
+evaluate the formulas of the theory in real worlds and real runs.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ Function = Callable[..., Value]
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """What the symbols mean.
+    """The meaning of the symbols.
 
     Attributes:
-        sizes: of each sort that is quantified over.
-        functions: of each symbol; a constant is a function of nothing.
+        sizes: the number of elements of each sort that is quantified over.
+        functions: the function of each symbol; a constant takes no arguments.
     """
 
     sizes: Mapping[str, int]
     functions: Mapping[str, Function]
 
     def holds(self, term: Term, **values: Value) -> bool:
-        """Is a formula true? Free variables get the values named."""
+        """Whether a formula is true, with these values for its free variables."""
         return bool(self.value(term, values))
 
     def value(self, term: Term, values: Mapping[str, Value]) -> Value:

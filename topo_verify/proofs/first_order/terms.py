@@ -1,9 +1,9 @@
-"""Formulas of many-sorted first-order logic: built once, read three ways.
+"""Formulas of many-sorted first-order logic: built once, used in three ways.
 
-The same term is written out as SMT-LIB 2 (what Z3 and any other solver are given, so an exported
-file is the very question that was asked), is expanded over tiny domains (`finite.py`), and is
-evaluated on concrete worlds with no solver at all (`structures.py`). So what a proof says of a rule
-and what a test runs against the code of that rule cannot drift apart.
+A term is written out as SMT-LIB 2 (the script that every solver reads, so an exported file is the
+very question that was asked), expanded over tiny domains (`finite_models.py`), and evaluated in
+concrete structures with no solver at all (`structures.py`). So the formula that is proved about a
+rule and the formula that a test compares with the code of that rule cannot drift apart.
 
     Var     x, bound by a quantifier or free         App   f(a, b), also `and`, `=>`, `=`, ...
     Symbol  a function: name, sorts, result           Forall for all x ...: body
@@ -26,7 +26,11 @@ class Symbol:
     result: str
 
     def __call__(self, *arguments: Term) -> App:
-        """The application; sorts are checked, since a wrong one would be a wrong theorem."""
+        """The application to these arguments.
+
+        Raises:
+            TypeError: their sorts are wrong; unchecked, that would be a wrong theorem.
+        """
         sorts = tuple(argument.sort for argument in arguments)
         if sorts != self.arguments:
             raise TypeError(f"{self.name} takes {self.arguments}, not {sorts}")
@@ -58,8 +62,8 @@ class App:
 class Forall:
     """The body holds for all values of the variables.
 
-    `patterns` say at which terms a solver should try it (each a group of terms to be met together).
-    They mean nothing.
+    `patterns` tell a solver at which terms to instantiate the variables (each a group of terms that
+    must occur together). They do not change the meaning.
     """
 
     variables: tuple[Var, ...]
@@ -79,41 +83,42 @@ CONNECTIVES = frozenset({"and", "or", "not", "=>", "=", "true"})
 
 
 def conj(*parts: Term) -> Term:
-    """All of them hold."""
+    """The formula that all of them hold."""
     return parts[0] if len(parts) == 1 else _connect("and", *parts)
 
 
 def disj(*parts: Term) -> Term:
-    """One of them holds."""
+    """The formula that at least one of them holds."""
     return parts[0] if len(parts) == 1 else _connect("or", *parts)
 
 
 def neg(part: Term) -> Term:
-    """It does not hold."""
+    """The formula that it does not hold."""
     return _connect("not", part)
 
 
 def implies(*parts: Term) -> Term:
-    """If all but the last hold, the last holds."""
+    """The formula that the last holds if all others do."""
     return _connect("=>", conj(*parts[:-1]), parts[-1])
 
 
 def eq(one: Term, other: Term) -> Term:
-    """They are equal; between formulas: one holds iff the other does."""
+    """The formula that they are equal; between formulas, that one holds iff the other does."""
     if one.sort != other.sort:
         raise TypeError(f"= between {one.sort} and {other.sort}")
+    # One symbol `=` for each sort, so that sorts are checked as for any other symbol.
     return App(Symbol("=", (one.sort, one.sort), BOOL), (one, other))
 
 
 def differ(one: Term, other: Term) -> Term:
-    """They are not equal."""
+    """The formula that they are not equal."""
     return neg(eq(one, other))
 
 
 def forall(
     variables: Var | tuple[Var, ...], *parts: Term, tried_at: tuple[tuple[Term, ...], ...] = ()
 ) -> Term:
-    """For all of them: if all but the last part hold, the last holds."""
+    """The formula that for all values of the variables the last part holds if all others do."""
     row = (variables,) if isinstance(variables, Var) else variables
     return Forall(row, parts[0] if len(parts) == 1 else implies(*parts), tried_at)
 
@@ -123,7 +128,7 @@ def _connect(name: str, *parts: Term) -> Term:
 
 
 def constant(name: str, sort: str) -> App:
-    """A constant of its own."""
+    """A new constant of this sort."""
     return Symbol(name, (), sort)()
 
 
@@ -131,12 +136,13 @@ def constant(name: str, sort: str) -> App:
 
 
 def symbols(term: Term) -> Iterator[Symbol]:
-    """The symbols of a term that need a declaration, as often as they occur."""
+    """The symbols of a term that need a declaration, each as often as it occurs."""
     match term:
         case Var():
             pass
         case Forall(_, body, patterns):
             yield from symbols(body)
+            # A pattern may hold a symbol that the body does not: it needs a declaration, too.
             for group in patterns:
                 for hint in group:
                     yield from symbols(hint)
@@ -160,9 +166,9 @@ def sorts_of(term: Term) -> set[str]:
 
 
 def substitute(term: Term, values: dict[Term, Term]) -> Term:
-    """The term with these variables or constants replaced. No variable is captured by accident.
+    """The term with these free variables or constants replaced.
 
-    (Bound variables are replaced by nothing: callers replace free ones with closed terms.)
+    Callers replace them with closed terms, so no quantifier captures a variable by accident.
     """
     if term in values:
         return values[term]
@@ -199,7 +205,7 @@ _WORDS = {"and": " ∧ ", "or": " or ", "=>": " → ", "=": " = "}
 
 
 def shown(term: Term, *, inner: bool = False) -> str:
-    """The term for people."""
+    """The term in mathematical notation, for people."""
     words = ""
     match term:
         case Var(name):
@@ -219,7 +225,11 @@ def shown(term: Term, *, inner: bool = False) -> str:
 
 
 def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
-    """The declarations of all sorts and symbols in some terms, in a fixed order."""
+    """The SMT-LIB declarations of all sorts and symbols in some terms, in a fixed order.
+
+    Raises:
+        TypeError: two symbols have one name.
+    """
     found: dict[str, Symbol] = {}
     sorts: set[str] = set()
     for term in terms:
@@ -227,6 +237,7 @@ def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
         for symbol in symbols(term):
             if found.setdefault(symbol.name, symbol) != symbol:
                 raise TypeError(f"two symbols are called {symbol.name}")
+    # Sorted: the same terms always give the same text, and so the same question.
     lines = [f"(declare-sort {sort} 0)" for sort in sorted(sorts - {BOOL})]
     return lines + [
         f"(declare-fun {symbol.name} ({' '.join(symbol.arguments)}) {symbol.result})"
@@ -235,7 +246,7 @@ def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
 
 
 def script(assertions: dict[str, Term], *, logic: str = "UF") -> str:
-    """A whole SMT-LIB 2 script that asks whether all these can hold at once; each has a name.
+    """The SMT-LIB 2 script that asks whether all these named formulas can hold at once.
 
     Raises:
         TypeError: a name is also that of a symbol, which the language forbids.

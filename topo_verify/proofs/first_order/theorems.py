@@ -1,11 +1,11 @@
-"""The inductive obligations as theorems, and for each a mutant that lacks one of its premises.
+"""The obligations as theorems, and for each a mutant that lacks one of its premises.
 
-**Theorem**: the premises and the negated goal have no model; Z3 shows it. That the premises alone
-have one is shown by a tiny structure (`finite.py`). A theorem whose premises have none would be
-vacuous, and is not `ok`.
+**Theorem**: Z3 shows that the premises and the negated goal have no model. A tiny structure
+(`finite_models.py`) shows that the premises alone have one. A theorem whose premises have none is
+vacuous, and not `ok`.
 
-**Mutant**: without one premise (named by the obligation) there is a structure in which all the
-others hold and the goal fails. It is evaluated without a solver before it counts.
+**Mutant**: without one premise, which the obligation names, there is a structure in which all other
+premises hold and the goal fails. It is evaluated without a solver before it counts.
 """
 
 from __future__ import annotations
@@ -56,6 +56,7 @@ def _prover(obligation: Obligation) -> Callable[[Budget], TheoremResult]:
     def prove(budget: Budget) -> TheoremResult:
         begin = perf_counter()
         reply = refute(obligation.negation(), budget)
+        # Only `unsat` is a proof. No model with quantifiers is evaluated, so `sat` refutes nothing.
         if reply.answer != "unsat":
             return TheoremResult(
                 verdict="UNKNOWN",
@@ -63,6 +64,7 @@ def _prover(obligation: Obligation) -> Callable[[Budget], TheoremResult]:
                 seconds=perf_counter() - begin,
                 note=f"{z3_solver.name()} answers {reply.answer}: {reply.why or 'no reason given'}",
             )
+        # Z3 cannot find models of quantified formulas, so a tiny one is sought for the premises.
         premises = finite_models.smallest(obligation.premises(), budget).answer
         satisfiable = {"sat": True, "unsat": False, "unknown": None}[premises]
         return TheoremResult(
@@ -71,7 +73,7 @@ def _prover(obligation: Obligation) -> Callable[[Budget], TheoremResult]:
             seconds=perf_counter() - begin,
             premises_satisfiable=satisfiable,
             core=tuple(name for name in reply.core if name != "goal-fails"),
-            note="" if satisfiable else "its premises were not seen to hold together: vacuous",
+            note="" if satisfiable else "no structure was found where its premises hold: vacuous",
         )
 
     return prove
@@ -83,7 +85,7 @@ def refute(assertions: dict[str, Term], budget: Budget) -> z3_solver.Z3Reply:
 
 
 def mutant(obligation: Obligation, lost: str) -> Theorem:
-    """The obligation without one premise, which must fail."""
+    """The obligation without one premise as a theorem that must be refuted."""
     dropped = obligation.premises()[lost]
     formulas = obligation.premises(without=lost)
     formulas |= {"premise-fails": neg(dropped), "goal-fails": neg(obligation.goal)}
@@ -92,6 +94,7 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
         begin = perf_counter()
         found = finite_models.smallest(formulas, budget)
         if found.structure is None:
+            # No model of these sizes: the mutant was not refuted, and EXHAUSTED is unexpected.
             exhausted = found.answer == "unsat"
             return TheoremResult(
                 verdict="EXHAUSTED" if exhausted else "UNKNOWN",
@@ -126,7 +129,7 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
 
 
 def _telling(obligation: Obligation) -> str:
-    """The premise whose loss says most: the first axiom or lemma, if it needs one."""
+    """The most telling premise to drop: the first axiom or lemma that is needed, if any."""
     return next((n for n in obligation.needs if n in obligation.theory), obligation.needs[0])
 
 

@@ -1,9 +1,9 @@
-"""The Python around the proofs in Coq, which lie in `proofs/coq/`.
+"""The Python around the proofs in Coq; their sources lie in `proofs/coq/`.
 
-toolchain.py           coqc and coqchk as programs
-theorems.py            what is proved in Coq, compiled and asked for its axioms
-certificates.py        a run certified by the kernel
-vernacular.py          a certificate as a source of Coq, and as numbers
-evidence.py            a log folded, with every merge written down
-decision_evidence.py   evidence for the decisions of a trace
+toolchain.py           calls coqc and coqchk as programs
+theorems.py            the theorems of coq/, compiled and asked for their axioms
+certificates.py        makes certificates for logs and has Coq's kernel check them
+vernacular.py          writes a certificate as a source of Coq, and as numbers
+evidence.py            folds a log and records every merge as evidence
+decision_evidence.py   the same for each decision of a trace
 """

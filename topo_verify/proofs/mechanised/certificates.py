@@ -1,21 +1,22 @@
-"""A run certified by Coq's kernel: a statement about one log, and its proof by computation.
+"""Certificates: a statement about one log, and a proof of it that Coq's kernel computes.
 
-The checkers of this package say what a log proves; here the same is stated in Coq, for that very
-log, and proved by running a checker whose correctness is proved (coq/CheckerCorrect.v). The fold is
-done outside (`evidence`) and is not trusted: the kernel follows the evidence. Three statements:
+The checkers of this package judge what a log proves. A certificate states the same in Coq for one
+log, and proves it by running a checker whose correctness is proved (coq/CheckerCorrect.v). The log
+is folded in Python (`evidence.py`), which is not trusted: the kernel follows the evidence. A
+certificate makes one of three statements:
 
     map            every world that shows these percepts to these doors is isomorphic to this map
     undetermined   two worlds that differ show them
     impossible     no world shows them
 
-The decisions that the log declares and that follow (claim 10) are a second statement: each holds in
-every world that shows the log up to that moment (`decided`).
+The declared decisions that follow (claim 10) are a second statement: each holds in every world that
+shows the log up to that moment (`decision_evidence.py`).
 
-The file that is written says all of it in its first lines and stands alone beside the sources of
-the library. Long logs take the kernel minutes; `extracted` runs the same checker as a program in
-OCaml, which trusts, besides the kernel, Coq's extraction and the OCaml compiler.
+The file needs only the sources of the library beside it; its first lines say what it states. Long
+logs take the kernel minutes. `extracted` runs the same checker as a program in OCaml, which trusts
+Coq's extraction and the OCaml compiler besides the kernel.
 
-What this does not show: that the percepts are what happened. The world without edges is outside.
+What this does not show: that the percepts are what happened, or anything of the world with no edge.
 
 Source: docs/mechanised.md; docs/semantics.md, section 11.
 """
@@ -49,20 +50,20 @@ LIBRARY = "Decisions"
 """The file of the library that a certificate builds on."""
 
 LONG = 10_000
-"""So many moves are left to the extracted program, if there is a compiler for it."""
+"""Logs of more moves are checked by the extracted program, if OCaml is installed."""
 
 _PROGRAM = ("certifier.mli", "certifier.ml", "driver.ml")
 
 
 @dataclass(frozen=True, slots=True)
 class CertificateCheck:
-    """What became of a certificate.
+    """The result of checking a certificate.
 
     Attributes:
-        accepted: True, False, or None where it was not checked.
-        by: the checker, with its version; "" if there was none.
-        why: why it was refused or not checked.
-        decisions: the same of the decisions, where the file for Coq does not settle them.
+        accepted: True, False, or None if it was not checked.
+        by: name and version of the checker; "" if none is installed.
+        why: the reason why it was refused, or not checked.
+        decisions: the result for the decisions, if they were checked apart from the file.
     """
 
     accepted: bool | None
@@ -71,12 +72,12 @@ class CertificateCheck:
     decisions: CertificateCheck | None = None
 
 
-def state(trace: Sequence[Event]) -> CoqCertificate:
-    """What the log proves, stated, with its evidence.
+def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
+    """The certificate of what a log proves, with its evidence.
 
     Raises:
-        InputError: the trace is out of order; or its statement is outside the theory: a log of the
-            world without edges, or with numbers below 0.
+        InputError: the trace is out of order; or the theory cannot state the log: it is of the
+            world without edges, or has numbers below 0.
     """
     require_order(trace)
     percepts = tuple(event.percept for event in trace if isinstance(event, Start | Move))
@@ -101,27 +102,27 @@ def state(trace: Sequence[Event]) -> CoqCertificate:
 def checking(
     *, timeout: float, progress: Callable[[str], None] = lambda _: None
 ) -> Generator[Callable[[str, CoqCertificate], CertificateCheck]]:
-    """Have certificates checked, each with the name of its file, without suffix.
+    """Yield a function that checks a certificate, given the name of its file without suffix.
 
-    coqc checks them; long ones the extracted program does, where it can be made. What they build on
-    is compiled once, when the first one comes, and goes away at the end.
+    coqc checks it, or the extracted program if the log is long and OCaml is installed. The library
+    is compiled once, for the first certificate, in a folder that is removed at the end.
 
     Args:
         timeout: seconds for each call of a program.
-        tell: is told what is being done.
+        progress: is called with a few words before each step.
     """
     with TemporaryDirectory() as folder:
         yield _Checker(Path(folder), timeout, progress).check
 
 
 class _Checker:
-    """A folder in which certificates are checked."""
+    """Checks certificates in one folder, which keeps what was compiled."""
 
     def __init__(self, folder: Path, timeout: float, progress: Callable[[str], None]) -> None:
         self.folder, self.timeout, self.progress = folder, timeout, progress
 
     def check(self, name: str, certificate: CoqCertificate) -> CertificateCheck:
-        """What becomes of it."""
+        """The result of checking a certificate, its decisions included."""
         if why := toolchain.missing():
             return CertificateCheck(None, "", why)
         compiler = shutil.which("ocamlfind") is not None
@@ -142,7 +143,7 @@ class _Checker:
         return found
 
     def decisions(self, certificate: CoqCertificate, *, compiler: bool) -> CertificateCheck | None:
-        """What becomes of decisions that coqc is not asked about; None if there are none."""
+        """The result for decisions that the file for Coq leaves out; None if there are none."""
         if certificate.decisions.too_long:
             return CertificateCheck(None, "", f"their evidence has more than {MOST:,} steps")
         if not certificate.decisions.stated:
@@ -158,11 +159,11 @@ class _Checker:
 
 
 def build(folder: Path, *, timeout: float) -> None:
-    """Compile in the folder what certificates build on.
+    """Compile in the folder the part of the library that certificates import.
 
     Raises:
-        InputError: the installed Coq does not take it.
-        coqtools.TimeOut: a file takes too long.
+        InputError: the installed Coq refuses a file.
+        toolchain.TimeOut: a file takes too long.
     """
     names = toolchain.required(LIBRARY)
     toolchain.copy_library(folder, names)
@@ -175,28 +176,29 @@ def build(folder: Path, *, timeout: float) -> None:
 
 
 def by_kernel(folder: Path, name: str, text: str, *, timeout: float) -> CertificateCheck:
-    """Have coqc check a certificate, beside the compiled library."""
+    """The result of compiling a certificate with coqc, beside the compiled library."""
     (folder / f"{name}.v").write_text(text, encoding="utf-8")
     ran = toolchain.compile_one(folder, name, timeout=timeout)
+    # Every theorem of the file must be free of axioms: coqc accepts files with axioms, too.
     asked = text.count("\nPrint Assumptions ")
     accepted = ran.accepted and asked == ran.output.count(toolchain.NO_AXIOMS) > 0
     return CertificateCheck(accepted, toolchain.version(), "" if accepted else ran.output[-300:])
 
 
 def extracted(folder: Path, certificate: CoqCertificate, *, timeout: float) -> CertificateCheck:
-    """Have the extracted program check what a log proves of the map."""
+    """The result of the extracted program for the statement about the map."""
     return _extracted(folder, numbers(certificate), timeout=timeout)
 
 
 def extracted_decisions(
     folder: Path, certificate: CoqCertificate, *, timeout: float
 ) -> CertificateCheck:
-    """Have the extracted program check the decisions."""
+    """The result of the extracted program for the decisions."""
     return _extracted(folder, numbers_of_decisions(certificate), timeout=timeout)
 
 
 def _extracted(folder: Path, stdin: str, *, timeout: float) -> CertificateCheck:
-    """Have the extracted program check; it is compiled where it is not yet there."""
+    """The result of the extracted program, which is compiled at its first use."""
     program = folder / "certifier"
     by = f"the checker extracted by {toolchain.version()}"
     if not program.exists():
@@ -216,6 +218,6 @@ def _extracted(folder: Path, stdin: str, *, timeout: float) -> CertificateCheck:
 
 
 def command(name: str, sources: Path = toolchain.SOURCES) -> str:
-    """The command that checks a certificate by hand, in a folder where it lies."""
+    """The shell command that checks a certificate by hand, in the folder where it lies."""
     names = " ".join([*toolchain.required(LIBRARY), name])
     return f"cp {sources}/*.v . && for f in {names}; do coqc -Q . Topo $f.v || break; done"

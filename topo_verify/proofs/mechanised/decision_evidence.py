@@ -1,4 +1,4 @@
-"""Evidence for the decisions of a trace: each must follow from the log as it was at that moment.
+"""Evidence that the decisions of a trace follow, each from the log as it was at that moment.
 
 A decision is stated by facts about places of the log, each a visit and a door: an edge leads from
 one to the other (`leads`), or none does. Evidence for the first is an arc that joins the two; for
@@ -9,10 +9,13 @@ the second the merges that follow from an edge between them, up to a conflict.
     augment new           an edge leads from e to where the robot came in, and none to any other
                           dart of S that is unexplored at that moment
 
-Which decisions follow is said by checkers/entailment.py; here those that do are put in terms of
-places, as coq/Decisions.v checks them. The fold grows from one decision to the next, an assumed
-edge is taken back, so the work is that of one fold and of what the assumptions add. Nothing here is
-trusted: a mistake makes a certificate that is refused.
+checkers/entailment.py finds which decisions follow; here they are stated in terms of places, as
+coq/Decisions.v checks them. The fold grows from one decision to the next and an assumed edge is
+taken back, so the work is one fold and what the assumptions add. This file is not trusted: a
+mistake here makes a certificate that the checker refuses.
+
+The map on the fold is kept here a second time, apart from the checkers': a fact names the place of
+the log where a dart was seen, and the checkers keep representatives, which later merges replace.
 
 Under the planar prior a decision may follow for planar worlds only. Planarity is not defined in
 Coq: such a decision has no evidence, and is left out.
@@ -40,12 +43,12 @@ from topo_verify.robot.percept import Door, Percept
 DeclaredDecision = Reject | Confirm | Augment
 
 MOST = 2_000_000
-"""Evidence of more steps is given up: it would take hundreds of megabytes."""
+"""Longer evidence is not made: it would take hundreds of megabytes."""
 
 
 @dataclass(frozen=True, slots=True)
 class EdgeRefutation:
-    """With an edge between the two places these arcs meet, and this contradicts."""
+    """Why no edge joins two places: with one, these arcs meet, up to this conflict."""
 
     meetings: tuple[Meeting, ...]
     conflict: Conflict
@@ -53,12 +56,12 @@ class EdgeRefutation:
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """At this visit it is known where an edge leads, or does not lead.
+    """A statement about two places that the log proves up to a visit, with its evidence.
 
     Attributes:
-        visit: the last one of the log at that moment, counted from 1.
+        visit: the last visit of the log at that moment, counted from 1.
         one, other: the two places.
-        reason: the arc that joins them; or why no edge does.
+        reason: the arc that joins them; or the reason why no edge does.
     """
 
     visit: int
@@ -69,7 +72,7 @@ class Fact:
 
 @dataclass(frozen=True, slots=True)
 class EntailedDecision:
-    """A declared decision that follows: its event in the trace, in words, and as facts."""
+    """A declared decision that follows: the index of its event, in words, and as facts."""
 
     when: int
     words: str
@@ -78,12 +81,12 @@ class EntailedDecision:
 
 @dataclass(frozen=True, slots=True)
 class EntailedDecisions:
-    """The decisions of a trace that follow.
+    """The decisions of a trace that follow, with their evidence.
 
     Attributes:
-        stated: those that have evidence, in their order; none if it has more than MOST steps.
-        merges: the evidence for the log itself, up to the last of them.
-        steps: how long all evidence is: visits, merges, facts and merges under assumptions.
+        stated: those that have evidence, in order; none if it would have more than MOST steps.
+        merges: the evidence for the log itself, up to the last decision.
+        steps: the length of all evidence: visits, merges, facts, merges under assumptions.
     """
 
     stated: tuple[EntailedDecision, ...]
@@ -92,17 +95,18 @@ class EntailedDecisions:
 
     @property
     def too_long(self) -> bool:
-        """Was it given up?"""
+        """Whether the evidence was not made, for its length."""
         return self.steps > MOST
 
 
 def evidence_for_decisions(trace: Sequence[Event]) -> EntailedDecisions:
-    """The decisions of a trace, with evidence.
+    """The decisions of a trace that follow, with evidence for each.
 
     Raises:
-        InternalError: one follows, and has no evidence.
-    Complexity: as claim 10 itself; nearly linear, and what each assumed edge adds.
+        InternalError: a decision follows, and no evidence is found for it.
+    Complexity: nearly linear in the length of the trace, and what each assumed edge adds.
     """
+    # With the planar prior, a decision may follow for planar worlds only and lack evidence here.
     prior = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     log = _LogSoFar()
     stated: list[EntailedDecision] = []
@@ -122,7 +126,7 @@ def evidence_for_decisions(trace: Sequence[Event]) -> EntailedDecisions:
 
 
 def _following(trace: Sequence[Event]) -> Iterator[tuple[int, DeclaredDecision]]:
-    """The declared decisions that follow, with their number in the trace."""
+    """The declared decisions that follow, each with the index of its event."""
     if not any(isinstance(event, DeclaredDecision) for event in trace):
         return
     for conclusion in decision_conclusions(trace):
@@ -148,39 +152,39 @@ def _length(fact: Fact) -> int:
 
 
 class _LogSoFar:
-    """What was known at one moment of a trace: the fold, and where the darts of S are."""
+    """The log up to one moment of a trace: its fold, and the map S on the fold."""
 
     def __init__(self) -> None:
         self.fold = ProofProducingFold()
-        self.next = 0  # the first event that was not looked at
-        self.map_to_fold: list[LogPlace] = []  # of each dart of S, a place
-        self.opened: set[int] = set()
+        self.next = 0  # the index of the first event that is not folded yet
+        self.map_to_fold: list[LogPlace] = []  # dart of S -> the place where it was seen
+        self.opened: set[int] = set()  # the darts of S that are unexplored
 
     @property
     def visit(self) -> int:
-        """Where the robot stands."""
+        """The last visit so far."""
         return len(self.fold.seen) - 1
 
     def catch_up(self, trace: Sequence[Event], when: int) -> None:
-        """Fold what happened before this event."""
+        """Fold all events before this one."""
         passed = trace[self.next : when]
         percepts: list[Percept] = [e.percept for e in passed if isinstance(e, Start | Move)]
         doors: list[Door] = [event.door for event in passed if isinstance(event, Move)]
         conflict = self.fold.extend(percepts, doors)
-        assert conflict is None, "what follows, follows from a log that some world shows"
+        assert conflict is None, "decisions are judged only where some world shows the log"
         if self.next == 0:
             self.draw((1, 0))
         self.next = when
 
     def draw(self, entry: LogPlace) -> None:
-        """A new vertex of S, seen from this place on."""
+        """Add a vertex to S; its first dart was seen at this place."""
         visit, door = entry
         degree = self.fold.seen[visit].degree
         self.opened |= set(range(len(self.map_to_fold), len(self.map_to_fold) + degree))
         self.map_to_fold += [(visit, (door + step) % degree) for step in range(degree)]
 
     def facts(self, event: DeclaredDecision) -> tuple[Fact, ...]:
-        """What a decision says, with evidence; none if there is none. S grows by it."""
+        """The facts of a decision, or () if one lacks evidence; an augmentation grows S."""
         edge = event.edge
         if isinstance(event, Reject):
             found = [self.apart(edge, event.hypothesis)]
@@ -194,18 +198,19 @@ class _LogSoFar:
             found = [self.joined(edge, self.map_to_fold[other])]
         if isinstance(event, Augment):
             self.opened -= {edge, event.dart}
+        # All or nothing: half of the facts of an augmentation would state less than it declares.
         facts = tuple(fact for fact in found if fact is not None)
         return facts if len(facts) == len(found) else ()
 
     def entry(self, edge: int) -> LogPlace:
-        """The place to which the first move through a dart of S led."""
+        """The place where the first move through a dart of S arrived."""
         arc = self.fold.joining(self.map_to_fold[edge])
-        assert arc is not None, "an edge that leads to a new vertex was crossed"
+        assert arc is not None, "the edge to a new vertex was crossed before the vertex is added"
         leaves, arrives = self.fold.edges[arc.visit]
         return arrives if arc.forwards else leaves
 
     def joined(self, edge: int, other: LogPlace) -> Fact | None:
-        """An edge leads from a dart of S to a place."""
+        """The fact that an edge leads from a dart of S to a place; None if it does not follow."""
         one = self.map_to_fold[edge]
         arc = self.fold.joining(one)
         if arc is None or self.fold.end(arc) != self.fold.find(other):
@@ -213,7 +218,7 @@ class _LogSoFar:
         return Fact(self.visit, one, other, arc)
 
     def apart(self, edge: int, dart: int) -> Fact | None:
-        """No edge leads from one dart of S to the other."""
+        """The fact that no edge joins two darts of S; None if it does not follow."""
         one, other = self.map_to_fold[edge], self.map_to_fold[dart]
         meetings, conflict = self.fold.refute(one, other)
         if conflict is None:

@@ -1,21 +1,21 @@
-"""Evidence for the checkers in Coq: a log folded, with every merge written down.
+"""Evidence for the checker in Coq: a log is folded, and every merge is recorded.
 
 The fold of a log (docs/semantics.md, section 11) by union-find, the way the checker in
 coq/Checker.v runs it again: visits are counted from 1; an **arc** is a move taken forwards or
 backwards; it leaves by one place (visit, dart) and arrives at another. Two arcs that leave by one
-dart **meet**: they arrive at one dart. Evidence is the list of meetings, in an order in which each
-is seen to be one when its turn comes. The checker repeats the merges and believes nothing else, so
-nothing in this file is trusted: a mistake here makes a certificate that is refused.
+dart **meet**: they arrive at one dart. Evidence is the list of meetings, in an order in which the
+checker can verify each from those before it. The checker repeats the merges and believes nothing
+else, so this file is not trusted: a mistake here makes a certificate that the checker refuses.
 
-The smaller of two classes is hung under the larger, so no chain of parents is longer than the
-logarithm of the number of visits; the checker follows 40.
+The smaller of two classes is linked under the larger, so a chain of parents is at most as long as
+the logarithm of the number of visits. The checker follows 40 links.
 
     fold = fold_log(percepts, doors)
     fold.meetings     # the evidence
     fold.table        # the map: for each dart the next, the previous and the other dart
-    fold.conflict     # why no world shows the log, or None
+    fold.conflict     # the contradiction if no world shows the log, else None
 
-Complexity: nearly linear in the number of moves, times the logarithm for the chains.
+Complexity: nearly linear in the number of moves, times that logarithm.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from topo_verify.robot.percept import Door, Percept
 
 
 class Arc(NamedTuple):
-    """The move from this visit on, forwards or backwards."""
+    """The move that starts at this visit, taken forwards or backwards."""
 
     forwards: bool
     visit: int
@@ -41,35 +41,35 @@ LogPlace = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Arrive:
-    """Two arcs that leave by one dart arrive at places that cannot be one."""
+    """Conflict: two arcs that leave by one dart arrive at places that cannot be one dart."""
 
     meeting: Meeting
 
 
 @dataclass(frozen=True, slots=True)
 class Marked:
-    """A visit that saw the marker cannot be at its place."""
+    """Conflict: this visit saw the marker, and its place cannot be the marked dart."""
 
     visit: int
 
 
 @dataclass(frozen=True, slots=True)
 class Alone:
-    """The two darts of the move from this visit on are one."""
+    """Conflict: the move that starts at this visit would leave and arrive by one dart."""
 
     visit: int
 
 
 @dataclass(frozen=True, slots=True)
 class Illegal:
-    """A door that is not there, a marker at no door, a start elsewhere than at the marker."""
+    """Conflict: a door or a marker beyond the degree, or a start away from the marker."""
 
 
 Conflict = Arrive | Marked | Alone | Illegal
 
 
 class MapRow(NamedTuple):
-    """A dart of a map: the next and the previous one clockwise, the other dart of its edge."""
+    """A dart of a map: the next and the previous one clockwise, and its partner; None: open."""
 
     following: int
     previous: int
@@ -78,12 +78,12 @@ class MapRow(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class FoldedLog:
-    """A log, folded.
+    """The result of folding a log.
 
     Attributes:
         meetings: the evidence.
-        conflict: why no world shows the log; None if some world does.
-        table: the fold as a map, its root dart 0; empty if there is a conflict.
+        conflict: the contradiction if no world shows the log; None if some world does.
+        table: the fold as a map whose root is dart 0; empty if there is a conflict.
     """
 
     meetings: tuple[Meeting, ...]
@@ -92,12 +92,12 @@ class FoldedLog:
 
     @property
     def closed(self) -> bool:
-        """Is no dart open?"""
+        """Whether no dart is open, so that the log determines the map."""
         return all(row.other is not None for row in self.table)
 
 
 def fold_log(percepts: Sequence[Percept], doors: Sequence[Door]) -> FoldedLog:
-    """Fold the log of these percepts; door i leads from percept i to percept i + 1."""
+    """The fold of the log of these percepts; door i leads from percept i to percept i + 1."""
     if not _legal(percepts, doors):
         return FoldedLog((), Illegal(), ())
     fold = ProofProducingFold()
@@ -114,7 +114,20 @@ def _legal(percepts: Sequence[Percept], doors: Sequence[Door]) -> bool:
 
 
 class ProofProducingFold:
-    """The union-find while it runs; grows by `extend`. Index 0 of its lists is not used."""
+    """A union-find over visits that records its merges; it grows by `extend`.
+
+    Visits and moves are counted from 1, as in Coq: index 0 of each list is a filler.
+
+    Attributes:
+        seen: the percept at each visit.
+        edges: of each move, the place where it leaves and the place where it arrives.
+        parent, offset: a visit's parent in the union-find; its dart d is dart d + offset there.
+        size: of a root, the number of visits in its class.
+        leaving: of a root, the first arc that leaves by each dart.
+        meetings: the evidence so far.
+        done: a log of changes, for `refute` to undo: (visit, dart) for a dart that got its first
+            arc, (visit, None) for a root that was linked under another.
+    """
 
     def __init__(self) -> None:
         self.seen = [Percept(0, None)]
@@ -122,12 +135,12 @@ class ProofProducingFold:
         self.parent = [0]
         self.offset = [0]
         self.size = [1]
-        self.leaving: list[dict[int, Arc]] = [{}]  # of roots: dart -> arc
+        self.leaving: list[dict[int, Arc]] = [{}]
         self.meetings: list[Meeting] = []
-        self.done: list[tuple[int, int | None]] = []  # a dart that got its arc, or a visit hung
+        self.done: list[tuple[int, int | None]] = []
 
     def extend(self, percepts: Sequence[Percept], doors: Sequence[Door]) -> Conflict | None:
-        """Fold more visits, and the moves that lead there; the first conflict."""
+        """Fold more visits and the moves that lead there; return the first conflict."""
         visits = range(len(self.seen), len(self.seen) + len(percepts))
         moves = range(len(self.edges), len(self.edges) + len(doors))
         self.seen += percepts
@@ -136,6 +149,7 @@ class ProofProducingFold:
         self.size += [1] * len(visits)
         self.leaving += [{} for _ in visits]
         self.edges += [((v, door), (v + 1, 0)) for v, door in zip(moves, doors, strict=True)]
+        # Markers first: these merges follow from the percepts alone, and need no evidence.
         for visit, percept in zip(visits, percepts, strict=True):
             if percept.marker is not None:
                 one, other = self.find((1, 0)), self.find((visit, percept.marker))
@@ -148,29 +162,32 @@ class ProofProducingFold:
         return None
 
     def alone(self) -> Alone | None:
-        """The first edge whose two darts are one."""
+        """The conflict of the first edge whose two darts are one; None if there is none."""
         edges = range(1, len(self.edges))
         return next((Alone(e) for e in edges if self.leaves(e) == self.arrives(e)), None)
 
     def joining(self, place: LogPlace) -> Arc | None:
-        """An arc that leaves by this dart; None if it is open."""
+        """The first arc that leaves by this dart; None if the dart is open."""
         visit, dart = self.find(place)
         return self.leaving[visit].get(dart)
 
     def refute(self, one: LogPlace, other: LogPlace) -> tuple[tuple[Meeting, ...], Conflict | None]:
-        """What follows from an edge between the two: meetings up to a conflict, if there is one.
+        """The meetings that follow from an edge between two places, and the conflict, if any.
 
-        The fold is the same afterwards.
+        The fold is unchanged afterwards.
         """
         met, done, number = len(self.meetings), len(self.done), len(self.edges)
         self.edges.append((one, other))
         conflict = self.cross(number) or self.alone()
         found = tuple(self.meetings[met:])
+        # An assumed edge leaves no trace: the next decision starts from the log alone.
         self._undo(done)
         del self.meetings[met:], self.edges[number:]
         return found, conflict
 
     def _undo(self, done: int) -> None:
+        # In reverse order: a link is undone only after the arcs that it brought along. There is no
+        # path compression anywhere, since what it changes could not be undone so simply.
         while len(self.done) > done:
             visit, dart = self.done.pop()
             if dart is not None:
@@ -180,19 +197,19 @@ class ProofProducingFold:
                 self.parent[visit], self.offset[visit] = visit, 0
 
     def leaves(self, edge: int) -> LogPlace:
-        """Where an edge leaves: a move, or one that is assumed."""
+        """The place where a move, or an assumed edge, leaves."""
         return self.find(self.edges[edge][0])
 
     def arrives(self, edge: int) -> LogPlace:
-        """Where it arrives."""
+        """The place where a move, or an assumed edge, arrives."""
         return self.find(self.edges[edge][1])
 
     def end(self, arc: Arc) -> LogPlace:
-        """Where an arc arrives."""
+        """The place where an arc arrives."""
         return self.arrives(arc.visit) if arc.forwards else self.leaves(arc.visit)
 
     def find(self, place: LogPlace) -> LogPlace:
-        """The place that stands for all that are the same dart."""
+        """The representative of all places that are the same dart."""
         visit, dart = place
         while self.parent[visit] != visit:
             dart += self.offset[visit]
@@ -200,21 +217,22 @@ class ProofProducingFold:
         return visit, dart % self.seen[visit].degree
 
     def apart(self, one: LogPlace, other: LogPlace) -> bool:
-        """Can they not be one dart?"""
+        """Whether two representatives cannot be one dart."""
         if one[0] == other[0]:
             return one != other
         return self.seen[one[0]].signature != self.seen[other[0]].signature
 
     def cross(self, edge: int) -> Conflict | None:
-        """Note an edge, forwards and backwards."""
+        """Add an edge as two arcs, forwards and backwards; return the first conflict."""
         return self.note(Arc(forwards=True, visit=edge)) or self.note(
             Arc(forwards=False, visit=edge)
         )
 
     def note(self, arc: Arc) -> Conflict | None:
-        """The arc leaves by its dart; merge all that follows."""
+        """Add an arc and make all merges that follow; return the first conflict."""
         visit, dart = self.leaves(arc.visit) if arc.forwards else self.arrives(arc.visit)
         first = self.first(visit, dart, arc)
+        # A stack, not a recursion: one arc can set off as many merges as there are visits.
         todo: list[Meeting] = [] if first is arc else [(first, arc)]
         while todo:
             meeting = todo.pop()
@@ -222,6 +240,7 @@ class ProofProducingFold:
             if self.apart(one, other):
                 return Arrive(meeting)
             if one != other:
+                # The checker links the end of the second arc under that of the first: swap both.
                 if self.size[one[0]] < self.size[other[0]]:
                     meeting, one, other = (meeting[1], meeting[0]), other, one
                 self.meetings.append(meeting)
@@ -229,7 +248,7 @@ class ProofProducingFold:
         return None
 
     def link(self, one: LogPlace, other: LogPlace) -> list[Meeting]:
-        """Hang the class of the second under that of the first; the arcs that then meet."""
+        """Link the class of the second place under that of the first; return the arcs that meet."""
         (kept, i), (lost, j) = one, other
         if kept == lost:
             return []
@@ -245,16 +264,17 @@ class ProofProducingFold:
         return found
 
     def first(self, visit: int, dart: int, arc: Arc) -> Arc:
-        """The arc that left first by a dart of a class: this one, if there was none."""
+        """The arc that left first by a dart of a root: this one, if there was none."""
+        # Noted in `done` only if it is new, since `_undo` deletes what is noted there.
         first = self.leaving[visit].setdefault(dart, arc)
         if first is arc:
             self.done.append((visit, dart))
         return first
 
     def table(self) -> tuple[MapRow, ...]:
-        """The fold as a map: vertices in the order of discovery, from the entry dart on."""
-        first: dict[int, LogPlace] = {}  # of each vertex: its entry dart, and that dart's number
-        order: list[LogPlace] = []  # all darts, by number
+        """The fold as a map: vertices in order of discovery, each numbered from its entry dart."""
+        first: dict[int, LogPlace] = {}  # root visit -> its entry dart, the number of that dart
+        order: list[LogPlace] = []  # number -> dart
         self.discover(self.find((1, 0)), first, order)
         rows: list[MapRow] = []
         for number, (visit, dart) in enumerate(order):
@@ -267,7 +287,7 @@ class ProofProducingFold:
         return tuple(rows)
 
     def discover(self, root: LogPlace, first: dict[int, LogPlace], order: list[LogPlace]) -> None:
-        """Number the darts: each vertex by its entry dart, breadth first."""
+        """Number the darts breadth-first, those of each vertex from its entry dart on."""
         todo = [root]
         for visit, entry in todo:
             if visit in first:
@@ -280,7 +300,7 @@ class ProofProducingFold:
             todo += [self.end(arc) for arc in arcs if arc is not None]
 
     def number(self, place: LogPlace, first: dict[int, LogPlace]) -> int:
-        """The number of a dart."""
+        """The number of a dart in the table."""
         visit, dart = place
         entry, low = first[visit]
         return low + (dart - entry) % self.seen[visit].degree

@@ -1,17 +1,18 @@
-"""Theorems proved in Coq, in worlds of any size and without an axiom, checked again on demand.
+"""Theorems proved in Coq for worlds of any size, with no axiom; `prove` checks them again.
 
-Each theorem here names a theorem of coq/; its statement there is what is proved. One check serves
-all of them, since they share one library: the sources are searched for words that claim without
-proof; coqc compiles them in a temporary folder; coqchk checks what was compiled again, and must
-say that there is no axiom; and Coq is asked of each theorem by itself what it rests on.
+Each entry names a theorem of coq/; its statement there is what is proved. One check serves all of
+them, since they share one library: the sources are searched for words that assume without proof;
+coqc compiles them in a temporary folder; Coq is asked which axioms the theorems of this file rest
+on, and must answer none; coqchk checks the compiled files again, and must find no axiom either.
 
     verdict     when
-    PROVED      all of that, with coqchk's own summary
-    UNKNOWN     Coq is not installed, the time is over, or something was refused; the note says
-                which. Never REFUTED: a proof that fails is no counterexample.
+    PROVED      every step succeeded; the note is coqchk's summary
+    UNKNOWN     Coq is not installed, a call took too long, or a step failed; the note says which.
+                Never REFUTED: a proof that fails is no counterexample.
 
 What this does not show: that the statements say what they should (coq/README.md names the lines
-to read), nor anything of the Python code, whose runs are certified one by one (`kernel`).
+to read), nor anything about the Python code: its runs are certified one by one
+(`certificates.py`).
 
 Source: docs/mechanised.md.
 """
@@ -29,12 +30,12 @@ from topo_verify.proofs.mechanised import toolchain
 from topo_verify.proofs.theorem import Budget, Theorem, TheoremResult
 
 LONGER = 10
-"""The whole check is many calls; each may take so many times the limit of one query."""
+"""Compiling a file takes longer than a query: a call may take so many times its limit."""
 
 
 @dataclass(frozen=True, slots=True)
 class MechanisedStatement:
-    """A theorem of coq/, its file and name there, the claims that rest on it, and what it says."""
+    """A theorem of coq/: its file and name there, the claims that rest on it, its words."""
 
     name: str
     file: str
@@ -50,9 +51,9 @@ def _one(name: str, where: str, claims: str, words: str) -> MechanisedStatement:
 
 STATEMENTS: tuple[MechanisedStatement, ...] = (
     _one("coq-foretold", "Embedding.forward", "true-hypothesis-kept",
-        "What the map foretells of a true hypothesis, the world shows."),
+        "The world shows what the map predicts for the true hypothesis."),
     _one("coq-motion-kept", "Embedding.mismatch_refutes", "true-hypothesis-kept",
-        "A percept that differs from what the map foretells refutes the hypothesis."),
+        "A percept that differs from the map's prediction refutes the hypothesis."),
     _one("coq-posed", "Embedding.posed", "true-hypothesis-posed",
         "The true end of an open dart, if it is known, is another open dart that looks alike."),
     _one("coq-confirmed", "Embedding.confirm", "no-false-confirm",
@@ -62,7 +63,7 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
     _one("coq-records-kept", "Records.agrees_true", "true-hypothesis-kept",
         "Rules prefix, history and records never reject the true hypothesis."),
     _one("coq-records-true", "Records.record_true", "true-hypothesis-kept rejection-justified",
-        "What is recorded behind an open dart is true, and stays so."),
+        "What is recorded behind an open dart is true in the world, and stays true."),
     _one("coq-folding-kept", "Folding.folding_true", "true-hypothesis-kept",
         "Rule folding never contradicts the true hypothesis."),
     _one("coq-folding-confirms", "Folding.folding_confirms", "no-false-confirm",
@@ -83,11 +84,11 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
     _one("coq-basic", "Policies.basic_correct", "map-isomorphic",
         "The mapper with rule none, breadth-first ways and the lowest dart ends with the world."),
     _one("coq-history", "Policies.history_correct", "map-isomorphic",
-        "So does the mapper with rule history."),
+        "The mapper with rule history ends with the world, too."),
     _one("coq-cost", "Cost.cost_within_bound", "cost-within-bound cost-honest",
-        "It makes at least m and at most m (n + (2m - 1) 2(n - 1)) moves."),
+        "The mapper makes at least m and at most m (n + (2m - 1) 2(n - 1)) moves."),
     _one("coq-basic-cost", "Cost.basic_cost", "cost-within-bound cost-honest",
-        "So does the mapper with rule none."),
+        "The mapper with rule none keeps within the same bounds."),
     _one("coq-closed", "Entailed.closed_iff_determined", "map-entailed",
         "A log has no open dart exactly if all worlds that show it are isomorphic."),
     _one("coq-open", "Entailed.closed_or_undetermined", "map-entailed",
@@ -99,7 +100,7 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
     _one("coq-sound-cost", "Sound.sound_cost", "cost-within-bound",
         "Any mapper that is right in every world makes at least m moves."),
     _one("coq-breadth-first", "Distance.breadth_first_exists", "cost-within-bound",
-        "Every world has a breadth-first tree, which the least cost is told by."),
+        "Every world has a breadth-first tree, by which the least cost is defined."),
     _one("coq-least-cost", "LeastCost.sound_least_cost", "cost-within-bound",
         "Any mapper that is right in every world makes at least as many moves as LB."),
     _one("coq-certified", "CheckerCorrect.certified_correct", "map-entailed",
@@ -123,11 +124,11 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class LibraryCheck:
-    """What became of the library as a whole.
+    """The result of checking the whole library.
 
     Attributes:
-        why: why nothing is proved; "" if all was accepted.
-        summary: coqchk's own, in one line.
+        why: the reason why nothing is proved; "" if every step succeeded.
+        summary: coqchk's summary in one line.
         seconds: wall-clock time.
     """
 
@@ -138,7 +139,7 @@ class LibraryCheck:
 
 @cache
 def library(timeout: float) -> LibraryCheck:
-    """Compile and check everything, once; `timeout` is in seconds for each call of a program."""
+    """The result of one check of the library, made once; `timeout`: seconds for each call."""
     if why := toolchain.missing():
         return LibraryCheck(why=why)
     begin = perf_counter()
@@ -152,10 +153,10 @@ def library(timeout: float) -> LibraryCheck:
 
 
 def examine(folder: Path, *, timeout: float) -> LibraryCheck:
-    """The check, in an empty folder.
+    """The result of checking the library in an empty folder.
 
     Raises:
-        coqtools.TimeOut: a call takes too long.
+        toolchain.TimeOut: a call takes too long.
     """
     names = toolchain.files()
     toolchain.copy_library(folder, names)
@@ -174,16 +175,17 @@ def examine(folder: Path, *, timeout: float) -> LibraryCheck:
 
 
 def asked(folder: Path, *, timeout: float) -> str:
-    """What Coq says that all theorems together rest on, in the folder with the compiled library."""
+    """Coq's answer about the axioms of all theorems together, asked beside the compiled library."""
     imports = " ".join(dict.fromkeys(one.file for one in STATEMENTS))
     theorems = ", ".join(f"@{one.file}.{one.theorem}" for one in STATEMENTS)
+    # One tuple of all theorems: a single `Print Assumptions` then covers every one of them.
     text = f"From Topo Require {imports}.\nDefinition every := ({theorems}).\n"
     (folder / "asked.v").write_text(f"{text}Print Assumptions every.\n", encoding="utf-8")
     return toolchain.compile_one(folder, "asked", timeout=timeout).output
 
 
 def summary(output: str) -> str:
-    """coqchk's summary in one line: its theory, its axioms, and whatever else is not <none>."""
+    """coqchk's summary in one line: theory, axioms, and every other point that is not <none>."""
     lines = output.partition("CONTEXT SUMMARY")[2].splitlines()
     points = [line.removeprefix("* ").strip() for line in lines if line.startswith("* ")]
     worth_saying = (p for p in points if p.startswith("Axioms") or not p.endswith("<none>"))
@@ -215,9 +217,8 @@ def _prover(statement: MechanisedStatement) -> Callable[[Budget], TheoremResult]
             verdict="UNKNOWN" if found.why else "PROVED",
             solver="coqc" if toolchain.missing() else toolchain.version(),
             seconds=found.seconds,
-            premises_satisfiable=None
-            if found.why
-            else True,  # torus_world, run_exists: worlds and runs
+            # Coq proves that worlds and runs exist (torus_world, run_exists): nothing is vacuous.
+            premises_satisfiable=None if found.why else True,
             note=found.why or f"coqchk: {found.summary}",
         )
 

@@ -1,8 +1,8 @@
-"""Coq called as a program: the library compiled, checked and asked for its axioms.
+"""Calls of coqc and coqchk: the library is compiled, checked again, and asked for its axioms.
 
-The library is the folder coq/ beside this file; `_CoqProject` lists its files in an order in which
-they can be compiled. Nothing is written there: it is compiled in a folder of the caller's. Every
-call has a time limit, and a call that ends by it is `TimeOut`, never a refusal and never a pass.
+The library is the folder proofs/coq/; its `_CoqProject` lists the files in an order in which they
+can be compiled. Nothing is written there: it is compiled in a folder of the caller's. Every call
+has a time limit. A call that reaches it raises `TimeOut`, which is no refusal and no pass.
 
 What this does not show: that the installed coqc is the one that its authors released.
 """
@@ -18,7 +18,7 @@ from functools import cache
 from pathlib import Path
 
 SOURCES = Path(__file__).parents[1] / "coq"
-"""Where the sources are."""
+"""The folder of the sources."""
 
 HOW_TO_GET_IT = (
     "apt-get install --no-install-recommends coq (Debian, Ubuntu), or opam install coq; the proofs"
@@ -26,7 +26,7 @@ HOW_TO_GET_IT = (
 )
 
 NO_AXIOMS = "Closed under the global context"
-"""What Coq prints of a theorem that rests on no axiom."""
+"""Coq's answer to `Print Assumptions` about a theorem that rests on no axiom."""
 
 FORBIDDEN = re.compile(
     r"\b(Admitted|admit|give_up|Axioms?|Parameters?|Conjectures?|Declare\s+Module|Abort|Unset\s+"
@@ -36,19 +36,19 @@ FORBIDDEN = re.compile(
 
 
 class TimeOut(Exception):
-    """A call of coqc or coqchk took longer than it may."""
+    """A call of coqc or coqchk reached its time limit."""
 
 
 @dataclass(frozen=True, slots=True)
 class ProgramRun:
-    """What a program said, and whether it accepted."""
+    """The output of a program, and whether it accepted its input."""
 
     accepted: bool
     output: str
 
 
 def missing() -> str:
-    """Why nothing can be compiled here; "" if it can."""
+    """The reason why nothing can be compiled here; "" if Coq is installed."""
     lost = [program for program in ("coqc", "coqchk") if shutil.which(program) is None]
     return f"{' and '.join(lost)} not installed: {HOW_TO_GET_IT}" if lost else ""
 
@@ -70,7 +70,7 @@ def files() -> tuple[str, ...]:
 
 
 def required(name: str) -> tuple[str, ...]:
-    """The files that one needs, itself included, in their order."""
+    """The files that one file needs, itself included, in the order of compilation."""
     needed, todo = {name}, [name]
     while todo:
         text = (SOURCES / f"{todo.pop()}.v").read_text(encoding="utf-8")
@@ -82,12 +82,12 @@ def required(name: str) -> tuple[str, ...]:
 
 
 def without_comments(text: str) -> str:
-    """A source without its comments (none of ours has one inside another)."""
+    """A source without its comments, which must not be nested (none of ours is)."""
     return re.sub(r"\(\*.*?\*\)", " ", text, flags=re.DOTALL)
 
 
 def claims_unproved(text: str) -> tuple[str, ...]:
-    """The words of a source that assume what ought to be proved."""
+    """The words in a source with which it would assume what it ought to prove."""
     return tuple(found[0] for found in FORBIDDEN.finditer(without_comments(text)))
 
 
@@ -100,7 +100,7 @@ def copy_library(folder: Path, names: Iterable[str]) -> None:
 def compile_all(
     folder: Path, names: Iterable[str], *, timeout: float, flags: Sequence[str] = ()
 ) -> ProgramRun:
-    """Compile these sources of the folder, one after the other, up to the first that is refused.
+    """Compile these sources of the folder in order, up to the first that Coq refuses.
 
     Raises:
         TimeOut: one takes longer than `timeout` seconds.
@@ -120,9 +120,10 @@ def compile_one(
 
 
 def recheck(folder: Path, names: Iterable[str], *, timeout: float) -> ProgramRun:
-    """Have coqchk check compiled files again; accepted only if it names no axiom."""
+    """Have coqchk check compiled files again; it accepts only if it names no axiom."""
     library = [f"Topo.{name}" for name in names]
     ran = run(["coqchk", "-silent", "-o", "-Q", ".", "Topo", *library], folder, timeout=timeout)
+    # coqchk succeeds with axioms, too; only its summary tells whether there are any.
     return ProgramRun(ran.accepted and "* Axioms: <none>" in ran.output, ran.output)
 
 
@@ -130,7 +131,7 @@ def run(command: Sequence[str], folder: Path, *, timeout: float, stdin: str = ""
     """Run a program in the folder.
 
     Raises:
-        TimeOut: it takes longer than `timeout` seconds; it was ended.
+        TimeOut: it took longer than `timeout` seconds, and was killed.
     """
     try:
         done = subprocess.run(  # noqa: S603  programs of Coq and OCaml, on files of our own

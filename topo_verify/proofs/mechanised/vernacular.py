@@ -1,4 +1,4 @@
-"""A certificate written down: as a source of Coq, and as numbers for the extracted program.
+"""A certificate as text: a source of Coq, or numbers for the extracted program.
 
 Source: docs/mechanised.md; coq/Checker.v; coq/driver.ml.
 """
@@ -30,18 +30,18 @@ from topo_verify.robot.percept import Door, Percept
 CertifiedStatement = Literal["map", "undetermined", "impossible"]
 
 MANY = 50_000
-"""Decisions whose evidence has more steps are not written for Coq: its kernel takes minutes."""
+"""Longer evidence for decisions is not written for Coq, whose kernel would take minutes."""
 
 
 @dataclass(frozen=True, slots=True)
 class CoqCertificate:
-    """A statement about one log, with what a checker needs to see that it is true.
+    """A statement about one log, with the evidence that a checker needs to verify it.
 
     Attributes:
-        statement: which of the three.
+        statement: one of the three at the head of certificates.py.
         percepts, doors: the log.
         fold: map, evidence and conflict; not trusted.
-        decisions: those of the trace that follow, with evidence that is not trusted either.
+        decisions: the decisions of the trace that follow, with evidence; not trusted either.
     """
 
     statement: CertifiedStatement
@@ -52,7 +52,7 @@ class CoqCertificate:
 
     @property
     def writes_decisions(self) -> bool:
-        """Are there decisions, with evidence that is short enough for Coq's kernel?"""
+        """Whether there are decisions whose evidence is short enough for Coq's kernel."""
         return bool(self.decisions.stated) and self.decisions.steps <= MANY
 
 
@@ -97,7 +97,7 @@ def coq_file(certificate: CoqCertificate) -> str:
         for door, percept in zip(certificate.doors, percepts[1:], strict=True)
     ]
     rows = [f"({r.following}, {r.previous}, {_option(r.other)})" for r in fold.table]
-    conflict = fold.conflict or Illegal()
+    conflict = fold.conflict or Illegal()  # a filler: the file always defines one
     decisions = certificate.decisions
     files, imports, decisions_text = "World.v and Log.v", "CheckerCorrect", ""
     if certificate.writes_decisions:
@@ -192,7 +192,7 @@ def _conflict(conflict: Conflict) -> str:
         case Marked(visit):
             return f"Marked {visit}%positive"
         case Illegal():
-            return "Marked 1%positive"  # none: the log is illegal, or some world shows it
+            return "Marked 1%positive"  # a filler: the log is illegal, or some world shows it
 
 
 def _lines(entries: Iterable[str]) -> str:
@@ -203,7 +203,7 @@ def _lines(entries: Iterable[str]) -> str:
 
 
 def numbers(certificate: CoqCertificate) -> str:
-    """The certificate as the extracted program reads it; coq/driver.ml says how."""
+    """The certificate in the format that coq/driver.ml describes and the program reads."""
     fold = certificate.fold
     moves = zip(certificate.doors, certificate.percepts[1:], strict=True)
     conflict = fold.conflict or Illegal()
@@ -219,7 +219,7 @@ def numbers(certificate: CoqCertificate) -> str:
 
 
 def numbers_of_decisions(certificate: CoqCertificate) -> str:
-    """The decisions of a certificate as the extracted program reads them."""
+    """The decisions of a certificate in that format."""
     moves = zip(certificate.doors, certificate.percepts[1:], strict=True)
     decisions = certificate.decisions
     parts = [

@@ -1,12 +1,12 @@
-"""Rules with one thing changed: each does wrong in some world, and here is the smallest.
+"""Rules with one mistake: each fails in some world, of which the smallest is found.
 
 A mutant is refuted by a scene: an exact world, a reachable map S of it, an edge e with a hypothesis
-h, and what the robot does behind e. The scene is then played by the simulator without any solver:
-the mutated rule, evaluated on S and on what was sensed, must really reject what is true or confirm
-what is false. A scene that does not play that way is a bug of ours, and is reported as one.
+h, and the moves behind e. The scene is then replayed in the simulator without a solver: the faulty
+rule, evaluated on S and on the sensed percepts, must reject what is true or confirm what is false.
+A scene that does not replay is a bug of ours, and raises.
 
-What is not asked: whether a mapper with reference policies would walk just there. Claims hold for
-every history, so any history that breaks one will do.
+What this does not show: that a mapper with the reference policies would make these moves. Claims
+hold for every history, so any history that breaks one will do.
 
     rejection.py      a true hypothesis is rejected      records.py      records are misplaced
     confirmation.py   a false one is confirmed           fold_steps.py   what differs is identified
@@ -48,7 +48,7 @@ __all__ = ["MUTANTS", "PLANAR", "RULE_MUTANTS", "RuleMutant", "theorem"]
 
 
 def theorem(mutant: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") -> Theorem:
-    """The statement that the changed rule is right, which must be refuted."""
+    """The statement that the faulty rule is right, as a theorem that must be refuted."""
     edges, known = mutant.size
 
     def queries() -> Iterator[Query]:
@@ -61,7 +61,7 @@ def theorem(mutant: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") 
         claims=mutant.claims,
         words=mutant.words,
         symbols=shown(mutant.rule),
-        solver_part="a world, a map and a history in which it does wrong; played by the simulator",
+        solver_part="a world, a map and a history in which it fails; replayed in the simulator",
         expected="REFUTED",
         prove=lambda budget: _refute(mutant, budget),
         queries=queries,
@@ -87,8 +87,8 @@ def _refute(mutant: RuleMutant, budget: Budget) -> TheoremResult:
     replay = SceneReplay(scene, without=mutant.without)
     if not mutant.plays(replay, mutant.rule):
         raise InternalError(
-            f"the model of {mutant.name} does not replay: in world {scene.world.id} the doors"
-            f" {list(replay.history)} show nothing wrong"
+            f"the model of {mutant.name} does not replay: the doors {list(replay.history)} in world"
+            f" {scene.world.id} show no failure"
         )
     return TheoremResult(
         verdict="REFUTED",
@@ -103,4 +103,4 @@ def _refute(mutant: RuleMutant, budget: Budget) -> TheoremResult:
 MUTANTS: tuple[Theorem, ...] = tuple(map(theorem, RULE_MUTANTS))
 
 PLANAR: Theorem = theorem(fold_steps.PLANAR, "negative")
-"""The planar prior is not sound in all worlds: a torus of two edges."""
+"""The planar prior is not sound in all worlds: a torus with two edges refutes it."""

@@ -1,4 +1,4 @@
-"""Rules that confirm what is false."""
+"""Faulty rules that confirm a false hypothesis."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _DEGREES = eq(t.mdeg(x), t.deg(b))
 
 
 def _plays_confirm(replay: SceneReplay, rule: Term, doors: tuple[str, ...] = ()) -> bool:
-    """Is the false h confirmed by its way home?"""
+    """Whether h is confirmed by its way home although it is false."""
     at, seen = replay.dart("h"), [replay.behind("e")]
     matches = replay.says(rule, *seen, x=at, b=0)
     for name in doors:
@@ -33,7 +33,7 @@ def _plays_confirm(replay: SceneReplay, rule: Term, doors: tuple[str, ...] = ())
 
 
 def _plays_taken(replay: SceneReplay, rule: Term) -> bool:
-    """Is the false h taken for true behind e, where the rule lets it?"""
+    """Whether h is posed and taken for true behind e although it is false."""
     vu = replay.behind("e")
     darts = range(len(replay.chart.alpha))
     posed = [h for h in darts if replay.says(r.POSED, vu, e=replay.dart("e"), h=h, b=0)]

@@ -1,4 +1,4 @@
-"""Fold steps that identify what is not one dart; and the planar prior."""
+"""Faulty fold steps, which identify what is not one dart; and the planar prior."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from topo_verify.proofs.first_order.terms import BOOL, Symbol, Term, conj, diffe
 
 
 def _plays_fold(replay: SceneReplay, doors: tuple[str | int, ...], one: str, other: str) -> bool:
-    """Walk from the start; are these two places, which the rule identifies, different darts?"""
+    """Whether two places of a walk from the start, which the rule identifies, are two darts."""
     world, at = replay.scene.world, replay.root
     arrivals = [at]
     for door in doors:
@@ -116,4 +116,4 @@ PLANAR = RuleMutant(
     },
     plays=_plays_planar,
 )
-"""Not a change of a rule but a rule that is not sound, and must not be provable."""
+"""Not a mistake in a rule but a rule that is not sound, so it must not be provable."""

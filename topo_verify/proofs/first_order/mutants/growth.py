@@ -1,4 +1,4 @@
-"""Hypotheses that are not posed, and augmentations that join the wrong darts."""
+"""Faulty growth: hypotheses that are not posed, augmentations that join the wrong darts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a rule with one thing changed is, and the scenes that several of them share."""
+"""A rule with one mistake, and the parts of scenes that several of them share."""
 
 from __future__ import annotations
 
@@ -16,15 +16,18 @@ x, k, b, own, i = r.x, r.k, r.b, r.own, t.i
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RuleMutant:
-    """A changed rule.
+    """A rule with one mistake, and a scene in which it fails.
 
     Attributes:
-        of: the obligation that the rule, unchanged, meets.
-        rule: the changed rule, as in `rules.py`; for a fold step, what it wrongly concludes.
-        scene: what is so in a scene where it does wrong; for the true rule no scene has all that.
-        plays: does it do wrong when the scene is played?
-        without: edges of S that are crossed only in the course of the story.
+        name: of the theorem.
+        of: the obligation that the right rule meets.
+        words: the mistake.
+        claims: the claims that it breaks.
+        rule: the faulty rule, as in `rules.py`; for a fold step, its wrong conclusion.
+        scene: formulas of a scene in which it fails; with the right rule they contradict.
+        plays: makes the moves in a replay, and tells whether the rule fails there.
         size: edges of the world and darts of S in the smallest scene.
+        without: darts of S whose edges are left for `plays` to cross.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Records that are written or read in the wrong place."""
+"""Faulty records: written or read in the wrong place, so that they reject a true hypothesis."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ BEFORE: dict[str, Term] = {
     "loop-before": conj(t.explored(E1), eq(t.malpha(E1), H1), neg(t.minv0(H1))),
     "loop-finds-nothing": _ENTERED_BY,
 }
-"""An edge e_before was validated as a loop that ends in h_before, and a door was executed there."""
+"""Edge e_before was validated as a loop to h_before, and a door was executed behind it."""
 
 SEEN_BEFORE = r.beyond(t.phi(H1), D1)
 
 
 def _unlike(one: Term, other: Term) -> Term:
-    """Two places of the world show different percepts."""
+    """The formula that two darts of the world show different percepts."""
     same = eq(eq(t.rot(one, i), t.root), eq(t.rot(other, i), t.root))
     return neg(
         conj(
@@ -40,7 +40,7 @@ def _unlike(one: Term, other: Term) -> Term:
 def _plays_records(
     replay: SceneReplay, *, entry: Callable[[SceneReplay], int], late: int, early: int
 ) -> bool:
-    """Record behind the edge before, then trace behind e; is the true h rejected?"""
+    """Whether records made behind e_before reject h behind e although it is true."""
     vu = replay.behind("e_before")
     sensed = replay.forward("d_before")
     replay.close("e_before", "h_before")
@@ -59,7 +59,7 @@ def _plays_records(
 def _recording(
     name: str, of: str, words: str, under: Term, kept: Term, met: Term, **how: int
 ) -> RuleMutant:
-    """A mutant of records: kept under this dart; what it shows; what is met later behind it."""
+    """A mutant of records: kept under a dart, with the percept at `kept`, compared at `met`."""
     stale = under != t.mrot(H1, D1)
 
     def entry(replay: SceneReplay) -> int:

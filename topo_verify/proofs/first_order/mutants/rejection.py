@@ -1,4 +1,4 @@
-"""Rules that reject what is true: tracing, the common prefix, motion."""
+"""Faulty rules that reject a true hypothesis: by tracing, the common prefix, or the motion."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, forall,
 
 
 def _one(replay: SceneReplay, rule: Term, door: str) -> bool:
-    """After one door behind e: does the rule reject h, though it is true?"""
+    """Whether the rule, after one door behind e, rejects h although it is true."""
     vu = replay.behind("e")
     sensed = replay.forward(door)
     k_, own_ = (replay.scene.constants.get(name, 0) for name in (door, "own1"))

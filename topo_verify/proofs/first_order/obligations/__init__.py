@@ -1,8 +1,11 @@
-"""The inductive obligations, by theme: each true in worlds of any size.
+"""The obligations by theme; each holds in worlds of any size.
 
-doors.py         what turning keeps, the way back    growth.py    hypotheses, augmentations, the end
-traces.py        no true hypothesis is rejected      folds.py     folding, sound and complete
-confirmation.py  no false one is confirmed           records.py   records are true, and stay true
+doors.py         turning by doors, and the way back
+traces.py        rules reject no true hypothesis
+confirmation.py  a full match confirms no false hypothesis
+records.py       records are true when they are written, and stay true
+growth.py        hypotheses are complete, augmentations are right, and S ends as the world
+folds.py         folding is sound, and complete when no place is open
 """
 
 from __future__ import annotations
@@ -25,6 +28,6 @@ OBLIGATIONS: tuple[Obligation, ...] = (
     *growth.OBLIGATIONS,
     *folds.OBLIGATIONS,
 )
-"""All of them; a lemma comes before what uses it."""
+"""All obligations; a lemma comes before those that use it."""
 
 __all__ = ["OBLIGATIONS", "Obligation"]

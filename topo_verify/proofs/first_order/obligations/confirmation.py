@@ -1,10 +1,9 @@
-"""Confirmation: a full match is never false. The induction runs backward from v0.
+"""Confirmation: a full match is never false, by induction backward from v0.
 
-The way home ends at v0, where the marker tells more than a signature: its direction names the dart.
-So there S and the world are at the same dart. Backward over each door: what leads to corresponding
-darts came from corresponding darts, since neither an edge nor a turn has two beginnings. So h's
-place is where the robot began. The percepts in between are not needed for this; they only reject
-early.
+The way home ends at v0, where the direction of the marker identifies the dart: equal percepts there
+mean that S and the world are at the same dart. Backward over each door, corresponding darts came
+from corresponding darts, since turning and crossing are injective. So h's place is where the robot
+began. The percepts in between are not needed for this; they only reject earlier.
 """
 
 from __future__ import annotations
@@ -37,14 +36,14 @@ from topo_verify.proofs.first_order.terms import Term, eq, forall
 
 
 def _confirmed(word: Term) -> Term:
-    """A word that ends at corresponding places began at corresponding places."""
+    """If this word ends at corresponding darts, it began at corresponding darts."""
     return forall((x, a), stays(x, word), eq(phi(mwalk(x, word)), walk(a, word)), eq(phi(x), a))
 
 
 OBLIGATIONS: tuple[Obligation, ...] = (
     Obligation(
         name="confirm-final",
-        words="where S shows the marker and the robot senses just that, they are at the same dart",
+        words="if S shows the marker and the robot senses the same percept, they are at one dart",
         claims=CONFIRMED,
         theory=CORRESPONDENCE,
         given={"at-v0": minv0(X), "matches": alike(X, B)},
@@ -53,7 +52,7 @@ OBLIGATIONS: tuple[Obligation, ...] = (
     ),
     Obligation(
         name="confirm-back",
-        words="what leads to the same dart by the same door, over an edge of S, came from the same",
+        words="if one door, over an explored edge, leads from two darts to one, the two are one",
         claims=CONFIRMED,
         theory=CORRESPONDENCE,
         given=ACROSS | {"same-behind": eq(phi(arrival(X, D)), beyond(B, D))},
@@ -71,7 +70,7 @@ OBLIGATIONS: tuple[Obligation, ...] = (
     ),
     Obligation(
         name="word-confirm-base",
-        words="backward over the empty word",
+        words="if the empty word ends at corresponding darts, it began at corresponding darts",
         claims=CONFIRMED,
         theory=WORDS,
         goal=_confirmed(nil),
@@ -80,7 +79,7 @@ OBLIGATIONS: tuple[Obligation, ...] = (
     ),
     Obligation(
         name="word-confirm-step",
-        words="backward over a word with one door more, if over the rest",
+        words="the same holds for a word with one door more, if it holds for the rest",
         claims=CONFIRMED,
         theory=(*WORDS, "phi-alpha", "phi-rot", "alpha-involution", "rot-injective"),
         given={"for-the-rest": _confirmed(WORD)},

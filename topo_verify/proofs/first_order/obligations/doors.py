@@ -1,6 +1,6 @@
-"""Doors: what turning by any number of them keeps, by induction from k0, from k to succ(k).
+"""Doors: what turning by any number of them preserves, by induction over doors.
 
-Also the way back: door 0 undoes a move, and what is turned is added to the next door.
+Also the way back: door 0 undoes a move but for a turn, which is added to the next door.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def _induction(
     theory: tuple[str, ...],
     needs: tuple[tuple[str, ...], tuple[str, ...]],
 ) -> tuple[Obligation, Obligation]:
-    """Base and step of one induction over doors; the statement at k0, at D and at succ(D)."""
+    """Base and step of an induction over doors, given the statement at k0, D and succ(D)."""
     base = Obligation(
         name=f"{name}-base",
         words=f"{words}: with door 0",
@@ -76,7 +76,7 @@ TURNING = ("rot-zero", "rot-next")
 OBLIGATIONS: tuple[Obligation, ...] = (
     *_induction(
         "rot-injective",
-        "the same door never leads out by one dart from two reference darts",
+        "one door, counted from two reference darts, means two darts",
         _at(lambda k: forall((a, b), eq(rot(a, k), rot(b, k)), eq(a, b))),
         (*TURNING, "sigma-injective"),
         (("rot-zero",), ("rot-next", "sigma-injective", "for-the-door-before")),
@@ -90,14 +90,14 @@ OBLIGATIONS: tuple[Obligation, ...] = (
     ),
     *_induction(
         "rot-keeps-marker",
-        "the marker lies at all darts of a vertex or at none",
+        "the marker is seen from all darts of a vertex or from none",
         _at(lambda k: forall(a, eq(inv0(rot(a, k)), inv0(a)))),
         (*TURNING, "marker-of-vertex"),
         (("rot-zero",), ("rot-next", "marker-of-vertex", "for-the-door-before")),
     ),
     *_induction(
         "phi-keeps-doors",
-        "a door of S means the door of the world",
+        "a door of S means the same door of the world",
         _at(lambda k: forall(x, eq(phi(mrot(x, k)), rot(phi(x), k)))),
         (*TURNING, "map-rot-zero", "map-rot-next", "phi-sigma"),
         (("rot-zero", "map-rot-zero"), ("rot-next", "map-rot-next", "phi-sigma")),
@@ -120,7 +120,7 @@ OBLIGATIONS: tuple[Obligation, ...] = (
     ),
     Obligation(
         name="retrace-turned",
-        words="after a way back by door k, door i is what door j was, if k + i and j are one",
+        words="after a way back by door k, door i is what door j was, if k + i = j modulo degree",
         claims=BOTH,
         theory=("turning-adds", "doors-wrap"),
         given={"one-door": wraps(deg(A), plus(D, K), J)},

@@ -1,4 +1,4 @@
-"""Folding: a step identifies what is one dart in every world that fits; a closed fold is it.
+"""Folding is sound: it identifies only what is one dart. A closed fold is the whole world.
 
 A **place** (sort P) is a dart of the fold: a visit of the robot and a door there. In a world that
 shows the same history, every place is a dart, `pi`: the visit's reference dart turned by the door.
@@ -11,11 +11,11 @@ shows the same history, every place is a dart, `pi`: the visit's reference dart 
     ptoroot(p)           the door from p to that place
     pacross(p)           where all is joined: what p is joined with
 
-Sound: under each step and under each assumption that is true in the world, places that are `same`
-are one dart. So a contradiction refutes the assumption, in every world that fits. Complete: when no
-place is open, places that are one dart are `same`. (From each of the two walk to the marker by the
-same turns and crossings; there they are identified; then backward.) So the fold is the world, and
-the history proves it.
+Sound: after each step, and under each assumption that is true in the world, places that are `same`
+are one dart. So a contradiction refutes the assumption in every world that fits. Complete: when no
+place is open, places that are one dart are `same`. (Walk from each of the two to the marker by the
+same turns and crossings; there they are identified, and so, step by step backward, are the two.)
+So the fold is the world, and the history proves it.
 
 Source: docs/semantics.md, sections 8 and 11; J. R. Stallings, Invent. Math. 71 (1983).
 """
@@ -91,10 +91,10 @@ FITS: dict[str, Term] = {
     "pi-marker": forall(p, eq(pinv0(p), inv0(pi(p))), tried_at=((pi(p),),)),
     "pi-points": forall(p, ppoints(p), eq(pi(p), root)),
 }
-"""The world fits the history: what was seen and walked is so in the world."""
+"""The world fits the history: it shows the percepts seen at the doors walked."""
 
 PI_ROT: dict[str, Term] = {"pi-rot": forall((p, k), eq(pi(prot(p, k)), rot(pi(p), k)))}
-"""Proved by `fold-turn`."""
+"""A lemma, proved by `fold-turn-base` and `fold-turn-step`."""
 
 SAME: dict[str, Term] = {"identified": eq(pi(P), pi(Q))}
 
@@ -117,7 +117,7 @@ CLOSED: dict[str, Term] = {
 """Nothing is left to fold, and no place is open."""
 
 AT_MARKER = {name: CLOSED[name] for name in ("marker-folded", "marker-is-seen", "place-doors-wrap")}
-"""What of it is needed at the marker; the rest would only keep the solver busy."""
+"""The part of `CLOSED` that is needed at the marker; the rest would only slow Z3 down."""
 
 FOLDS = KEPT + ENTAILED
 BY_STEPS = ("induction over fold steps",)
@@ -194,7 +194,7 @@ SOUND: tuple[Obligation, ...] = (
     ),
     Obligation(
         name="fold-signature",
-        words="contradiction: two degrees, or the marker seen and not seen, at one place",
+        words="contradiction: one dart would have two degrees, or see the marker and not see it",
         claims=FOLDS,
         theory=(),
         given=FITS | SAME,
@@ -214,7 +214,7 @@ SOUND: tuple[Obligation, ...] = (
     ),
     Obligation(
         name="fold-turned-vertex",
-        words="contradiction: a vertex would be itself, turned",
+        words="contradiction: a vertex would be identified with itself, turned",
         claims=FOLDS,
         theory=("doors-wrap",),
         given=FITS | PI_ROT | {"turned": eq(pi(prot(P, K)), pi(prot(P, J)))},

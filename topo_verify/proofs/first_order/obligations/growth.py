@@ -1,12 +1,12 @@
-"""How S grows: the hypotheses, both augmentations, and the end.
+"""Growth of S: the hypotheses, both augmentations, and the end of the exploration.
 
 A loop joins e and a confirmed h. A new vertex is added when every hypothesis was rejected; since no
 rejection is false, the place behind e is then no vertex of S. Its darts are numbered from the entry
-dart on, so `phi2`, the correspondence afterwards, takes door k of the entry dart to door k of the
-place. At the start S is v0 alone, which is such a new vertex with the root as its entry dart.
+dart on, so `phi2`, the correspondence afterwards, maps door k of the entry dart to door k of the
+place. At the start S is v0 alone: such a new vertex, with the root as its entry dart.
 
-When nothing is unexplored, phi's image is closed under sigma and alpha. The world is connected: so
-S is the world, and phi an isomorphism that keeps the root.
+When no dart is unexplored, the image of phi is closed under sigma and alpha. Since the world is
+connected, S is the world, and phi is an isomorphism that maps root to root.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def is_posed(dart: Term) -> Term:
 
 
 def _joined(one: Term, other: Term) -> dict[str, Term]:
-    """What S knows of edges after these two were joined."""
+    """The edges of S after these two darts were joined."""
     rest = conj(differ(x, one), differ(x, other))
     return {
         "explored-then": forall(x, eq(explored2(x), disj(explored(x), eq(x, one), eq(x, other)))),
@@ -147,7 +147,7 @@ OBLIGATIONS: tuple[Obligation, ...] = (
     ),
     Obligation(
         name="new-turns",
-        words="the new vertex turns as its place in the world does",
+        words="doors of the new vertex follow each other as they do at its place in the world",
         claims=MAPPED,
         theory=("rot-next", "map-rot-next"),
         given=NEW_VERTEX,

@@ -1,4 +1,4 @@
-"""What an obligation is: premises, a goal, and the premises without which it is false."""
+"""An obligation: premises, a goal that follows from them, and the premises that it needs."""
 
 from __future__ import annotations
 
@@ -17,17 +17,18 @@ ENTAILED = ("map-entailed", "decisions-entailed")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Obligation:
-    """One thing for Z3 to prove, about constants that may be anything the premises allow.
+    """A statement for Z3 to prove, about constants of which only the premises are known.
 
     Attributes:
         name: of the theorem; an induction is two obligations, `…-base` and `…-step`.
+        words: the statement in words.
         claims: the claims that rest on it.
-        theory: names of axioms and of lemmas that other obligations prove.
-        given: what is assumed beside the theory, under names of its own.
-        goal: what follows.
-        argued: the steps in words that carry it further, by their names in docs/proofs.md.
-        needs: premises each of which is needed. Without it a structure refutes the goal, and that
-            is a theorem of its own, a mutant.
+        theory: the names of its axioms, and of lemmas that earlier obligations prove.
+        given: further premises by name.
+        goal: the conclusion.
+        argued: the steps in words that use it, by their names in docs/proofs.md.
+        needs: premises without each of which some structure refutes the goal. The most telling
+            one gives a mutant; a slow test asks for all of them.
     """
 
     name: str
@@ -40,7 +41,7 @@ class Obligation:
     needs: tuple[str, ...]
 
     def premises(self, *, without: str | None = None) -> dict[str, Term]:
-        """All premises by name; one may be left out."""
+        """The premises by name, without the one that is left out."""
         known = {**AXIOMS, **TRUE_RECORDS}
         row = {name: known[name] for name in self.theory} | self.given
         if without is not None:
@@ -48,7 +49,7 @@ class Obligation:
         return row
 
     def negation(self) -> dict[str, Term]:
-        """What must be impossible: the premises, and the goal false."""
+        """The premises and the negated goal, which must have no model."""
         return self.premises() | {"goal-fails": neg(self.goal)}
 
 

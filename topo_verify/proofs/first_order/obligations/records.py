@@ -1,9 +1,9 @@
-"""Records: what was seen behind unexplored darts is true when it is written, and stays true.
+"""Records: percepts recorded behind unexplored darts are true when written, and stay true.
 
-A record is true if there is a spot in the world at which it was seen, and that spot lies where the
-record's dart and doors say. Written: the sequences are traced from the entry dart that is now
-known. Read: tracing leaves S through an unexplored dart, and goes down the trie. Kept: S only
-grows, and what grows moves no dart that was there.
+A record is true if it was sensed at a spot of the world that lies where the record's dart and doors
+say. Writing: the sequences are traced from the entry dart, which is known by then. Reading: tracing
+leaves S through an unexplored dart and descends the trie. Keeping: S only grows, and growth moves
+no dart that was there before.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ old = Symbol("old", ("M",), BOOL)
 
 
 def _followed(word: Term) -> Term:
-    """The words of a trie lead to the spots that they name."""
+    """From a record, this word leads to the record of the spot where the word leads."""
     return forall((r, a), eq(spot(r), a), rstays(r, word), eq(spot(rwalk(r, word)), walk(a, word)))
 
 
@@ -92,7 +92,7 @@ OBLIGATIONS: tuple[Obligation, ...] = (
     ),
     Obligation(
         name="records-deeper",
-        words="one door further down the trie, it is at the spot of the record there",
+        words="tracing that descends the trie by a door is at the spot of the record there",
         claims=KEPT,
         theory=TRUE,
         given=ON_RECORD,

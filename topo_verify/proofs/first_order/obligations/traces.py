@@ -1,9 +1,9 @@
-"""Tracing on S: a true hypothesis stays in correspondence, so nothing that compares rejects it.
+"""Traces on S keep the correspondence with the world, so no rule rejects a true hypothesis.
 
-What the rules `prefix`, `history`, and the motion itself compare is what S shows with what is
-sensed, at places that correspond. The base: if e ends in h, vu is h's place. The step: across an
-explored edge S and the world arrive at places that correspond. Hence for words of any length, by
-induction.
+The rules `prefix` and `history`, and the motion itself, compare the percept that S shows with the
+one that is sensed. Base: if e ends in h, then vu is h's place. Step: across an explored edge, S and
+the world arrive at corresponding places. So, by induction, the percepts compared are equal along
+words of any length.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ WORDS = ("walk-nil", "walk-cons", "map-walk-nil", "map-walk-cons", "stays-nil", 
 BY_WORDS = ("induction over words", "rules compare along words")
 
 HERE = {"corresponds": eq(phi(X), B)}
-"""x is the place of S where the robot stands, at dart b of the world."""
+"""Dart x of S corresponds to dart b of the world, where the robot stands."""
 
 ACROSS = {"on-explored-edges": explored(mrot(X, D))}
 
@@ -61,7 +61,7 @@ def applied(rule: Term) -> Term:
 
 
 def _traced(word: Term) -> Term:
-    """Words keep the correspondence."""
+    """From corresponding darts, this word leads to corresponding darts."""
     return forall((x, a), eq(phi(x), a), stays(x, word), eq(phi(mwalk(x, word)), walk(a, word)))
 
 
