@@ -42,7 +42,7 @@ test: $(VENV)/.dev
 # Coq itself comes from the distribution: apt install coq
 coq: $(VENV)/.dev
 	$(BIN)/topo-verify prove --kind mechanised
-	$(BIN)/python -m pytest -m 'slow or not slow' tests/proofs/coq tests/cli/test_certify_kernel.py
+	$(BIN)/python -m pytest -m 'slow or not slow' tests/proofs/mechanised tests/cli/test_certify_kernel.py
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .
