@@ -110,6 +110,11 @@ def test_the_readme_maps_every_claim_to_a_theorem_that_is_there() -> None:
         assert {f.removesuffix(".v") for f in re.findall(r"`(\w+\.v)`", files)} <= sources().keys()
 
 
+def test_the_readme_lists_the_files_in_the_order_in_which_they_compile() -> None:
+    table = readme().partition("## The files, in reading order")[2].partition("`Extract.v`")[0]
+    assert tuple(re.findall(r"`(\w+)\.v`", table)) == toolchain.files()
+
+
 def test_every_theorem_of_the_catalogue_is_in_its_file() -> None:
     texts = sources()
     for one in STATEMENTS:

@@ -1,11 +1,11 @@
-(** An executable mapper: the loop of docs/semantics.md, section 4, with retracing (sections 5 to
-    7).
+(** An executable mapper: the loop of docs/semantics.md, section 4, with retracing (sections
+    5 to 7).
 
     The mapper is a function of [see] and [go] alone, so it cannot look at the world. The policies
     are parameters: which dart is explored next, by which way, in which order hypotheses are tested,
     and which of them the rule rejects.
 
-    M     the map S                      St    the states of the robot's surroundings
+    M     the map S                      St    the type of the robot's states
     e     the dart being explored        v     the robot: a state, and how far it has turned
     pu    the percept behind e           H     the hypotheses
     h     a hypothesis                   k, w  a door, doors *)

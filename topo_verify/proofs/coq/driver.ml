@@ -1,19 +1,24 @@
-(* The extracted checkers as a program: a certificate on standard input, "accepted" or "refused" on
-   standard output. Whole numbers, separated by white space:
+(* The main program of the extracted checkers. It reads a certificate from standard input and prints
+   "accepted" or "refused". The input is one word, then whole numbers and letters, separated by
+   white space:
 
-     statement                      map, undetermined or impossible
-     degree marker                  of the first percept; marker -1 where it is not seen
+     statement                      map, undetermined, impossible or decisions
+     degree marker                  the first percept; marker is -1 where it is not seen
      n, then n times: door degree marker
-     t, then t times: next previous other        the table of the map; other -1 where it is open
+
+   For the first three statements then follow
+
+     t, then t times: next previous other        the table of the map; other is -1 where it is open
      e, then e times: forwards visit forwards visit      the evidence; forwards is 0 or 1
      conflict                       a and four numbers as in the evidence; m visit; e edge
 
-   The statement may also be decisions. After the moves then come the merges, as the evidence above, and
+   For decisions then follow the merges, written as the evidence above, and
 
      d, then d times: leads visit place place reason        leads is 0 or 1; a place: visit offset
      reason                         j forwards visit; r, then evidence and conflict as above
 
-   Anything else is refused: a negative number is never read as a natural one. *)
+   Any other input ends the program with an error, and so does a negative number: it is never read
+   as a natural one. *)
 open Certifier
 
 let natural x = if x < 0 then failwith "negative" else x
