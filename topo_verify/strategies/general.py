@@ -3,7 +3,7 @@
     strategy           draws                               its simplest world
     worlds             every world within the bounds       m0/0: one vertex, nothing else
     planar_worlds      those of genus 0                    m0/0
-    nonplanar_worlds   those of genus 1 or more            m2/6: two loops that cross
+    nonplanar_worlds   those of genus 1 or more            m2/8: two loops that cross
 
 Every world within the bounds can come out: `growth.py` says why.
 """

@@ -1,8 +1,8 @@
 """Uniform worlds: each world with so many edges as likely as any other.
 
     strategy         draws                                     its simplest world
-    uniform_worlds   all worlds with so many edges, evenly     rank 0: m<edges>/0, the marker at
-                                                               the end of a path of loops
+    uniform_worlds   all worlds with so many edges, evenly     m<edges>/0: a path, the marker at
+                                                               its end
 
 Hypothesis does not draw large integers evenly: it prefers small ones, and those near the bounds. It
 does draw bytes evenly. So a rank is drawn as bytes, 8 more than its own length, and scaled down:
