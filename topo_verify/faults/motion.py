@@ -96,7 +96,7 @@ def _as_it_came_in(pilot: Pilot, chart: Chart, entry: Dart) -> Dart:
 goes_on_as_if_just_come_in = Fault(
     name="goes-on-as-if-just-come-in",
     part="motion",
-    why="after the last way back, the dart by which the robot came to vu is taken for its reference",
+    why="after the last way back, the dart by which it came to vu is taken for its reference dart",
     claim="map-isomorphic",
     mapper=mapper("basic", localise=_as_it_came_in),
 )
