@@ -21,7 +21,7 @@ def tetrahedron(*, marker: Dart | None = None) -> World:
     """4 vertices of degree 3, 6 edges, 4 triangles.
 
     Raises:
-        InputError: `marker` is no dart of it; so for the other four.
+        InputError: it has no dart `marker`; the same for the other four.
     """
     return _named("tetrahedron", shapes.wheel(3), marker)
 
