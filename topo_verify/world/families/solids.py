@@ -13,7 +13,7 @@ from __future__ import annotations
 from topo_verify.errors import InputError
 from topo_verify.world.families import _arguments as arguments
 from topo_verify.world.families import shapes
-from topo_verify.world.families._building import as_world, from_neighbours
+from topo_verify.world.families._rotated_graph import as_world, from_neighbours
 from topo_verify.world.rooted_map import Dart, World
 
 
