@@ -1,7 +1,6 @@
-"""What can go wrong, sorted by whose move it is to mend it.
+"""Exceptions, grouped by who must act: the caller, the mapper's author, or us.
 
-One base, three children: the caller's mistake (`InputError`), a claim that does not hold
-(`ClaimFailed`), a bug of ours (`InternalError`). The command line turns them into the exit
+They are `InputError`, `ClaimFailed` and `InternalError`; the command line turns them into the exit
 codes 2, 1 and 70.
 """
 
@@ -11,11 +10,11 @@ class TopoVerifyError(Exception):
 
 
 class InputError(TopoVerifyError, ValueError):
-    """What came in cannot be used: one sentence that names the input, the place and the mend."""
+    """The input cannot be used; the text is one sentence: the input, the place and the mend."""
 
 
 class ClaimFailed(TopoVerifyError, AssertionError):
-    """A mapper was examined and at least one claim does not hold; the text is the report."""
+    """At least one claim does not hold for the mapper; the text is the report."""
 
 
 class InternalError(TopoVerifyError):

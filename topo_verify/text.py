@@ -1,4 +1,4 @@
-"""Words for people: text of unknown origin on one line, and numbers with their noun."""
+"""Text for messages: input of unknown origin on one line, and numbers with their nouns."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from os import PathLike
 
 
 def shown(text: str | PathLike[str], *, limit: int = 200) -> str:
-    """The text fit for one line of a message: control characters escaped, cut where it is long."""
+    """The text on one line of a message: control characters escaped, cut after `limit`."""
     line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in os.fspath(text))
     return line if len(line) <= limit else line[: limit - 1] + "…"
 
 
 def plural(number: int, thing: str, things: str = "") -> str:
-    """`1 world`, `2 worlds`."""
+    """The number with its noun: `1 world`, `2 worlds`."""
     return f"{number} {thing if number == 1 else things or thing + 's'}"

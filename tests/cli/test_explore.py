@@ -69,7 +69,7 @@ def test_a_marker_laid_elsewhere_makes_another_world(results: Call) -> None:
     [
         ("ignores_direction", "", "door"),
         ("guesses", "", "not isomorphic"),
-        ("nonsense", "", "int is no map"),
+        ("nonsense", "", "int has no 'vertices'"),
         ("raises", "", "ValueError: no"),
         ("loops", "--move-timeout 0.2", "did not move for 0.2 s"),
         ("walks", "", "more than"),

@@ -69,15 +69,21 @@ class Endless(list[Any]):
 @pytest.mark.parametrize(
     ("result", "reason"),
     [
-        (None, "NoneType is no map: it has no 'vertices'"),
-        ("a map", "str is no map: it has no 'vertices'"),
-        ({}, "dict is no map: it has no 'vertices'"),
-        ({"vertices": VERTICES, "edges": EDGES}, "dict is no map: it has no 'marker'"),
-        ((dart for dart in [1]), "generator is no map"),
-        (Slotted, "type is no map: it has no 'vertices'"),
+        (None, "NoneType has no 'vertices'"),
+        ("a map", "str has no 'vertices'"),
+        ({}, "dict has no 'vertices'"),
+        ({"vertices": VERTICES, "edges": EDGES}, "dict has no 'marker'"),
+        ((dart for dart in [1]), "generator has no 'vertices'"),
+        (Slotted, "type has no 'vertices'"),
         ({"vertices": (row for row in VERTICES), "edges": EDGES, "marker": 0}, "'vertices'"),
-        ({"vertices": "01", "edges": EDGES, "marker": 0}, "'vertices' is no list of lists"),
-        ({"vertices": 3, "edges": EDGES, "marker": 0}, "'vertices' is no list of lists"),
+        (
+            {"vertices": "01", "edges": EDGES, "marker": 0},
+            "expected a list of lists of darts as the map's 'vertices'",
+        ),
+        (
+            {"vertices": 3, "edges": EDGES, "marker": 0},
+            "expected a list of lists of darts as the map's 'vertices'",
+        ),
         ({"vertices": [[0.0, 1, 2], [3]], "edges": EDGES, "marker": 0}, "vertices[0]"),
         ({"vertices": [[0, 1, 2], [None]], "edges": EDGES, "marker": 0}, "vertices[1]"),
         ({"vertices": [[0, True, 2], [3]], "edges": EDGES, "marker": 0}, "vertices[0]"),
@@ -91,7 +97,7 @@ class Endless(list[Any]):
         ({"vertices": VERTICES, "edges": EDGES, "marker": 10**30}, "'marker'"),
         (lazy(ValueError("nobody looks")), "what was delivered cannot be read: ValueError: nob"),
         (lazy(Unspeakable()), "what was delivered cannot be read: Unspeakable"),
-        (np.array(5), "ndarray is no map"),
+        (np.array(5), "ndarray has no 'vertices'"),
         ({"vertices": np.array(5), "edges": EDGES, "marker": 0}, "'vertices'"),
     ],
 )

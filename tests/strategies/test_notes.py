@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 
 from topo_verify import Algorithm, World, explore, families
-from topo_verify.strategies import mappers, observe, worlds
+from topo_verify.strategies import mappers, notes, observe, worlds
 from topo_verify.strategies.notes import describe, features
 
 
@@ -45,8 +45,30 @@ def test_the_failing_example_prints_its_world_and_the_run() -> None:
     assert "basic (pick nearest, order shortest) in m2/8: " in notes
 
 
-def test_outside_of_a_test_of_hypothesis_nothing_is_said() -> None:
+def test_outside_of_a_test_of_hypothesis_nothing_is_said(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    messages: list[object] = []
+    monkeypatch.setattr(notes, "note", messages.append)
+    monkeypatch.setattr(notes, "event", lambda *feature: messages.append(feature))
+    monkeypatch.setattr(notes, "observability_enabled", lambda: True)
     observe(explore(World.from_id("m2/0"), "basic"))
+    assert not messages
+    assert capsys.readouterr() == ("", "")
+
+
+def test_within_a_test_of_hypothesis_the_same_run_is_noted(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The counterpart: what the test above replaces is what would have been called."""
+    messages: list[object] = []
+    monkeypatch.setattr(notes, "currently_in_test_context", lambda: True)
+    monkeypatch.setattr(notes, "observability_enabled", lambda: True)
+    monkeypatch.setattr(notes, "note", messages.append)
+    monkeypatch.setattr(notes, "event", lambda *feature: messages.append(feature))
+    run = explore(World.from_id("m2/0"), "basic")
+    observe(run)
+    assert messages == [describe(run), *features(run).items()]
 
 
 def test_features_are_those_of_the_run() -> None:

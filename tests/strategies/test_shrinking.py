@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+import sys
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -13,7 +16,7 @@ from examples.undirected import Undirected
 from tests.strategies import features
 from tests.strategies.features import Condition
 from tests.versions import older
-from topo_verify import World, examine
+from topo_verify import World, examine, families
 from topo_verify.algorithms import Algorithm
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, retrace
@@ -29,6 +32,9 @@ from topo_verify.strategies import (
     uniform_worlds,
     worlds,
 )
+from topo_verify.strategies.resolve import WORLDS, resolve_strategy
+
+PAGE = Path(__file__).parents[2] / "docs" / "property-tests.md"
 
 CALLS = 250
 """No search below takes more: finding the first world included."""
@@ -75,6 +81,30 @@ def test_the_simplest_world_of_a_strategy(strategy: SearchStrategy[World], simpl
     world, calls = minimal(strategy, lambda _: True)
     assert world.id == simplest
     assert calls <= CALLS
+
+
+def claimed(name: str, text: str) -> str:
+    """The id that stands in the row of this strategy, in a docstring or in a table of docs/."""
+    row = re.search(rf"(?m)^(?:    |\| `){name}\b.*?\b(m[0-9]+/[0-9]+|m<edges>/0)\b", text)
+    assert row is not None, f"the table has no row with an id for {name}"
+    return row[1].replace("<edges>", "12")
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_the_simplest_world_is_the_one_that_docstring_and_docs_name(name: str) -> None:
+    call = "uniform_worlds(edges=12)" if name == "uniform_worlds" else name
+    simplest = minimal(resolve_strategy(call), lambda _: True)[0].id
+    assert claimed(name, sys.modules[WORLDS[name].__module__].__doc__ or "") == simplest
+    assert claimed(name, PAGE.read_text(encoding="utf-8")) == simplest
+
+
+def test_the_simplest_uniform_world_is_a_path_with_the_marker_at_its_end() -> None:
+    assert World.from_id("m12/0").code == families.path(13).code
+
+
+def test_the_simplest_nonplanar_world_is_two_loops_that_cross() -> None:
+    world = World.from_id("m2/8")
+    assert (len(world.vertices), len(world.edges), world.genus) == (1, 2, 1)
 
 
 SHRINKS: list[tuple[Condition, str]] = [

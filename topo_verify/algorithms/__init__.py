@@ -1,4 +1,4 @@
-"""The catalogue: an algorithm is a rule, a motion and two policies around one exploration loop.
+"""The catalogue of algorithms: each is a rule, a motion and two policies for one exploration loop.
 
     chart.py            the map S                        exploration.py     the loop of listings 1-3
     motion.py           excursions: retrace, overlap     policies.py        pick and order
@@ -43,14 +43,14 @@ REFERENCE = Policies("nearest", "shortest")
 
 @dataclass(frozen=True, slots=True)
 class Algorithm:
-    """A mapper of the catalogue: call it with a robot, it returns its map and its cost.
+    """A mapper of the catalogue: called with a robot, it returns its map and its cost.
 
     Attributes:
         name: as in the catalogue.
         rule: makes the rule for one run.
         motion: `retrace` or `overlap`.
         policies: which edge next, which hypothesis first.
-        assumes: "planar" if it is right in planar worlds only.
+        assumes: "planar" if its maps are right in planar worlds only.
     """
 
     name: str

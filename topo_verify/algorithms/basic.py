@@ -18,20 +18,20 @@ class NoRule:
     """Rejects nothing without motion; remembers nothing."""
 
     def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
-        """Nothing to do behind e."""
+        """Does nothing: the rule needs nothing of vu."""
 
     def observe(self, sequence: Executed) -> None:
-        """Nothing to keep of a sequence."""
+        """Does nothing: the rule keeps no sequence."""
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
-        """Never: only motion rejects."""
+        """None: only motion rejects."""
         return None
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
-        """Never: only motion confirms."""
+        """None: only motion confirms."""
         return None
 
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
-        """Nothing to remember."""
+        """Does nothing: the rule remembers nothing of S."""

@@ -9,7 +9,7 @@ of darts, and turning is addition modulo its degree:
     vk, vu   vertices: where e leaves, where it arrives (unknown)     2
     U        the unexplored darts: their other end is not known yet   {3, 7, 8}
 
-`alpha` is known on explored darts only. What S says is true for ever: S only grows.
+`alpha` is known on explored darts only. S only grows, so whatever it says stays true.
 
 Source: docs/semantics.md, section 3; "S" and "U" of the paper's listings 1-3.
 """
@@ -45,7 +45,7 @@ class Tree(NamedTuple):
 
 
 class Chart:
-    """S, from one vertex to the whole world. Grows by `add_vertex` and `join`, never shrinks.
+    """S, from one vertex to the whole world. It grows by `add_vertex` and `join` and never shrinks.
 
     Attributes, per dart: `vertex`, `alpha` (None: unexplored), `percepts` (what the robot senses
     with that dart as its reference dart). Per vertex: `first` dart and `degree`. `unexplored` is U,
@@ -53,7 +53,7 @@ class Chart:
     """
 
     def __init__(self, percept: Percept) -> None:
-        """S with v0 alone. The marked dart is dart 0, so the percept at the start has marker 0."""
+        """Start with v0 alone. The marked dart is dart 0, so the first percept has marker 0."""
         self.first: list[Dart] = []
         self.degree: list[int] = []
         self.vertex: list[Vertex] = []
@@ -63,26 +63,27 @@ class Chart:
         self.add_vertex(percept)
 
     def add_vertex(self, percept: Percept) -> Dart:
-        """A vertex, seen from its first dart. Returns that dart."""
+        """Add a vertex, given its percept at its first dart. Returns that dart."""
         first = len(self.alpha)
         self.vertex += [len(self.first)] * percept.degree
         self.first.append(first)
         self.degree.append(percept.degree)
         self.alpha += [None] * percept.degree
         for door in range(percept.degree):
+            # Seen from `door` places further clockwise, the marker is so many doors nearer.
             marker = None if percept.marker is None else (percept.marker - door) % percept.degree
             self.percepts.append(Percept(percept.degree, marker))
             self.unexplored[first + door] = None
         return first
 
     def join(self, e: Dart, other: Dart) -> None:
-        """The two darts are the two ends of one edge."""
+        """Put on record that the two darts are the two ends of one edge."""
         self.alpha[e], self.alpha[other] = other, e
         self.unexplored.pop(e, None)
         self.unexplored.pop(other, None)
 
     def turn(self, dart: Dart, door: Door) -> Dart:
-        """The dart that a door means to a robot with this reference dart: sigma^door(dart)."""
+        """The dart behind a door, for a robot with this reference dart: sigma^door(dart)."""
         v = self.vertex[dart]
         first = self.first[v]
         return first + (dart - first + door) % self.degree[v]
@@ -104,7 +105,7 @@ class Chart:
     def outward(self, root: Vertex) -> Iterator[tuple[Vertex, int, Dart | None]]:
         """Breadth-first search on S: vertex, distance, dart towards the root; queue order.
 
-        Darts are scanned in ascending order. Lazy: costs what is taken from it.
+        Darts are scanned in ascending order. A caller that stops early saves the rest of it.
         """
         seen = {root}
         queue: list[tuple[Vertex, int, Dart | None]] = [(root, 0, None)]
@@ -127,7 +128,7 @@ class Chart:
         return Tree(depth, parent)
 
     def survey(self, cost: int) -> Survey:
-        """The map as it is delivered."""
+        """The map as the mapper delivers it, with its cost."""
         rotations = tuple(tuple(self.darts(v)) for v in range(len(self.first)))
         edges = tuple((d, o) for d, o in enumerate(self.alpha) if o is not None and d < o)
         return Survey(rotations, edges, 0 if self.alpha else None, cost)

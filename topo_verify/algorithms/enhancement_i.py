@@ -1,8 +1,8 @@
 """Enhancement I, stage 1: what was seen on the common prefix of doors (rule `prefix`).
 
-Two hypotheses whose ways home begin with the same doors lead from vu through the same places. What
-was seen there for one must be what the other expects there. (Stage 2, walking only what is not
-shared, is `motion.overlap`.)
+If the ways home of two hypotheses begin with the same doors, both lead from vu through the same
+places. What the robot saw there for one hypothesis is what the other must expect there. (Stage 2
+walks only the doors that are not shared: `motion.overlap`.)
 
 Source: section III-A of the paper; listing 2, lines 16-19.
 """
@@ -19,7 +19,7 @@ from topo_verify.robot.events import Evidence
 
 
 class PrefixRule(NoRule):
-    """Compares the last sequence with the hypothesis' own way home; remembers nothing."""
+    """Compares the last sequence with the hypothesis' own way home. It remembers nothing."""
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
@@ -27,7 +27,7 @@ class PrefixRule(NoRule):
         """The first percept on the common prefix that the hypothesis does not expect, if any."""
         if not sequences:
             return None
-        last = sequences[-1]
+        last = sequences[-1]  # the earlier ones were compared when they were the last
         shared = common_prefix(hypothesis.doors, last.doors)  # A2.17
         for step in range(1, shared + 1):
             if last.percepts[step] != hypothesis.expected[step]:  # A2.18

@@ -1,9 +1,9 @@
 """Enhancement II: every sequence executed for this edge, traced on S (rule `history`).
 
-Assume the hypothesis h. Then the robot entered vu by dart h of S, and each door of an executed
-sequence means a known exit, as long as tracing stays on explored edges; there what was seen must be
-what S shows. Crossing an unexplored dart ends the tracing, e and h themselves included: nothing is
-known of the place behind.
+Assume the hypothesis h. Then the robot entered vu by dart h of S. As long as tracing stays on
+explored edges, each door of an executed sequence is a known exit, and S shows what must have been
+seen behind it. Tracing ends where it crosses an unexplored dart, because S does not show the place
+behind; e and h count as unexplored.
 
 Source: section III-B of the paper.
 """
@@ -20,7 +20,7 @@ from topo_verify.robot.events import Evidence
 
 
 class HistoryRule(NoRule):
-    """Traces the last sequence from the hypothesis; remembers nothing beyond this edge."""
+    """Traces the last sequence from the hypothesis. It remembers nothing beyond this edge."""
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]

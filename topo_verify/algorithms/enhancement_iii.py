@@ -1,10 +1,10 @@
-"""Enhancement III: what was seen behind unexplored darts is kept for later (rule `records`).
+"""Enhancement III: records of what was seen behind unexplored darts (rule `records`).
 
-Once vu is known, the sequences executed for e lead on S from a known dart. Where one crosses an
-unexplored dart d, the percepts behind it are recorded in T[d]: the first only (one-level), or all
+Once vu is known, the sequences executed for e start at a known dart of S. Where one crosses an
+unexplored dart d, the percepts behind d are recorded in T[d]: the first alone (one-level), or all
 of them in a trie by further relative doors (all-level). When a later hypothesis is traced across d,
-they are compared as S itself is. Records stay true for ever: they are relative to a known dart, and
-S only grows. T[d] is dropped when d is explored: from then on S knows better.
+they are compared as the percepts of S are. Records stay true, because they are relative to a known
+dart and S only grows. T[d] is dropped when d is explored: from then on S shows the place itself.
 
 While e is validated, e and h count as unexplored, so T[e] and T[h] are consulted where tracing
 crosses them, and nowhere else.
@@ -35,10 +35,10 @@ class Seen:
 
 
 class RecordsRule(HistoryRule):
-    """`history`, and T beyond the explored edges. T lives as long as the exploration.
+    """Traces as `history` does, and on along T. T lives as long as the exploration.
 
     Args:
-        levels: how many places deep records go; None: as deep as was seen.
+        levels: how many places deep records go; None: as deep as the robot went.
     """
 
     def __init__(self, levels: int | None = None) -> None:
@@ -70,7 +70,7 @@ class RecordsRule(HistoryRule):
         return None
 
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
-        """Record what the sequences showed behind unexplored darts of the S that has just grown."""
+        """Record what the sequences showed behind unexplored darts, traced on the grown S."""
         self.records.pop(e, None)
         self.records.pop(entry, None)
         for sequence in sequences:  # A3.29
@@ -84,6 +84,7 @@ class RecordsRule(HistoryRule):
                 at = arrival
 
     def _record(self, exit_dart: Dart, sequence: Executed, step: int) -> None:
+        """Record the percepts of the sequence from this step on, as many as `levels` allows."""
         place = self.records.setdefault(exit_dart, Seen(sequence.percepts[step]))
         deepest = len(sequence.doors) if self.levels is None else step + self.levels - 1
         for deeper in range(step + 1, min(deepest, len(sequence.doors)) + 1):

@@ -1,4 +1,4 @@
-"""The exploration loop that listings 1, 2 and 3 share.
+"""The exploration loop, which listings 1, 2 and 3 of the paper share.
 
     the paper's name   here
     S, U               chart, chart.unexplored
@@ -30,21 +30,21 @@ from topo_verify.robot.percept import Percept
 
 
 class Refutation(NamedTuple):
-    """The name of the rule that refutes a hypothesis, and its evidence."""
+    """Why a hypothesis is false: the name of the rule that shows it, and its evidence."""
 
     rule: RuleName
     evidence: Evidence
 
 
 class Rule(Protocol):
-    """How hypotheses are rejected without motion. Made anew for each run, may remember."""
+    """Rejects hypotheses without motion. A rule lives for one run and may remember what it saw."""
 
     def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
-        """The robot has crossed e, and this is what it senses at vu."""
+        """Take note that the robot has crossed e and senses this percept at vu."""
         ...
 
     def observe(self, sequence: Executed) -> None:
-        """A sequence was executed and ended in a mismatch."""
+        """Take note of a sequence that was executed and ended in a mismatch."""
         ...
 
     def refute(
@@ -52,27 +52,28 @@ class Rule(Protocol):
     ) -> Refutation | None:
         """Why the hypothesis is false, judged by the last sequence; None if it may be true.
 
-        Called for each remaining hypothesis behind e before any motion (no sequence yet), and after
-        each mismatch: earlier sequences have been put to the same hypothesis already.
+        The loop asks for each remaining hypothesis before any motion (there is no sequence yet) and
+        after each mismatch. So earlier sequences have been judged for the same hypothesis already.
         """
         ...
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
-        """The hypothesis that is true because nothing else is left, if it is so."""
+        """The hypothesis that must be true because no alternative is left; None if there is one."""
         ...
 
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
-        """S has just grown: the robot had crossed e and come in by dart `entry`."""
+        """Take note that S has grown: the robot crossed e and came in by dart `entry`."""
         ...
 
 
 def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Order) -> Survey:
-    """Map the robot's world; the map and its cost in edge traversals. At most O(m²n) of them."""
+    """Map the robot's world: the map, and its cost in edge traversals, which is O(m²n)."""
     chart = Chart(robot.percept)  # A1.1 A1.2 A2.1 A2.2 A3.1 A3.2
     pilot = Pilot(robot)
     at: Dart = 0  # the robot's reference dart, on S
     while chart.unexplored:  # A1.3 A2.3 A3.4
         e = pick(chart, at)  # A1.4 A2.4 A3.5
+        # e leaves U before H is made, since no edge ends in its own dart; `join` explores it later.
         del chart.unexplored[e]
         at = pilot.walk(chart, at, chart.vertex[e])  # A1.5 A2.5 A3.6
         percept = pilot.cross(chart, at, e)
@@ -114,7 +115,10 @@ def validate(
     rule: Rule,
     motion: Motion,
 ) -> Hypothesis | None:
-    """The hypothesis that is confirmed, or None if all are rejected. Appends what was executed."""
+    """The hypothesis that is confirmed, or None if all are rejected.
+
+    Appends to `sequences` each sequence that was executed and ended in a mismatch.
+    """
     declare = pilot.robot.declare
     remaining = sift(pilot, chart, e, remaining, sequences, rule=rule)
     while remaining:  # A1.7 A2.10 A2.20 A2.21 A3.8
@@ -147,7 +151,7 @@ def sift(
     *,
     rule: Rule,
 ) -> list[Hypothesis]:
-    """What the rule leaves of the hypotheses, in their order."""
+    """The hypotheses that the rule does not refute, in their order."""
     kept: list[Hypothesis] = []
     for h in remaining:  # A2.16
         refuted = rule.refute(chart, h, sequences)
@@ -159,7 +163,12 @@ def sift(
 
 
 def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
-    """Walk the hypothesis' way home; the step at which the percept differs, or None: it matches."""
+    """Walk the hypothesis' way home. Returns the first step whose percept differs; None if none.
+
+    Args:
+        shared: how many doors the way shares with the last sequence; the robot goes back only so
+            far and does not walk them again.
+    """
     if shared < len(h.doors):  # else its whole way is executed already: no motion
         pilot.back(shared)  # A1.15 A2.23 A3.24
     for step, expected in enumerate(h.expected):  # A1.9 A1.10 A2.8 A2.9 A3.18 A3.19
@@ -171,10 +180,10 @@ def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
 
 
 def localise(pilot: Pilot, chart: Chart, entry: Dart) -> Dart:
-    """Where the robot goes on from: its reference dart on S once vu's entry dart is known.
+    """The robot's reference dart on S, once vu's entry dart is known; it may walk back to vu first.
 
-    After a confirmation it stays if it stands at v0, whose marker tells its reference dart;
-    otherwise it goes back to vu, where its reference dart is turned as the way back turned it.
+    At v0 the marker tells the reference dart, so the robot stays. Elsewhere it goes back to vu,
+    where its reference dart is turned away from the entry dart as the way back turned it.
     """
     marker = pilot.robot.percept.marker
     if marker is not None:

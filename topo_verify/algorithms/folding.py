@@ -1,23 +1,23 @@
-"""Folding: the complete rule. A hypothesis is kept exactly if it is true in some world that fits.
+"""Folding, the complete rule: it keeps a hypothesis exactly if some world that fits makes it true.
 
-Everything ever seen is kept: the vertices of S, and **ghosts**, places that were seen but are not
-known to be any vertex of S. To put a hypothesis to the test, join e with h and fold: a dart has one
-partner, so where it would get two they are one dart, and their vertices one vertex, turned against
-each other. The hypothesis is false if that ends in a contradiction: two degrees at one place; the
-marker seen at one and not at the other (a place seen without the marker is never v0); two vertices
-of S, or one with itself turned; a dart its own partner. If it does not, hang a leaf on every open
-dart of the folded map: that is a world in which the hypothesis is true and every percept so far the
-same. So no rule that is right in all worlds can reject more.
+The rule keeps everything ever seen: the vertices of S, and **ghosts**, places that were seen but
+are not known to be any vertex of S. A test of a hypothesis joins e with h and folds: a dart has one
+partner, so where it would get two, the two are one dart, and their vertices one vertex, turned
+against each other. The hypothesis is false if folding meets a contradiction: two degrees at one
+place; the marker seen at one and not at the other (a place seen without the marker is never v0);
+two vertices of S, or one with itself turned; a dart that is its own partner. If there is none, hang
+a leaf on every open dart of the folded map: in that world the hypothesis is true and every percept
+so far is the same. So no rule that is right in all worlds can reject more.
 
-"New" is one more alternative. It dies when vu folds into a vertex of S; a hypothesis that is left
-alone then is concluded without motion.
+That vu is new is one more alternative. It is ruled out when vu folds into a vertex of S; if one
+hypothesis is left then, it is concluded without motion.
 
     letter       what it is
     e, h, vu     as in exploration.py
-    place        (node, door): a dart of a node; different places may be the same dart
+    NodeDart     (node, door): a dart of a node; different pairs may be the same dart
 
-Cost of one look: nearly linear in the number of identifications (union-find with offsets, by size,
-undone by rollback). Written apart from `checkers/folding.py`, and compared with it.
+One test costs time nearly linear in the number of identifications (union-find with offsets, by
+size, undone by rollback). The code is written apart from `checkers/folding.py`; tests compare them.
 
 Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite graphs", Invent. Math.
 71 (1983).
@@ -38,10 +38,10 @@ NodeDart = tuple[int, Door]
 
 
 class PartialFold:
-    """Nodes, their identifications so far, and what lies behind their doors. Grows; can roll back.
+    """Nodes, their identifications so far, and what lies behind their doors; it can roll back.
 
-    Every method that identifies returns "" or the contradiction it met. After a contradiction the
-    partial is of use only for `roll_back`.
+    Every method that identifies returns "" or the contradiction it met. After a contradiction only
+    `roll_back` may be called.
     """
 
     def __init__(self) -> None:
@@ -54,7 +54,7 @@ class PartialFold:
         self.done: list[tuple[int, Door | None, bool]] = []  # what `roll_back` takes back
 
     def add(self, percept: Percept, *, known: bool = False) -> int:
-        """A node of its own."""
+        """Add a node with this percept at its door 0. Returns the node."""
         self.percepts.append(percept)
         self.known.append(known)
         self.leader.append(len(self.leader))
@@ -64,20 +64,20 @@ class PartialFold:
         return len(self.leader) - 1
 
     def resolve(self, place: NodeDart) -> NodeDart:
-        """The place that stands for all that are the same dart."""
+        """The pair that stands for all pairs that are the same dart."""
         node, door = place
-        while (leader := self.leader[node]) != node:
+        while (leader := self.leader[node]) != node:  # no path compression: it could not roll back
             door += self.turned[node]
             node = leader
         return node, door % self.percepts[node].degree
 
     def across(self, place: NodeDart) -> NodeDart | None:
-        """What lies behind a dart, as far as it was seen."""
+        """The other end of a dart's edge; None if nothing was seen behind it."""
         node, door = self.resolve(place)
         return self.behind[node].get(door)
 
     def join(self, one: NodeDart, other: NodeDart) -> str:
-        """Make the two ends of one edge; fold."""
+        """Join two darts to one edge, and fold."""
         one, other = self.resolve(one), self.resolve(other)
         if one == other:
             return "a dart would be its own other end"
@@ -89,7 +89,7 @@ class PartialFold:
         return (had and self.identify(had, other)) or (has and self.identify(has, one)) or ""
 
     def identify(self, one: NodeDart, other: NodeDart) -> str:
-        """Make the two one dart; fold."""
+        """Make two darts one, and fold."""
         waiting = [(one, other)]
         while waiting:
             (small, k), (large, n) = (self.resolve(place) for place in waiting.pop())
@@ -97,7 +97,7 @@ class PartialFold:
                 if k != n:
                     return "a vertex would be itself, turned"
                 continue
-            if self.weight[small] > self.weight[large]:
+            if self.weight[small] > self.weight[large]:  # keeps every chain of leaders short
                 (small, k), (large, n) = (large, n), (small, k)
             if wrong := self._clash(small, large):
                 return wrong
@@ -114,23 +114,25 @@ class PartialFold:
         return ""
 
     def _clash(self, small: int, large: int) -> str:
-        """Why two nodes cannot be one vertex, judged by themselves."""
+        """Why two nodes cannot be one vertex, judged by what was seen at them; "" if they can."""
         if self.percepts[small].signature != self.percepts[large].signature:
             return "two degrees, or the marker and its absence, at one place"
         return "two vertices of S would be one" if self.known[small] and self.known[large] else ""
 
     def _merge(self, small: int, large: int, turned: Door) -> None:
+        """Make `large` the leader of `small`, whose door k is door k + turned of `large`."""
         self.done.append((small, None, self.known[large]))
         self.leader[small], self.turned[small] = large, turned
         self.weight[large] += self.weight[small]
         self.known[large] |= self.known[small]
 
     def _put(self, place: NodeDart, beyond: NodeDart) -> None:
+        """Note one end of an edge behind the other, such that it can be taken back."""
         self.behind[place[0]][place[1]] = beyond
         self.done.append((*place, False))
 
     def roll_back(self, mark: int) -> None:
-        """Undo everything done since `done` had this length."""
+        """Undo all identifications and edges made since `done` had this length."""
         while len(self.done) > mark:
             node, door, was_known = self.done.pop()
             if door is not None:
@@ -143,41 +145,41 @@ class PartialFold:
 
 
 class FoldingRule(NoRule):
-    """Rejects every hypothesis that no world allows. Remembers everything seen in the run."""
+    """Rejects every hypothesis that no world allows. It remembers everything seen in the run."""
 
     def __init__(self) -> None:
-        self.partial = PartialFold()
-        self.entries: list[NodeDart] = []  # of each vertex of S: the place of its first dart
+        self.fold = PartialFold()
+        self.entries: list[NodeDart] = []  # of each vertex of S: its first dart
         self.percept = Percept(0, None)  # vu's
         self.e: NodeDart = (0, 0)
         self.vu: NodeDart = (0, 0)
 
     def node_dart(self, chart: Chart, dart: Dart) -> NodeDart:
-        """The place of a dart of S."""
+        """The node and door of a dart of S."""
         v = chart.vertex[dart]
         node, door = self.entries[v]
         return node, door + dart - chart.first[v]
 
     def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
-        """The robot has crossed e: vu is a place seen before, or a new ghost."""
+        """Take note of vu, which is a place seen before, or a new ghost."""
         if not self.entries:
-            self.entries.append((self.partial.add(chart.percepts[0], known=True), 0))
+            self.entries.append((self.fold.add(chart.percepts[0], known=True), 0))
         self.percept = percept
         self.e = self.node_dart(chart, e)
         self.vu = self._cross(self.e, percept)
 
     def _cross(self, exit_place: NodeDart, percept: Percept) -> NodeDart:
-        """The place behind a dart that the robot has just crossed; what was seen there is kept."""
-        beyond = self.partial.across(exit_place)
+        """The dart by which the robot comes in behind an exit; adds a ghost if it is new there."""
+        beyond = self.fold.across(exit_place)
         if beyond is None:
-            beyond = (self.partial.add(percept), 0)
-            self.partial.join(exit_place, beyond)
+            beyond = (self.fold.add(percept), 0)
+            self.fold.join(exit_place, beyond)
             if percept.marker is not None:
-                self.partial.identify((beyond[0], percept.marker), (0, 0))
+                self.fold.identify((beyond[0], percept.marker), (0, 0))
         return beyond
 
     def observe(self, sequence: Executed) -> None:
-        """Keep what an executed sequence showed."""
+        """Keep every percept of an executed sequence."""
         node, door = self.vu
         for step, turn in enumerate(sequence.doors, 1):
             node, door = self._cross((node, door + turn), sequence.percepts[step])
@@ -186,9 +188,9 @@ class FoldingRule(NoRule):
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
         """Why no world allows the hypothesis, if none does."""
-        mark = len(self.partial.done)
-        wrong = self.partial.join(self.e, self.node_dart(chart, hypothesis.dart))
-        self.partial.roll_back(mark)
+        mark = len(self.fold.done)
+        wrong = self.fold.join(self.e, self.node_dart(chart, hypothesis.dart))
+        self.fold.roll_back(mark)
         if not wrong:
             return None
         percept = chart.percepts[hypothesis.dart]
@@ -196,13 +198,13 @@ class FoldingRule(NoRule):
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The last hypothesis, once vu is known to be a vertex of S."""
-        node, _ = self.partial.resolve(self.vu)
-        return remaining[0] if len(remaining) == 1 and self.partial.known[node] else None
+        node, _ = self.fold.resolve(self.vu)
+        return remaining[0] if len(remaining) == 1 and self.fold.known[node] else None
 
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
-        """vu is a vertex of S from now on."""
+        """Note which vertex of S vu is: a new one, or that of `entry`."""
         if len(self.entries) < len(chart.first):
             self.entries.append(self.vu)
-            self.partial.known[self.partial.resolve(self.vu)[0]] = True
+            self.fold.known[self.fold.resolve(self.vu)[0]] = True
         else:
-            self.partial.join(self.e, self.node_dart(chart, entry))
+            self.fold.join(self.e, self.node_dart(chart, entry))

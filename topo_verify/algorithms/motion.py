@@ -35,9 +35,10 @@ class Executed:
 
 
 class Hypothesis:
-    """That e ends in dart h, assumed: the way home from there, and what would be seen on it.
+    """The hypothesis that e ends in dart h: the way home from h, and what would be seen on it.
 
-    The way leads along the breadth-first tree rooted at v0 and is found when first asked for.
+    The way leads along the breadth-first tree rooted at v0. It is computed when it is first asked
+    for, because most hypotheses are rejected before that.
     """
 
     def __init__(self, dart: Dart, chart: Chart, tree: Tree) -> None:
@@ -67,7 +68,7 @@ class Pilot:
     """Drives the robot and counts what it costs. Lives as long as the exploration.
 
     Knows by how much the robot's reference dart is turned away from the dart by which it entered
-    the place on its way out (`turned`), and which doors lead back to where `set_out` was called.
+    the place on its way out (`turned`), and which doors led from vu to where it stands (`doors`).
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -78,7 +79,7 @@ class Pilot:
         self.percepts: list[Percept] = [robot.percept]
 
     def walk(self, chart: Chart, at: Dart, v: int) -> Dart:
-        """Walk on S to a vertex along the tree rooted there; the reference dart at the end."""
+        """Walk on S to v along the tree rooted there. Returns the reference dart at the end."""
         towards = chart.tree(v, until=chart.vertex[at]).parent
         while (exit_dart := towards[chart.vertex[at]]) is not None:
             self._move(chart.door(at, exit_dart), "walk")
@@ -86,13 +87,13 @@ class Pilot:
         return at
 
     def cross(self, chart: Chart, at: Dart, e: Dart) -> Percept:
-        """Leave the known world by e; the percept at vu, where the next excursion starts."""
+        """Leave the known world by e. Returns the percept at vu, where excursions start."""
         percept = self._move(chart.door(at, e), "cross")
         self.turned, self.doors, self.percepts = 0, [], [percept]
         return percept
 
     def forward(self, door: Door) -> Percept:
-        """One more door of a sequence, relative to the dart by which the place was entered."""
+        """Walk one more door of a sequence, relative to the dart by which the place was entered."""
         percept = self._move((door - self.turned) % self.robot.percept.degree, "validate")
         self.turned = 0
         self.doors.append(door)
@@ -102,6 +103,7 @@ class Pilot:
     def back(self, steps: int) -> None:
         """Retrace until only this many doors of the excursion are left. 0: back at vu."""
         while len(self.doors) > steps:
+            # The dart of entry leads back; the reference dart is turned away from it by `turned`.
             self._move(-self.turned % self.robot.percept.degree, "retrace")
             self.turned = self.doors.pop()
             self.percepts.pop()
@@ -126,12 +128,12 @@ Motion = Callable[[Sequence[Hypothesis], Executed | None], Choice]
 
 
 def retrace(hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
-    """Back to vu every time, even where the doors were executed before."""
+    """The first hypothesis, walked from vu, even where its doors were executed before."""
     return Choice(hypotheses[0], 0)  # A1.8 A1.15 A3.9 A3.24
 
 
 def overlap(hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
-    """Back only to the end of the longest common prefix with the last sequence."""
+    """The hypothesis that shares most doors with the last sequence, walked from where they part."""
     doors = () if last is None else last.doors
     shared = [common_prefix(h.doors, doors) for h in hypotheses]
     longest = max(shared)

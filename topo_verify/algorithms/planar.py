@@ -2,8 +2,9 @@
 
 An edge drawn inside a face of a plane map cuts it in two; an edge from one face to another would
 need a handle. So two open darts of S can be joined only if they lie on one face of S, where an open
-dart counts as a dead end when the face is walked. Sound on every planar world, and on no other:
-there it must be caught. May stand before any rule.
+dart counts as a dead end when the face is walked. The rule is sound in every planar world. In
+other worlds it rejects true hypotheses, and the checkers must find that. It may stand before any
+other rule.
 
 Source: docs/semantics.md, section 11.
 """
@@ -20,7 +21,7 @@ from topo_verify.robot.percept import Percept
 
 
 class PlanarRule:
-    """Rejects what lies on another face than e, before any motion; then asks another rule."""
+    """Rejects each hypothesis on another face than e; asks another rule about the others."""
 
     def __init__(self, rule: Rule) -> None:
         self.rule = rule
@@ -28,13 +29,13 @@ class PlanarRule:
         self.face: frozenset[Dart] = frozenset()
 
     def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
-        """Walk the face of e."""
+        """Find the darts on the face of e."""
         self.percept = percept
         self.face = frozenset(face(chart, e))
         self.rule.arrive(chart, e, percept)
 
     def observe(self, sequence: Executed) -> None:
-        """Nothing to keep for this rule."""
+        """Passes the sequence on to the other rule."""
         self.rule.observe(sequence)
 
     def refute(
@@ -43,15 +44,15 @@ class PlanarRule:
         """Why the hypothesis is false in every planar world, if it is."""
         if hypothesis.dart in self.face:
             return self.rule.refute(chart, hypothesis, sequences)
-        seen, told = chart.percepts[hypothesis.dart], "it lies on another face than e"
-        return Refutation("planar", Evidence(0, seen, self.percept, contradiction=told))
+        seen, message = chart.percepts[hypothesis.dart], "it lies on another face than e"
+        return Refutation("planar", Evidence(0, seen, self.percept, contradiction=message))
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
-        """As the other rule concludes."""
+        """The conclusion of the other rule."""
         return self.rule.conclude(remaining)
 
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
-        """Nothing to remember for this rule."""
+        """Passes the new edge on to the other rule."""
         self.rule.learn(chart, e, entry, sequences)
 
 
@@ -59,7 +60,7 @@ def face(chart: Chart, e: Dart) -> list[Dart]:
     """The darts of S on the face of e, from e on."""
     darts = [e]
     while True:
-        across = chart.alpha[darts[-1]]
+        across = chart.alpha[darts[-1]]  # None: an unexplored dart is a dead end, so turn back
         following = chart.turn(darts[-1] if across is None else across, 1)
         if following == e:
             return darts

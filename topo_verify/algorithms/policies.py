@@ -1,4 +1,4 @@
-"""The choices that the paper leaves open: which edge next, which hypothesis first.
+"""The two policies that the paper leaves open: which edge next, and which hypothesis first.
 
 Every claim holds for every choice; costs do not. The reference costs are those of `nearest` and
 `shortest`. `random(seed)` draws from Python's `random.Random(seed)`: the same run on every machine
@@ -32,7 +32,7 @@ def nearest(chart: Chart, at: Dart) -> Dart:
     reach = 0
     for v, distance, _ in chart.outward(chart.vertex[at]):
         if best is not None and distance > reach:
-            break
+            break  # the search goes outward: no vertex as near is still to come
         opened = next((d for d in chart.darts(v) if d in chart.unexplored), None)
         if opened is not None and (best is None or opened < best):
             best, reach = opened, distance
@@ -96,7 +96,7 @@ def order_policy(text: str) -> Order:
 
 
 def check(policies: Policies) -> Policies:
-    """The same policies, once it is sure that both exist (`ValueError` if not)."""
+    """The same policies, if both exist; otherwise a `ValueError` that lists those there are."""
     pick_policy(policies.pick)
     order_policy(policies.order)
     return policies

@@ -1,9 +1,9 @@
-"""Mappers with one mistake each, and the claim that must catch it: tests of the tests.
+"""Mappers with one mistake each, and the claim that must catch it. They test the checks.
 
-    planting.py    what a fault is, and how a part of a reference algorithm is replaced
+    fault.py       what a fault is, and how a part of a reference algorithm is replaced
     motion.py, marker.py, hypotheses.py, chart.py, prefix.py, history.py, records.py, folding.py,
     report.py      the mistakes, by the part of the mapper that they are in
-    harmless.py    differences that are no mistakes and must not be caught
+    harmless.py    differences that are no mistakes: no check may report them
 
 Every fault can be named as a TARGET, as `topo_verify.faults.motion:restores_with_the_wrong_sign`.
 Which check finds which, how fast and in which smallest world: `topo-verify faults`.

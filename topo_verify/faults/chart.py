@@ -1,4 +1,4 @@
-"""Mistakes in drawing S: how its darts are numbered, turned and joined."""
+"""Mistakes in the chart S: how its darts are numbered, turned and joined."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class _OneWay(Chart):
 joins_a_loop_one_way = Fault(
     name="joins-a-loop-one-way",
     part="chart",
-    why="an edge to an older vertex leads there on S, and not back",
+    why="on S, an edge to an older vertex can be crossed from one end only",
     claim="map-isomorphic",
     mapper=mapper("basic", Chart=_OneWay),
 )
@@ -65,7 +65,7 @@ class _Unreduced(Chart):
 stops_at_the_last_dart = Fault(
     name="stops-at-the-last-dart",
     part="chart",
-    why="turning on past the last dart of a vertex ends there, it does not come round to the first",
+    why="a turn past the last dart of a vertex ends there and does not go on from the first",
     claim="map-isomorphic",
     mapper=mapper("enhancement-ii", Chart=_Unreduced),
 )

@@ -1,9 +1,9 @@
-"""How a mistake is planted: one part of a reference algorithm stands for something else.
+"""Plants a mistake: a reference algorithm in which one part is replaced.
 
 A part is the rule, the motion, a policy, or a name that the exploration loop looks up: `Chart`,
-`Pilot`, `Hypothesis`, `validate` and so on. What replaces it is, wherever that can be done, a
-subclass with one method in which one thing is wrong. The loop itself is the reference's own code;
-its functions are bound anew to names of which some are replaced, and the reference stays as it is.
+`Pilot`, `Hypothesis`, `validate` and so on. Wherever possible, a subclass replaces it in which one
+method has one mistake. The loop itself is the reference's own code: its functions are copied and
+look names up in another namespace, in which some are replaced. The reference itself stays intact.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Fault:
     Attributes:
         name: what the command line calls it.
         part: where the mistake is.
-        why: the mistake, in one sentence.
+        why: what the mapper does wrong, in one sentence.
         claim: the claim that must catch it, or None: it is harmless.
         mapper: the algorithm with the mistake.
         theorem: the theorem of `topo-verify prove` that has the same mistake in its rule.
@@ -52,12 +52,12 @@ class Fault:
 
     @property
     def harmless(self) -> bool:
-        """Does the difference change the cost, or nothing, so that no claim may fail?"""
+        """Does the difference change no more than the cost, so that every claim must hold?"""
         return self.claim is None
 
     @property
     def target(self) -> str:
-        """How the command line finds the mapper."""
+        """The TARGET under which the command line finds the mapper."""
         room = "harmless" if self.harmless else self.part
         return f"topo_verify.faults.{room}:{self.name.replace('-', '_')}"
 
@@ -74,7 +74,8 @@ def mapper(
     """The algorithm of this name with some of its parts replaced.
 
     Args:
-        names: what is meant in `algorithms/exploration.py` by each of these names.
+        rule, motion, pick, order: the part that replaces the algorithm's own.
+        names: by name, what replaces a name that `algorithms/exploration.py` looks up.
     """
     base = CATALOGUE[name]
     loop = rebound(**names)["explore"]
@@ -93,9 +94,9 @@ def mapper(
 
 
 def rebound(**names: object) -> dict[str, Any]:
-    """The names of `algorithms/exploration.py`, some of which stand for something else.
+    """The namespace of `algorithms/exploration.py` with some of its names replaced.
 
-    Its functions are bound to these names: they call each other, and what was replaced.
+    Its functions are copied into this namespace, so they call each other and the replacements.
     """
     reference = vars(exploration)
     assert names.keys() <= reference.keys(), f"the loop knows no {names.keys() - reference.keys()}"
@@ -108,22 +109,22 @@ def rebound(**names: object) -> dict[str, Any]:
     return space
 
 
-# ---------------------------------------------------------------- what several mistakes need
+# ---------------------------------------------------------------- shared by several mistakes
 
 
 class ForwardingRobot:
-    """A robot that passes everything on; what inherits from it bends one thing."""
+    """A robot that passes every call on to another; subclasses change one of them."""
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
 
     @property
     def percept(self) -> Percept:
-        """What the mapper is told that the robot senses."""
+        """The percept that the mapper gets."""
         return self.seen(self.robot.percept)
 
     def seen(self, percept: Percept) -> Percept:
-        """What the mapper makes of a percept."""
+        """The percept that the mapper gets for this one of the robot."""
         return percept
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
@@ -136,10 +137,10 @@ class ForwardingRobot:
 
 
 def crossed(chart: Chart) -> Dart:
-    """The dart e behind which the robot stands: not explored, and not in U any more."""
+    """The dart e that the robot has just crossed: not yet explored, and not in U any more."""
     return next(d for d, o in enumerate(chart.alpha) if o is None and d not in chart.unexplored)
 
 
 def one_late(sequences: Sequence[Executed]) -> list[Executed]:
-    """The same sequences, with each percept behind the door after its own."""
+    """The sequences with each percept shifted by one, behind the door after its own."""
     return [Executed(s.doors, (s.percepts[0], *s.percepts[:-1])) for s in sequences]

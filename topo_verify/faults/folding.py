@@ -1,4 +1,4 @@
-"""Mistakes in the complete rule: what is identified, and what is taken back."""
+"""Mistakes in the complete rule: what it identifies, and what it takes back."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
 
     def rule() -> FoldingRule:
         made = FoldingRule()
-        made.partial = partial()
+        made.fold = partial()
         return made
 
     return rule
@@ -34,7 +34,7 @@ class _StaysKnown(PartialFold):
 keeps_an_assumption_for_good = Fault(
     name="keeps-an-assumption-for-good",
     part="folding",
-    why="a place that an assumption made a vertex of S stays one when that is taken back",
+    why="a place that became a vertex of S under a hypothesis stays one when that is rolled back",
     claim="true-hypothesis-kept",
     mapper=mapper("folding", rule=_folding(_StaysKnown)),
 )
@@ -48,7 +48,7 @@ class _AllKnown(PartialFold):
 takes_each_place_for_known = Fault(
     name="takes-each-place-for-known",
     part="folding",
-    why="a place that was only seen counts as a vertex of S, which no other may turn out to be",
+    why="a place that was only seen counts as a vertex of S, so no vertex of S can be that place",
     claim="true-hypothesis-kept",
     theorem="fold-ghost-known",
     mapper=mapper("folding", rule=_folding(_AllKnown)),
@@ -63,7 +63,7 @@ class _Unturned(PartialFold):
 identifies_without_turning = Fault(
     name="identifies-without-turning",
     part="folding",
-    why="two places that are one vertex are laid on each other door 0 on door 0",
+    why="two places that are one vertex are identified door 0 with door 0, without the turn",
     claim="true-hypothesis-kept",
     theorem="fold-without-offset",
     mapper=mapper("folding", rule=_folding(_Unturned)),
@@ -79,7 +79,7 @@ class _FromDoor0(FoldingRule):
 enters_old_places_by_door_0 = Fault(
     name="enters-old-places-by-door-0",
     part="folding",
-    why="where e leads to a place seen before, the robot is taken to come in there by its door 0",
+    why="if e leads to a place seen before, the rule assumes that the robot came in by door 0",
     claim="true-hypothesis-kept",
     mapper=mapper("folding", rule=_FromDoor0),
 )
@@ -95,7 +95,7 @@ class _MarkerMirrored(FoldingRule):
 lays_the_marker_on_mirrored = Fault(
     name="lays-the-marker-on-mirrored",
     part="folding",
-    why="a place that shows the marker is identified with v0, turned the wrong way",
+    why="a place that shows the marker is identified with v0 turned the wrong way round",
     claim="true-hypothesis-kept",
     mapper=mapper("folding", rule=_MarkerMirrored),
 )

@@ -1,6 +1,6 @@
-"""Differences that are no mistakes: they change the cost, or nothing. No claim may fail for them.
+"""Differences that are no mistakes: they change the cost or nothing, and every claim must hold.
 
-A check that flags one of these is wrong: it asks for the reference's behaviour where any right
+A check that reports one of these is wrong: it asks for the reference's behaviour where any correct
 behaviour must pass.
 """
 
@@ -32,7 +32,7 @@ def _all_of_u(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
 poses_all_of_u = Fault(
     name="poses-all-of-u",
     part="hypotheses",
-    why="H holds darts of every signature; those of another are rejected where they begin",
+    why="H holds darts of every signature; the first percept rejects those of another signature",
     claim=None,
     mapper=mapper("basic", hypotheses=_all_of_u),
 )
@@ -62,7 +62,7 @@ class _OtherTree(Pilot):
 walks_along_another_tree = Fault(
     name="walks-along-another-tree",
     part="motion",
-    why="to the next edge it takes the breadth-first tree of where it stands, not of where it goes",
+    why="it walks to the next edge along the breadth-first tree of its start, not of its goal",
     claim=None,
     mapper=mapper("basic", Pilot=_OtherTree),
 )
@@ -83,7 +83,7 @@ def _passes_by(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
 overlooks_a_passing_marker = Fault(
     name="overlooks-a-passing-marker",
     part="marker",
-    why="before the last door only degrees are compared: the way back from v0 decides them all",
+    why="before the last door only degrees are compared; the percept at v0 decides",
     claim=None,
     mapper=mapper("basic", execute=_passes_by),
 )
@@ -136,7 +136,7 @@ class _NeverDropped(RecordsRule):
 never_drops_a_record = Fault(
     name="never-drops-a-record",
     part="records",
-    why="T[d] stays when d is explored: nothing ever asks for it again",
+    why="T[d] stays when d is explored; nothing looks it up again",
     claim=None,
     mapper=mapper("enhancement-iii-all", rule=_NeverDropped),
 )
@@ -155,7 +155,7 @@ class _FromTheEnd(Chart):
 delivers_another_numbering = Fault(
     name="delivers-another-numbering",
     part="report",
-    why="other names for the darts, vertices and edges from the last to the first",
+    why="darts have other numbers, vertices and edges are listed from the last to the first",
     claim=None,
     mapper=mapper("basic", Chart=_FromTheEnd),
 )
@@ -169,7 +169,7 @@ def _no_cost(robot: Robot) -> object:
 reports_no_cost = Fault(
     name="reports-no-cost",
     part="report",
-    why="what it cost is left to the simulator",
+    why="the delivered map names no cost",
     claim=None,
     mapper=_no_cost,
 )
@@ -177,7 +177,7 @@ reports_no_cost = Fault(
 
 class _Silent(ForwardingRobot):
     def declare(self, event: Decision) -> None:
-        """Nobody is told."""
+        """Does nothing: the declaration is dropped."""
 
 
 def _declares_nothing(robot: Robot) -> Survey:
@@ -187,7 +187,7 @@ def _declares_nothing(robot: Robot) -> Survey:
 declares_nothing = Fault(
     name="declares-nothing",
     part="report",
-    why="no decision is put on record",
+    why="the mapper declares none of its decisions",
     claim=None,
     mapper=_declares_nothing,
 )

@@ -66,7 +66,7 @@ class _NothingThere(HistoryRule):
 takes_unknown_for_a_mismatch = Fault(
     name="takes-unknown-for-a-mismatch",
     part="history",
-    why="a hypothesis is rejected where tracing leaves S, for nothing is expected there",
+    why="a hypothesis is rejected where tracing leaves S, though S says nothing of the place",
     claim="rejection-justified",
     mapper=mapper("enhancement-ii", rule=_NothingThere),
 )

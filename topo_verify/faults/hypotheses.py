@@ -1,4 +1,4 @@
-"""Mistakes in what is put to the test: hypotheses left out, or decided without a test."""
+"""Mistakes in the hypotheses: some are left out, or decided without a test."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _not_its_own(chart: Chart, percept: Percept, order: Order) -> list[Hypothesi
 leaves_out_the_darts_of_vk = Fault(
     name="leaves-out-the-darts-of-vk",
     part="hypotheses",
-    why="no edge is expected to lead back to the vertex that it leaves",
+    why="H leaves out the darts of the vertex that the edge leaves, so loops are missed",
     claim="true-hypothesis-posed",
     theorem="posed-not-at-vk",
     mapper=mapper("basic", hypotheses=_not_its_own),
@@ -40,7 +40,7 @@ def _no_parallels(chart: Chart, percept: Percept, order: Order) -> list[Hypothes
 leaves_out_parallel_edges = Fault(
     name="leaves-out-parallel-edges",
     part="hypotheses",
-    why="no second edge is expected between two vertices that are joined already",
+    why="H leaves out vertices that an edge joins already, so parallel edges are missed",
     claim="true-hypothesis-posed",
     mapper=mapper("basic", hypotheses=_no_parallels),
 )
@@ -53,7 +53,7 @@ def _not_v0(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
 leaves_out_the_darts_of_v0 = Fault(
     name="leaves-out-the-darts-of-v0",
     part="hypotheses",
-    why="the vertex of the marker is taken to be known, so none of its darts is posed",
+    why="H leaves out the darts of the marker's vertex",
     claim="true-hypothesis-posed",
     mapper=mapper("basic", hypotheses=_not_v0),
 )
@@ -69,14 +69,14 @@ class _StaysOpen(Chart):
 leaves_h_in_u = Fault(
     name="leaves-h-in-u",
     part="hypotheses",
-    why="the other end of an edge that led to an older vertex stays unexplored",
+    why="the other end of an edge to an older vertex stays in U",
     claim="true-hypothesis-posed",
     mapper=mapper("basic", Chart=_StaysOpen),
 )
 
 
 class _Coarse(Percept, frozen=True, gc=False):
-    """Two degrees are equal if they are so modulo 3."""
+    """A percept that compares degrees modulo 3."""
 
     @property
     def signature(self) -> tuple[int, bool]:
@@ -87,7 +87,7 @@ class _Coarse(Percept, frozen=True, gc=False):
             return False
         return (self.degree % 3, self.marker) == (other.degree % 3, other.marker)
 
-    def __ne__(self, other: object) -> bool:  # a Struct has one of its own
+    def __ne__(self, other: object) -> bool:  # a Struct defines its own, exact one
         return not self == other
 
     __hash__ = Percept.__hash__
@@ -148,7 +148,7 @@ class _ByElimination(NoRule):
 concludes_by_elimination = Fault(
     name="concludes-by-elimination",
     part="hypotheses",
-    why="when all hypotheses but one are rejected, that one is confirmed: vu may be new",
+    why="when all hypotheses but one are rejected, that one is confirmed, though vu may be new",
     claim="map-entailed",
     mapper=mapper("basic", rule=_ByElimination),
 )
@@ -162,7 +162,7 @@ class _OnlyOne(NoRule):
 confirms_what_is_alone = Fault(
     name="confirms-what-is-alone",
     part="hypotheses",
-    why="a hypothesis that has no rival is confirmed without a walk",
+    why="a hypothesis without an alternative is confirmed without a walk",
     claim="map-entailed",
     theorem="conclude-the-last",
     mapper=mapper("basic", rule=_OnlyOne),

@@ -1,4 +1,4 @@
-"""Mistakes in reading the marker: which way it points, and whether it is there at all."""
+"""Mistakes in reading the marker: its direction, or whether it is there at all."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def _any_direction_at_the_end(pilot: Pilot, h: Hypothesis, shared: int) -> int |
 ignores_direction_at_the_end = Fault(
     name="ignores-direction-at-the-end",
     part="marker",
-    why="at the end of a way home it is enough that the marker is there",
+    why="at the end of a way home the mapper checks that the marker is there, not its direction",
     claim="no-false-confirm",
     theorem="words-confirm-undirected",
     mapper=mapper("basic", execute=_any_direction_at_the_end),
@@ -54,7 +54,7 @@ def _any_direction_at_once(pilot: Pilot, h: Hypothesis, shared: int) -> int | No
 ignores_direction_behind_e = Fault(
     name="ignores-direction-behind-e",
     part="marker",
-    why="where vu itself shows the marker, the first of v0's darts is confirmed",
+    why="where vu itself shows the marker, its direction is ignored: v0's first dart is confirmed",
     claim="no-false-confirm",
     theorem="confirm-undirected",
     mapper=mapper("basic", execute=_any_direction_at_once),
@@ -68,7 +68,7 @@ def _nothing_left_to_walk(pilot: Pilot, h: Hypothesis, shared: int) -> int | Non
 ignores_direction_if_walked = Fault(
     name="ignores-direction-if-walked",
     part="marker",
-    why="a hypothesis whose whole way was executed before is confirmed without a look",
+    why="a hypothesis whose whole way was executed before is confirmed without a comparison",
     claim="no-false-confirm",
     mapper=mapper("basic", motion=overlap, execute=_nothing_left_to_walk),
 )

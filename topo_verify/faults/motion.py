@@ -1,4 +1,4 @@
-"""Mistakes in walking: out along a hypothesis' way home, back, and on to the next edge."""
+"""Mistakes in walking: along a hypothesis' way home, back to vu, and on to the next edge."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class _NotRestored(Pilot):
 forgets_its_orientation = Fault(
     name="forgets-its-orientation",
     part="motion",
-    why="back at a place, the dart it came back by passes for the one it first came in by",
+    why="back at a place, the robot takes the dart of return for the dart of entry",
     claim="map-isomorphic",
     mapper=mapper("basic", Pilot=_NotRestored),
 )
@@ -37,7 +37,7 @@ class _WrongSign(Pilot):
 restores_with_the_wrong_sign = Fault(
     name="restores-with-the-wrong-sign",
     part="motion",
-    why="back at a place, it is taken to be turned by -k where it is turned by k",
+    why="back at a place, the robot assumes that it is turned by -k where it is turned by k",
     claim="map-isomorphic",
     mapper=mapper("basic", Pilot=_WrongSign),
 )
@@ -96,7 +96,7 @@ def _as_it_came_in(pilot: Pilot, chart: Chart, entry: Dart) -> Dart:
 goes_on_as_if_just_come_in = Fault(
     name="goes-on-as-if-just-come-in",
     part="motion",
-    why="after the last way back the robot is entered on S with the dart by which it came to vu",
+    why="after the last way back, the dart by which it came to vu is taken for its reference dart",
     claim="map-isomorphic",
     mapper=mapper("basic", localise=_as_it_came_in),
 )
@@ -130,7 +130,7 @@ class _OverTheEdge(Hypothesis):
 walks_home_over_e_itself = Fault(
     name="walks-home-over-e-itself",
     part="motion",
-    why="the breadth-first tree has the edge e-h in it, which is not on S yet",
+    why="the way home crosses the edge from e to h, which is not on S yet",
     claim="map-entailed",
     mapper=mapper("basic", Hypothesis=_OverTheEdge),
 )
@@ -146,7 +146,7 @@ class _WithoutTheLastDoor(Hypothesis):
 stops_a_door_before_v0 = Fault(
     name="stops-a-door-before-v0",
     part="motion",
-    why="the last door of a way home of two or more is not walked",
+    why="if the way home has two doors or more, the last is not walked",
     claim="map-entailed",
     theorem="confirm-before-home",
     mapper=mapper("basic", Hypothesis=_WithoutTheLastDoor),

@@ -1,4 +1,4 @@
-"""Mistakes in Enhancement I: what was seen on the common prefix of doors."""
+"""Mistakes in Enhancement I: how percepts on the common prefix of doors are compared."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class _OneDoorBeyond(PrefixRule):
 compares_beyond_the_prefix = Fault(
     name="compares-beyond-the-prefix",
     part="prefix",
-    why="the percept behind the first door that differs is compared, too",
+    why="the percept behind the first door that differs is compared as well",
     claim="rejection-justified",
     theorem="prefix-one-too-far",
     mapper=mapper("enhancement-i", rule=_OneDoorBeyond),
@@ -64,7 +64,7 @@ class _EqualAnywhere(PrefixRule):
 counts_equal_doors_anywhere = Fault(
     name="counts-equal-doors-anywhere",
     part="prefix",
-    why="the common prefix is taken to be as long as there are equal doors anywhere",
+    why="the length of the common prefix is the number of equal doors anywhere",
     claim="rejection-justified",
     mapper=mapper("enhancement-i", rule=_EqualAnywhere),
 )

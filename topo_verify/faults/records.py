@@ -1,4 +1,4 @@
-"""Mistakes in Enhancement III: what is kept of the places behind unexplored darts."""
+"""Mistakes in Enhancement III: what is recorded of the places behind unexplored darts."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class _ByDoor(RecordsRule):
 files_records_by_the_door = Fault(
     name="files-records-by-the-door",
     part="records",
-    why="records are kept under the number of a door at its vertex, the same for all vertices",
+    why="records are filed by the number of the door at its vertex, so vertices share them",
     claim="rejection-justified",
     mapper=mapper("enhancement-iii-all", rule=_ByDoor),
 )
@@ -86,7 +86,7 @@ class _OnSuspicion(RecordsRule):
 keeps_records_of_the_rejected = Fault(
     name="keeps-records-of-the-rejected",
     part="records",
-    why="a sequence is recorded as each hypothesis would have it, and stays when that is rejected",
+    why="a sequence is recorded as traced from each hypothesis, even from rejected ones",
     claim="rejection-justified",
     mapper=mapper("enhancement-iii-all", rule=_OnSuspicion),
 )

@@ -1,4 +1,4 @@
-"""Mistakes in what is delivered: the map, the marker in it, the cost; and when."""
+"""Mistakes in what is delivered: the map, its marker and the cost; or when."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _no_loops(robot: Robot) -> Survey:
 delivers_no_loops = Fault(
     name="delivers-no-loops",
     part="report",
-    why="an edge from a vertex to itself is missing in the map",
+    why="the map leaves out every edge from a vertex to itself",
     claim="map-isomorphic",
     mapper=_no_loops,
 )
@@ -37,7 +37,7 @@ def _one_too_few(robot: Robot) -> Survey:
 delivers_one_edge_too_few = Fault(
     name="delivers-one-edge-too-few",
     part="report",
-    why="the edge that was found last is missing in the map",
+    why="the map leaves out the edge that was found last",
     claim="map-isomorphic",
     mapper=_one_too_few,
 )
@@ -80,7 +80,7 @@ class _MarkerWhereItStands(Chart):
 marks_the_last_dart = Fault(
     name="marks-the-last-dart",
     part="report",
-    why="the marker is drawn at the dart that was found last",
+    why="the map has the marker at the dart that was found last",
     claim="map-isomorphic",
     mapper=mapper("basic", Chart=_MarkerWhereItStands),
 )
@@ -125,7 +125,7 @@ class _TwoDartsLeft(NoRule):
 joins_the_last_two_unseen = Fault(
     name="joins-the-last-two-unseen",
     part="report",
-    why="when two darts are left they are taken for the ends of one edge, and the robot stops",
+    why="when two darts are left, they are joined to one edge unseen, and the robot stops",
     claim="map-entailed",
     mapper=mapper("basic", rule=_TwoDartsLeft),
 )

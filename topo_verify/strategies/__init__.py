@@ -1,13 +1,14 @@
 """Hypothesis strategies: worlds of many kinds, mappers, door words.
 
     general.py     worlds, planar_worlds, nonplanar_worlds    shapes.py     bounds, what is possible
-    trees.py       tree_worlds                                growth.py     from bytes to a world
-    dense.py       dense_worlds                               drawing.py    how worlds are drawn
-    grids.py       lattices                                   mapping.py     mappers, policies
+    trees.py       tree_worlds                                growth.py     makes a world of bytes
+    dense.py       dense_worlds                               draws.py      draws the bytes
+    grids.py       lattices                                   mappers.py    mappers, policies
     symmetric.py   symmetric_worlds                           doors.py      door_words
-    uniform.py     uniform_worlds                             observing.py  notes and features
+    uniform.py     uniform_worlds                             notes.py      notes and features
+    sample.py      worlds outside of any test                 resolve.py    STRATEGY by its name
 
-registration.py is what the entry point `hypothesis` calls. docs/property-tests.md begins with a
+The entry point `hypothesis` calls registration.py. docs/property-tests.md begins with a
 first test and shows the simplest world of each strategy.
 """
 

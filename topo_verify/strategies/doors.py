@@ -1,10 +1,10 @@
-"""Door words: walks of a robot through a world, door by door.
+"""Door words: the doors that a robot takes on a walk through a world.
 
     strategy     draws                                       its simplest value
     door_words   doors that a robot can take one after the   (): it stays where it is
                  other, beginning at the marker
 
-For tests of robots, charts and traces, where a walk matters and no mapper walks it.
+They are for tests of robots, charts and traces that need a walk but no mapper.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from topo_verify.world.rooted_map import World
 def door_words(
     world: World, *, min_length: int = 0, max_length: int = 100
 ) -> SearchStrategy[tuple[Door, ...]]:
-    """Doors that are there, in turn: each is less than the degree of the place it leads out of.
+    """Sequences of doors, each less than the degree of the vertex that it leads out of.
 
     Shrinks to few doors, then to low ones: door 0 goes back. (At a vertex of degree above 256 only
     the first 256 doors are drawn.)
@@ -32,7 +32,7 @@ def door_words(
         world: where the robot walks; it begins at the marker.
         min_length, max_length: the number of doors.
     Raises:
-        InputError: a length is out of range, or the world has no door at all.
+        InputError: a length is out of range, or the world has no door and `min_length` is above 0.
     Example:
         >>> from hypothesis import find
         >>> find(door_words(World.from_id("m2/0"), min_length=2), lambda doors: True)
@@ -47,7 +47,9 @@ def door_words(
         )
     if not world.alpha:
         if least:
-            raise InputError(f"door_words: min_length={least}, but the world has no door")
+            raise InputError(
+                f"door_words: expected min_length=0 in a world without doors, got {least}"
+            )
         most = 0
     return _door_words(world, least, most)
 

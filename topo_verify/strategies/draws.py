@@ -1,12 +1,12 @@
-"""How a grown world is drawn: how many edges, one byte for each, and where the marker lies.
+"""Draws what a grown world is made of: one byte an edge, and the place of the marker.
 
-Drawing costs more than growing, and it costs by the number of choices, not by their size: so all
-edges are one string of bytes. Its length is the number of edges. Hypothesis draws short strings
-unless it must draw long ones: so the first choice raises the least length. In its simplest case
-every length is possible, so nothing else has to change when it shrinks to that.
+Drawing costs more than growing, and its cost is the number of choices, not their size. So all edges
+are one string of bytes, whose length is the number of edges. Hypothesis draws short strings unless
+it must draw long ones, so the first choice raises the least length. In its simplest case every
+length is possible: it can shrink to that while nothing else changes.
 
-No two choices come from the same strategy, two of `integers` or two of `binary`, say. Hypothesis
-likes to copy a value to another place of the same strategy: here that would make no new worlds.
+No two choices come from the same strategy, such as two of `integers` or two of `binary`. Hypothesis
+likes to copy a value to another choice of the same strategy; here that would make no new worlds.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from topo_verify.strategies.shapes import MarkerPlace, Shape, edge_bounds
 from topo_verify.world.rooted_map import Dart, World
 
 _AT_LEAST = (0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16)
-"""How many edges more than the least there are at least; one of these is drawn."""
+"""By how much the least number of edges is raised; one of these is drawn."""
 
 _FURTHER = 8
-"""How long the second string is at least; behind its last byte it goes on with the first."""
+"""The least length of the second string; after its last byte it is read from the first again."""
 
 AT_MOST = (0, 6, 8, 8, 10, 10, 12, 12, 14, 16, 16, 20, 20, 24, 30, 40)
-"""Where sizes are drawn as numbers: how many edges there are at most, 0 for no bound."""
+"""Bounds on the number of edges, for strategies that draw sizes as numbers; 0 is no bound."""
 
 
 def worlds_of(
@@ -43,7 +43,7 @@ def worlds_of(
     """Worlds of this shape, for the strategy of this name.
 
     Raises:
-        InputError: the numbers of edges are none, or no world of the shape has so many.
+        InputError: the bounds are not numbers of edges, or no world of the shape has so many.
     """
     bounds = edge_bounds(strategy, min_edges, max_edges)
     return _grown(shape, kinds, *shape.edges_between(strategy, *bounds), marker)
@@ -59,7 +59,7 @@ def _grown(
         return World((), (), None)
     place = 0 if marker == "leaf" else draw(st.integers(0, 2 * most - 1))
     further = b"\0"
-    if len(steps) > ONE_STRING:  # drawn last: where it is not needed any more, it falls off
+    if len(steps) > ONE_STRING:  # drawn last, so that shrinking to fewer edges drops it
         further = draw(st.binary(min_size=_FURTHER, max_size=most))
     grown = grow(shape, kinds, steps, further)
     if grown is None:
@@ -69,7 +69,7 @@ def _grown(
 
 
 def draw_bytes(draw: st.DrawFn, least: int, most: int) -> bytes:
-    """A string of bytes with a length from `least` to `most`, not only short ones."""
+    """A string of bytes with a length from `least` to `most`; long ones are drawn as well."""
     if least < most:
         least = min(least + draw(st.sampled_from(_AT_LEAST)), most)
     return draw(st.binary(min_size=least, max_size=most))
@@ -81,12 +81,15 @@ def at_most(most: int, bound: int) -> int:
 
 
 def one_of(row: list[int]) -> SearchStrategy[int]:
-    """One of these numbers, and always a choice: what takes fewer choices counts as simpler."""
+    """One of these numbers, as a choice even if there is one number.
+
+    Hypothesis takes an example with fewer choices for a simpler one.
+    """
     return st.sampled_from(row if len(row) > 1 else 2 * row)
 
 
 def scaled(length: int, *drawn: int) -> int:
-    """A number below the length that bytes mean; never less for greater bytes."""
+    """The number below `length` that these bytes stand for; it grows with them."""
     return int.from_bytes(drawn) * length >> 8 * len(drawn)
 
 
@@ -102,5 +105,10 @@ def marked_darts(vertex: Sequence[int], marker: MarkerPlace) -> Sequence[Dart]:
 
 
 def draw_dart(draw: st.DrawFn, darts: Sequence[Dart], bound: int) -> Dart:
-    """One of these darts; `bound` is no less than there can be, whatever was drawn before."""
+    """One of these darts.
+
+    Args:
+        bound: the most darts that there can be, whatever was drawn before: Hypothesis keeps the
+            choice while the number of darts changes.
+    """
     return darts[nth(draw(st.integers(0, bound - 1)), len(darts))]

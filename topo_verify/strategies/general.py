@@ -3,9 +3,9 @@
     strategy           draws                               its simplest world
     worlds             every world within the bounds       m0/0: one vertex, nothing else
     planar_worlds      those of genus 0                    m0/0
-    nonplanar_worlds   those of genus 1 or more            m2/6: two loops that cross
+    nonplanar_worlds   those of genus 1 or more            m2/8: two loops that cross
 
-Every world within the bounds can come out: `growth.py` says why.
+Every world within the bounds can be drawn: `growth.py` says why.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
 ) -> SearchStrategy[World]:
     """Every world within the bounds. Shrinks to few edges, genus 0, and stars.
 
-    Args: what they mean stands in `topo_verify.strategies.shapes`.
+    Args: see `topo_verify.strategies.shapes`.
     Raises:
         InputError: no world keeps all the bounds.
     Example:
@@ -97,7 +97,9 @@ def nonplanar_worlds(
         InputError: no world keeps all the bounds.
     """
     if genus is not None and integer("nonplanar_worlds", "genus", genus) == 0:
-        raise InputError("nonplanar_worlds: genus=0 is the sphere: ask planar_worlds for those")
+        raise InputError(
+            "nonplanar_worlds: expected genus 1 or more, got 0: planar_worlds draws that"
+        )
     shape = grown_shape(
         "nonplanar_worlds",
         min_genus=1 if genus is None else genus,

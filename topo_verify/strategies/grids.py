@@ -1,12 +1,12 @@
-"""Lattices: rectangles of a grid with nodes taken out, the paper's street networks.
+"""Lattices: rectangles of a grid without some nodes, like the paper's street networks.
 
     strategy   draws                                              its simplest world
     lattices   rectangles of the grid, with holes, connected      m0/0: one vertex, nothing else
 
-A rectangle is drawn that may have too many edges; then nodes are taken out, none whose loss would
-part the rest. Where the number of edges still is too great, single edges are taken out as well:
-closed streets. All are planar and simple, their degrees are 4 at most; each carries its positions.
-`topo_verify.world.families.lattice` has the families of the paper's figures; here is what varies.
+A rectangle is drawn that may have too many edges. Then nodes are taken out, unless the rest would
+fall apart. If there are still too many edges, single edges are taken out as well (closed streets).
+All lattices are planar and simple, with degrees of 4 at most, and carry their positions.
+`topo_verify.world.families.lattice` makes those of the paper's figures.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from topo_verify.strategies.shapes import WIDEST, edge_bounds, require_marker
 from topo_verify.world.rooted_map import Dart, World
 
 LatticeMarker = Literal["any", "hub"]
-"""As everywhere; a lattice need not have a dead end."""
+"""As in the other strategies, but without "leaf": a lattice need not have a dead end."""
 
 Node = tuple[int, int]
 """Row and column."""
@@ -42,7 +42,7 @@ def lattices(
     """Rectangles of a grid with holes. Shrinks to few edges, then to whole rectangles.
 
     Args:
-        min_edges, max_edges: as everywhere.
+        min_edges, max_edges: see `topo_verify.strategies.shapes`.
         marker: "any" exit, or "hub": at a vertex of the greatest degree.
     Raises:
         InputError: an argument is out of range.
@@ -72,8 +72,8 @@ class _RectangleSizes:
     """How large a rectangle may be.
 
     Attributes:
-        columns: the longer side; ascending, and each as often as there are shorter ones to it.
-        rows: these shorter ones.
+        columns: draws the longer side; ascending, each as often as shorter sides go with it.
+        rows: for each longer side, draws a shorter one.
     """
 
     columns: SearchStrategy[int]
@@ -82,10 +82,10 @@ class _RectangleSizes:
 
 @lru_cache(maxsize=256)
 def _sizes(least: int, bound: int) -> _RectangleSizes:
-    """The rectangles with enough edges and not too many too many: what is taken out helps.
+    """The rectangles with at least `least` edges and about `bound` at most.
 
-    Too many are a quarter more, and one column more: so any number of edges can be had, in several
-    widths, and there is room for holes.
+    A rectangle may have a quarter and one column more than the bound, because nodes and edges are
+    taken out. So every number of edges occurs in several widths, with room for holes.
     """
     rows = {
         c: [r for r in range(1, c + 1) if least <= 2 * r * c - r - c <= bound * 5 // 4 + 2 * r]
@@ -112,7 +112,7 @@ def _edges(grid: Grid) -> int:
 
 
 def _take_out(grid: Grid, node: Node, least: int) -> None:
-    """Take a node out, if enough edges are left and what is left hangs together."""
+    """Take a node out if enough edges are left and the rest stays connected."""
     exits = grid.get(node, [])
     if exits and _edges(grid) - len(exits) >= least and _are_joined(grid, exits, without=node):
         del grid[node]
@@ -121,7 +121,7 @@ def _take_out(grid: Grid, node: Node, least: int) -> None:
 
 
 def _are_joined(grid: Grid, nodes: list[Node], *, without: Node | None = None) -> bool:
-    """Do ways lead from the first of these nodes to the others, none through `without`?"""
+    """Do paths lead from the first of these nodes to the others, none through `without`?"""
     seen = {nodes[0]} if without is None else {nodes[0], without}
     queue = [nodes[0]]
     for node in queue:  # grows as it goes
@@ -132,7 +132,7 @@ def _are_joined(grid: Grid, nodes: list[Node], *, without: Node | None = None) -
 
 
 def _thin(grid: Grid, bound: int, turn: int) -> None:
-    """Close single streets until no more than `bound` are left, beginning where the byte says."""
+    """Take single edges out, from the one that `turn` picks on, until at most `bound` are left."""
     streets = [(u, v) for u, exits in grid.items() for v in exits if u < v]
     spare = len(streets) - bound
     turn = scaled(len(streets), turn)
@@ -146,12 +146,12 @@ def _thin(grid: Grid, bound: int, turn: int) -> None:
             spare -= 1
         else:
             grid[u], grid[v] = before
-    for _ in range(spare):  # a tree by now: its last dead end goes
+    for _ in range(spare):  # a tree by now: take out its last dead end
         _take_out(grid, next(u for u in reversed(grid) if len(grid[u]) == 1), 0)
 
 
 def _world(grid: Grid, draw_root: Callable[[list[int]], Dart]) -> World:
-    """Its world: darts numbered node by node, clockwise from the north; y upwards."""
+    """The grid's world: darts numbered node by node, clockwise from the north; y upwards."""
     number = {
         street: dart
         for dart, street in enumerate((u, v) for u, exits in grid.items() for v in exits)

@@ -1,4 +1,4 @@
-"""From a string of bytes to a world, one byte an edge.
+"""Makes a world of a string of bytes, one byte an edge.
 
     letter         what it is                                                          e.g.
     edge k         darts 2k and 2k+1; alpha(d) is d ^ 1                                 4, 5
@@ -8,22 +8,23 @@
 A byte is two bits of kind (leaf, split or cross: see `shapes.py`) and six bits of place, counted
 from the newest edge back. A leaf grows at that corner: at place 0 it is the newest leaf's sister,
 at place 1 its daughter. A closing leads from the newest corner to that corner among those that it
-may lead to; where it may lead to none, from the next newest. A kind that cannot be had, or after
-which the bounds could not be kept any more, gives way to the next kind.
+may lead to; if it may lead to none, it starts from the next newest. If the requested kind is
+impossible here or would make the bounds unsatisfiable, the next kind is used.
 
-Why this way: places are relative, so that taking a byte out leaves a similar world. Zeros make a
-star, ones a path. Hypothesis tries zeros first, and keeps them wherever they fail as well; in a
-star no hypothesis is ever posed, so they seldom do, and it goes on to something smaller. (Paths at
-zero were tried: planted faults then ended in paths, at twice the edges of their smallest worlds.)
+Places are relative, so that a world stays similar when Hypothesis removes a byte. Zeros make a
+star, ones a path. Hypothesis tries zeros first and keeps them if the test still fails. In a star no
+hypothesis is ever posed, so the test seldom fails there, and Hypothesis goes on to something
+smaller. (Paths at zero were tried: planted faults then ended in paths, at twice the edges of their
+smallest worlds.)
 
-Above 32 edges there are more than 64 corners: there a second string of bytes says how many times 64
-further.
+Above 32 edges there are more than 64 corners. Then a second string of bytes says how many times 64
+are added to the place.
 
-Every map that keeps the bounds is reached. Take a spanning tree and its vertices in an order that
+Every map within the bounds is reached. Take a spanning tree and its vertices in an order that
 grows it; let each vertex grow as a leaf, then close its edges to itself and to earlier vertices in
 the order in which they lie clockwise from the edge by which it grew, a loop at its second end: each
-leads from the newest corner. So the marker cannot stay where growth began, at dart 0: it is drawn
-on its own. Only where it must lie at a leaf is it dart 0: the first edge is then in every tree.
+leads from the newest corner. The marker cannot stay at dart 0, where growth began, so it is drawn
+on its own. Only if it must lie at a leaf is it dart 0: the first edge is then in every tree.
 
 Cost: O(m) a byte, and there are m bytes.
 """
@@ -42,7 +43,7 @@ from topo_verify.world.rooted_map import Dart
 
 EdgeKind = Literal["leaf", "split", "cross"]
 EdgeKinds = tuple[EdgeKind, EdgeKind, EdgeKind, EdgeKind]
-"""What the two highest bits of a byte ask for, simplest first."""
+"""The kinds that the two highest bits of a byte request, simplest first."""
 
 BALANCED: EdgeKinds = ("leaf", "leaf", "split", "cross")
 CROWDED: EdgeKinds = ("leaf", "split", "split", "cross")
@@ -51,7 +52,7 @@ PLACES = 64
 """How many places a byte can tell apart."""
 
 ONE_STRING = PLACES // 2
-"""Up to so many edges, a byte can tell all corners apart."""
+"""The most edges at which a byte can tell all corners apart."""
 
 _INSTEAD: dict[EdgeKind, tuple[EdgeKind, EdgeKind, EdgeKind]] = {
     "leaf": ("leaf", "split", "cross"),
@@ -60,7 +61,7 @@ _INSTEAD: dict[EdgeKind, tuple[EdgeKind, EdgeKind, EdgeKind]] = {
 }
 
 _TRIALS = 32
-"""How often bytes that lead into a dead end are shuffled before they are given up."""
+"""How many attempts are made at bytes that lead into a dead end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,13 +85,13 @@ class Grown:
 
 
 def grow(shape: Shape, kinds: EdgeKinds, steps: bytes, further: bytes = b"\0") -> Grown | None:
-    """The map that these bytes mean; None if it came to a dead end, and so did all its shuffles.
+    """The map that these bytes stand for; None if they and all replacements end in a dead end.
 
     Guarantees that the map has len(steps) edges and keeps the bounds, and that None can happen only
     where `max_degree`, `simple` or `loopless` leave hardly any map.
     """
     shape = shape.at(len(steps))
-    shuffle = Random(steps)  # a function of the bytes, nothing else
+    shuffle = Random(steps)  # seeded with the bytes, so that the same bytes give the same map
     for trial in range(_TRIALS):
         sapling = _Sapling(shape, len(steps), genus_first=trial > 0)
         grown = sapling.grow(kinds, steps, further)
@@ -102,7 +103,7 @@ def grow(shape: Shape, kinds: EdgeKinds, steps: bytes, further: bytes = b"\0") -
 
 
 class _Sapling:
-    """A map that grows. Lives for one call of `grow`."""
+    """A map that grows. It lives for one call of `grow`."""
 
     def __init__(self, shape: Shape, edges: int, *, genus_first: bool = False) -> None:
         self._shape = shape
@@ -122,7 +123,7 @@ class _Sapling:
         self._labels = 1
 
     def grow(self, kinds: EdgeKinds, steps: bytes, further: bytes) -> Grown | None:
-        """All the edges, one a byte; None at a dead end."""
+        """Grow all the edges, one a byte. Returns None at a dead end."""
         for step, more in zip(steps, cycle(further), strict=False):
             place = step % PLACES + PLACES * more
             kind = kinds[step // PLACES]
@@ -133,7 +134,7 @@ class _Sapling:
         return Grown(tuple(self._sigma), tuple(self._vertex), tuple(self._closings))
 
     def _add(self, kind: EdgeKind, place: int) -> bool:
-        """Add an edge of this kind, if there is one and the rest can still be done after it."""
+        """Add an edge of this kind, unless the map could not be finished then. Was one added?"""
         if kind == "leaf":
             possible = self._can_finish(1, 0, 0, self._shape.max_degree - 2)
         elif kind == "split":
@@ -142,16 +143,17 @@ class _Sapling:
             possible = self._faces > 1 and self._can_finish(0, -1, 1, -2)
         if not possible:
             return False
+        # A split that prepares a missing handle is taken back if no cross is possible after it.
         careful = self._genus_first and kind == "split" and self._genus < self._shape.min_genus
         for near, far in self._moves(kind, place):
-            books = self._books() if careful else None
+            before = self._state() if careful else None
             if kind == "leaf":
                 self._leaf(near)
             else:
                 self._join(near, far, across=kind == "cross")
-            if books is None or any(True for _ in self._moves("cross", 0)):
+            if before is None or any(True for _ in self._moves("cross", 0)):
                 return True
-            self._restore(books)
+            self._restore(before)
         return False
 
     def _can_finish(self, vertices: int, faces: int, genus: int, room: int) -> bool:
@@ -167,7 +169,7 @@ class _Sapling:
     # ------------------------------------------------------------ where an edge may go
 
     def _moves(self, kind: EdgeKind, place: int) -> Iterator[tuple[Dart, Dart]]:
-        """The corners where an edge of this kind may begin and end, those at this place first."""
+        """The pairs of corners that an edge of this kind may join, from this place on."""
         darts = len(self._sigma)
         if not darts:
             if kind == "leaf" or self._may_join(0, 0):
@@ -208,10 +210,10 @@ class _Sapling:
             and self._joins.get((min(u, v), max(u, v)), 0) < self._shape.max_parallel
         )
 
-    # ------------------------------------------------------------ how it grows
+    # ------------------------------------------------------------ growth
 
     def _insert(self, corner: Dart, dart: Dart) -> None:
-        """Put the dart, which is the next one, into the corner."""
+        """Put a new dart, the next in number, into the corner."""
         self._sigma.append(self._sigma[corner])
         self._sigma[corner] = dart
 
@@ -256,7 +258,7 @@ class _Sapling:
         self._count_join(u, v)
 
     def _label(self, dart: Dart, face: int) -> None:
-        """Name the face of this dart: the new one of a split, all of what a cross made one."""
+        """Label the darts along the face of this dart, which a split or a cross has changed."""
         first = dart
         while True:
             self._face[dart] = face
@@ -269,14 +271,14 @@ class _Sapling:
             ends = (min(u, v), max(u, v))
             self._joins[ends] = self._joins.get(ends, 0) + 1
 
-    # ------------------------------------------------------------ how it is tried out
+    # ------------------------------------------------------------ trying an edge out
 
-    def _books(self) -> dict[str, Any]:
-        """Everything that changes, as it stands."""
+    def _state(self) -> dict[str, Any]:
+        """A copy of everything that changes."""
         return {name: copy(value) for name, value in vars(self).items() if name != "_shape"}
 
-    def _restore(self, books: dict[str, Any]) -> None:
-        vars(self).update(books)
+    def _restore(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
 
 
 def _from_place(corners: list[Dart], place: int) -> list[Dart]:
@@ -288,9 +290,9 @@ def _from_place(corners: list[Dart], place: int) -> list[Dart]:
 
 
 def nth(place: int, corners: int) -> int:
-    """The number of one of so many corners: the place itself, as many of its low bits as there fit.
+    """Which of so many corners the place means: as many of its low bits as fit.
 
-    So it stays the same while corners that come after it go away.
+    The answer stays the same while later corners disappear, as they do when Hypothesis shrinks.
     """
     bits = (corners - 1).bit_length()
     number = place & ((1 << bits) - 1)

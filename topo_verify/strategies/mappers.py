@@ -1,11 +1,11 @@
-"""Algorithms of the catalogue, with all the policies that the paper leaves open.
+"""Draws algorithms of the catalogue, with all the policies that the paper leaves open.
 
     strategy   draws                                          its simplest value
     policies   which edge next, which hypothesis first        nearest, shortest: the reference
     mappers    an algorithm of the catalogue with policies    basic with the reference policies
 
-Every claim holds for every one of them (of those that assume nothing of the world, in every world),
-so a test of a claim may draw any.
+Every claim holds for every mapper drawn, so a test of a claim may draw any. (Those that assume a
+planar world are drawn on request only.)
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def policies(*, random: bool = True) -> SearchStrategy[Policies]:
     """Pick and order, by name.
 
     Args:
-        random: also `random(seed)`.
+        random: also draw `random(seed)`.
     """
     return st.builds(Policies, pick=_named(PICKS, random), order=_named(ORDERS, random))
 
@@ -43,7 +43,7 @@ def mappers(
     Args:
         algorithms: names; all of the catalogue if None.
         policies: which ones; all if None. `st.just(Policies())` for the reference policies.
-        planar: where none are named: also those that assume a planar world, and err in others.
+        planar: if no algorithms are named, also draw those that are right in planar worlds only.
     Raises:
         InputError: no such algorithm, or none at all.
     """

@@ -1,4 +1,4 @@
-"""What a property test says of its runs: notes for the failing one, features for all of them.
+"""Reports runs to Hypothesis: a note for the failing example, features for every example.
 
     @given(world=worlds(max_edges=30), mapper=mappers())
     def test_cost_is_honest(world, mapper):
@@ -6,13 +6,13 @@
         observe(run)
         assert run.map.cost == run.cost
 
-Of the failing example Hypothesis then prints the line
+Hypothesis then prints this line for the failing example:
 
     enhancement-ii (pick nearest, order shortest) in m4/17: 12 edge traversals
 
 With Hypothesis's own observability switch on (`HYPOTHESIS_EXPERIMENTAL_OBSERVABILITY=1`), every run
-carries the features `edges`, `genus`, `cost` and `loop closings` into what it writes under
-`.hypothesis/observed`. With it off they are not even computed.
+carries the features `edges`, `genus`, `cost` and `loop closings` into the files that Hypothesis
+writes under `.hypothesis/observed`. Without it they are not computed.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class ObservedRun(Protocol):
 
     @property
     def world(self) -> World:
-        """Where."""
+        """The world that was explored."""
         ...
 
     @property
@@ -42,22 +42,22 @@ class ObservedRun(Protocol):
 
     @property
     def policies(self) -> Policies | None:
-        """Its policies, where they are known."""
+        """The mapper's policies; None if it has none."""
         ...
 
     @property
     def cost(self) -> int:
-        """Edge traversals."""
+        """The number of edge traversals."""
         ...
 
     @property
     def trace(self) -> Trace:
-        """Everything that happened."""
+        """All events of the run."""
         ...
 
 
 def observe(run: ObservedRun) -> None:
-    """Tell Hypothesis what this run was. Outside of a test of Hypothesis: nothing."""
+    """Note the run in Hypothesis. Does nothing outside of a test of Hypothesis."""
     if not currently_in_test_context():
         return
     note(describe(run))
@@ -69,7 +69,7 @@ def observe(run: ObservedRun) -> None:
 def describe(run: ObservedRun) -> str:
     """Algorithm, policies, world and cost in one line.
 
-    A world that has an id is called by it; a larger one by its JSON, which `World.from_json` reads.
+    The world is named by its id; a world too large for an id by its JSON (`World.from_json`).
     """
     world = run.world.id if len(run.world.edges) <= MAX_ID_EDGES else run.world.to_json()
     chosen = run.policies
@@ -78,7 +78,7 @@ def describe(run: ObservedRun) -> str:
 
 
 def features(run: ObservedRun) -> dict[str, int]:
-    """What the viewers of Hypothesis's observations can sort runs by."""
+    """The numbers by which viewers of Hypothesis's observations can sort runs."""
     loops = sum(isinstance(event, Augment) and event.kind == "loop" for event in run.trace)
     return {
         "edges": len(run.world.edges),

@@ -1,4 +1,4 @@
-"""What Hypothesis learns of topo_verify as soon as both are installed.
+"""Registers the type `World` and two profiles with Hypothesis, as soon as both are installed.
 
     st.from_type(World)   draws from `worlds()`, so World may stand in any annotation
     topo-ci               a profile: the same examples everywhere, no deadline
@@ -18,7 +18,7 @@ from topo_verify.world.rooted_map import World
 
 
 def register() -> None:
-    """Register the type and the profiles. Twice does no harm."""
+    """Register the type and the profiles. A second call changes nothing."""
     st.register_type_strategy(World, _worlds)
     settings.register_profile(
         "topo-ci",
@@ -26,7 +26,7 @@ def register() -> None:
         derandomize=True,
         deadline=None,
         print_blob=True,
-        # How fast examples come depends on the machine, not on the code's worth.
+        # How fast examples are drawn depends on the load of the machine, not on the code.
         suppress_health_check=[HealthCheck.too_slow],
     )
     settings.register_profile(

@@ -1,7 +1,7 @@
-"""What a strategy is called on a command line: `planar_worlds(max_edges=20, simple=True)`.
+"""Resolves a strategy on a command line, such as `planar_worlds(max_edges=20, simple=True)`.
 
-A name alone is the strategy with its widest arguments; only `uniform_worlds` must be told how many
-edges. The text is taken apart in `topo_verify.world.calls`, never run by Python.
+A name alone is the strategy with its widest arguments; only `uniform_worlds` needs an argument, the
+number of edges. `topo_verify.world.calls` parses the text; it is never run as Python.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def resolve_strategy(text: str) -> SearchStrategy[World]:
     """The strategy that the text names.
 
     Raises:
-        InputError: there is none of that name, its arguments do not fit, or no world keeps them.
+        InputError: no strategy has that name, or its arguments do not fit or admit no world.
     Example:
         >>> from hypothesis import find
         >>> find(resolve_strategy("nonplanar_worlds(genus=2)"), lambda world: True).genus

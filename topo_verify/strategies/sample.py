@@ -1,11 +1,11 @@
-"""Worlds drawn from a strategy outside of any test: the same ones for the same seed, everywhere.
+"""Draws worlds from a strategy outside of any test: the same ones for the same seed, everywhere.
 
-Hypothesis draws no two equal examples in one go and ends when a strategy has no more; so where more
-are wanted than one go yields, it is asked again under the next seed, and worlds come twice.
+Hypothesis draws no two equal examples in one run and stops when a strategy has no more. If one run
+yields too few, another follows under the next seed, and worlds occur twice.
 
-What this does not show: the worlds are what Hypothesis makes of the strategy, simple ones first and
-variants of those it has drawn. They are not evenly spread: for that, draw `uniform_worlds`. Another
-version of Hypothesis may draw others.
+What this does not show: the worlds are not evenly spread. Hypothesis draws simple ones first and
+then variants of those it has drawn; draw `uniform_worlds` for an even spread. Another version of
+Hypothesis may draw other worlds.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from topo_verify.world.rooted_map import World
 
 
 def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> list[World]:
-    """So many worlds of the strategy.
+    """This many worlds of the strategy.
 
     Args:
         start: the seed.
@@ -26,13 +26,13 @@ def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> l
     """
     drawn: list[World] = []
     while len(drawn) < number:
-        drawn += _go(strategy, number - len(drawn), start)
+        drawn += _one_run(strategy, number - len(drawn), start)
         start += 1
     return drawn
 
 
-def _go(strategy: SearchStrategy[World], number: int, start: int) -> list[World]:
-    """At most so many worlds, all different choices, one at least."""
+def _one_run(strategy: SearchStrategy[World], number: int, start: int) -> list[World]:
+    """The worlds of one run of Hypothesis: 1 to `number`, all of different choices."""
     drawn: list[World] = []
 
     @seed(start)

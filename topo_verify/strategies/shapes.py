@@ -1,30 +1,30 @@
-"""What a strategy is asked for: bounds on a world, and whether any world keeps them.
+"""Bounds on the worlds of a strategy, and whether any world keeps them.
 
-The arguments, which mean the same wherever they occur:
+These arguments mean the same in every strategy:
 
-    min_edges, max_edges   the number of edges m. From 0 to 200 if nothing is said: 200 is the most
-                           that has a one-line id, so every failing example prints one
+    min_edges, max_edges   the number of edges m; default: 0 to 200. A world with 200 edges still
+                           has a one-line id, so every failing example prints one
     min_genus, max_genus   the genus g of the surface; from 0 up
     simple                 neither loops nor parallel edges
     loopless               no loops
     max_degree             no vertex has more exits than this
     marker                 where the marker lies: "any" exit; "leaf", at a dead end, where its
                            direction says nothing; "hub", at a vertex of the greatest degree, where
-                           it says most. The world with no edge has no marker, and is no "leaf"
+                           it says most. The world with no edge has no marker, so "leaf" excludes it
 
 Worlds are grown edge by edge: a **leaf** is a new vertex on a new edge; a **split** joins two
 corners of one face (one face more); a **cross** joins corners of two faces (one face less, the
 genus one more). Splits and crosses together are **closings**: they close cycles. `can_finish` tells
-whether a half-grown map may still become what was asked for. It is a necessary condition, read off
-the counts alone:
+whether a half-grown map may still be finished within the bounds. The condition is necessary and
+uses counts alone:
 
-    closings  a missing genus takes one cross each, and a split first where there is one face
-    leaves    the more of the edges to come are leaves, the easier is all the rest
+    closings  each missing handle takes a cross, and a split before it if there is one face
+    leaves    all edges to come that need not be closings are counted as leaves: that is best
     room      the free places at vertices: a leaf takes one and brings max_degree - 1, a closing two
     capacity  the edges that so many vertices can carry, if loops or parallels are forbidden
 
-What this does not show: that a world exists wherever it says yes. Without `max_degree` it does
-(one-faced graphs of diameter two: M. Škoviera, "The maximum genus of graphs of diameter two",
+What this does not show: that a world exists wherever the answer is yes. Without `max_degree` one
+does (one-faced graphs of diameter two: M. Škoviera, "The maximum genus of graphs of diameter two",
 Discrete Math. 87 (1991)); with it, the tests compare with all worlds up to 6 edges.
 """
 
@@ -41,18 +41,18 @@ from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 MarkerPlace = Literal["any", "leaf", "hub"]
 
 WIDEST = MAX_ID_EDGES
-"""max_edges where nothing is said."""
+"""The default of max_edges."""
 
 LARGEST = 2000
-"""max_edges at most: Hypothesis has 8 KiB of choices for one example, this takes half of it."""
+"""The greatest max_edges: Hypothesis allows 8 KiB of choices an example, this takes half."""
 
 MANY = 10**9
-"""No bound."""
+"""Stands for no bound."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Shape:
-    """Bounds that a grown map keeps. The edges are counted apart: they are drawn first.
+    """Bounds that a grown map keeps. The number of edges is not among them: it is drawn first.
 
     Attributes:
         max_parallel, max_loops: edges between two vertices, and from one vertex to itself.
@@ -78,7 +78,7 @@ class Shape:
         return min(1, self.max_degree) if self.leaf else self.max_degree
 
     def at(self, edges: int) -> Shape:
-        """The same for a known number of edges: how many vertices are few enough to be dense."""
+        """The same bounds for this number of edges: if dense, with the most vertices it allows."""
         if not self.dense:
             return self
         return replace(self, max_vertices=(1 + isqrt(1 + 16 * edges)) // 2)
@@ -92,9 +92,9 @@ class Shape:
     def can_finish(
         self, *, edges: int, left: int, vertices: int, faces: int, genus: int, room: int
     ) -> bool:
-        """May a map of which `left` of all `edges` are still to come keep all the bounds?
+        """Can a map keep all the bounds if `left` of its `edges` are still to come?
 
-        Only the counts are looked at: yes may be wrong, no is right.
+        The answer uses counts alone: no is always right, yes may be wrong.
         """
         missing = max(0, self.min_genus - genus)
         cycles = edges - left - vertices + 1
@@ -110,7 +110,7 @@ class Shape:
         )
 
     def is_possible(self, edges: int) -> bool:
-        """May there be a world with so many edges? No is right; on yes see above."""
+        """Can a world have this many edges? No is always right, yes may be wrong."""
         if self.leaf and not edges:
             return False
         return self.at(edges).can_finish(
@@ -121,7 +121,7 @@ class Shape:
         """The least and the greatest number of edges within these bounds that is possible.
 
         Raises:
-            InputError: none is; the sentence says how many edges it takes.
+            InputError: none is possible; the sentence says how many edges it takes.
         """
         # Possible numbers of edges have no gaps, and go on for ever unless degrees end them.
         for least in range(min_edges, max_edges + 1):
@@ -147,11 +147,11 @@ class Shape:
         return f"<{self}>"
 
     def _repr_pretty_(self, printer: Any, _cycle: bool) -> None:  # noqa: FBT001  IPython's protocol
-        """What Hypothesis prints of a strategy."""
+        """The text that Hypothesis prints in the name of a strategy."""
         printer.text(repr(self))
 
     def __str__(self) -> str:
-        """The bounds in words, those that say something."""
+        """The bounds in words, without those that are not set."""
         words = [f"genus {_range(self.min_genus, self.max_genus)}"] * (
             self.min_genus > 0 or self.max_genus < MANY
         )
@@ -171,14 +171,14 @@ def _range(least: int, most: int) -> str:
     return f"{least} or more" if most >= MANY else f"{least} to {most}"
 
 
-# ---------------------------------------------------------------- arguments at the door
+# ---------------------------------------------------------------- checks of arguments
 
 
 def edge_bounds(strategy: str, min_edges: object, max_edges: object) -> tuple[int, int]:
     """The bounds as plain integers in order.
 
     Raises:
-        InputError: one is no number of edges, or the least is above the greatest.
+        InputError: one is not a number of edges, or the least is above the greatest.
     """
     least = integer(strategy, "min_edges", min_edges)
     most = integer(strategy, "max_edges", max_edges)
@@ -229,14 +229,14 @@ def degree_bound(strategy: str, max_degree: object) -> int:
 
 
 def integer(strategy: str, name: str, value: object) -> int:
-    """The value as a plain integer, once it is sure that it is one and not negative."""
+    """The value as a plain integer; refuses what is not one, or is negative."""
     if isinstance(value, SupportsIndex) and not isinstance(value, bool) and index(value) >= 0:
         return index(value)
     raise InputError(f"{strategy}: {name}={value!r}, expected an integer of 0 or more")
 
 
 def require_marker(strategy: str, marker: str, known: tuple[str, ...]) -> None:
-    """Is this one of the places where the strategy puts markers?"""
+    """Refuse a place where the strategy puts no markers."""
     if marker not in known:
         places = ", ".join(map(repr, known))
         raise InputError(f"{strategy}: marker={marker!r}, expected one of {places}")

@@ -1,4 +1,4 @@
-"""Worlds in which many places look alike: the hard case, for a marker is all that tells them apart.
+"""Worlds in which many places look alike, so that the marker alone tells them apart.
 
     strategy           draws                                     its simplest world
     symmetric_worlds   covers of small maps, all places of       m0/0: one vertex, nothing else
@@ -51,7 +51,7 @@ _FIRST = st.sampled_from(
 )
 
 _NUMBERS = 8
-"""How many bytes lay the edges in place, at least; behind the last it goes on with the first."""
+"""The least number of bytes that place the edges; after the last, the first is read again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,7 @@ class _CoverSizes:
 
 @dataclass(frozen=True, slots=True)
 class Small:
-    """What the sheets are copies of.
+    """The small map that every sheet is a copy of.
 
     Attributes:
         alpha: the other dart of each dart's edge; itself, if it is half an edge.
@@ -98,8 +98,7 @@ def symmetric_worlds(
 
     Shrinks to few edges, then to rosettes, then to few sheets.
 
-    Args: what they mean stands in `topo_verify.strategies.shapes`. For the genus, filter: it comes
-        out as it may.
+    Args: see `topo_verify.strategies.shapes`. The genus cannot be chosen: filter for it.
     Raises:
         InputError: no rosette and no necklace keeps all the bounds.
     """
@@ -139,7 +138,7 @@ def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Mar
 
 
 def cover(small: Small, sheets: int, root: Dart) -> World:
-    """So many sheets, joined by the shifts; the marker on sheet 0."""
+    """The world of so many sheets, joined by the shifts, with the marker on sheet 0."""
     darts = len(small.alpha)
     alpha = [
         (sheet + small.shift[dart]) % sheets * darts + small.alpha[dart]
@@ -150,7 +149,7 @@ def cover(small: Small, sheets: int, root: Dart) -> World:
     return World(tuple(alpha), tuple(sigma), root)
 
 
-# ---------------------------------------------------------------- which sizes there are
+# ---------------------------------------------------------------- sizes
 
 
 @lru_cache(maxsize=256)
@@ -175,7 +174,7 @@ def _drawn(sheets: dict[int, list[int]]) -> _CoverSizes | None:
 
 
 def _is_rosette(shape: Shape, sheets: int, darts: int) -> bool:
-    """Is there a connected one with so many darts, one or more, that keeps the bounds?"""
+    """Is there a connected rosette with so many darts, 1 or more, within the bounds?"""
     if darts == 1:
         return sheets == 2
     if shape.leaf or sheets * darts % 2:
@@ -186,17 +185,20 @@ def _is_rosette(shape: Shape, sheets: int, darts: int) -> bool:
 
 
 def _bead(shape: Shape, sheets: int) -> Shape:
-    """What a bead must be, so that its cover keeps the bounds: edges are told apart by shifts."""
+    """The bounds on a bead whose cover keeps the bounds of the shape.
+
+    Parallel edges and loops of the bead come apart in the cover if their shifts differ.
+    """
     if shape.max_parallel == 1:
         return replace(shape, min_cycles=1, max_parallel=sheets, max_loops=(sheets - 1) // 2)
     return replace(shape, min_cycles=1, max_loops=MANY)
 
 
-# ---------------------------------------------------------------- what the sheets are
+# ---------------------------------------------------------------- small maps
 
 
 def rosette(shape: Shape, sheets: int, darts: int, drawn: Iterator[int]) -> Small:
-    """One vertex with so many darts: half edges, then whole ones, each laid in place by numbers.
+    """One vertex with so many darts: half edges, then whole ones, placed by the numbers drawn.
 
     The first whole edge shifts by 1, which joins all sheets.
     """
@@ -254,5 +256,5 @@ def necklace(shape: Shape, sheets: int, bead: Grown, drawn: Iterator[int]) -> Sm
 
 
 def _free_shift(shape: Shape, sheets: int, number: int) -> int:
-    """The shift of a loop; not 0 where it must not become a loop again."""
+    """The shift of a loop; not 0 if the cover may have no loops."""
     return number % sheets if shape.max_loops > 0 else 1 + number % (sheets - 1)

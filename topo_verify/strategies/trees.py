@@ -3,7 +3,7 @@
     strategy      draws                                        its simplest world
     tree_worlds   every plane tree within the bounds           m0/0: one vertex, nothing else
 
-Whatever a mapper confirms in one of them, it confirms falsely.
+So whatever a mapper confirms in a tree is false.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def tree_worlds(
 ) -> SearchStrategy[World]:
     """Every plane tree within the bounds. Shrinks to few edges, and stars.
 
-    Args: what they mean stands in `topo_verify.strategies.shapes`.
+    Args: see `topo_verify.strategies.shapes`.
     Raises:
         InputError: no tree keeps all the bounds.
     """

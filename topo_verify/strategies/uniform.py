@@ -1,8 +1,8 @@
-"""Uniform worlds: each world with so many edges as likely as any other.
+"""Uniform worlds: all worlds with a given number of edges are equally likely.
 
     strategy         draws                                     its simplest world
-    uniform_worlds   all worlds with so many edges, evenly     rank 0: m<edges>/0, the marker at
-                                                               the end of a path of loops
+    uniform_worlds   all worlds with so many edges, evenly     m<edges>/0: a path, the marker at
+                                                               its end
 
 Hypothesis does not draw large integers evenly: it prefers small ones, and those near the bounds. It
 does draw bytes evenly. So a rank is drawn as bytes, 8 more than its own length, and scaled down:
@@ -22,7 +22,7 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 _SPARE = 8
-"""So many bytes more than the rank needs."""
+"""How many more bytes are drawn than the rank needs."""
 
 
 def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
@@ -31,11 +31,11 @@ def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
     Args:
         edges: how many; 200 at most, as for ids.
     Raises:
-        InputError: this is no such number of edges.
+        InputError: `edges` is not an integer from 0 to 200.
     """
     edges = integer("uniform_worlds", "edges", edges)
     if edges > WIDEST:
-        raise InputError(f"uniform_worlds: edges={edges}, but ranks go up to {WIDEST} edges")
+        raise InputError(f"uniform_worlds: expected at most {WIDEST} edges, got {edges}")
     total = rank_order.count(edges)
     length = (total.bit_length() + 7) // 8 + _SPARE
 
@@ -46,5 +46,5 @@ def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
 
 
 def rank(drawn: bytes, total: int) -> int:
-    """The rank that these bytes mean among `total`; never less for greater bytes."""
+    """The rank below `total` that these bytes stand for; it grows with them."""
     return int.from_bytes(drawn) * total >> 8 * len(drawn)

@@ -1,7 +1,7 @@
-"""Worlds: what they are, how many there are, where they come from. Trusted.
+"""Worlds: rooted maps, their enumeration, families and file formats.
 
-A robot and a mapper never see this package; checkers, searches and commands all speak of its
-`World`.
+`rooted_map.py` and `enumeration/` are trusted. Robots hide worlds from mappers; checkers, searches
+and commands all share this `World`.
 """
 
 from topo_verify.world import families, io
@@ -9,12 +9,14 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 # rooted_map.py         World: rotations and a marker; faces, genus, canonical code, ids
-# validation.py         what is no world, and why
-# enumeration/          every world of a size or a class: counted, listed in order, ranked, drawn
+# validation.py         refuses rotations, edges and markers that do not make a world
+# least_cost.py         the least cost of proving a world's map
+# enumeration/          every world of a size or a class: counted, listed in order, ranked, sampled
 # families/             lattices, tori, solids, shapes, random graphs and maps
 # formats/              world JSON, planar_code, NetworkX, GraphML, SUMO: one file a format
-# io.py                 which format a file has
+# io.py                 reads and writes files; their names say the format
 # resolve.py            WORLD on a command line: a path, an id, family:…, nyc, -
+# calls.py              parses family:lattice(3,4) and the like
 # data/                 the street network that comes with the package
 
 World.formats = io

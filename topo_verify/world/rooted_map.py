@@ -60,8 +60,8 @@ class World:
         name, vertex_names, positions, source, licence: carried along, not compared. Positions are
             (x, y) per vertex with y upwards.
     Raises:
-        InputError: alpha is no involution or has a fixed point, sigma is no permutation, the map is
-            not connected, the marker is out of range …; the sentence names the dart.
+        InputError: alpha is not an involution without fixed point, sigma is not a permutation, the
+            map is not connected, or the marker is out of range; the sentence names the dart.
     Complexity: O(m).
     """
 
@@ -89,7 +89,7 @@ class World:
             )
         validation.require_one_each(len(self.vertices), self.vertex_names, self.positions)
 
-    # ------------------------------------------------------------ other ways to make one
+    # ------------------------------------------------------------ constructors, files
 
     @classmethod
     def from_rotations(
@@ -99,7 +99,7 @@ class World:
         marker: int | None,
         **about: Any,
     ) -> Self:
-        """The world in the words of the world file: rotations, pairs of darts, the marked dart.
+        """The world given as in a world file: rotations, pairs of darts and the marked dart.
 
         Darts may be any distinct integers; they are renumbered 0 … 2m-1 in ascending order (so they
         keep their numbers if they are 0 … 2m-1). The order of the vertices is kept.
@@ -136,7 +136,7 @@ class World:
         """The world that a map describes: `vertices`, `edges`, `marker` as attributes or as keys.
 
         Raises:
-            InputError: one of the three is missing or malformed, or together they are no world.
+            InputError: one of the three is missing or malformed, or they do not make a world.
         """
         return cls.from_rotations(*validation.map_parts(map_like))
 
@@ -156,7 +156,7 @@ class World:
         """The world with this id, `m<edges>/<rank>`; the inverse of `id`.
 
         Raises:
-            InputError: the text is no id, the rank is out of range, or more than 200 edges.
+            InputError: the text is not an id, the rank is out of range, or more than 200 edges.
         """
         return cls.from_code(rank_order.unrank(*rank_order.id_parts(text)), name=text)
 
@@ -167,7 +167,7 @@ class World:
         Args:
             graph: which of several graphs in a file of planar_code, counted from 0.
         Raises:
-            InputError: the file cannot be read, or is no world; one sentence says where and why.
+            InputError: the file cannot be read, or holds no world; the sentence says where and why.
         """
         return cls.formats.load(cls, path, graph=graph)
 
@@ -185,10 +185,10 @@ class World:
         return self.formats.encode(self)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write world JSON; what the file held before is replaced at once or not at all."""
+        """Write world JSON. The file is replaced at once or, if anything fails, not at all."""
         self.formats.save(self, path)
 
-    # ------------------------------------------------------------ what it is made of
+    # ------------------------------------------------------------ structure
 
     @cached_property
     def vertices(self) -> tuple[tuple[Dart, ...], ...]:
@@ -204,7 +204,7 @@ class World:
 
     @property
     def marker(self) -> Dart | None:
-        """The dart that the marker points at: `root` in the words of the world file."""
+        """The dart that the marker points at: another name of `root`, used in world files."""
         return self.root
 
     @cached_property
@@ -249,7 +249,7 @@ class World:
 
     @property
     def is_planar(self) -> bool:
-        """Is this an embedding in the sphere? The graph may have other embeddings."""
+        """Is the surface a sphere? The same graph may have embeddings in other surfaces."""
         return self.genus == 0
 
     @cached_property
@@ -273,7 +273,7 @@ class World:
         """The fewest edge traversals of a mapper that is right in all worlds: `least_cost.py`."""
         return least_cost(self.code)
 
-    # ------------------------------------------------------------ which world it is
+    # ------------------------------------------------------------ identity
 
     @cached_property
     def _discovery(self) -> tuple[tuple[Dart, ...], tuple[int, ...]]:

@@ -1,6 +1,7 @@
-"""What makes a world no world: every way, with a sentence that names the dart.
+"""Checks that rotations, edges and a marker make a world, and refuses what does not.
 
-The functions raise `InputError` or return; nothing is repaired and nothing is guessed.
+Each refusal is an `InputError` that names the dart. Nothing is repaired and nothing is guessed,
+because a world that differs from what its writer meant makes every result about it worthless.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from topo_verify.errors import InputError
 
 
 def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int | None) -> None:
-    """Are these an involution without fixed point, a permutation and one of their darts?"""
+    """Refuse all but an involution without fixed point, a permutation and one of their darts."""
     darts = len(alpha)
     if len(sigma) != darts or darts % 2:
         raise InputError(
@@ -74,7 +75,7 @@ def require_one_each(
 
 
 def numbering(rotations: Sequence[Sequence[int]], pairs: Sequence[Sequence[int]]) -> dict[int, int]:
-    """The number of each dart, in ascending order, if each has one vertex and one edge."""
+    """The number of each dart, ascending; refuses darts without exactly one vertex and one edge."""
     vertex: dict[int, int] = {}
     for place, rotation in enumerate(rotations):
         if not rotation and len(rotations) > 1:
@@ -108,19 +109,19 @@ def numbering(rotations: Sequence[Sequence[int]], pairs: Sequence[Sequence[int]]
 
 
 def map_parts(map_like: object) -> tuple[list[list[int]], list[list[int]], int | None]:
-    """The vertices, edges and marker of anything that has them, as attributes or as keys."""
+    """The vertices, edges and marker of any object that has them, as attributes or as keys."""
     vertices, edges, marker = (_part(map_like, name) for name in ("vertices", "edges", "marker"))
     dart = None if marker is None else _integer(marker)
     if marker is not None and dart is None:
         raise InputError(
-            f"the map's 'marker' is of type {type(marker).__name__}: it is a dart (an integer of at"
-            " most 64 bits) or None"
+            "expected a dart (an integer of at most 64 bits) or None as the map's 'marker', got a"
+            f" {type(marker).__name__}"
         )
     return _rows("vertices", vertices), _rows("edges", edges), dart
 
 
 def optional_part(map_like: object, name: str, default: Any = None) -> Any:
-    """What a map has under this name, as an attribute or as a key; if nothing, the default."""
+    """A map's attribute or key of this name; the default if it has neither."""
     if isinstance(map_like, Mapping):
         return cast("Mapping[str, Any]", map_like).get(name, default)
     return getattr(map_like, name, default)
@@ -133,8 +134,8 @@ def _part(map_like: object, name: str) -> Any:
     part = optional_part(map_like, name, _MISSING)
     if part is _MISSING:
         raise InputError(
-            f"{type(map_like).__name__} is no map: it has no {name!r}; a map has vertices, edges"
-            " and marker, as attributes or as keys"
+            f"{type(map_like).__name__} has no {name!r}; expected a map with vertices, edges and"
+            " marker, as attributes or as keys"
         )
     return part
 
@@ -142,37 +143,39 @@ def _part(map_like: object, name: str) -> Any:
 def _rows(name: str, value: object) -> list[list[int]]:
     given = _items(value)
     if given is None:
-        raise InputError(f"the map's {name!r} is no list of lists of darts")
+        seen = type(value).__name__
+        raise InputError(f"expected a list of lists of darts as the map's {name!r}, got a {seen}")
     rows: list[list[int]] = []
     for place, row in enumerate(given):
         items = None if name == "vertices" and isinstance(row, AbstractSet) else _items(row)
         darts = [dart for item in items or () if (dart := _integer(item)) is not None]
         if items is None or len(darts) < len(items):
             raise InputError(
-                f"the map's {name}[{place}] is no list of darts (integers of at most 64 bits)"
+                f"expected a list of darts (integers of at most 64 bits) as the map's"
+                f" {name}[{place}]"
             )
         rows.append(darts)
     return rows
 
 
 def _items(value: object) -> list[Any] | None:
-    """What is in a list or its like; None where it is no list or may have no end."""
+    """The items of a list or another sized collection; None for anything else."""
     if isinstance(value, (tuple, list)):  # nearly always
         return list(cast("Iterable[Any]", value))
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Sized):
         return None
-    with suppress(TypeError):  # an array without a dimension looks like a list and is none
+    with suppress(TypeError):  # an array without a dimension has a length and no items
         return list(cast("Iterable[Any]", value))
     return None
 
 
 def _integer(value: object) -> int | None:
-    """The value as an int; None where it is none, or longer than a message could show."""
+    """The value as an int; None if it is not an integer, or longer than a message could show."""
     if type(value) is int:  # nearly always, and no bool
         return value if value.bit_length() <= 64 else None
     if isinstance(value, bool) or not hasattr(value, "__index__"):  # quick, unlike SupportsIndex
         return None
-    with suppress(TypeError):  # an array of one number looks like an integer and may be none
+    with suppress(TypeError):  # an array of one float has `__index__` and refuses
         number = index(cast("SupportsIndex", value))
         return number if number.bit_length() <= 64 else None
     return None

@@ -102,7 +102,7 @@ def test_keys_have_defaults_and_may_be_for_all() -> None:
     ("old", "new", "sentence"),
     [
         (b"<graphml", b"<!DOCTYPE graphml><graphml", "has a document type"),
-        (b"</graphml>", b"", "is no valid XML"),
+        (b"</graphml>", b"", "is not valid XML"),
         (b'for="node" attr.name="x"', b'for="node" attr.name="lon"', "node '11' has no 'x'"),
         (b'<data key="d4">40.1</data>', b"", "node '13' has no 'y': the rotation comes from"),
         (b"40.1", b"north", "node '13', y is 'north', expected a number"),
@@ -111,8 +111,8 @@ def test_keys_have_defaults_and_may_be_for_all() -> None:
         (b'"d4">40.1', b'"d5">40.1', "node '13' has 'x' twice"),
         (b'node id="12"', b'node id="11"', "node '11' stands there twice"),
         (b'node id="12"', b"node", "node '' has no id"),
-        (b'target="12" id="1"', b'target="99" id="1"', "edge '11 99 1' joins what is no node"),
-        (b'target="12" id="1"', b'id="1"', "edge '11 1' joins what is no node"),
+        (b'target="12" id="1"', b'target="99" id="1"', "edge '11 99 1': expected the ids"),
+        (b'target="12" id="1"', b'id="1"', "edge '11 1': expected the ids of two nodes"),
         (b"LINESTRING (-73.0 40.0", b"LINESTRING (-73.0", "edge '11 12 0', geometry has a point"),
         (b"LINESTRING (-73.0 40.0", b"POINT (", "edge '11 12 0', geometry is 'POINT"),
         (b"</graph>", b"</graph><graph/>", "holds several graphs"),
@@ -135,8 +135,8 @@ def test_what_is_wrong_is_named_with_its_place(old: bytes, new: bytes, sentence:
 @pytest.mark.parametrize(
     ("data", "sentence"),
     [
-        (b"", "is no valid XML"),
-        (b"<svg/>", "is no GraphML: its first element is not <graphml>"),
+        (b"", "is not valid XML"),
+        (b"<svg/>", "expected GraphML, whose first element is <graphml>"),
         (b"<graphml/>", "has no vertex"),
         (b"<graphml><graph/></graphml>", "has no vertex"),
     ],

@@ -60,7 +60,7 @@ def test_a_document_type_is_refused_before_anything_expands(data: bytes) -> None
 @pytest.mark.parametrize(
     ("data", "sentence"),
     [
-        (b"", "the file is no valid XML: no element found: line 1, column 0"),
+        (b"", "the file is not valid XML: no element found: line 1, column 0"),
         (b"{}", "not well-formed"),
         (b"<a>", "no element found"),
         (b"<a></b>", "mismatched tag"),

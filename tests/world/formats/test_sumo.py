@@ -76,14 +76,14 @@ def test_an_id_with_a_minus_is_the_way_back_only_between_the_same_junctions() ->
     ("old", "new", "sentence"),
     [
         (b"<net ", b"<!DOCTYPE net [<!ENTITY a 'b'>]><net ", "has a document type"),
-        (b"</net>", b"", "is no valid XML"),
+        (b"</net>", b"", "is not valid XML"),
         (b'"N" type="dead_end" x="100.00"', b'"N" type="dead_end"', "junction 'N', x is ''"),
         (b'y="200.00"', b'y="up"', "junction 'N', y is 'up', expected a number"),
         (b'junction id="N"', b'junction id="W"', "junction 'W' stands there twice"),
         (b'junction id="N"', b"junction", "junction '' has no id"),
         (b'edge id="CW"', b'edge id="WC"', "edge 'WC' stands there twice"),
-        (b'from="E" to="N"', b'from="E"', "edge 'EN' joins what is no junction"),
-        (b'from="E" to="N"', b'from=":C_1" to="N"', "edge 'EN' joins what is no junction"),
+        (b'from="E" to="N"', b'from="E"', "edge 'EN': expected the ids of two junctions"),
+        (b'from="E" to="N"', b'from=":C_1" to="N"', "edge 'EN': expected the ids of two junctions"),
         (b"150.00,50.00,3.00", b"150.00", "edge 'CE', shape has a point of 1 coordinates"),
         (b"150.00,50.00,3.00", b"150.00,x", "edge 'CE', shape is 'x', expected a number"),
         (b'id="EN" from="E" to="N"', b'id="EN" from="E" to="E"', "begins a loop that is a single"),
@@ -105,9 +105,9 @@ def test_what_is_wrong_is_named_with_its_place(old: bytes, new: bytes, sentence:
 @pytest.mark.parametrize(
     ("data", "sentence"),
     [
-        (b"<additional/>", "is no SUMO network: its first element is not <net>"),
+        (b"<additional/>", "expected a SUMO network, whose first element is <net>"),
         (b"<net/>", "has no vertex"),
-        (b"\0\0", "is no valid XML"),
+        (b"\0\0", "is not valid XML"),
     ],
 )
 def test_what_is_no_network_is_refused(data: bytes, sentence: str) -> None:

@@ -171,18 +171,18 @@ def test_the_schema_refuses_what_the_reader_refuses() -> None:
     [
         ("", "world JSON is empty: a world is one JSON object"),
         (" \n", "world JSON is empty"),
-        (EDGE[:-1], "is no valid JSON: input data was truncated; a world is one JSON object"),
-        (EDGE + "{}", "is no valid JSON: trailing characters"),
-        (EDGE.replace("0", "00"), "is no valid JSON"),
-        (EDGE.replace("0]", "NaN]"), "is no valid JSON: invalid character"),
-        (EDGE.replace("0]", "Infinity]"), "is no valid JSON"),
+        (EDGE[:-1], "is not valid JSON: input data was truncated; a world is one JSON object"),
+        (EDGE + "{}", "is not valid JSON: trailing characters"),
+        (EDGE.replace("0", "00"), "is not valid JSON"),
+        (EDGE.replace("0]", "NaN]"), "is not valid JSON: invalid character"),
+        (EDGE.replace("0]", "Infinity]"), "is not valid JSON"),
         ("[" * 100_000, "expected `object`, got `array`; a world is one JSON object with no"),
-        ('{"a":' * 100_000, "world JSON is no world: its lists are nested too deeply"),
-        ('{"a":' + "[" * 100_000, "its lists are nested too deeply"),
-        ("{" + HEAD + ',"vertices":' + "[" * 100_000, "is no world|nested too deeply"),
+        ('{"a":' * 100_000, "expected a world, got lists that are nested too deeply"),
+        ('{"a":' + "[" * 100_000, "nested too deeply"),
+        ("{" + HEAD + ',"vertices":' + "[" * 100_000, "nested too deeply"),
         ("null", "expected `object`, got `null`"),
         ("7", "expected `object`, got `int`"),
-        ("'a'", "no valid JSON"),
+        ("'a'", "not valid JSON"),
     ],
     ids=lambda text: f"{text:.20}",
 )
@@ -194,12 +194,12 @@ def test_what_is_no_json_object_is_refused(text: str, sentence: str) -> None:
 
 @pytest.mark.parametrize("data", [b"\xff\xfe{\0}\0", b'{"name":"\xe4"}', b"\x80"])
 def test_what_is_no_utf_8_is_refused(data: bytes) -> None:
-    assert "is no UTF-8 text: 'utf-8' codec can't decode byte" in refusal_of(data)
+    assert "is not UTF-8 text: 'utf-8' codec can't decode byte" in refusal_of(data)
 
 
 def test_a_text_with_half_a_surrogate_pair_is_refused() -> None:
-    assert "is no UTF-8 text" in refusal_of(EDGE.replace("marker", "\ud800"))
-    assert "is no valid JSON" in refusal_of(EDGE.replace("{", '{"name":"\\ud800",'))
+    assert "is not UTF-8 text" in refusal_of(EDGE.replace("marker", "\ud800"))
+    assert "is not valid JSON" in refusal_of(EDGE.replace("{", '{"name":"\\ud800",'))
 
 
 def test_a_byte_order_mark_is_passed_over() -> None:
@@ -217,8 +217,12 @@ def test_a_large_text_is_refused_before_it_is_read(monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize(
     ("field", "value", "sentence"),
     [
-        ("format", "topo-verify/trace", " is no world: its 'format' is 'topo-verify/trace'"),
-        ("format", "a\nb" * 999, r" is no world: its 'format' is 'a\nba\nb"),
+        (
+            "format",
+            "topo-verify/trace",
+            ": expected the 'format' 'topo-verify/world', got 'topo-verify/trace'",
+        ),
+        ("format", "a\nb" * 999, r": expected the 'format' 'topo-verify/world', got 'a\nba\nb"),
         ("format", None, ", format: expected `str`, got `null`; 'format' is the name of this"),
         (
             "version",
@@ -306,7 +310,7 @@ def test_numbers_as_long_as_the_file_are_refused() -> None:
 def test_the_file_is_named_in_the_sentence(tmp_path: Path) -> None:
     file = tmp_path / "town.json"
     for text, place in (
-        ("{", "town.json is no valid"),
+        ("{", "town.json is not valid"),
         (doctored(marker="x"), "town.json, marker"),
     ):
         file.write_text(text)
@@ -319,9 +323,9 @@ def test_the_file_is_named_in_the_sentence(tmp_path: Path) -> None:
 
 def test_a_world_whose_texts_are_no_unicode_is_not_written(tmp_path: Path) -> None:
     world = World((), (), None, name="\ud800")
-    with pytest.raises(InputError, match="the world's texts are not all Unicode"):
+    with pytest.raises(InputError, match="expected Unicode in the world's name and texts"):
         world.to_json()
-    with pytest.raises(InputError, match="not all Unicode"):
+    with pytest.raises(InputError, match="expected Unicode"):
         world.save(tmp_path / "world.json")
     assert list(tmp_path.iterdir()) == []
 

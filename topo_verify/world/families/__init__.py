@@ -46,7 +46,7 @@ from topo_verify.world.rooted_map import World
 # random_maps.py    random_tree, random_planar, random_genus
 # shapes.py         path, cycle, star, wheel, prism
 # solids.py         tetrahedron, cube, octahedron, dodecahedron, icosahedron
-# _building.py      from a graph with exits in clockwise order to its world
+# _rotated_graph.py graphs with exits in clockwise order, and their worlds
 # _arguments.py     checks, limits, names
 
 FAMILIES: Mapping[str, Callable[..., World]] = {

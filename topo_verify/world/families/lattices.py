@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from random import Random
 
 from topo_verify.world.families import _arguments as arguments
-from topo_verify.world.families._building import EdgeEnd, Graph, as_world, with_holes
+from topo_verify.world.families._rotated_graph import EdgeEnd, Graph, as_world, with_holes
 from topo_verify.world.rooted_map import Dart, World
 
 _NORTH, _NORTH_EAST, _EAST, _SOUTH_EAST = (-1, 0), (-1, 1), (0, 1), (1, 1)

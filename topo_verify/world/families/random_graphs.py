@@ -8,7 +8,7 @@ from random import Random
 
 from topo_verify.errors import InputError
 from topo_verify.world.families import _arguments as arguments
-from topo_verify.world.families._building import (
+from topo_verify.world.families._rotated_graph import (
     EdgeEnd,
     Graph,
     as_world,

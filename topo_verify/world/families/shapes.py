@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from topo_verify.world.families import _arguments as arguments
-from topo_verify.world.families._building import EdgeEnd, Graph, as_world, from_neighbours
+from topo_verify.world.families._rotated_graph import EdgeEnd, Graph, as_world, from_neighbours
 from topo_verify.world.rooted_map import Dart, World
 
 

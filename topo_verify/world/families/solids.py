@@ -13,7 +13,7 @@ from __future__ import annotations
 from topo_verify.errors import InputError
 from topo_verify.world.families import _arguments as arguments
 from topo_verify.world.families import shapes
-from topo_verify.world.families._building import as_world, from_neighbours
+from topo_verify.world.families._rotated_graph import as_world, from_neighbours
 from topo_verify.world.rooted_map import Dart, World
 
 
@@ -21,7 +21,7 @@ def tetrahedron(*, marker: Dart | None = None) -> World:
     """4 vertices of degree 3, 6 edges, 4 triangles.
 
     Raises:
-        InputError: `marker` is no dart of it; so for the other four.
+        InputError: it has no dart `marker`; the same for the other four.
     """
     return _named("tetrahedron", shapes.wheel(3), marker)
 

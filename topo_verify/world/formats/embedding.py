@@ -1,12 +1,12 @@
-"""From a drawing to its world: places with coordinates, ways between them with their courses.
+"""Makes a world of a drawing: vertices with coordinates, and edges with their polylines.
 
-The rotation at a place is the **clockwise order of the directions in which the ways leave**, from
-the north on, y upwards. A way leaves along the first segment of its course (its polyline); points
-that stand still at the beginning are passed over. Without a course a way is straight.
+The rotation at a vertex (a *place* of the drawing) is the **clockwise order of the directions in
+which the edges (its *ways*) leave**, from the north on, y upwards. A way leaves along the first
+segment of its course (its polyline) that has a length. Without a course a way is straight.
 
 Directions are compared exactly: in floating point where that decides, in fractions where it does
-not. Two ways that leave in the very same direction have no order, and none is made up: that is an
-error which names the place. So is a way that nowhere leaves its place.
+not. Two ways that leave in the very same direction have no order, and none is made up: an error
+names the place. A way whose course is a single point is an error as well.
 
 **Which end is which.** A course may be written from either end. It is turned round where that
 brings its ends nearer to the places they belong to.
@@ -44,14 +44,14 @@ FARTHEST = 1e12
 
 
 class DrawnVertex(NamedTuple):
-    """A vertex to be."""
+    """A vertex of the drawing: its name and its coordinates."""
 
     name: str
     at: Point
 
 
 class DrawnEdge(NamedTuple):
-    """An edge to be: from one place to another, by their numbers."""
+    """An edge of the drawing, from one vertex to another, by their numbers."""
 
     start: int
     end: int
@@ -61,7 +61,7 @@ class DrawnEdge(NamedTuple):
 
 
 class DrawnEnd(NamedTuple):
-    """One end of a way: side 0 is its start, side 1 its end."""
+    """One end of an edge: side 0 is its start, side 1 its end."""
 
     way: int
     side: int
@@ -133,7 +133,7 @@ def _apart(a: Point, b: Point) -> float:
 def _merged(
     ways: Sequence[DrawnEdge], courses: Sequence[tuple[Point, ...]]
 ) -> tuple[list[int], dict[int, int]]:
-    """The ways that stay, and for each that goes the one that it is, backwards."""
+    """The ways that stay, and for each other the one that it repeats backwards."""
     kept: list[int] = []
     same: dict[int, int] = {}
     waiting: dict[tuple[int, int, tuple[Point, ...]], list[int]] = {}
@@ -156,7 +156,7 @@ def _survivor(end: DrawnEnd, same: dict[int, int]) -> DrawnEnd:
 
 
 class _LeavingEnd(NamedTuple):
-    """An end of a way and the two points that say where it leaves to."""
+    """An end of a way, and the two points that give the direction in which it leaves."""
 
     end: DrawnEnd
     origin: Point
@@ -168,7 +168,7 @@ class _LeavingEnd(NamedTuple):
 
     @property
     def westward(self) -> bool:
-        """In the second half of a turn clockwise from the north: from south up to the north?"""
+        """Is the direction from south, inclusive, to north, clockwise?"""
         x, y = self.direction
         return x < 0 or (x == 0 and y < 0)
 
@@ -199,7 +199,7 @@ def _exits(
 
 
 def _require_connected(places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge]) -> None:
-    """Refuse a drawing in several parts, with a place that shows it."""
+    """Refuse a drawing in several parts, and name a place that is not reached."""
     beside: list[list[int]] = [[] for _ in places]
     for way in ways:
         beside[way.start].append(way.end)
@@ -240,7 +240,7 @@ def _compared(one: _LeavingEnd, other: _LeavingEnd) -> int:
         return 1 if one.westward else -1
     (a, b), (c, d) = one.direction, other.direction
     ahead, back = a * d, b * c
-    if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):  # far more than rounding can do
+    if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):  # more than rounding can amount to
         return 1 if ahead > back else -1
     (p, q), (r, s) = one.exact, other.exact
     turn = p * s - q * r
@@ -254,7 +254,7 @@ def number(value: Any, what: str) -> float:
     """The value as a coordinate.
 
     Raises:
-        InputError: it is no finite number, or larger than `FARTHEST`.
+        InputError: it is not a number, or larger than `FARTHEST`.
     """
     with suppress(TypeError, ValueError, OverflowError):
         found = float(value)
@@ -271,7 +271,7 @@ def line(text: str, what: str) -> tuple[Point, ...]:
     """The points of a polyline in well-known text, `LINESTRING (0 0, 1 2)`; heights are left out.
 
     Raises:
-        InputError: the text is none.
+        InputError: the text is not such a line.
     """
     found = re.fullmatch(r"\s*LINESTRING\s*(?:Z\s*)?\(([^()]*)\)\s*", text, re.IGNORECASE)
     if not found:
@@ -285,7 +285,7 @@ def points(rows: Sequence[Sequence[object]], what: str) -> tuple[Point, ...]:
     """The points of a polyline, x and y each; a third coordinate, a height, is left out.
 
     Raises:
-        InputError: a point has fewer or more coordinates, or one of them is no number.
+        InputError: a point has fewer or more coordinates, or one of them is not a number.
     """
     for row in rows:
         if len(row) not in {2, 3}:

@@ -1,4 +1,4 @@
-"""Files in and out, for every format: limited when read, replaced whole when written.
+"""Reads files up to a limit and writes them whole or not at all, for every format.
 
 Every failure is an `InputError` of one sentence that names the file and what the system said.
 """
@@ -19,7 +19,7 @@ LIMIT = 64 * 2**20
 
 
 def read(path: str | PathLike[str]) -> bytes:
-    """What is in the file.
+    """The bytes of the file.
 
     Raises:
         InputError: it cannot be read or holds more than `LIMIT` bytes.
@@ -34,10 +34,10 @@ def read(path: str | PathLike[str]) -> bytes:
 
 
 def read_stream(stream: IO[bytes], *, name: str) -> bytes:
-    """What comes from the stream until it ends.
+    """The bytes of the stream until it ends.
 
     Raises:
-        InputError: more than `LIMIT` bytes come; not much more is read, so no stream is too long.
+        InputError: it has more than `LIMIT` bytes; one more is read, so an endless stream is safe.
     """
     data = stream.read(LIMIT + 1)
     if len(data) > LIMIT:
@@ -46,7 +46,7 @@ def read_stream(stream: IO[bytes], *, name: str) -> bytes:
 
 
 def too_large(name: str) -> str:
-    """The sentence that refuses more than `LIMIT` bytes."""
+    """The error message that refuses more than `LIMIT` bytes."""
     return (
         f"{name} is larger than {LIMIT // 2**20} MiB, the most that is read (a million darts take"
         " less): give a smaller one"
@@ -56,10 +56,9 @@ def too_large(name: str) -> str:
 def write(path: str | PathLike[str], text: str | bytes) -> None:
     """Write the bytes, or the text as UTF-8: all of it or nothing.
 
-    Whoever reads the file sees what it held before or all of this: the content goes to a temporary
-    file in the same folder, which then takes the file's place. Links are followed, permissions
-    kept. What is no regular file (a pipe, a terminal, the null device) is written to directly,
-    never replaced.
+    A reader of the file sees either its old content or all of the new: a temporary file in the same
+    folder takes its place once it is complete. Links are followed and permissions kept. Anything
+    but a regular file (a pipe, a terminal, the null device) is written to directly, not replaced.
 
     Raises:
         InputError: the system refuses, with its reason; no temporary file is left behind.
@@ -83,7 +82,7 @@ def _replace(target: Path, data: bytes) -> None:
         with temporary.open("xb") as file:
             file.write(data)
             file.flush()
-            os.fsync(file.fileno())
+            os.fsync(file.fileno())  # or a crash could leave an empty file under the new name
         if target.exists():
             temporary.chmod(target.stat().st_mode & 0o777)
         temporary.replace(target)
@@ -93,7 +92,7 @@ def _replace(target: Path, data: bytes) -> None:
 
 
 def stem(path: str | PathLike[str]) -> str:
-    """What to call a world that has no name in its file: the file's name without its ending."""
+    """The file's name without its ending: the name of a world that has none in its file."""
     return os.fsencode(Path(path).stem).decode("utf-8", "replace")
 
 

@@ -1,9 +1,9 @@
 """GraphML with positions, as OSMnx and NetworkX write it.
 
-Read are: for each node its data `x` and `y` (y upwards; degrees of longitude and latitude order the
-exits just as metres do); for each edge its data `geometry`, a polyline in well-known text, if it
-has one; and whether it is directed. The rest is passed over. How a drawing becomes a world, which
-of two directed edges are one street, and what is refused: drawing.py.
+The reader takes from each node its data `x` and `y` (y upwards; degrees of longitude and latitude
+order the exits just as metres do); from each edge its data `geometry`, a polyline in well-known
+text, if it has one, and whether it is directed. It ignores the rest. embedding.py says how a
+drawing becomes a world, which two directed edges are one street, and what is refused.
 
 The vertices come in the order of the nodes in the file and keep their ids as names. A street
 network as OSMnx saves it (`save_graphml`) is directed, with both directions of a street: each pair
@@ -46,19 +46,19 @@ def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") 
         name: what to call the input in messages.
         stem: what to call the world.
     Raises:
-        InputError: no GraphML, nodes without positions, or a drawing that is no world.
+        InputError: the bytes are not GraphML, a node has no position, or the drawing is refused.
     """
     reader = _Reader(name)
     markup.read(data, name=name, start=reader.start, end=reader.end)
     if not reader.is_graphml:
-        raise InputError(f"{name} is no GraphML: its first element is not <graphml>")
+        raise InputError(f"{name}: expected GraphML, whose first element is <graphml>")
     places = list(reader.places.values())
     ways = reader.ways()
     return embedding.as_world(cls, places, ways, source=name, name=stem)
 
 
 class _Reader:
-    """What was seen of the document so far: keys, then nodes and edges in their order.
+    """Collects the keys, nodes and edges of a document while it is read.
 
     `element` is the node or edge that is open, with its attributes and the data read in it.
     """
@@ -164,7 +164,7 @@ class _Reader:
             start, end = ends
             if start is None or end is None:
                 raise InputError(
-                    f"{self._what()} joins what is no node: source and target are ids of nodes"
+                    f"{self._what()}: expected the ids of two nodes as source and target"
                 )
             text = data.get("geometry", "").strip()
             course = embedding.line(text, f"{self._what()}, geometry") if text else ()

@@ -1,10 +1,9 @@
-"""XML, read as a stream and without trust.
+"""Reads XML that may be hostile, as a stream.
 
-What a document could do beyond being text is refused, not carried out: a document type declaration
-is the only place where entities are declared, so without it nothing expands ("billion laughs") and
-nothing is fetched from another file or from the network. Depth is limited; size is what
-`files.LIMIT` lets in. Nothing is kept but what the caller keeps, so a document of many elements
-needs little memory.
+A document type declaration is refused: it is the only place where entities are declared, so without
+it nothing expands ("billion laughs") and nothing is fetched from another file or from the network.
+The depth is limited here, the size by `files.LIMIT`. Only the caller keeps anything, so a document
+of many elements needs little memory.
 
 Names come without their namespaces. Source: the expat of Python's standard library; the dangers
 are those in the section "XML security" of its manual.
@@ -36,8 +35,8 @@ def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
     Args:
         name: what to call the input in messages.
     Raises:
-        InputError: it is no XML, has a document type, is nested too deeply; and what `start` and
-            `end` raise.
+        InputError: it is not XML, has a document type, or is nested too deeply; also whatever
+            `start` and `end` raise.
     """
     path: list[str] = []
     text: list[str] = []
@@ -69,11 +68,11 @@ def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
     try:
         parser.Parse(data, True)  # noqa: FBT003  expat's own signature: this is all
     except expat.ExpatError as error:
-        raise InputError(f"{name} is no valid XML: {error}") from error
+        raise InputError(f"{name} is not valid XML: {error}") from error
     except (LookupError, ValueError) as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(f"{name} is no valid XML: {error}; save it as UTF-8") from error
+        raise InputError(f"{name} is not valid XML: {error}; save it as UTF-8") from error
 
 
 def _local(name: str) -> str:

@@ -7,7 +7,7 @@ planar graphs: other worlds are refused. The vertices come in the order of the n
 first neighbour on; what is written numbers its nodes as the world numbers its vertices and begins
 with the marker's, so that the marker comes back as the first dart of the first vertex.
 
-**Graphs with positions** become worlds as drawing.py says: clockwise by the angle of each edge's
+**Graphs with positions** become worlds as embedding.py says: clockwise by the angle of each edge's
 first segment, y upwards; equal angles are an error. A street network from OSMnx can be given as it
 is, projected or not.
 

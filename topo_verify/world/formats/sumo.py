@@ -1,17 +1,18 @@
 """SUMO's road networks, `.net.xml`: the undirected graph of their streets.
 
-Read are: each `<junction>` with its `id`, `x`, `y` (y upwards) and each `<edge>` with its `id`,
-`from`, `to` and, if it has one, its `shape`, the line in the middle of the street (SUMO leaves it
-out where it is straight). Lanes, connections, traffic lights and the kinds of traffic are passed
-over, and with them everything within a junction: elements whose id begins with ':'.
+The reader takes each `<junction>` with its `id`, `x`, `y` (y upwards) and each `<edge>` with its
+`id`, `from`, `to` and, if it has one, its `shape`, the line in the middle of the street (SUMO
+leaves it out where it is straight). It ignores lanes, connections, traffic lights and the kinds of
+traffic, and everything within a junction: elements whose id begins with ':'.
 
 **Both directions of a street are one edge.** SUMO's edges have one direction. Two of them between
 the same junctions, there and back, are one street if their ids differ in a leading '-' and nothing
 else (so SUMO names them), or if one has the shape of the other backwards; the shape of the first in
 the file counts. Others stay apart, as the carriageways of a motorway do.
 
-How the drawing becomes a world, and what is refused: drawing.py. Junctions without a street and
-networks in several parts are refused; `netconvert --keep-edges.components 1` keeps the largest.
+embedding.py says how the drawing becomes a world, and what is refused: for example, junctions
+without a street and networks in several parts. `netconvert --keep-edges.components 1` keeps the
+largest part.
 
 Source: Eclipse SUMO, user documentation, "SUMO Road Networks".
 """
@@ -47,14 +48,14 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
         name: what to call the input in messages.
         stem: what to call the world.
     Raises:
-        InputError: no SUMO network, or a drawing that is no world.
+        InputError: the bytes are not a SUMO network, or the drawing is refused.
     """
     places: dict[str, DrawnVertex] = {}
     edges: dict[str, dict[str, str]] = {}
 
     def start(path: tuple[str, ...], attributes: dict[str, str]) -> None:
         if path[0] != "net":
-            raise InputError(f"{name} is no SUMO network: its first element is not <net>")
+            raise InputError(f"{name}: expected a SUMO network, whose first element is <net>")
         if path[1:] in {("junction",), ("edge",)}:
             known = places if path[1] == "junction" else edges
             key = attributes.get("id", "")
@@ -70,7 +71,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
                 places[key] = DrawnVertex(key, _at(attributes, what))
 
     def end(_path: tuple[str, ...], _text: str) -> None:
-        """Everything is in the attributes."""
+        """Does nothing: SUMO writes everything into attributes."""
 
     markup.read(data, name=name, start=start, end=end)
     ways = _ways(places, edges, name)
@@ -91,7 +92,7 @@ def _ways(
         what = f"{name}: edge '{shown(key, limit=60)}'"
         start, end = (number.get(attributes.get(side, "")) for side in ("from", "to"))
         if start is None or end is None:
-            raise InputError(f"{what} joins what is no junction: 'from' and 'to' are their ids")
+            raise InputError(f"{what}: expected the ids of two junctions as 'from' and 'to'")
         rows = [point.split(",") for point in attributes.get("shape", "").split()]
         course = embedding.points(rows, f"{what}, shape")
         other = ways.get(key[1:] if key.startswith("-") else f"-{key}")

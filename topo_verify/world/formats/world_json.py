@@ -45,7 +45,10 @@ _FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 
 
 class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A world as it stands in a file; the descriptions end the sentences that refuse a field."""
+    """A world file: an embedded graph with one directional marker."""
+
+    # The JSON Schema carries the line above. Error messages quote the descriptions below as what
+    # was expected, so each is written to end a sentence.
 
     format: Annotated[
         Literal["topo-verify/world"], Meta(description="the name of this format, topo-verify/world")
@@ -83,7 +86,7 @@ class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
 
 class _Header(msgspec.Struct):
-    """What is read first, and alone: a newer version may have other fields."""
+    """The two fields that are read first: a newer version may have others than these."""
 
     format: str
     version: int
@@ -153,9 +156,11 @@ def _parse(text: str | bytes, name: str) -> WorldFile:
         raise InputError(_sentence(str(error), name)) from error
     except msgspec.DecodeError as error:
         why = _lower(str(error).removeprefix("JSON is malformed: "))
-        raise InputError(f"{name} is no valid JSON: {why}; a world is one JSON object") from error
+        raise InputError(f"{name} is not valid JSON: {why}; a world is one JSON object") from error
     except RecursionError as error:
-        raise InputError(f"{name} is no world: its lists are nested too deeply") from error
+        raise InputError(
+            f"{name}: expected a world, got lists that are nested too deeply"
+        ) from error
     # msgspec keeps the last of two equal keys. This pass sees nothing but a valid world file, so
     # there is one object, and neither its depth nor its numbers can be too large.
     json.loads(text, object_pairs_hook=lambda pairs: _require_single(pairs, name))
@@ -163,12 +168,12 @@ def _parse(text: str | bytes, name: str) -> WorldFile:
 
 
 def _text(text: str | bytes, name: str) -> str:
-    """The text, once it is sure that it is UTF-8, not empty and not too large."""
+    """The text without a byte order mark; refuses what is not UTF-8, is empty or is too large."""
     try:
         data = text.encode() if isinstance(text, str) else text
         text = data.decode()
     except UnicodeError as error:
-        raise InputError(f"{name} is no UTF-8 text: {error}; save it as UTF-8") from error
+        raise InputError(f"{name} is not UTF-8 text: {error}; save it as UTF-8") from error
     if len(data) > files.LIMIT:
         raise InputError(files.too_large(name))
     text = text.removeprefix("\ufeff")
@@ -180,8 +185,8 @@ def _text(text: str | bytes, name: str) -> str:
 def _require_version(header: _Header, name: str) -> None:
     if header.format != "topo-verify/world":
         raise InputError(
-            f"{name} is no world: its 'format' is '{shown(header.format)}',"
-            " that of a world is 'topo-verify/world'"
+            f"{name}: expected the 'format' 'topo-verify/world', got '{shown(header.format)}':"
+            " name the file of a world"
         )
     if header.version > VERSION:
         raise InputError(
@@ -199,7 +204,7 @@ def _require_single(pairs: list[tuple[str, Any]], name: str) -> None:
 
 
 def _sentence(error: str, name: str) -> str:
-    """What msgspec objects to, and what belongs there instead."""
+    """msgspec's objection as a sentence that names the place and says what was expected there."""
     what, _, place = error.partition(" - at `$.")
     fields = schema()["$defs"]["WorldFile"]["properties"]
     named = re.match(r"\w+", place) or re.search(r"(?<=missing required field `)\w+", what)
@@ -243,7 +248,7 @@ def encode(world: World) -> str:
     try:
         return msgspec.json.encode(to_data(world)).decode()
     except UnicodeEncodeError as error:
-        raise InputError(f"the world's texts are not all Unicode: {error}; mend them") from error
+        raise InputError(f"expected Unicode in the world's name and texts: {error}") from error
 
 
 def save(world: World, path: str | PathLike[str]) -> None:
