@@ -30,6 +30,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs import reaper
 from topo_verify.programs.protocol import LIMIT
 from topo_verify.robot.limits import TICK
+from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
 GRACE = 0.3
 """Seconds between SIGTERM and SIGKILL, and for a program to end by itself when it should."""
@@ -132,23 +133,28 @@ class Child:
         self.deaf = False  # it reads no more, or is to be written no more
         self._ended = False
 
+    @property
+    def process(self) -> int:
+        """The number of its process."""
+        return self._process.pid
+
     # ------------------------------------------------------------ lines
 
     def line(self, *, seconds: float = inf) -> bytes:
         """The next line, as soon as it is there.
 
         Args:
-            seconds: how long to wait for it.
+            seconds: how long to wait for it, without what it waits for a processor.
         Raises:
             Silent: it did not come.
             Ended: there is none, its output has ended (perhaps in the middle of a line: `half`).
             TooLong: more bytes than a message may have.
         """
-        until = monotonic() + seconds if not self._lines else 0
+        clock = None if seconds == inf or self._lines else Stopwatch(lambda: tasks_of(self.process))
         while not self._lines:
             if self._over:
                 raise Ended
-            if monotonic() > until:
+            if clock is not None and clock.seconds() > seconds:
                 raise Silent
             if not self._listen() and self._status() is not None:
                 self._over = True  # a child of its own may hold the stream open, and is silent

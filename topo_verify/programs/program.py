@@ -29,7 +29,7 @@ from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import GRACE, Child, Ended, TooLong, Warden
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import MapData
-from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded
+from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded, helped_by
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
 from topo_verify.text import shown
 
@@ -134,7 +134,8 @@ class Program:
         child = self._ready()
         self._idle = False
         try:
-            found = self._play(child, robot)
+            with helped_by(child.process):
+                found = self._play(child, robot)
         except Misbehaved as why:
             # A copy: what is raised holds on to this frame, and so to the program.
             self.misbehaved = Misbehaved(why.kind, str(why), detail=why.detail)
