@@ -6,7 +6,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -21,16 +21,17 @@ ACCOUNTS = Path("/proc/self/schedstat").exists() and hasattr(os, "sched_setaffin
 class Machine:
     """A clock and the waits of tasks, as a test sets them."""
 
+    now = 100.0
+    own = 0.0
+    waits: Mapping[str, float] = {}
+
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.now = 100.0
-        self.waits: dict[str, float] = {}
-        self.own = 0.0
         monkeypatch.setattr(stopwatch, "monotonic", lambda: self.now)
         monkeypatch.setattr(stopwatch, "_read", self.read)
 
     def read(self, path: str) -> str:
         """The account of a task in /proc: nanoseconds on a processor and waiting, turns."""
-        task = path.removeprefix("/proc/").removesuffix("/schedstat")
+        task = path.removeprefix("/proc/").removesuffix("/schedstat")  # or …/children: none
         wait = self.own if task.startswith("self") else self.waits.get(task)
         return "" if wait is None else f"77 {round(wait * 1e9)} 5\n"
 
@@ -79,7 +80,10 @@ def test_a_helper_counts_only_as_long_as_it_helps(machine: Machine) -> None:
 def test_without_accounts_it_is_the_wall_clock(
     machine: Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stopwatch, "_read", lambda _path: "")
+    def nothing(_path: str) -> str:
+        return ""
+
+    monkeypatch.setattr(stopwatch, "_read", nothing)
     watch = Stopwatch(lambda: ["a"])
     machine.now = 107
     assert watch.seconds() == pytest.approx(7)
@@ -88,10 +92,11 @@ def test_without_accounts_it_is_the_wall_clock(
 def test_limits_excuse_the_waits_of_a_process_that_helps(
     machine: Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    def threads(folder: str) -> list[str]:
+        return [folder.split("/")[2]]
+
+    monkeypatch.setattr(stopwatch, "_entries", threads)
     machine.waits = {"7/task/7": 0}
-    monkeypatch.setattr(stopwatch, "_entries", lambda folder: [folder.split("/")[2]])
-    monkeypatch.setattr(Machine, "read", _children_apart(Machine.read))
-    monkeypatch.setattr(stopwatch, "_read", machine.read)
 
     def work() -> str:
         with helped_by(7):
@@ -100,10 +105,6 @@ def test_limits_excuse_the_waits_of_a_process_that_helps(
         return "a map"
 
     assert within(Limits(move_timeout=5), lambda: 0, work) == "a map"
-
-
-def _children_apart(read: Callable[[Machine, str], str]) -> Callable[[Machine, str], str]:
-    return lambda machine, path: "" if path.endswith("/children") else read(machine, path)
 
 
 def test_no_limits_need_no_help() -> None:
