@@ -10,10 +10,17 @@ reach. A line that only a test of another room reaches counts as missing.
 """
 
 import os
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+if TYPE_CHECKING:
+    from topo_verify.proofs.theorem import Theorem
 
 ROOT = Path(__file__).resolve().parent.parent
 TRACED = ("world", "robot", "checkers", "algorithms")
@@ -45,3 +52,25 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if not any(folder in item.path.parents for folder in TRACING):
             item.add_marker("no_cover")
+
+
+@cache
+def _remembering(theorem: "Theorem") -> "Theorem":
+    return replace(theorem, prove=cache(theorem.prove))
+
+
+@pytest.fixture
+def proved_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a theorem be proved when it is asked for first, and be remembered from then on.
+
+    For tests of `verify`: its part `proofs` has nothing to do with the mapper, and takes ten times
+    as long as the rest of a quick run.
+    """
+    from topo_verify.proofs import catalogue
+
+    choose: Callable[..., tuple[Theorem, ...]] = catalogue.choose
+
+    def chosen(*args: Any, **options: Any) -> tuple["Theorem", ...]:
+        return tuple(map(_remembering, choose(*args, **options)))
+
+    monkeypatch.setattr(catalogue, "choose", chosen)

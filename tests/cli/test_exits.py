@@ -200,7 +200,11 @@ def test_a_terminal_without_our_letters_gets_others(program: Call) -> None:
 
 
 @pytest.mark.parametrize(
-    "line", ["verify --quick --format json", "explore nyc m4/99 --format json --pick random(7)"]
+    "line",
+    [
+        "verify enhancement-iii-all+i,folding --quick --format json",
+        "explore nyc m4/99 --format json --pick random(7)",
+    ],
 )
 def test_two_runs_differ_in_timing_alone(program: Call, line: str) -> None:
     one, two = (program(shlex.join(line.split()), PYTHONHASHSEED=seed).stdout for seed in "12")

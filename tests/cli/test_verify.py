@@ -10,6 +10,8 @@ import pytest
 
 from topo_verify import CATALOGUE
 
+pytestmark = pytest.mark.usefixtures("proved_once")
+
 Call = Callable[..., Any]
 PARTS = ["counts", "small-worlds", "proofs", "sampled-worlds", "generated-worlds", "street-network"]
 

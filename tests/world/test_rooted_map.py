@@ -7,6 +7,7 @@ from random import Random
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from hypothesis.vendor.pretty import pretty
 
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
@@ -268,3 +269,7 @@ def test_its_text_brings_it_back_whatever_its_size() -> None:
     large = families.path(300)
     assert large.text.startswith("{")
     assert World.from_text(large.text) == large
+
+
+def test_it_is_printed_by_pretty_printers_as_anywhere() -> None:
+    assert pretty(PATH) == repr(PATH)

@@ -29,6 +29,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs import reaper
 from topo_verify.programs.protocol import LIMIT
 from topo_verify.robot.limits import TICK
+from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
 GRACE = 0.3
 """Seconds between SIGTERM and SIGKILL; also the time to end after a `stop` message."""
@@ -138,23 +139,29 @@ class Child:
         self.input_closed = False  # by the program or by us
         self._ended = False
 
+    @property
+    def process(self) -> int:
+        """The number of its process."""
+        return self._process.pid
+
     # ------------------------------------------------------------ lines
 
     def line(self, *, seconds: float = inf) -> bytes:
         """The next line; waits until it is complete.
 
         Args:
-            seconds: how long to wait.
+            seconds: how long to wait; time in which the program waits for a processor is not
+                counted.
         Raises:
             Silent: no line came in this time.
             Ended: the output has ended (in the middle of a line, if `in_half_a_line`).
             TooLong: the line has more bytes than a message may have.
         """
-        until = monotonic() + seconds if not self._lines else 0
+        clock = None if seconds == inf or self._lines else Stopwatch(lambda: tasks_of(self.process))
         while not self._lines:
             if self._output_ended:
                 raise Ended
-            if monotonic() > until:
+            if clock is not None and clock.seconds() > seconds:
                 raise Silent
             if not self._listen() and self._status() is not None:
                 self._output_ended = True  # though a child of its own may hold the stream open

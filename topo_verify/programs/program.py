@@ -31,7 +31,7 @@ from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import AHEAD, GRACE, Child, Ended, ReaperProcess, TooLong
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import MapData
-from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded
+from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded, helped_by
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
 from topo_verify.text import shown
 
@@ -140,7 +140,8 @@ class Program:
         child = self._ready()
         self._idle = False
         try:
-            found = self._play(child, robot)
+            with helped_by(child.process):
+                found = self._play(child, robot)
         except Misbehaved as why:
             # Keep a copy: the traceback of `why` refers to this frame and thus to the program, and
             # a program in a circle of references is not ended when its last user drops it.

@@ -6,6 +6,10 @@ A mapper that exceeds one is stopped by an exception that derives from BaseExcep
 What this does not do: a mapper that catches BaseException in a loop, or that sits in C code which
 never returns, cannot be stopped from inside its own process.
 
+Seconds are those of a stopwatch (robot/stopwatch.py): the wall clock's, without those in which the
+mapper waited for a processor that others had. A mapper that sleeps is stopped, one that computes is
+stopped, and a correct one is never convicted because the machine is busy.
+
 How: a clock ticks while the mapper runs and asks the robot for its cost. In the main thread the
 tick is SIGALRM, which also interrupts a sleep, and it raises in the mapper and in what that called,
 never in what comes before or after. In other threads (and on systems without SIGALRM) a second
@@ -18,12 +22,14 @@ import ctypes
 import gc
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from inspect import currentframe
-from time import monotonic
 from types import FrameType
 from typing import Literal, TypeVar
+
+from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
 T = TypeVar("T")
 
@@ -65,8 +71,8 @@ class Limits:
 
     Attributes:
         budget: moves (edge traversals); None: the bound of claim 7.
-        move_timeout: seconds between two moves.
-        world_timeout: seconds in all.
+        move_timeout: seconds between two moves, without those spent waiting for a processor.
+        world_timeout: such seconds in all.
     """
 
     budget: int | None = None
@@ -103,13 +109,30 @@ def within(limits: Limits, cost: Callable[[], int], work: Callable[[], T]) -> T:
     """
     watch = _Watch(limits, cost)
     tick = max(TICK, min(limits.move_timeout, limits.world_timeout) / 4)
-    if threading.current_thread() is threading.main_thread() and hasattr(signal, "setitimer"):
-        result = _by_alarm(watch, tick, work)
-    else:
-        result = _by_thread(watch, tick, work)
+    outer: Stopwatch | None = getattr(_running, "watch", None)
+    _running.watch = watch.clock
+    try:
+        if threading.current_thread() is threading.main_thread() and hasattr(signal, "setitimer"):
+            result = _by_alarm(watch, tick, work)
+        else:
+            result = _by_thread(watch, tick, work)
+    finally:
+        _running.watch = outer
     if watch.struck is not None:
         raise watch.struck
     return result
+
+
+_running = threading.local()
+"""The stopwatch of the mapper that runs in this thread: `watch`."""
+
+
+@contextmanager
+def helped_by(process: int) -> Generator[None]:
+    """Time limits of this thread's mapper excuse the waits of a process that works for it, too."""
+    watch: Stopwatch | None = getattr(_running, "watch", None)
+    with nullcontext() if watch is None else watch.helped_by(lambda: tasks_of(process)):
+        yield
 
 
 class _Watch:
@@ -117,16 +140,17 @@ class _Watch:
 
     def __init__(self, limits: Limits, cost: Callable[[], int]) -> None:
         self.limits, self.cost = limits, cost
-        self.start = self.moved = monotonic()
+        self.clock = Stopwatch()
+        self.moved = 0.0
         self.seen = 0
         self.struck: TimeLimitExceeded | None = None
 
     def overdue(self) -> TimeLimitExceeded | None:
         """Why the mapper must stop now, if it must."""
-        now, cost = monotonic(), self.cost()
+        now, cost = self.clock.seconds(), self.cost()
         if cost != self.seen:
             self.seen, self.moved = cost, now
-        if now - self.start > self.limits.world_timeout:
+        if now > self.limits.world_timeout:
             seconds = self.limits.world_timeout
             self.struck = WorldTimeout(f"the mapper was stopped after {seconds:g} s in this world")
         elif now - self.moved > self.limits.move_timeout:

@@ -9,6 +9,8 @@ from topo_verify.proofs.catalogue import choose
 from topo_verify.proofs.first_order.obligations import OBLIGATIONS
 from topo_verify.proofs.first_order.theorems import mutant
 
+pytestmark = pytest.mark.usefixtures("proved_once")
+
 
 def silence(_part: str, _done: int, _total: int) -> None:
     pass

@@ -19,6 +19,8 @@ from topo_verify.programs.loading import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
 
+pytestmark = pytest.mark.usefixtures("proved_once")
+
 Mapper = Callable[[Robot], object]
 
 

@@ -1,0 +1,170 @@
+"""The stopwatch: it goes while a mapper sleeps or computes, and stands still while it waits."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from topo_verify.robot import stopwatch
+from topo_verify.robot.limits import Limits, helped_by, within
+from topo_verify.robot.stopwatch import Stopwatch, tasks_of
+
+ACCOUNTS = Path("/proc/self/schedstat").exists() and hasattr(os, "sched_setaffinity")
+
+
+class Machine:
+    """A clock and the waits of tasks, as a test sets them."""
+
+    now = 100.0
+    own = 0.0
+    waits: Mapping[str, float] = {}
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.setattr(stopwatch, "monotonic", lambda: self.now)
+        monkeypatch.setattr(stopwatch, "_read", self.read)
+
+    def read(self, path: str) -> str:
+        """The account of a task in /proc: nanoseconds on a processor and waiting, turns."""
+        task = path.removeprefix("/proc/").removesuffix("/schedstat")  # or …/children: none
+        wait = self.own if task.startswith("self") else self.waits.get(task)
+        return "" if wait is None else f"77 {round(wait * 1e9)} 5\n"
+
+
+@pytest.fixture
+def machine(monkeypatch: pytest.MonkeyPatch) -> Machine:
+    return Machine(monkeypatch)
+
+
+def test_it_stands_still_while_the_thread_waits_for_a_processor(machine: Machine) -> None:
+    machine.own = 9
+    watch = Stopwatch()
+    machine.now, machine.own = 105, 12
+    assert watch.seconds() == pytest.approx(2)
+    machine.now = 106
+    assert watch.seconds() == pytest.approx(3)
+
+
+def test_a_wait_that_is_booked_late_is_made_good(machine: Machine) -> None:
+    watch = Stopwatch()
+    machine.now = 104
+    assert watch.seconds() == pytest.approx(4)
+    machine.now, machine.own = 105, 4
+    assert watch.seconds() == pytest.approx(1)
+
+
+def test_the_waits_of_the_helpers_tasks_do_not_add_up_but_the_longest_counts(
+    machine: Machine,
+) -> None:
+    machine.waits = {"a": 1, "b": 1, "ends": 1}
+    watch = Stopwatch(lambda: machine.waits)
+    machine.now, machine.own, machine.waits = 110, 1, {"a": 3, "b": 5, "new": 2}
+    assert watch.seconds() == pytest.approx(10 - 1 - 4)
+
+
+def test_a_helper_counts_only_as_long_as_it_helps(machine: Machine) -> None:
+    machine.waits = {"a": 1}
+    watch = Stopwatch()
+    with watch.helped_by(lambda: machine.waits):
+        machine.now, machine.waits = 105, {"a": 3}
+        assert watch.seconds() == pytest.approx(3)
+    machine.now, machine.waits = 110, {"a": 8}
+    assert watch.seconds() == pytest.approx(8)
+
+
+def test_without_accounts_it_is_the_wall_clock(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def nothing(_path: str) -> str:
+        return ""
+
+    monkeypatch.setattr(stopwatch, "_read", nothing)
+    watch = Stopwatch(lambda: ["a"])
+    machine.now = 107
+    assert watch.seconds() == pytest.approx(7)
+
+
+def test_limits_excuse_the_waits_of_a_process_that_helps(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def threads(folder: str) -> list[str]:
+        return [folder.split("/")[2]]
+
+    monkeypatch.setattr(stopwatch, "_entries", threads)
+    machine.waits = {"7/task/7": 0}
+
+    def work() -> str:
+        with helped_by(7):
+            machine.now, machine.waits = 500, {"7/task/7": 399}
+            time.sleep(0.2)  # some ticks look at the clock
+        return "a map"
+
+    assert within(Limits(move_timeout=5), lambda: 0, work) == "a map"
+
+
+def test_no_limits_need_no_help() -> None:
+    with helped_by(os.getpid()):
+        pass
+
+
+# ---------------------------------------------------------------- the real machine
+
+
+def test_it_goes_while_the_thread_sleeps() -> None:
+    watch = Stopwatch()
+    time.sleep(0.2)
+    assert watch.seconds() > 0.15
+
+
+@pytest.mark.skipif(not ACCOUNTS, reason="the kernel keeps no account of waits here")
+def test_beside_a_busy_process_it_shows_the_processor_time() -> None:
+    allowed = os.sched_getaffinity(0)
+    busy = subprocess.Popen([sys.executable, "-c", "while True: pass"])
+    try:
+        os.sched_setaffinity(0, {min(allowed)})
+        os.sched_setaffinity(busy.pid, {min(allowed)})
+        watch, began, own = Stopwatch(), time.monotonic(), time.thread_time()
+        while time.thread_time() - own < 0.5:
+            pass
+        used, passed = watch.seconds(), time.monotonic() - began
+    finally:
+        os.sched_setaffinity(0, allowed)
+        busy.kill()
+        busy.wait()
+    assert 0.4 < used < 0.5 + (passed - 0.5) / 2
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="no /proc here")
+def test_the_tasks_of_a_process_are_its_threads_and_those_of_its_children() -> None:
+    source = """
+import subprocess, sys, threading
+threading.Thread(target=sys.stdin.read).start()
+child = subprocess.Popen(["sleep", "60"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+print(child.pid, flush=True)
+child.wait()
+"""
+    command = [sys.executable, "-c", source]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as parent:
+        assert parent.stdout is not None
+        child = int(parent.stdout.readline())
+        tasks = list(tasks_of(parent.pid))
+        os.kill(child, 9)
+    assert not list(tasks_of(parent.pid))
+    assert f"{parent.pid}/task/{parent.pid}" in tasks
+    assert f"{child}/task/{child}" in tasks
+    assert len(tasks) == 3
+
+
+def test_a_process_that_ends_while_it_is_read_has_no_account(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def ended(_file: int, _size: int) -> bytes:
+        raise ProcessLookupError
+
+    monkeypatch.setattr(os, "read", ended)
+    assert Stopwatch().seconds() < 5
