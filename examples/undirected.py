@@ -13,7 +13,7 @@ from topo_verify.robot.percept import Door, Purpose
 
 
 class Undirected(Percept, frozen=True):
-    """A percept that equals every other one with its degree and with or without the marker alike."""
+    """A percept compared by degree and presence of the marker, not by its direction."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Percept) and self.signature == other.signature

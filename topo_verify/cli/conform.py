@@ -110,6 +110,7 @@ def conform(  # noqa: PLR0913  an argument an option
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
         output.note(f"seed {seed}")
+        # Commas separate names of the catalogue, but a command line may contain them.
         for one in [text] if command else [found.text for found in target_texts.targets(text)]:
             job = Job(
                 target=one,
@@ -140,6 +141,7 @@ def _tried(output: Output, job: Job, asked: _ConformOptions) -> Iterator[Result[
             tell=output.progress,
         )
     except KeyboardInterrupt:
+        # Yield before raising: `Output` prints what it has and then exits 3.
         yield from map(_result, books.standings())
         raise
     yield from map(_result, books.standings())

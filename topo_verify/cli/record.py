@@ -101,6 +101,7 @@ def _opened(
     """The mapper that the options name; a program runs until the block ends."""
     text = target_text(name, cmd)
     pick, order = asked
+    # `one_target` refuses several names; a command line is always one target.
     if cmd is None:
         target = one_target(text, pick=pick, order=order)
     else:
@@ -172,6 +173,7 @@ def record(
                 tell=output.progress,
                 note=note,
             )
+        # A baseline of some of the worlds would make every later comparison look complete.
         whole = len(made.entries) == corpus.total
         if whole:
             files.write(out, file.encode(made))

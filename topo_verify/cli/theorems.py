@@ -187,6 +187,7 @@ def _evidence(entry: ProveEntry) -> str:
         second = entry.opinion
         words.append(f"{second.solver} agrees on {second.agrees} of {second.total}")
         words += [f"unknown on {second.unknown}"] if second.unknown else []
+    # A refuting history says more than the note, unless something went wrong.
     if entry.note and (not entry.ok or entry.history is None):
         words.append(entry.note)
     return "; ".join(words)
