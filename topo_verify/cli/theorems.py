@@ -24,7 +24,7 @@ class ReplayCount(msgspec.Struct, frozen=True):
     total: int
 
 
-class CertificateCheck(msgspec.Struct, frozen=True):
+class ProofCheck(msgspec.Struct, frozen=True):
     """A certificate and what its checker said."""
 
     format: str
@@ -62,7 +62,7 @@ class ProveEntry(msgspec.Struct, frozen=True):
     replayed: ReplayCount | None
     solver: str
     edges: int | None
-    certificate: CertificateCheck | None
+    certificate: ProofCheck | None
     checked: int | None
     total: int | None
     counterexample: str | None
@@ -107,7 +107,7 @@ def entry_of(theorem: Theorem, outcome: Outcome, opinion: SecondOpinion | None) 
         edges=theorem.edges,
         certificate=None
         if made is None
-        else CertificateCheck(
+        else ProofCheck(
             made.format, made.checker, made.checked, made.clauses, made.steps, made.why
         ),
         checked=outcome.checked,
