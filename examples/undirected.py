@@ -1,8 +1,8 @@
 """Two ideas that save hardware, and are wrong: a marker without a direction, and no marker at all.
 
-Both mappers are the basic algorithm behind a robot that senses less. `undirected` asks of the
-marker only whether it is there; `unmarked` not even that. docs/search.md hunts the smallest worlds
-in which that is too little.
+Both mappers run the basic algorithm with a robot that senses less. `undirected` senses only whether
+the marker is there, `unmarked` does not sense the marker at all. docs/search.md finds the smallest
+worlds in which this is too little.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from topo_verify.robot.percept import Door, Purpose
 
 
 class Undirected(Percept, frozen=True):
-    """A percept that is taken for any other with this degree, and with the marker or without."""
+    """A percept compared by degree and presence of the marker, not by its direction."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Percept) and self.signature == other.signature
@@ -33,16 +33,16 @@ class Blurred:
 
     @property
     def percept(self) -> Percept:
-        """The marker is there or not, its direction is not compared."""
+        """The percept; comparing it ignores the direction of the marker."""
         return Undirected(self.robot.percept.degree, self.robot.percept.marker)
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        """Moves are as ever."""
+        """Make the move with the robot behind."""
         self.robot.move(door, purpose)
         return self.percept
 
     def declare(self, event: Decision) -> None:
-        """So are declarations."""
+        """Hand the declaration to the robot behind."""
         self.robot.declare(event)
 
 
@@ -51,7 +51,7 @@ class Blind(Blurred):
 
     @property
     def percept(self) -> Percept:
-        """The degree alone."""
+        """The percept without the marker."""
         return Percept(self.robot.percept.degree, None)
 
 

@@ -1,4 +1,4 @@
-"""The same mapper, but it draws its map anticlockwise: that of the mirror image."""
+"""The same mapper, but it lists the darts anticlockwise: its map is the mirror image."""
 
 from mapper import explore as right
 

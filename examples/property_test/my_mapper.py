@@ -1,7 +1,7 @@
-"""A mapper that looks right: the basic algorithm, with a marker that points nowhere.
+"""A mapper that looks right: the basic algorithm, ignoring the direction of the marker.
 
-Wherever the marker lies the robot takes it to point back to where it came from: so it is told that
-this is the marked place, and not how it stands there.
+Wherever it sees the marker, it takes it to point at door 0. So it knows that this is the marker's
+place, but not how the robot is turned there.
 """
 
 import topo_verify as tv
@@ -13,7 +13,7 @@ BASIC: Algorithm = tv.CATALOGUE["basic"]
 
 
 class Undirected:
-    """The robot, but for the direction of the marker."""
+    """A robot that does not sense the direction of the marker."""
 
     def __init__(self, robot: tv.Robot) -> None:
         self.robot = robot

@@ -58,7 +58,7 @@ def test_standard_input_is_a_log(results: Results) -> None:
     assert entry["verdict"] == "PROVED"
 
 
-def test_what_is_wrong_is_said_with_the_worlds(call: Call) -> None:
+def test_findings_are_printed_with_the_witness_worlds(call: Call) -> None:
     text = call("certify short.jsonl").stdout
     assert "with 2 darts of its fold never crossed" in " ".join(text.split())
     assert "2 worlds that show this log and differ" in text
@@ -79,6 +79,6 @@ def test_bad_input_gets_one_sentence(call: Call, line: str, why: str) -> None:
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_a_witness_too_large_for_an_id_is_told_by_its_size(call: Call) -> None:
+def test_a_witness_too_large_for_an_id_is_named_by_its_size(call: Call) -> None:
     Path("large.jsonl").write_text('{"type": "start", "percept": {"degree": 300, "marker": 0}}\n')
     assert "a world of 300 edges (--witness DIR writes it)" in call("certify large.jsonl").stdout

@@ -91,7 +91,7 @@ def test_a_certificate_that_is_refused_is_a_bug_of_ours(
     assert "coqc 0 refuses certificate_ring.v: no" in done.stderr
 
 
-def told(path: str, mapper: str = "basic", world: str = "m3/50") -> None:
+def write_log(path: str, mapper: str = "basic", world: str = "m3/50") -> None:
     """Write the trace of a run with its decisions."""
     Path(path).write_bytes(write_trace(trace_of(world, mapper)))
 
@@ -109,7 +109,7 @@ COQC = certificates.CertificateCheck(accepted=True, by="coqc 0")
 def test_decisions_that_follow_are_certified(
     call: Call, results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    told("run.jsonl")
+    write_log("run.jsonl")
     judging(monkeypatch, COQC)
     (entry,) = results("certify run.jsonl --kernel")["results"]
     follow = entry["decisions"]["entailed"]
@@ -122,7 +122,7 @@ def test_decisions_that_follow_are_certified(
     assert f"Of the decisions that follow, {follow} of {follow} are certified by coqc 0." in text
 
 
-def test_a_log_without_decisions_says_nothing_of_them(
+def test_a_log_without_decisions_has_no_sentence_about_them(
     call: Call, results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     judging(monkeypatch, COQC)
@@ -148,10 +148,10 @@ def test_a_decision_that_does_not_follow_is_not_certified(
     assert f"event {wrong}," not in Path("certificate_run.v").read_text()
 
 
-def test_what_follows_in_planar_worlds_only_is_told(
+def test_decisions_that_follow_only_in_planar_worlds_are_counted_apart(
     results: Results, call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    told("run.jsonl", "folding+planar", "m4/50")
+    write_log("run.jsonl", "folding+planar", "m4/50")
     judging(monkeypatch, COQC)
     (entry,) = results("certify run.jsonl --kernel")["results"]
     found = entry["kernel"]["decisions"]
@@ -163,7 +163,7 @@ def test_what_follows_in_planar_worlds_only_is_told(
 def test_decisions_that_are_not_checked_make_the_run_incomplete(
     results: Results, call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    told("run.jsonl")
+    write_log("run.jsonl")
     apart = certificates.CertificateCheck(accepted=None, by="", why="the evidence is long")
     judging(monkeypatch, replace(COQC, decisions=apart))
     (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
@@ -176,7 +176,7 @@ def test_decisions_that_are_not_checked_make_the_run_incomplete(
 def test_decisions_are_not_certified_by_a_certificate_that_is_not_checked(
     results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    told("run.jsonl")
+    write_log("run.jsonl")
     judging(monkeypatch, certificates.CertificateCheck(accepted=None, by="", why="no Coq"))
     (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
     found = entry["kernel"]["decisions"]
@@ -187,7 +187,7 @@ def test_decisions_are_not_certified_by_a_certificate_that_is_not_checked(
 def test_decisions_that_are_refused_are_a_bug_of_ours(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    told("run.jsonl")
+    write_log("run.jsonl")
     apart = certificates.CertificateCheck(accepted=False, by="the program", why="refused")
     judging(monkeypatch, replace(COQC, decisions=apart))
     done = call("certify run.jsonl --kernel")
@@ -198,7 +198,7 @@ def test_decisions_that_are_refused_are_a_bug_of_ours(
 @needs_coq
 @pytest.mark.slow
 def test_the_decisions_of_a_run_are_accepted_by_coqc(results: Results) -> None:
-    told("run.jsonl", "enhancement-iii-all")
+    write_log("run.jsonl", "enhancement-iii-all")
     (entry,) = results("certify run.jsonl --kernel")["results"]
     found = entry["kernel"]["decisions"]
     assert found["certified"] == found["entailed"] == entry["decisions"]["total"] > 0

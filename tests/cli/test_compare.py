@@ -57,9 +57,7 @@ def test_a_cheaper_mapper_passes_and_a_dearer_one_does_not(results: Results, cal
 
 
 @pytest.mark.parametrize(("tolerance", "code"), [("49", 1), ("49.5", 1), ("77.8", 0), ("100", 0)])
-def test_the_tolerance_decides_over_the_exit_code(
-    results: Results, tolerance: str, code: int
-) -> None:
+def test_the_tolerance_decides_the_exit_code(results: Results, tolerance: str, code: int) -> None:
     line = f"compare enhancement-i.gz basic --tolerance {tolerance}"
     (entry,) = results(line, code=code)["results"]
     assert (entry["tolerance"], entry["dearer"]) == (tolerance, 2)
@@ -132,7 +130,7 @@ def test_a_changed_baseline_is_refused(call: Call, folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("compare nowhere.gz basic", "cannot read nowhere.gz"),
         ("compare mappers.py basic", "expected gzip data"),
@@ -148,10 +146,10 @@ def test_a_changed_baseline_is_refused(call: Call, folder: Path) -> None:
         ),
     ],
 )
-def test_bad_input_gets_one_sentence(call: Call, line: str, told: str) -> None:
+def test_bad_input_gets_one_sentence(call: Call, line: str, message: str) -> None:
     done = call(line)
     assert done.exit_code == 2, done.output
-    assert told in done.stderr
+    assert message in done.stderr
     assert len(done.stderr.splitlines()) == 1
 
 

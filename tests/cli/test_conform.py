@@ -56,7 +56,7 @@ def test_batch_mode(results: Results) -> None:
     assert {entry["passed"] for entry in found["results"]} == {13}
 
 
-def test_several_mappers_are_told_apart(results: Results) -> None:
+def test_each_of_several_mappers_has_its_own_entries(results: Results) -> None:
     found = results("conform basic,enhancement-i --worlds nyc --workers 0")
     assert [(e["target"], e["level"]) for e in found["results"]] == [
         (target, level)
@@ -86,7 +86,7 @@ def test_bad_input_exits_2_with_one_sentence(call: Call, line: str, words: str) 
     assert done.stdout == ""
 
 
-def test_a_person_is_shown_where_two_runs_part(call: Call) -> None:
+def test_the_report_shows_where_two_runs_diverge(call: Call) -> None:
     done = call("conform basic --like enhancement-ii --worlds m4/41 --workers 0")
     assert done.exit_code == 1
     for words in (
@@ -100,7 +100,7 @@ def test_a_person_is_shown_where_two_runs_part(call: Call) -> None:
         assert words in done.stdout
 
 
-def test_a_person_is_told_what_was_not_judged(call: Call) -> None:
+def test_the_report_names_the_claims_that_were_not_judged(call: Call) -> None:
     done = call("conform mappers.py:silent --worlds edges<=1 --workers 0")
     assert "declares nothing about it: true-hypothesis-posed" in done.stdout.replace("\n", " ")
     done = call(f"conform {SKIPS} --worlds edges<=1 --workers 0")

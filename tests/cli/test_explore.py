@@ -151,7 +151,7 @@ def test_a_world_is_never_kept_over_another_file(results: Call, folder: Path) ->
     assert kept.read_text() == "something of the user's"
 
 
-def test_where_nothing_can_be_kept_the_user_is_told(
+def test_a_world_that_cannot_be_saved_is_an_error(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object, **__: object) -> object:

@@ -52,7 +52,7 @@ def test_the_theorem_with_the_same_mistake_is_named(call: Call) -> None:
     assert "1 of 1 theorem with the same mistake refuted" in text
 
 
-def test_what_is_out_of_time_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_undecided_proof_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
 
     def proof(_fault: Fault) -> Proof:
         return Proof("planar-keeps", "UNKNOWN")
@@ -63,9 +63,7 @@ def test_what_is_out_of_time_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch
     assert "?: not decided, because a time limit ended" in done.stdout
 
 
-def test_the_second_strategy_is_told_by_an_asterisk(
-    call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_asterisk_marks_the_second_strategy(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
 
     def examples(_fault: Fault) -> Examples:
         return Examples(9, STRATEGIES[1], {STRATEGIES[1]: (9,)}, 100)
@@ -76,7 +74,7 @@ def test_the_second_strategy_is_told_by_an_asterisk(
 
 
 @pytest.mark.parametrize("claim", [None, "cost-honest"])
-def test_what_is_not_as_it_must_be_exits_1(
+def test_a_fault_that_its_own_claim_does_not_catch_exits_1(
     call: Call, monkeypatch: pytest.MonkeyPatch, claim: str | None
 ) -> None:
     monkeypatch.setitem(FAULTS, NAME, replace(FAULTS[NAME], claim=claim))
@@ -87,7 +85,7 @@ def test_what_is_not_as_it_must_be_exits_1(
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         (
             "faults no-such",
@@ -99,7 +97,9 @@ def test_what_is_not_as_it_must_be_exits_1(
         ),
     ],
 )
-def test_what_is_not_there_is_named(call: Call, line: str, told: str) -> None:
+def test_an_unknown_name_is_refused_with_the_known_ones(
+    call: Call, line: str, message: str
+) -> None:
     done = call(line)
     assert done.exit_code == 2
-    assert told in done.stderr
+    assert message in done.stderr

@@ -32,20 +32,20 @@ def test_a_theorem_is_proved_and_a_mutant_refuted(results: Results) -> None:
     assert (planar["kind"], planar["edges"]) == ("negative", 2)
 
 
-def test_a_person_sees_what_stands_behind_it(call: Call) -> None:
+def test_the_table_shows_the_evidence_for_each_verdict(call: Call) -> None:
     done = call("prove percept confirm-undirected")
     assert done.exit_code == 0
     seen = " ".join(done.stdout.split())  # cells are folded
-    for told in ("2 theorems (1 inductive, 1 mutant)", "premises", "used 6", "replays", "1 of 1"):
-        assert told in seen
+    for words in ("2 theorems (1 inductive, 1 mutant)", "premises", "used 6", "replays", "1 of 1"):
+        assert words in seen
     assert "docs/proofs.md" in done.stdout
 
 
-def test_markdown_has_the_same(call: Call) -> None:
+def test_markdown_has_the_same_table(call: Call) -> None:
     assert "| percept | inductive | PROVED | ok |" in call("prove percept --format markdown").stdout
 
 
-def test_the_list_tells_all_and_proves_nothing(results: Results, call: Call) -> None:
+def test_the_list_has_every_theorem_and_proves_none(results: Results, call: Call) -> None:
     envelope = results("prove --list")
     assert envelope["format"] == "topo-verify/prove-list"
     names = [entry["name"] for entry in envelope["results"]]
@@ -67,7 +67,7 @@ def test_kinds_and_sizes_are_chosen(results: Results) -> None:
     assert all(entry["edges"] <= 2 for entry in small)
 
 
-def test_long_theorems_come_when_asked_for(results: Results) -> None:
+def test_deep_adds_the_long_theorems(results: Results) -> None:
     usual = {entry["name"] for entry in results("prove --list")["results"]}
     deep = {entry["name"] for entry in results("prove --list --deep")["results"]}
     assert usual < deep
@@ -92,7 +92,7 @@ def test_two_runs_are_byte_equal_without_the_timing(program: Program) -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("prove percet", "do you mean percept"),
         ("prove nothing-like-it", "prove --list lists them"),
@@ -103,10 +103,10 @@ def test_two_runs_are_byte_equal_without_the_timing(program: Program) -> None:
         ("prove percept --solver yices", "--solver"),
     ],
 )
-def test_bad_use_gets_a_sentence_with_the_mend(call: Call, line: str, told: str) -> None:
+def test_bad_use_gets_a_sentence_with_the_mend(call: Call, line: str, message: str) -> None:
     done = call(line)
     assert done.exit_code == 2
-    assert told in done.stderr
+    assert message in done.stderr
     assert len(done.stderr.splitlines()) == 1
 
 
@@ -161,7 +161,7 @@ def stocked(monkeypatch: pytest.MonkeyPatch) -> None:
     ("name", "code", "verdict"),
     [("unprovable", 3, "UNKNOWN"), ("vacuous", 3, "PROVED"), ("unrefuted", 1, "EXHAUSTED")],
 )
-def test_what_is_not_as_it_must_be_is_no_pass(
+def test_an_unexpected_or_vacuous_verdict_does_not_pass(
     results: Results, name: str, code: int, verdict: str
 ) -> None:
     (entry,) = results(f"prove {name}", code=code)["results"]
@@ -169,7 +169,7 @@ def test_what_is_not_as_it_must_be_is_no_pass(
 
 
 @pytest.mark.usefixtures("stocked")
-def test_and_a_person_is_told_so(call: Call) -> None:
+def test_the_summary_names_what_did_not_pass(call: Call) -> None:
     done = call("prove vacuous unprovable")
     assert "VACUOUS" in done.stdout
     assert "Not as expected" in done.stdout

@@ -88,7 +88,7 @@ def test_a_program_that_gives_a_world_up_leaves_it_undecided(
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("record basic", "'--out'"),
         ("record --out b", "name a TARGET, or a program"),
@@ -100,8 +100,8 @@ def test_a_program_that_gives_a_world_up_leaves_it_undecided(
         ("record --cmd ./mapper --pick last --out b", "policies"),
     ],
 )
-def test_bad_input_gets_one_sentence(call: Call, line: str, told: str) -> None:
+def test_bad_input_gets_one_sentence(call: Call, line: str, message: str) -> None:
     done = call(line)
     assert done.exit_code == 2, done.output
-    assert told in done.stderr
+    assert message in done.stderr
     assert len(done.stderr.splitlines()) == 1

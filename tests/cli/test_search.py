@@ -30,7 +30,7 @@ def test_the_entry_of_an_exhausted_class_has_the_promised_fields(results: Call) 
 
 
 @pytest.mark.parametrize("workers", [0, 1, 2])
-def test_a_counterexample_exits_1_and_is_the_same_whoever_found_it(
+def test_a_counterexample_exits_1_and_is_the_same_with_any_workers(
     results: Call, call: Call, workers: int
 ) -> None:
     line = f"search mappers.py:guesses --edges 3 --workers {workers}"
@@ -94,14 +94,14 @@ def test_what_cannot_be_searched_gets_one_sentence(call: Call, line: str, words:
 # ---------------------------------------------------------------- for people
 
 
-def test_a_person_reads_how_much_of_what_was_checked(call: Call) -> None:
+def test_the_table_says_how_many_worlds_were_checked(call: Call) -> None:
     text = call("search basic --edges 3 --workers 0").stdout
     assert text.splitlines()[0] == "basic: worlds of 1 to 3 edges"
     assert "EXHAUSTED: 86 of 86 worlds checked, no claim failed" in text
     assert "max cost" not in text
 
 
-def test_a_person_reads_the_smallest_counterexample_and_its_line(call: Call) -> None:
+def test_the_smallest_counterexample_is_shown_with_its_replay_command(call: Call) -> None:
     text = call("search mappers.py:guesses --edges 3 --workers 0").stdout
     assert "REFUTED: 2 of 86 worlds checked, a claim fails in 1" in text
     assert "smallest counterexample: m1/1\n" in text
@@ -133,7 +133,7 @@ def test_compare_shows_where_the_first_costs_more(call: Call, results: Call) -> 
     assert "A enhancement-ii, B enhancement-i: worlds of 1 to 4 edges" in text
 
 
-def test_what_a_mapper_does_not_declare_is_said(call: Call) -> None:
+def test_claims_without_declarations_are_named(call: Call) -> None:
     text = " ".join(call("search mappers.py:silent --edges 2 --workers 0").stdout.split())
     assert (
         "Not judged, because mappers.py:silent declares nothing about it: true-hypothesis-p" in text
@@ -148,7 +148,7 @@ def test_markdown_has_tables(call: Call) -> None:
 # ---------------------------------------------------------------- ledger, Ctrl-C
 
 
-def test_a_ledger_is_gone_on_with(results: Call, folder: Path) -> None:
+def test_a_ledger_is_resumed(results: Call, folder: Path) -> None:
     line = "search basic --workers 2 --ledger done --edges"
     (before,) = results(f"{line} 2")["results"]
     assert (folder / "done").exists()

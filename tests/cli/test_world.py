@@ -149,7 +149,9 @@ def test_sample_draws_from_a_strategy(call: Call, results: Call) -> None:
         ("world sample --strategy 'worlds(min_edges=2,max_edges=1)'", "min_edges=2 is above"),
     ],
 )
-def test_a_sample_that_cannot_be_drawn_is_told_why(call: Call, line: str, sentence: str) -> None:
+def test_an_impossible_sample_is_refused_with_the_reason(
+    call: Call, line: str, sentence: str
+) -> None:
     done = call(line)
     assert done.exit_code == 2
     assert sentence in done.stderr

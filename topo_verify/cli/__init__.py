@@ -62,6 +62,7 @@ class CommandLine(click.Group):
 
     def _code(self, arguments: list[str], name: str, extra: dict[str, Any]) -> int:
         try:
+            # A copy, because click empties the list and `explain` prints the arguments.
             with self.make_context(name, arguments.copy(), **extra) as context:
                 code = self.invoke(context)
         except click.exceptions.Exit as done:

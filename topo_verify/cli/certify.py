@@ -194,6 +194,8 @@ def _proof(
     """
     from topo_verify.proofs.mechanised import certificates, vernacular
 
+    # The certificate is stated by a fold of its own. Were the two folds to differ, Coq would
+    # still accept a true statement, but not the one that the user was told.
     stated = certificates.certificate_of(log)
     shown = "undetermined" if certificate.witnesses else "impossible"
     if stated.statement != ("map" if certificate.map is not None else shown):
@@ -201,6 +203,7 @@ def _proof(
     name = _identifier(traces, number)
     files.write(f"{name}.v", vernacular.coq_file(stated))
     checked = check(name, stated)
+    # `accepted` is None where nothing was checked; only False means that Coq refused.
     for one in (checked, checked.decisions):
         if one is not None and one.accepted is False:
             raise InternalError(f"{one.by} refuses {name}.v: {one.why}")
@@ -235,6 +238,7 @@ def _certified_decisions(
 
 def _identifier(traces: Sequence[str], number: int) -> str:
     """The name of a log's certificate: an identifier of Coq, different for each of the logs."""
+    # Two logs may have one stem, or stems that differ in what Coq does not take: hence the number.
     stem = re.sub(r"\W", "_", Path(_name(traces[number])).stem, flags=re.ASCII)
     return f"certificate_{stem}" + (f"_{number + 1}" if len(traces) > 1 else "")
 
@@ -265,6 +269,7 @@ def _result(
         findings=findings,
         kernel=proof,
     )
+    # A log that is proved but not certified is no failure of the mapper: exit 3, not 1.
     unchecked = proof is not None and proof.incomplete
     return Result(entry, failed=bool(findings), incomplete=unchecked)
 

@@ -131,7 +131,7 @@ def compare(output: Output, *, baseline: str, mapper: MapperOpener, tolerance: s
             found = run_all(
                 then,
                 target,
-                tolerance=Fraction(tolerance),
+                tolerance=Fraction(tolerance),  # exact: a float may put a world on the wrong side
                 name=baseline,
                 tell=output.progress,
             )
@@ -223,6 +223,7 @@ def _examples(kind: Kind, entry: CompareEntry) -> Iterator[Block]:
     if not changes:
         return
     yield Text("")
+    # The order that harness/baseline/compare.py chose.
     first = "largest" if kind in ("dearer", "cheaper") else "smallest worlds"
     yield Text(f"{TITLES[kind]}: {_count(entry, kind):,}, {first} first")
     yield Bullets(tuple(map(_line, changes)))

@@ -110,6 +110,7 @@ def conform(  # noqa: PLR0913  an argument an option
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
         output.note(f"seed {seed}")
+        # Commas separate names of the catalogue, but a command line may contain them.
         for one in [text] if command else [found.text for found in targets(text)]:
             job = ConformJob(
                 target=one,
@@ -142,6 +143,7 @@ def _tried(
             tell=output.progress,
         )
     except KeyboardInterrupt:
+        # Yield before raising: `Output` prints what it has and then exits 3.
         yield from map(_result, tally.level_results())
         raise
     yield from map(_result, tally.level_results())

@@ -176,6 +176,7 @@ def _results(
     for number, (at, target) in enumerate((at, target) for at in starts for target in found):
         output.progress(f"{target.text} in {at.name}", number, total)
         run = run_mapper(at.world, target, limits=asked.limits)
+        # Before the judging, so that the trace is kept even if a checker fails.
         if asked.trace is not None:
             files.write(asked.trace, write_trace(run.trace).decode())
         yield _result(run, at, asked)
@@ -183,6 +184,7 @@ def _results(
 
 def _result(run: Exploration, at: NamedWorld, asked: _ExploreOptions) -> Result[ExploreEntry]:
     report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
+    # The gap is a share of all false hypotheses: a mapper that declares only some has none.
     measured = None
     if asked.gap and report.ok and "not-declared" not in report.claims.values():
         found = measure(run.trace)
@@ -233,6 +235,7 @@ def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
         yield from finding_blocks(entry.findings, run)
         if entry.stopped is not None and not entry.findings:
             yield Text(f"{run} is not decided: {entry.stopped}")
+    # Once per algorithm, not per world: what a mapper declares rarely depends on the world.
     quiet = {e.algorithm: silent(e.claims) for e in entries if e.ok and silent(e.claims)}
     for algorithm, claims in quiet.items():
         yield Text("")

@@ -59,6 +59,7 @@ def version() -> str:
 def say(sentence: str) -> None:
     """Print a sentence as one line on stderr, its control characters escaped."""
     line = shown(sentence, limit=4000)
+    # A file's name may hold bytes that are not UTF-8, which cannot be printed as they are.
     click.echo(line.encode(errors="backslashreplace").decode(), err=True)
 
 
@@ -79,6 +80,7 @@ def _usage(error: click.ClickException) -> str:
     path = context.command_path if context else "topo-verify"
     if isinstance(error, click.exceptions.NoArgsIsHelpError):
         return f"{path}: name a command; {path} --help lists them"
+    # Click ends with a full stop or asks a question; here more of the sentence follows.
     objection = " ".join(error.format_message().split()).removesuffix(".")
     objection = objection.replace("'. Did you", "', did you").removesuffix("?")
     return f"{path}: {objection[:1].lower()}{objection[1:]}; {path} --help shows the usage"
@@ -89,6 +91,7 @@ def _our_bug(error: Exception, arguments: Sequence[str]) -> ExitCode:
         click.echo("".join(traceback.format_exception(error)), err=True, nl=False)
     last = traceback.extract_tb(error.__traceback__)[-1:]
     file = "".join(frame.filename.replace(os.sep, "/") for frame in last)
+    # Paths are cut at the package, so that a report does not tell where the user keeps things.
     ours = "topo_verify" + file.rpartition("topo_verify")[2]
     place = "".join(f" ({ours if 'topo_verify' in file else file}:{f.lineno})" for f in last)
     command = shlex.join(["topo-verify", *arguments])

@@ -74,6 +74,7 @@ def faults(
     def tried() -> Iterator[Result[Caught]]:
         processes = processors() if workers is None else workers
         chosen = _named(names)
+        # The first fault may take a minute, and progress is otherwise shown after each.
         output.progress(chosen[0].name, 0, len(chosen))
         entries = try_faults(
             chosen, by=_checks(checks), workers=processes, thorough=thorough, tell=output.progress

@@ -115,6 +115,7 @@ class Output:
             more: further fields of the JSON envelope.
         """
         done: _Done[E] = _Done()
+        # JSON and Markdown are one document each; only people see entries as they come.
         live = live if self.style == "pretty" else None
         begin = perf_counter()
         try:
@@ -173,6 +174,7 @@ class Output:
                     "results": msgspec.to_builtins(done.entries),
                     "timing": {"seconds": seconds, "results": done.seconds},
                 }
+                # One object, written at the end: a script never reads half a result.
                 out.write(json.dumps(envelope) + "\n")
             else:
                 out.write(layout.markdown(show(done.entries)))
@@ -194,7 +196,7 @@ def _reader(out: IO[str]) -> Generator[IO[str]]:
         reconfigure(errors="backslashreplace")  # an encoding that lacks one of our letters
     try:
         yield out
-        out.flush()
+        out.flush()  # here, where its failure can still be reported, and not at Python's exit
     except BrokenPipeError:
         silence(out)
         raise _ReaderGone from None

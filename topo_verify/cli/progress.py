@@ -44,7 +44,7 @@ class ProgressBar:
         """Remove the bar from the terminal."""
         if self._timer is not None:
             self._timer.cancel()
-            self._timer.join()
+            self._timer.join()  # it may be just about to show the bar
             self._timer = None
         if self._bar is not None:
             self._bar.stop()

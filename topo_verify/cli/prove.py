@@ -101,6 +101,7 @@ def prove(  # noqa: PLR0913  an argument an option
         return output.run(
             "prove-list", lambda: map(Result, map(shown.listed, theorems)), shown.show_list
         )
+    # Now and not at the first question that needs them, which may be minutes away.
     _require(second=solver == "cvc5", certify=certify)
     budget = Budget(timeout=timeout, seed=seed, certify=certify, progress=output.progress)
 
@@ -113,6 +114,7 @@ def prove(  # noqa: PLR0913  an argument an option
                 _export(theorem, Path(folder))
             begin = perf_counter()
             result = _result(theorem, budget, second=solver == "cvc5")
+            # Kept apart from the entry: outside `timing`, results must be equal in every run.
             seconds[theorem.name] = perf_counter() - begin
             yield result
 

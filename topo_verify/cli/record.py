@@ -167,6 +167,7 @@ def record(
                 tell=output.progress,
                 note=note,
             )
+        # A baseline of some of the worlds would make every later comparison look complete.
         whole = len(made.entries) == corpus.total
         if whole:
             files.write(out, file.encode(made))

@@ -86,6 +86,7 @@ def replay(  # noqa: PLR0913  an argument an option
     def replayed() -> Iterator[Result[ReplayEntry]]:
         data = _bytes(what)
         if data is not None and _is_trace(data):
+            # A trace has its mapper and limits behind it: an option would be ignored in silence.
             given = {"--target": target, "--cmd": command, "--pick": pick, "--order": order}
             words = [name for name, value in given.items() if value is not None]
             _require_none((*words, *limits.options), what)

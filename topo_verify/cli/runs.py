@@ -97,6 +97,7 @@ def named_worlds(texts: Sequence[str], marker: int | None = None) -> list[NamedW
 def _saved(world: World) -> str:
     """The name of a file in the current folder that holds this world; it is written if missing."""
     text = world.to_json() + "\n"
+    # Named by its content: the same world leads to the same file, and so to the same output.
     stem = f"world-{sha256(text.encode()).hexdigest()[:12]}"
     for number in count(1):
         path = Path(f"{stem}.json" if number == 1 else f"{stem}-{number}.json")
@@ -108,6 +109,7 @@ def _saved(world: World) -> str:
 def _is_saved(path: Path, text: str) -> bool:
     """True if the file holds exactly this text; a missing file is written first."""
     try:
+        # "x" creates the file or fails, so a file of the user's is never overwritten.
         with path.open("x", encoding="utf-8") as file:
             file.write(text)
     except FileExistsError:
@@ -128,6 +130,7 @@ def judged(
 ) -> tuple[Report, bool]:
     """The report on a run, and whether it is undecided because the run was out of time."""
     report = judge(run, where=at.text, strict=strict)
+    # Out of time convicts nobody: the findings of such a run only say that it has no map.
     if undecided(run, report):
         return msgspec.structs.replace(report, findings=()), True
     if not report.findings:

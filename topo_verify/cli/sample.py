@@ -134,7 +134,7 @@ def _require_id(edges: int) -> None:
 
 
 def _uniform(worlds: WorldClass, edges: int, number: int, seed: int) -> Iterator[World]:
-    random = Random(seed)
+    random = Random(seed)  # one generator for all, so that -n 5 begins as -n 1 does
     for _ in range(number):
         yield worlds.sample(edges, random)
 

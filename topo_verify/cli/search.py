@@ -228,6 +228,7 @@ def _searched(
         try:
             work.work(output.progress)
         except KeyboardInterrupt:
+            # Yield before raising: `Output` prints what it has and then exits 3.
             yield _result(work.found(), asked)
             raise
         yield _result(work.found(), asked)
@@ -236,6 +237,7 @@ def _searched(
 def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
     first = found.counterexample
     tally = found.tally
+    # A claim that some runs were judged on is not listed, even if others declared nothing.
     silent = (
         c for c, seen in tally.statuses.items() if not seen.keys() & {"ok", "failed"} and seen
     )

@@ -24,7 +24,7 @@ class ReplayCount(msgspec.Struct, frozen=True):
     total: int
 
 
-class CertificateCheck(msgspec.Struct, frozen=True):
+class ProofCheck(msgspec.Struct, frozen=True):
     """A certificate and what its checker said."""
 
     format: str
@@ -62,7 +62,7 @@ class ProveEntry(msgspec.Struct, frozen=True):
     replayed: ReplayCount | None
     solver: str
     edges: int | None
-    certificate: CertificateCheck | None
+    certificate: ProofCheck | None
     checked: int | None
     total: int | None
     counterexample: str | None
@@ -107,7 +107,7 @@ def entry_of(theorem: Theorem, outcome: TheoremResult, opinion: SecondOpinion | 
         edges=theorem.edges,
         certificate=None
         if made is None
-        else CertificateCheck(
+        else ProofCheck(
             made.format, made.checker, made.checked, made.clauses, made.steps, made.why
         ),
         checked=outcome.checked,
@@ -187,6 +187,7 @@ def _evidence(entry: ProveEntry) -> str:
         second = entry.opinion
         words.append(f"{second.solver} agrees on {second.agrees} of {second.total}")
         words += [f"unknown on {second.unknown}"] if second.unknown else []
+    # A refuting history says more than the note, unless something went wrong.
     if entry.note and (not entry.ok or entry.history is None):
         words.append(entry.note)
     return "; ".join(words)

@@ -101,6 +101,7 @@ def _live(entry: Part) -> Iterator[Block]:
 
 def _first(entry: Part) -> Iterator[Block]:
     """The smallest counterexample of a part; JSON has more."""
+    # Findings come smallest world first; those with one replay command are of one run.
     smallest = [f for f in entry.findings if f.replay == entry.findings[0].replay]
     if smallest:
         yield from finding_blocks(

@@ -109,6 +109,7 @@ def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
 
 
 def _word(fact: object) -> str:
+    # By type, not by value: 1 == True, and a genus of 1 is not "yes".
     return {True: "yes", False: "no"}[fact] if isinstance(fact, bool) else str(fact)
 
 
@@ -144,6 +145,7 @@ def convert(output: Output, *, world: str, to: str, file: str, marker: int | Non
     def converted() -> Iterator[Result[ConvertEntry]]:
         at = named_world(world, marker)
         content = FORMATS[to](at.world)
+        # Text on stdout goes through `Output` like any result; bytes cannot.
         if file != "-":
             files.write(file, content + "\n" if isinstance(content, str) else content)
             yield Result(ConvertEntry(at.name, to, file, None))
