@@ -186,6 +186,7 @@ def _enumerated(text: str) -> CorpusPart:
 
     def listed() -> Iterator[Named]:
         for edges in range(1, most + 1):
+            # Listing in order of rank is much faster than unranking each id.
             for rank, table in enumerate(rank_order.tables(edges)):
                 name = f"m{edges}/{rank}"
                 yield Named(name, World.from_code(table), text, ("--worlds", name))
@@ -205,6 +206,7 @@ def _generated(text: str, seed: int) -> CorpusPart:
             f" {MOST_GENERATED:,}, as in 'generated:200:planar_worlds(max_edges=20)', got {text!r}"
         )
     strategies = STRATEGIES if found[2] is None else (found[2],)
+    # The first strategies draw one world more, if the number does not divide.
     each, more = divmod(number, len(strategies))
     worlds: list[World] = []
     for place, strategy in enumerate(strategies):

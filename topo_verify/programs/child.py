@@ -113,7 +113,7 @@ class Child:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
                 env={**os.environ, reaper.MARK: self.mark},
-                start_new_session=True,
+                start_new_session=True,  # a group to kill, which Ctrl-C does not reach
                 bufsize=0,
             )
         except (OSError, ValueError) as error:
@@ -156,6 +156,7 @@ class Child:
                 raise Ended
             if monotonic() > until:
                 raise Silent
+            # Look at the exit status only after a silent tick: what it wrote last comes first.
             if not self._listen() and self._status() is not None:
                 self._output_ended = True  # though a child of its own may hold the stream open
         return self._lines.popleft()

@@ -145,6 +145,7 @@ class Program:
             # Keep a copy: the traceback of `why` refers to this frame and thus to the program, and
             # a program in a circle of references is not ended when its last user drops it.
             self.misbehaved = Misbehaved(why.kind, str(why), detail=why.detail)
+            # These two end a world as the protocol says, so the process is fit for the next one.
             self._idle = why.kind in ("skip", "error")
             raise
         except Misuse as why:
@@ -164,6 +165,8 @@ class Program:
                 "out-of-turn", f"the program wrote before the world began{_seen(child)}"
             )
         self._send(child, ms.StartMessage(percept=robot.percept))
+        # Decisions are counted because no other limit stops a program that declares for ever: each
+        # one is an answer in time, and none is a move of the budget.
         declared = 0
         while True:
             message = self._receive(child)
@@ -190,6 +193,8 @@ class Program:
                 raise Misbehaved(kind, f"the program {verb}{why}")
 
     def _require_silence(self, child: Child) -> None:
+        # Only what came in the same read: waiting for more would slow down every world. A later
+        # line is found before the next world begins.
         if child.in_half_a_line or child.unread:
             raise Misbehaved(
                 "out-of-turn", f"the program went on after the world's end{_seen(child)}"

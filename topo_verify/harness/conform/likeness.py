@@ -78,6 +78,7 @@ def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
 
     If the mapper declares nothing, only the moves are compared.
     """
+    # A mapper that declares some decisions must declare all of them: it is compared in full.
     silent = not declares(mapper)
     ours = _events(reference, silent=silent)
     theirs = _events(mapper, silent=silent)
@@ -85,6 +86,7 @@ def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
         expected = None if one is None else _bare(one[1])
         seen = None if other is None else _bare(other[1])
         if expected != seen:
+            # The knowledge comes from the reference: a mapper that declares nothing shows none.
             upto = len(reference) if one is None else one[0]
             return Difference(
                 event=len(mapper) if other is None else other[0],

@@ -169,6 +169,7 @@ def world_result(
         cost=run.cost,
         reference=reference.cost,
     )
+    # With one worker as with many: what is compared and printed never holds a mapper's objects.
     return plain(made)
 
 
@@ -184,6 +185,7 @@ def _open_ended(run: Exploration, misbehaved: Misbehaved | None) -> LevelState |
     """The state of a world in which the implementation cannot be judged; None if it can."""
     if misbehaved is not None and misbehaved.kind in ("skip", "error"):
         return "skipped" if misbehaved.kind == "skip" else "errored"
+    # Only this limit leaves it open: a run stopped by another one stands still or walks for ever.
     return "undecided" if run.limit == "world-timeout" else None
 
 

@@ -50,6 +50,7 @@ class ClaimResults:
         seen = self.part.claims[claim]
         if seen["failed"]:
             return "fails"
+        # The numbers of one claim add up to fewer runs than worlds if a run was undecided.
         if self.part.checked < self.part.total or sum(seen.values()) < self.part.checked:
             return "undecided"
         return "holds" if seen["ok"] == self.part.checked else "not-declared"
@@ -93,6 +94,7 @@ def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
     raised: dict[str, str] = {}
 
     def note(run: Exploration, report: Report) -> None:
+        # Worlds come smallest first, so the first finding of a claim is in a smallest world.
         for finding in () if undecided(run, report) else report.findings:
             if first.setdefault(finding.claim, finding) is finding and run.error is not None:
                 raised[finding.world] = _place(run.error)

@@ -55,6 +55,7 @@ class Proofs:
     def part(self, *, interrupted: bool = False) -> Part:
         """The result so far."""
         standings = Counter(theorem.standing(outcome) for theorem, outcome in self.done)
+        # No theorem at all (an interrupt before the first) is not a proof of anything.
         whole = len(self.done) == self.total > 0 and not interrupted
         verdict: Verdict = "UNKNOWN"
         if standings["failed"]:

@@ -83,6 +83,7 @@ def _jobs(
         limits=limits,
         patience=PATIENCE,
     )
+    # Drawing takes seconds: this generator gets here only when the parts above are done.
     generated = generated_worlds(each, seed)
     yield Trials(
         name="generated-worlds",
