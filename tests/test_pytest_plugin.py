@@ -180,7 +180,7 @@ MISTAKES = {
     '"basic"': "does not take 'basic'",
     'target="basic", worlds=3': "does not take worlds=…",
     'target="basic", edges=0': "expected a number of edges, 1 or more, got edges=0",
-    'target="basic", edges=10': "ask for 9 or fewer",
+    'target="basic", edges=10': "expected at most 9 edges, got 10",
 }
 """Arguments of a mark, and what is said to them."""
 
