@@ -165,8 +165,8 @@ class Program:
                 "out-of-turn", f"the program wrote before the world began{_seen(child)}"
             )
         self._send(child, ms.StartMessage(percept=robot.percept))
-        # Decisions are counted because no other limit stops a program that declares for ever: each
-        # one is an answer in time, and none is a move of the budget.
+        # Decisions are counted because they cost no move of the budget, and a flood of them would
+        # fill the memory before a time limit strikes.
         declared = 0
         while True:
             message = self._receive(child)
