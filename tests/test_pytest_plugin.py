@@ -63,6 +63,12 @@ def said(result: pytest.RunResult) -> str:
 # ---------------------------------------------------------------- the mark
 
 
+def test_a_mark_may_name_a_program(session: Session) -> None:
+    command = f"--cmd {sys.executable} -m topo_verify.programs.serve basic"
+    result = session(test=MARKED.format(target=command))
+    result.assert_outcomes(passed=len(CLAIMS))
+
+
 def test_a_mark_turns_a_mapper_into_one_test_a_claim(session: Session) -> None:
     result = session("-v", test=MARKED.format(target="mappers:right"))
     result.assert_outcomes(passed=len(CLAIMS))

@@ -75,8 +75,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption(
         "--topo-target",
         metavar="TARGET",
-        help="Test this mapper: package.module:attribute, path/file.py:attribute or the name of"
-        " an algorithm; also what marks without a target mean.",
+        help="Test this mapper: package.module:attribute, path/file.py:attribute, '--cmd program"
+        " args' or the name of an algorithm. Also the target of marks without one.",
     )
     group.addoption(
         "--topo-edges",
