@@ -87,7 +87,7 @@ class ReaperProcess:
             self._process.stdin.write(line.encode())
 
     def close(self) -> None:
-        """End the process, which kills what is still on its list."""
+        """End the reaper, which first kills every program that is still on its list."""
         assert self._process.stdin is not None
         with suppress(OSError):
             self._process.stdin.close()
