@@ -75,7 +75,7 @@ def test_several_mappers_are_told_apart(results: Results) -> None:
         ('conform --cmd "\'" --worlds m1/0', "quote"),
         ("conform basic --worlds nowhere", "names no world"),
         ("conform basic --like best", "no algorithm 'best'"),
-        ("conform basic --batch --worlds m1/0", "for programs"),
+        ("conform basic --batch --worlds m1/0", "expected a program, got basic"),
         ("conform nothing --worlds m1/0", "no algorithm 'nothing'"),
     ],
 )
