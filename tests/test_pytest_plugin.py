@@ -63,6 +63,12 @@ def said(result: pytest.RunResult) -> str:
 # ---------------------------------------------------------------- the mark
 
 
+def test_a_mark_may_name_a_program(session: Session) -> None:
+    command = f"--cmd {sys.executable} -m topo_verify.programs.serve basic"
+    result = session(test=MARKED.format(target=command))
+    result.assert_outcomes(passed=len(CLAIMS))
+
+
 def test_a_mark_turns_a_mapper_into_one_test_a_claim(session: Session) -> None:
     result = session("-v", test=MARKED.format(target="mappers:right"))
     result.assert_outcomes(passed=len(CLAIMS))
@@ -113,7 +119,9 @@ def test_what_is_not_declared_is_skipped_and_does_not_pass(session: Session) -> 
     result = session("-v", test=MARKED.format(target="mappers:silent"))
     result.assert_outcomes(passed=5, skipped=5)
     for claim in DECLARED:
-        assert f"{claim}: not judged, for the mapper declares nothing on it" in said(result)
+        assert f"{claim}: not judged, since the mapper declares none of its decisions" in said(
+            result
+        )
 
 
 def test_a_mapper_that_raises_shows_where(session: Session) -> None:
@@ -131,7 +139,7 @@ def test_a_mapper_that_hangs_fails_and_leaves_the_rest_undecided(session: Sessio
     result.assert_outcomes(failed=len(CLAIMS))
     assert "map-isomorphic fails in 3 of 3 worlds" in said(result)
     assert "the mapper did not move for 0.06 s" in said(result)
-    assert "cost-honest is not decided: 3 of 12 worlds" in said(result)
+    assert "cost-honest is undecided: 3 of 12 worlds" in said(result)
 
 
 def test_a_mapper_that_is_too_slow_never_passes(session: Session) -> None:
@@ -177,8 +185,8 @@ MISTAKES = {
     "": "names no mapper: write @pytest.mark.topo(target=",
     '"basic"': "does not take 'basic'",
     'target="basic", worlds=3': "does not take worlds=…",
-    'target="basic", edges=0': "edges=0: that is a number of edges",
-    'target="basic", edges=10': "ask for 9 or fewer",
+    'target="basic", edges=0': "expected a number of edges, 1 or more, got edges=0",
+    'target="basic", edges=10': "expected at most 9 edges, got 10",
 }
 """Arguments of a mark, and what is said to them."""
 
@@ -257,7 +265,7 @@ def test_numbers_that_cannot_be_meant_are_refused() -> None:
         ("--topo-world-timeout", ("0",)),
     ):
         for text in texts:
-            with pytest.raises(pytest.UsageError, match=f"{option}: '{text}' is no number of"):
+            with pytest.raises(pytest.UsageError, match=f"{option}: expected .*, got '{text}'"):
                 parser.parse([f"{option}={text}"])
 
 

@@ -5,8 +5,8 @@ world = tv.World.from_id("m5/17")
 run = tv.explore(world, "enhancement-ii")
 report = tv.examine(my_mapper, world)
 
-Names are imported when they are first asked for: pytest imports this package in every session of
-the environment, for the sake of its plugin, and most sessions ask for nothing.
+A name is imported when it is first used: pytest imports this package in every session of its
+environment because of the plugin, and most sessions use no name of it.
 """
 
 from importlib import import_module
@@ -60,7 +60,7 @@ _MODULES = {
     "world": ("families",),
     "world.rooted_map": ("World",),
 }
-"""Where the names of `__all__` live."""
+"""The modules of the names of `__all__`."""
 
 _HOME = {name: f"topo_verify.{module}" for module, names in _MODULES.items() for name in names}
 

@@ -5,20 +5,20 @@
 
     pytest --topo-target my_mapper.py:explore         the same without a file of tests
 
-The mapper is run once in every world of 1 to N edges (`--topo-edges`), and all claims are judged on
-that run: the first test that asks pays for it, the others read what came out (a process each with
-pytest-xdist). A test passes if its claim held in every world. It fails if the claim fails in one,
-with the first such world and the line that shows it again, and also if a run was out of time, for
-then nobody knows. It is skipped if the mapper did not declare, in every world, the decisions that
-the claim speaks of: that is no success.
+The mapper runs once in every world of 1 to N edges (`--topo-edges`), and every claim is judged on
+these runs. The first test of a mapper runs it; the others read the results (with pytest-xdist, once
+in each process). A test passes if its claim holds in every world. It fails if the claim fails in a
+world, and shows the first such world with its replay command. It fails also if a run exceeded its
+time, since the claim is then undecided. It is skipped if there is a world in which the mapper did
+not declare the decisions that the claim is about, since the claim was then not judged there.
 
-What the tests say travels in `user_properties` of their reports, so the summary at the end is the
-same with pytest-xdist, and JUnit files have it, too.
+The results travel in the `user_properties` of the test reports, so the summary at the end is the
+same with pytest-xdist, and JUnit files hold them.
 
-Pytest loads this file in every session of the environment, long before anybody asks for it. So it
-imports nothing of topo_verify, and no library, until a mapper is there to be tested.
+Pytest loads this file in every session of its environment. So the file imports nothing of
+topo_verify and no library before there is a mapper to test.
 
-What this does not show: anything about worlds with more edges. docs/pytest.md says how to ask.
+What this does not show: anything about worlds with more edges than N.
 """
 
 from __future__ import annotations
@@ -39,15 +39,15 @@ if TYPE_CHECKING:
     from topo_verify.world.rooted_map import World
 
 EDGES = 4
-"""Worlds have 1 to so many edges unless more are asked for: 792 worlds, about a second."""
+"""The default of `--topo-edges`: 792 worlds, about a second."""
 
 _CASE = "_topo_case"
-"""The parameter by which a marked function becomes one test a claim."""
+"""The parameter that makes one test for each claim from a marked function."""
 
 
 @dataclass(frozen=True, slots=True)
 class ClaimTest:
-    """What one test asks: does this claim hold of the mapper in every world of 1 … edges edges?"""
+    """The question of one test: does the claim hold in every world of 1 to `edges` edges?"""
 
     target: Target
     edges: int
@@ -56,11 +56,11 @@ class ClaimTest:
 
 @dataclass
 class _Session:
-    """What is kept from configuration to summary, in one process."""
+    """The state of one process, from configuration to summary."""
 
     targets: dict[str, tuple[Target, ...]] = field(default_factory=dict[str, Any])
-    outcomes: dict[tuple[int, int], ClaimResults] = field(default_factory=dict[Any, Any])
-    """By the mapper's identity (the cases keep it alive) and the number of edges."""
+    results: dict[tuple[int, int], ClaimResults] = field(default_factory=dict[Any, Any])
+    """By the mapper's `id`, which stays its own while the tests hold the mapper, and by edges."""
 
 
 _SESSION = pytest.StashKey[_Session]()
@@ -75,29 +75,29 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption(
         "--topo-target",
         metavar="TARGET",
-        help="Test this mapper: package.module:attribute, path/file.py:attribute or the name of"
-        " an algorithm; also what marks without a target mean.",
+        help="Test this mapper: package.module:attribute, path/file.py:attribute, '--cmd program"
+        " args' or the name of an algorithm. Also the target of marks without one.",
     )
     group.addoption(
         "--topo-edges",
         metavar="N",
         type=_number,
         default=EDGES,
-        help=f"In every world of 1 to N edges.  [default: {EDGES}]",
+        help=f"Run the mapper in every world of 1 to N edges.  [default: {EDGES}]",
     )
-    for name, what, seconds in (("move", "Between two moves", 5), ("world", "In a world", 60)):
+    for name, what, seconds in (("move", "between two moves", 5), ("world", "in a world", 60)):
         group.addoption(
             f"--topo-{name}-timeout",
             metavar="SECONDS",
             type=_seconds,
             default=float(seconds),
-            help=f"{what} a mapper has so long.  [default: {seconds}]",
+            help=f"The most time of a mapper {what}.  [default: {seconds}]",
         )
 
 
 def _number(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of edges: give 1 or more")
+        raise argparse.ArgumentTypeError(f"expected a number of edges, 1 or more, got {text!r}")
     return int(text)
 
 
@@ -107,7 +107,7 @@ def _seconds(text: str) -> float:
     except ValueError:
         seconds = 0.0
     if not 0 < seconds <= 10**6:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of seconds above 0")
+        raise argparse.ArgumentTypeError(f"expected seconds in (0, 1000000], got {text!r}")
     return seconds
 
 
@@ -126,7 +126,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """A marked function becomes one test a claim."""
+    """Make one test for each claim from a marked function."""
     mark = metafunc.definition.get_closest_marker("topo")
     if mark is not None:
         cases = _cases(metafunc.config, mark)
@@ -140,7 +140,7 @@ def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
     """The tests that a mark asks for.
 
     Raises:
-        CollectError: no such mapper, or other arguments than a mark takes.
+        CollectError: there is no such mapper, or the mark has other arguments than it takes.
     """
     wanted = dict(mark.kwargs)
     target = wanted.pop("target", config.option.topo_target)
@@ -157,16 +157,16 @@ def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
         )
     if not isinstance(edges, int) or isinstance(edges, bool) or edges < 1:
         raise pytest.Collector.CollectError(
-            f"the mark topo has edges={edges!r}: that is a number of edges, 1 or more"
+            f"the mark topo: expected a number of edges, 1 or more, got edges={edges!r}"
         )
     return list(_of_targets(config, target, edges))
 
 
 def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Iterator[ClaimTest]:
-    """One test a mapper and claim.
+    """One test for each mapper and claim.
 
     Raises:
-        CollectError: no such mapper.
+        CollectError: there is no such mapper, or too many edges are asked for.
     """
     from topo_verify.checkers import CLAIMS
     from topo_verify.errors import InputError
@@ -175,8 +175,7 @@ def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Itera
 
     if edges > MOST_ENUMERATED:
         raise pytest.Collector.CollectError(
-            f"every world of 1 to {edges} edges: that takes too long; ask for {MOST_ENUMERATED} or"
-            " fewer"
+            f"expected at most {MOST_ENUMERATED} edges, got {edges}: there are too many worlds"
         )
     known = config.stash[_SESSION].targets
     try:
@@ -197,7 +196,7 @@ def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Itera
 def pytest_make_collect_report(
     collector: pytest.Collector,
 ) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
-    """The session collects what --topo-target names, whatever files it collects from."""
+    """Let the session collect the tests of --topo-target, besides those of files."""
     report = yield
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
@@ -210,7 +209,7 @@ class MapperCollector(pytest.Collector):
     """The tests of --topo-target; its name is the option's text."""
 
     def collect(self) -> Iterable[ClaimItem]:
-        """One test a mapper and claim."""
+        """One test for each mapper and claim."""
         cases = list(_of_targets(self.config, self.name, self.config.option.topo_edges))
         several = len({case.target.text for case in cases}) > 1
         for case in cases:
@@ -219,7 +218,7 @@ class MapperCollector(pytest.Collector):
 
 
 class ClaimItem(pytest.Item):
-    """One claim of one mapper, with no function behind it."""
+    """A test of one claim of one mapper, made from no function."""
 
     def __init__(self, *, case: ClaimTest, **kwargs: Any) -> None:
         super().__init__(**kwargs)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
@@ -227,16 +226,16 @@ class ClaimItem(pytest.Item):
         self.add_marker(pytest.mark.topo)
 
     def runtest(self) -> None:
-        """Judge it."""
+        """Pass, fail or skip by the claim's verdict."""
         _judge(self, self.case)
 
     def reportinfo(self) -> tuple[Any, int | None, str]:
-        """Where it stands: nowhere in a file."""
+        """The place that pytest shows: a node id, since there is no line in a file."""
         return self.path, None, self.nodeid
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """A mark that would do nothing is an error."""
+    """Refuse a mark on a test that was not parametrized, where it would do nothing."""
     for item in items:
         if item.get_closest_marker("topo") and not isinstance(item, ClaimItem) and not _case(item):
             raise pytest.UsageError(
@@ -246,7 +245,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def _case(item: pytest.Item) -> ClaimTest | None:
-    """What a marked function is to judge in this test."""
+    """The question of a test made from a marked function; None for any other test."""
     callspec = getattr(item, "callspec", None)
     return None if callspec is None else callspec.params.get(_CASE)
 
@@ -256,7 +255,7 @@ def _case(item: pytest.Item) -> ClaimTest | None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Generator[None, object, object]:
-    """A marked function: first the claim, then the body."""
+    """Judge the claim of a marked function, then run its body."""
     case = _case(pyfuncitem)
     if case is not None:
         _judge(pyfuncitem, case)
@@ -264,18 +263,18 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Generator[None, object, o
 
 
 def _judge(item: pytest.Item, case: ClaimTest) -> None:
-    """Pass, fail or skip: what became of the claim."""
+    """Pass, fail or skip a test by the verdict on its claim."""
     from topo_verify.harness.verify.by_claim import by_claim
     from topo_verify.robot.limits import Limits
 
-    known = item.config.stash[_SESSION].outcomes
+    known = item.config.stash[_SESSION].results
     key = (id(case.target.mapper), case.edges)
     if key not in known:
         options: argparse.Namespace = item.config.option
         limits = Limits(None, options.topo_move_timeout, options.topo_world_timeout)
         known[key] = by_claim(case.target, case.edges, limits)
     item.user_properties += _properties(case, known[key])
-    match known[key].status(case.claim):
+    match known[key].verdict(case.claim):
         case "fails" | "undecided":
             pytest.fail(known[key].text(case.claim), pytrace=False)
         case "not-declared":
@@ -287,9 +286,9 @@ def _judge(item: pytest.Item, case: ClaimTest) -> None:
 # ---------------------------------------------------------------- what is reported
 
 
-def _properties(case: ClaimTest, outcome: ClaimResults) -> list[tuple[str, object]]:
-    """What the report of a test carries, also to another process and to a JUnit file."""
-    part = outcome.part
+def _properties(case: ClaimTest, results: ClaimResults) -> list[tuple[str, object]]:
+    """The results that the report of a test carries to another process and to a JUnit file."""
+    part = results.part
     facts: dict[str, object] = {
         "target": case.target.text,
         "edges": case.edges,
@@ -306,15 +305,15 @@ def _properties(case: ClaimTest, outcome: ClaimResults) -> list[tuple[str, objec
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """A line for each mapper: in how many worlds it was, and in how many a claim fails."""
-    said: dict[tuple[object, ...], dict[str, Any]] = {}
+    """Write a line for each mapper: the worlds tried, and the counterexamples."""
+    by_mapper: dict[tuple[object, ...], dict[str, Any]] = {}
     for report in itertools.chain(*terminalreporter.stats.values()):
         facts: dict[str, Any] = dict(getattr(report, "user_properties", ()))
         if "topo_target" in facts:
-            said.setdefault((facts["topo_target"], facts["topo_edges"]), facts)
-    if said:
+            by_mapper.setdefault((facts["topo_target"], facts["topo_edges"]), facts)
+    if by_mapper:
         terminalreporter.write_sep("=", "topo-verify")
-    for facts in said.values():
+    for facts in by_mapper.values():
         terminalreporter.write_line(_line(facts))
 
 
@@ -328,15 +327,15 @@ def _line(facts: dict[str, Any]) -> str:
 
 
 # ---------------------------------------------------------------- fixtures
-# For the whole session, so that Hypothesis has nothing against them.
+# Of session scope: Hypothesis refuses fixtures of function scope in its tests.
 
 
 @pytest.fixture(scope="session")
 def topo_robot() -> Callable[..., SimulatedRobot]:
     """`topo_robot(world, budget=None)`: a robot at the marker of a world.
 
-    The world is a `World` or what a command line calls it ("m5/17", "nyc"); the budget, in moves,
-    is the bound of claim 7. The robot has `percept`, `move`, `declare`, and knows its `cost` and
+    The world is a `World` or an argument of the command line ("m5/17", "nyc"); the default budget,
+    in moves, is the bound of claim 7. The robot has `percept`, `move`, `declare`, `cost` and
     `events`.
     """
 
@@ -351,10 +350,10 @@ def topo_robot() -> Callable[..., SimulatedRobot]:
 
 @pytest.fixture(scope="session")
 def topo_examine() -> Callable[..., Report]:
-    """`topo_examine(mapper, world)`: the report on a run, every claim judged.
+    """`topo_examine(mapper, world)`: the report on a run, judged by every claim.
 
-    As `topo_verify.examine`, but the world may also be what a command line calls it. A report has
-    `ok`, `cost`, `claims`, `findings`; its text says what is wrong, where, and how to see it again:
+    As `topo_verify.examine`, but the world may also be an argument of the command line. A report
+    has `ok`, `cost`, `claims`, `findings`; its text lists the violations and the replay command:
     `assert report.ok, str(report)`.
     """
 

@@ -75,7 +75,7 @@ def test_each_of_several_mappers_has_its_own_entries(results: Results) -> None:
         ('conform --cmd "\'" --worlds m1/0', "quote"),
         ("conform basic --worlds nowhere", "no such world"),
         ("conform basic --like best", "no algorithm 'best'"),
-        ("conform basic --batch --worlds m1/0", "for programs"),
+        ("conform basic --batch --worlds m1/0", "expected a program, got basic"),
         ("conform nothing --worlds m1/0", "no algorithm 'nothing'"),
     ],
 )

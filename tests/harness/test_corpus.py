@@ -109,7 +109,7 @@ def test_what_names_no_worlds_is_refused(text: str, words: str) -> None:
 
 
 def test_a_folder_without_worlds_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="no world in this folder"):
+    with pytest.raises(InputError, match="expected a folder with world files"):
         corpus_from([str(tmp_path)])
 
 

@@ -1,20 +1,20 @@
-"""WORLDS: what an implementation is tried on, as the command line names it.
+"""WORLDS: the worlds to try an implementation on, as the command line names them.
 
 | text | worlds |
 | --- | --- |
 | `corpus` | every world of 1 to 4 edges, 20 of each strategy, the street network |
 | `edges<=5` | every world of 1 to 5 edges, in the order of their ids |
-| `generated:200` | so many worlds, of every strategy the same number (as far as that goes) |
-| `generated:200:STRATEGY` | so many worlds of one strategy, `planar_worlds(max_edges=20)` |
+| `generated:200` | 200 worlds, the same number from each strategy (up to a remainder) |
+| `generated:200:STRATEGY` | 200 worlds of one strategy, such as `planar_worlds(max_edges=20)` |
 | a folder | the world files in it, in the order of their names |
-| any WORLD | that world: a path, `family:…`, an id, `nyc` |
+| any WORLD | this world: a path, `family:…`, an id, `nyc` |
 
     corpus = corpus_from(["edges<=3", "nyc"])
     corpus.total, corpus.digest          # 87, and a hash that names exactly these worlds
     for at in corpus: at.name, at.world
 
-A corpus is listed anew each time it is gone through and holds no enumerated world, so it may be
-larger than memory. A world that two texts name comes twice.
+Each iteration enumerates the worlds again, so a corpus may be larger than memory. A world that two
+texts name occurs twice.
 
 Source: docs/semantics.md, section 16.
 """
@@ -37,16 +37,16 @@ from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 DEFAULT = ("corpus",)
-"""Which worlds are meant where none are named."""
+"""The worlds if none are named."""
 
 SMALL = "edges<=4"
-"""The part of the default corpus that is exhaustive."""
+"""The exhaustive part of the default corpus."""
 
 GENERATED = 160
 """How many worlds of the default corpus are generated."""
 
 NETWORKS = ("nyc",)
-"""The real networks that come with the package."""
+"""The street networks in the package."""
 
 STRATEGIES = (
     "worlds(min_edges=1, max_edges=24)",
@@ -58,14 +58,14 @@ STRATEGIES = (
     "symmetric_worlds(min_edges=1, max_edges=24)",
     "uniform_worlds(edges=12)",
 )
-"""What `generated:N` draws from, in turn."""
+"""The strategies that `generated:N` draws from, in this order."""
 
 MOST_GENERATED = 1_000_000
 MOST_ENUMERATED = 9
-"""No more is asked for by a text: 576,037,442 worlds have 9 edges."""
+"""The most edges of `edges<=N`: 576,037,442 worlds have 9 edges."""
 
 SUFFIXES = (".json", ".graphml", ".net.xml", ".pc", ".plc")
-"""Which files in a folder are worlds."""
+"""The endings of the files in a folder that are read as worlds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,9 +73,9 @@ class Named:
     """A world of a corpus.
 
     Attributes:
-        name: how the command line names it: a WORLD, wherever it has an id or a file.
+        name: a WORLD of the command line if it has an id or a file, else a text that is unique.
         world: the world.
-        group: the text that led to it.
+        group: the text of WORLDS that names it.
         replay_arguments: the arguments of a command line that name this world.
     """
 
@@ -87,7 +87,14 @@ class Named:
 
 @dataclass(frozen=True)
 class CorpusPart:
-    """The worlds that one text names; `finite`: all of their kind, to be exhausted."""
+    """The worlds that one text names.
+
+    Attributes:
+        text: the text.
+        total: their number.
+        listed: lists them; called once for each iteration.
+        finite: they are all worlds of a finite class.
+    """
 
     text: str
     total: int
@@ -97,7 +104,7 @@ class CorpusPart:
 
 @dataclass(frozen=True)
 class Corpus:
-    """Worlds, in an order that is always the same; go through them as often as you like."""
+    """Worlds in a fixed order, to be iterated any number of times."""
 
     parts: tuple[CorpusPart, ...]
 
@@ -107,24 +114,24 @@ class Corpus:
 
     @property
     def total(self) -> int:
-        """How many worlds there are, counted without listing them."""
+        """The number of worlds, by formulas and lengths, without listing any."""
         return sum(part.total for part in self.parts)
 
     @property
     def finite(self) -> bool:
-        """Is this every world of a finite class?"""
+        """Whether these are all worlds of finite classes."""
         return all(part.finite for part in self.parts)
 
     @property
     def description(self) -> str:
-        """What is in it, in words."""
+        """The texts and how many worlds each one names."""
         return ", ".join(f"{part.text} ({part.total:,})" for part in self.parts)
 
     @cached_property
     def digest(self) -> str:
-        """A hash that is equal for the same worlds in the same order, and for no others.
+        """A hash of the worlds in their order.
 
-        Enumerated worlds are named by their bounds alone: their order is part of the format.
+        The text `edges<=N` stands for its worlds, since the enumeration order is a promise.
         """
         made = sha256(b"topo-verify/corpus 1")
         for part in self.parts:
@@ -138,9 +145,9 @@ def corpus_from(texts: Sequence[str] = DEFAULT, *, seed: int = 0) -> Corpus:
     """The worlds that these texts name, in their order; the default corpus if there are none.
 
     Args:
-        seed: draws the generated worlds.
+        seed: of the generated worlds.
     Raises:
-        InputError: a text names no worlds, or a file among them holds none.
+        InputError: a text names no worlds, or a named file holds none.
     """
     parts = [part for text in texts or DEFAULT for part in _parts(text, seed)]
     return Corpus(tuple(parts))
@@ -157,7 +164,8 @@ def _parts(text: str, seed: int) -> Iterator[CorpusPart]:
     elif text.startswith("generated"):
         yield _generated(text, seed)
     elif text == "-":
-        raise InputError("--worlds -: worlds are read more than once; name a file or a folder")
+        # Standard input can be read once, but a corpus is iterated several times.
+        raise InputError("--worlds -: standard input is read only once; name a file or a folder")
     elif _is_folder(text):
         yield _folder(text)
     else:
@@ -172,12 +180,13 @@ def _enumerated(text: str) -> CorpusPart:
     most = int(found[1]) if found else 0
     if not 1 <= most <= MOST_ENUMERATED:
         raise InputError(
-            f"--worlds {text!r}: every world of 1 to N edges is 'edges<=N', N from 1 to"
-            f" {MOST_ENUMERATED}"
+            f"--worlds: expected 'edges<=N', every world of 1 to N edges, with N from 1 to"
+            f" {MOST_ENUMERATED}, got {text!r}"
         )
 
     def listed() -> Iterator[Named]:
         for edges in range(1, most + 1):
+            # Listing in order of rank is much faster than unranking each id.
             for rank, table in enumerate(rank_order.tables(edges)):
                 name = f"m{edges}/{rank}"
                 yield Named(name, World.from_code(table), text, ("--worlds", name))
@@ -193,10 +202,11 @@ def _generated(text: str, seed: int) -> CorpusPart:
     number = int(found[1]) if found else 0
     if found is None or not 1 <= number <= MOST_GENERATED:
         raise InputError(
-            f"--worlds {text!r}: so many worlds are 'generated:N' or 'generated:N:STRATEGY', N from"
-            f" 1 to {MOST_GENERATED:,}, as in 'generated:200:planar_worlds(max_edges=20)'"
+            f"--worlds: expected 'generated:N' or 'generated:N:STRATEGY' with N from 1 to"
+            f" {MOST_GENERATED:,}, as in 'generated:200:planar_worlds(max_edges=20)', got {text!r}"
         )
     strategies = STRATEGIES if found[2] is None else (found[2],)
+    # The first strategies draw one world more, if the number does not divide.
     each, more = divmod(number, len(strategies))
     worlds: list[World] = []
     for place, strategy in enumerate(strategies):
@@ -232,7 +242,7 @@ def _by_name(name: str, group: str) -> Named:
 
 
 def _named(name: str, world: World, group: str, arguments: tuple[str, ...]) -> Named:
-    """Called by its id, if it is small enough to have one."""
+    """A world without a file; its id, if it has one, is its name and the argument."""
     if len(world.edges) > rank_order.MAX_ID_EDGES:
         return Named(name, world, group, arguments)
     return Named(world.id, world, group, ("--worlds", world.id))
@@ -241,7 +251,7 @@ def _named(name: str, world: World, group: str, arguments: tuple[str, ...]) -> N
 def _is_folder(text: str) -> bool:
     try:
         return Path(text).is_dir()
-    except (OSError, ValueError):  # a name that no file can have
+    except (OSError, ValueError):  # the text cannot be a file name
         return False
 
 
@@ -249,8 +259,8 @@ def _folder(text: str) -> CorpusPart:
     names = sorted(_world_files(Path(text)))
     if not names:
         raise InputError(
-            f"--worlds {shown(text)}: no world in this folder; its files of worlds end in"
-            f" {', '.join(SUFFIXES)}"
+            f"--worlds {shown(text)}: expected a folder with world files, whose names end in"
+            f" {', '.join(SUFFIXES)}; this one has none"
         )
     return _listed(text, [_by_name(name, text) for name in names])
 

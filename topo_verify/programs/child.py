@@ -88,7 +88,7 @@ class ReaperProcess:
             self._process.stdin.write(line.encode())
 
     def close(self) -> None:
-        """End the process, which kills what is still on its list."""
+        """End the reaper, which first kills every program that is still on its list."""
         assert self._process.stdin is not None
         with suppress(OSError):
             self._process.stdin.close()
@@ -114,7 +114,7 @@ class Child:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
                 env={**os.environ, reaper.MARK: self.mark},
-                start_new_session=True,
+                start_new_session=True,  # a group to kill, which Ctrl-C does not reach
                 bufsize=0,
             )
         except (OSError, ValueError) as error:
@@ -163,6 +163,7 @@ class Child:
                 raise Ended
             if clock is not None and clock.seconds() > seconds:
                 raise Silent
+            # Look at the exit status only after a silent tick: what it wrote last comes first.
             if not self._listen() and self._status() is not None:
                 self._output_ended = True  # though a child of its own may hold the stream open
         return self._lines.popleft()

@@ -1,4 +1,4 @@
-"""A mapper found by its text: `package.module:attribute` or `path/file.py:attribute`.
+"""Loading of a mapper by its text, `package.module:attribute` or `path/file.py:attribute`.
 
 Source: docs/semantics.md, section 16.
 """
@@ -17,7 +17,7 @@ from topo_verify.errors import InputError
 from topo_verify.robot.simulator import SimulatedRobot
 
 Mapper = Callable[[SimulatedRobot], object]
-"""Takes a robot, returns a map: `vertices`, `edges`, `marker`, and perhaps `cost`."""
+"""Takes a robot and returns a map: `vertices`, `edges`, `marker`, and optionally `cost`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +31,10 @@ class Target:
 def load(text: str) -> Mapper:
     """The mapper at `package.module:attribute` or `path/file.py:attribute`.
 
-    The attribute may be dotted; where an object is a mapping, its keys count as attributes.
+    The attribute may be dotted. A key of a mapping counts as its attribute.
 
     Raises:
-        InputError: there is no such module, file or attribute, or it is not callable.
+        InputError: there is no such module, file or attribute, or it cannot be called.
     """
     place, _, attribute = text.rpartition(":")
     found = _load_file(Path(place), text) if place.endswith(".py") else _load_module(place, text)
@@ -60,11 +60,11 @@ def _attribute(whole: object, name: str) -> object:
 
 def _load_module(name: str, text: str) -> object:
     if "" not in sys.path and str(Path.cwd()) not in sys.path:
-        sys.path.insert(0, str(Path.cwd()))  # a console script does not look where the user stands
+        sys.path.insert(0, str(Path.cwd()))  # a console script lacks the working folder
     try:
         return importlib.import_module(name)
     except (Exception, SystemExit) as error:
-        raise InputError(f"target {text!r}: cannot import {name!r}: {_said(error)}") from error
+        raise InputError(f"target {text!r}: cannot import {name!r}: {_one_line(error)}") from error
 
 
 def _load_file(path: Path, text: str) -> object:
@@ -77,18 +77,18 @@ def _load_file(path: Path, text: str) -> object:
     module = importlib.util.module_from_spec(spec)
     folder = str(path.resolve().parent)
     if folder not in sys.path:
-        sys.path.insert(0, folder)  # so that the file can import its neighbours
-    sys.modules[name] = module
+        sys.path.insert(0, folder)  # so that the file can import modules beside it
+    sys.modules[name] = module  # before it runs: dataclasses look their module up here
     try:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
-        raise InputError(f"target {text!r}: {str(path)!r} fails: {_said(error)}") from error
+        raise InputError(f"target {text!r}: {str(path)!r} fails: {_one_line(error)}") from error
     return module
 
 
-def _said(error: BaseException) -> str:
-    """An exception on one line, also one whose text cannot be had."""
+def _one_line(error: BaseException) -> str:
+    """The type and the text of an exception on one line; its type alone if the text raises."""
     try:
         return f"{type(error).__name__}: {error}".replace("\n", " ")
-    except Exception:  # noqa: BLE001  it is somebody else's __str__
+    except Exception:  # noqa: BLE001  a foreign __str__ may raise anything
         return type(error).__name__

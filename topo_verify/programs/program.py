@@ -146,6 +146,7 @@ class Program:
             # Keep a copy: the traceback of `why` refers to this frame and thus to the program, and
             # a program in a circle of references is not ended when its last user drops it.
             self.misbehaved = Misbehaved(why.kind, str(why), detail=why.detail)
+            # These two end a world as the protocol says, so the process is fit for the next one.
             self._idle = why.kind in ("skip", "error")
             raise
         except Misuse as why:
@@ -165,6 +166,8 @@ class Program:
                 "out-of-turn", f"the program wrote before the world began{_seen(child)}"
             )
         self._send(child, ms.StartMessage(percept=robot.percept))
+        # Decisions are counted because they cost no move of the budget, and a flood of them would
+        # fill the memory before a time limit strikes.
         declared = 0
         while True:
             message = self._receive(child)
@@ -191,6 +194,8 @@ class Program:
                 raise Misbehaved(kind, f"the program {verb}{why}")
 
     def _require_silence(self, child: Child) -> None:
+        # Only what came in the same read: waiting for more would slow down every world. A later
+        # line is found before the next world begins.
         if child.in_half_a_line or child.unread:
             raise Misbehaved(
                 "out-of-turn", f"the program went on after the world's end{_seen(child)}"

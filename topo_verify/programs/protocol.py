@@ -52,6 +52,7 @@ class StartMessage(_Message, frozen=True, kw_only=True):
     percept: Percept
 
 
+# gc=False: there are two messages a move, and neither can be part of a circle of references.
 class PerceptMessage(_Message, frozen=True, gc=False):
     """What the robot senses after the last move."""
 
@@ -183,6 +184,7 @@ def unknown_fields(data: Any, message: object, place: str = "$") -> Iterator[str
         message: the decoded message.
     """
     if isinstance(message, msgspec.Struct):
+        # By names on the wire: a field of Python may be encoded under another name.
         fields = dict(zip(message.__struct_encode_fields__, message.__struct_fields__, strict=True))
         for name in data:
             if name in fields:

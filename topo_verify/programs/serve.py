@@ -1,11 +1,11 @@
 """A Python mapper behind protocol 1: `python -m topo_verify.programs.serve TARGET`.
 
-For a mapper that should run in a process of its own (because it sits in C code, leaks, prints, or
-must be stopped by force), and as a program to try the protocol with:
+Use this for a mapper that needs a process of its own, because it blocks in C code, leaks memory,
+prints, or must be stopped by force; and for a program to try the protocol with:
 
     topo-verify conform --cmd 'python -m topo_verify.programs.serve my_mapper.py:explore'
 
-What the mapper prints goes to standard error. An exception ends the program.
+The mapper's prints go to standard error. An exception ends the program.
 
 Source: docs/semantics.md, section 15.
 """
@@ -28,63 +28,64 @@ from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.validation import map_parts, optional_part
 
 CATALOGUE = "topo_verify.algorithms:CATALOGUE.{}"
-"""Where a name without a colon is looked up: the algorithms are loaded by name, like any mapper."""
+"""The place of a name without a colon. Loaded by text, since programs/ imports no algorithms."""
 
-_told: msgspec.json.Decoder[ms.ToProgram] = msgspec.json.Decoder(ms.ToProgram)
+_to_program: msgspec.json.Decoder[ms.ToProgram] = msgspec.json.Decoder(ms.ToProgram)
 
 
-class Distant:
+class RemoteRobot:
     """The robot at the other end of the pipe. Lives as long as one world."""
 
-    def __init__(self, percept: Percept, hear: BinaryIO, say: BinaryIO) -> None:
-        self._percept, self._hear, self._say = percept, hear, say
+    def __init__(self, percept: Percept, reader: BinaryIO, writer: BinaryIO) -> None:
+        self._percept, self._reader, self._writer = percept, reader, writer
 
     @property
     def percept(self) -> Percept:
-        """What is sensed where the robot stands now."""
+        """The percept of the robot's vertex."""
         return self._percept
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:  # noqa: ARG002  not sent
-        """Leave by a door; what is sensed behind it."""
+        """Leave by a door; the percept behind it."""
         self._write(ms.MoveMessage(door))
-        self._say.flush()
-        message = _told.decode(self._hear.readline())
+        self._writer.flush()
+        message = _to_program.decode(self._reader.readline())
         if not isinstance(message, ms.PerceptMessage):
-            raise InputError(f"a move was answered by {message!r}, not by a percept")
+            raise InputError(f"expected a percept in answer to a move, got {message!r}")
         self._percept = Percept(message.degree, message.marker)
         return self._percept
 
     def declare(self, event: Decision | Mapping[str, object]) -> None:
-        """Put a decision on record."""
+        """Declare a decision; it is sent with the next move."""
         self._write({"type": "declare", "event": event})
 
     def done(self, result: object) -> None:
-        """Deliver what the mapper returned."""
+        """Deliver the result of the mapper."""
         vertices, edges, marker = map_parts(result)
         delivered = MapData(tuple(map(tuple, vertices)), tuple(map(tuple, edges)), marker)
         cost = optional_part(result, "cost")
         self._write({"type": "done", "map": delivered, "cost": cost})
-        self._say.flush()
+        self._writer.flush()
 
     def _write(self, message: object) -> None:
-        self._say.write(msgspec.json.encode(message) + b"\n")
+        self._writer.write(msgspec.json.encode(message) + b"\n")
 
 
-def serve(mapper: Mapper, hear: BinaryIO, say: BinaryIO) -> None:
-    """Play worlds until told to stop, or until nobody is there any more."""
-    for line in hear:
-        message = _told.decode(line)
+def serve(mapper: Mapper, reader: BinaryIO, writer: BinaryIO) -> None:
+    """Play worlds until a `stop` message or the end of the input."""
+    for line in reader:
+        message = _to_program.decode(line)
         if not isinstance(message, ms.StartMessage):
             return
-        robot = Distant(message.percept, hear, say)
-        robot.done(mapper(cast("SimulatedRobot", robot)))  # it has all that a mapper may ask for
+        robot = RemoteRobot(message.percept, reader, writer)
+        robot.done(mapper(cast("SimulatedRobot", robot)))  # it has all that a mapper may use
 
 
 def main(text: str) -> None:
-    """Serve the mapper that a TARGET names, on standard input and output."""
-    say = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what the mapper prints is no message
-    serve(load(text if ":" in text else CATALOGUE.format(text)), sys.stdin.buffer, say)
+    """Serve the mapper of a TARGET on standard input and output."""
+    # Move the pipe away from descriptor 1, where a mapper's prints would mix with the messages.
+    writer = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    serve(load(text if ":" in text else CATALOGUE.format(text)), sys.stdin.buffer, writer)
 
 
 if __name__ == "__main__":

@@ -33,15 +33,15 @@ def test_runs_are_judged_on_every_level() -> None:
     [
         ("exits", "crashed", "ended with exit code 3 before it wrote a run for this world"),
         ("leaves out", "crashed", "ended with exit code 0"),
-        ("hangs", "silent", "wrote no run for 0.7 s"),
+        ("hangs", "silent", "wrote no run for 4 s"),
         ("garbage", "not-json", "spam"),
         ("half a line", "half-line", "in the middle of a line"),
         ("10 MB", "too-long", "a line of more than 1048576 bytes"),
-        ("another id", "unknown-world", "no world 'm9/9' waits for a run"),
-        ("twice", "unknown-world", "no world waits for a run any more"),
+        ("another id", "unknown-world", "expected the id of an unanswered world, got 'm9/9'"),
+        ("twice", "unknown-world", "expected the end of the output, got another line"),
         ("no door", "bad-door", "door 99"),
-        ("no map", "malformed", "no map"),
-        ("late decision", "bad-declaration", "after 10000 moves"),
+        ("no map", "malformed", "expected 'map', 'skip' or 'error'"),
+        ("late decision", "bad-declaration", "got 'after': 10000"),
         ("no decision", "bad-declaration", "$.declare"),
         ("too many doors", "budget", "more than 16 moves"),
         ("lies", "cost-honest", "reports a cost of"),
@@ -49,7 +49,9 @@ def test_runs_are_judged_on_every_level() -> None:
     ],
 )
 def test_what_goes_wrong_in_one_world_is_found_there_alone(way: str, kind: str, words: str) -> None:
-    job = ConformJob(target=batch(way), limits=Limits(world_timeout=0.7))
+    # On a busy machine a program may take seconds to start: only the silent one has little time.
+    limits = Limits(world_timeout=4) if way == "hangs" else Limits()
+    job = ConformJob(target=batch(way), limits=limits)
     result = standings(job, "edges<=2", batch=True)["result"]
     assert result.passed == 11
     assert {found.world for found in result.findings} == {"m2/5"}

@@ -25,7 +25,7 @@ def statuses(outcome: ClaimResults) -> dict[str, set[str]]:
     """The claims by what became of them."""
     found: dict[str, set[str]] = {}
     for claim in CLAIMS:
-        found.setdefault(outcome.status(claim), set()).add(claim)
+        found.setdefault(outcome.verdict(claim), set()).add(claim)
     return found
 
 
@@ -50,7 +50,7 @@ def test_the_first_world_is_kept_even_if_many_have_failed_before() -> None:
     """A report keeps the findings of the first failing runs only."""
     outcome = of("ignores_direction", 3)
     kept = {finding.claim for finding in outcome.part.findings}
-    failing = {claim for claim in CLAIMS if outcome.status(claim) == "fails"}
+    failing = {claim for claim in CLAIMS if outcome.verdict(claim) == "fails"}
     assert failing == outcome.first.keys() >= kept
 
 
@@ -78,7 +78,7 @@ def silent(robot: Robot) -> object:
 
 def test_what_is_declared_in_some_worlds_only_is_told_apart() -> None:
     outcome = by_claim(one_target(declares_at_leaves), 2, Limits())
-    assert outcome.status("no-false-confirm") == "not-declared"
+    assert outcome.verdict("no-false-confirm") == "not-declared"
     assert "in 3 of 12 worlds, where it holds" in outcome.text("no-false-confirm")
 
 

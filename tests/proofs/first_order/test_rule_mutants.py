@@ -69,7 +69,7 @@ def never(_stage: SceneReplay, _rule: Term) -> bool:
 
 def test_what_does_not_replay_is_reported_as_our_bug() -> None:
     harmless = replace(RULE_MUTANTS[0], plays=never)
-    with pytest.raises(InternalError, match="does not replay: the doors .* in world m2/"):
+    with pytest.raises(InternalError, match=r"does not replay: the doors .* in world m2/"):
         theorem(harmless).prove(BUDGET)
 
 

@@ -1,6 +1,6 @@
-"""What a mapper pays and decides in each world of a corpus, kept in a file and compared later.
+"""Baselines: the cost and the decisions of a mapper in each world of a corpus, kept in a file.
 
 file.py      the file format
-record.py    making a baseline
+record.py    a mapper in a corpus, as a baseline
 compare.py   a mapper against a baseline
 """

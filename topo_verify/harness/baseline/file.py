@@ -130,6 +130,7 @@ def encode(baseline: Baseline) -> bytes:
             " time has no baseline; give it more time or fewer worlds"
         )
     packed = BytesIO()
+    # No file name and no time in the head of gzip: equal baselines must give equal bytes.
     with gzip.GzipFile("", "wb", fileobj=packed, mtime=0) as file:
         file.writelines(_summed([header, *entries]))
     return packed.getvalue()
@@ -138,6 +139,7 @@ def encode(baseline: Baseline) -> bytes:
 def _summed(lines: Iterable[msgspec.Struct]) -> Iterator[bytes]:
     total = ""
     for line in lines:
+        # Without the closing brace, so that the sum can follow as the last field.
         body = msgspec.json.encode(line)[:-1]
         total = _next_sum(total, body)
         yield body + f',"sum":"{total}"}}\n'.encode()
@@ -228,6 +230,7 @@ def _require_sums(lines: Iterable[bytes], name: str) -> Iterator[bytes]:
     """The lines without their sums, after checking each sum."""
     total = ""
     for number, line in enumerate(lines, 1):
+        # The version comes before the sum, which a newer version may compute otherwise.
         if number == 1:
             _require_version(line, name)
         found = _SUM.fullmatch(line)

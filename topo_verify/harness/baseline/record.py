@@ -117,6 +117,7 @@ def _recorded(target: Target, name: str, world: World, limits: Limits) -> Record
     replay = replay_command(target, name, limits)
     findings = tuple(msgspec.structs.replace(f, replay=replay) for f in report.findings)
     report = msgspec.structs.replace(report, findings=findings)
+    # The missing map of an undecided run is a finding in its report, but refutes no claim.
     undecided = declined or is_undecided(run, report)
     entry = BaselineEntry(
         world=world.text,
@@ -173,6 +174,7 @@ def _map(run: Exploration, report: Report) -> str | None:
         drawn = run.world if report.ok else World.from_map(run.map)
     except InputError:
         return None
+    # The id is canonical, so the mapper's numbering of darts does not matter.
     small = len(drawn.edges) <= rank_order.MAX_ID_EDGES
     return drawn.id if small else f"sha256:{_hash(drawn.code)}"
 

@@ -1,18 +1,18 @@
-"""Batch mode: for an implementation with its own simulator. It reads worlds and writes runs.
+"""Batch mode, for an implementation with its own simulator: it reads worlds and writes runs.
 
     in     {"id": "m5/17", "world": {…world JSON…}}                                a line a world
     out    {"id": "m5/17", "doors": [0, 2, …], "declare": […], "map": {…}, "cost": 12}
 
-Nothing in a run is believed: its doors are walked by the simulated robot, its declarations put
-where it says that they were made, and the trace that comes out is judged as any other. Runs may
-come in any order. A process is handed `CHUNK` worlds and then the end of its input.
+A run is not trusted. The simulated robot walks its doors and makes its declarations at the places
+that it states, and the resulting trace is judged as any other. Runs may come in any order. A
+process receives `CHUNK` worlds and then the end of its input.
 
-Who is to blame? If a process fails while worlds are unanswered, their halves go to fresh processes,
-down to the one world that fails alone. A process that is silent for the time limit of a world is
-blamed for the first unanswered one.
+If a process fails while worlds are unanswered, these are bisected: each half goes to a fresh
+process, down to the one world that fails alone. If a process is silent for the time limit of one
+world, the finding goes to the first unanswered world.
 
-What this does not show: that the doors were chosen from percepts alone. A program that is given
-worlds can look at them; claims 9 and 10 ask whether its history would have been proof enough.
+What this does not show: that the program chose its doors from percepts alone. It receives whole
+worlds; claims 9 and 10 say whether its history proves the map.
 """
 
 from __future__ import annotations
@@ -47,18 +47,18 @@ from topo_verify.robot.simulator import Misuse, SimulatedRobot
 from topo_verify.world.formats import world_json
 
 CHUNK = 2000
-"""So many worlds is a process handed."""
+"""How many worlds a process receives."""
 
 BatchAnswer = ms.BatchRun | Misbehaved
-"""What came back for a world: a run, or what the program did instead."""
+"""The program's answer for a world: a run, or what it did instead."""
 
 _run: msgspec.json.Decoder[ms.BatchRun] = msgspec.json.Decoder(ms.BatchRun)
 
 
 class BatchReplay:
-    """A run as a mapper: it does what was done, and delivers what was delivered.
+    """A program's answer as a mapper, which makes its moves and declarations and returns its map.
 
-    Where there is no run, it does nothing, and says why.
+    If the answer is no run, the call raises the misbehaviour at once.
     """
 
     def __init__(self, answer: BatchAnswer) -> None:
@@ -66,7 +66,7 @@ class BatchReplay:
         self.misbehaved: Misbehaved | None = None
 
     def __call__(self, robot: SimulatedRobot) -> DeliveredMap:
-        """Walk the doors of the run; its decisions are declared where they were made."""
+        """Walk the doors of the run, and declare each decision after its number of moves."""
         try:
             if isinstance(self.answer, Misbehaved):
                 raise self.answer
@@ -83,8 +83,11 @@ def _replay(run: ms.BatchRun, robot: SimulatedRobot) -> DeliveredMap:
     move, done = robot.move, 0
     for declared in run.declare:
         if not done <= declared.after <= len(run.doors):
-            told = f"a decision is declared after {declared.after} moves: they come in order"
-            raise Misbehaved("bad-declaration", f"{told}, here within {done} … {len(run.doors)}")
+            raise Misbehaved(
+                "bad-declaration",
+                f"expected decisions in order, this one after {done} … {len(run.doors)} moves; got"
+                f" 'after': {declared.after}",
+            )
         for door in run.doors[done : declared.after]:
             move(door)
         done = declared.after
@@ -101,19 +104,19 @@ def _without_a_map(run: ms.BatchRun) -> Misbehaved:
         return Misbehaved("skip", f"the program skips this world: {run.skip}")
     if run.error is not None:
         return Misbehaved("error", f"the program gives this world up: {run.error}")
-    return Misbehaved("malformed", "the run has no map, and says neither 'skip' nor 'error'")
+    return Misbehaved("malformed", "expected 'map', 'skip' or 'error' in the run, got none of them")
 
 
 class BatchExaminer:
-    """Examines worlds in batches. Life cycle: `with` it, `examine` once.
+    """Runs a program on batches of worlds and judges its runs. Life cycle: `with`, `examine` once.
 
     Raises:
-        InputError: the target is no program, or there is no such algorithm or policy.
+        InputError: the target is no program, or the reference does not exist.
     """
 
     def __init__(self, job: ConformJob) -> None:
         if not job.target.startswith(PREFIX):
-            raise InputError(f"--batch with {job.target}: it is for programs, name one with --cmd")
+            raise InputError(f"--batch: expected a program, got {job.target}: name one with --cmd")
         self.job = job
         self.command = split(job.target.removeprefix(PREFIX))
         self._reference = reference(job)
@@ -121,7 +124,7 @@ class BatchExaminer:
         self._child: Child | None = None
 
     def examine(self, worlds: Iterable[Named]) -> Iterator[WorldResult]:
-        """What becomes of the worlds, in their order."""
+        """The results of the worlds, in their order."""
         todo = iter(worlds)
         while chunk := list(islice(todo, CHUNK)):
             answers = self.answers(chunk)
@@ -129,7 +132,7 @@ class BatchExaminer:
                 yield self._judged(at, answers.pop(place))
 
     def answers(self, worlds: Sequence[Named]) -> dict[int, BatchAnswer]:
-        """What the program makes of these worlds, by their places."""
+        """The program's answers for these worlds, by index."""
         ids = _ids(worlds)
         done: dict[int, BatchAnswer] = {}
         todo = [list(range(len(worlds)))]
@@ -137,7 +140,8 @@ class BatchExaminer:
             places = todo.pop()
             why = self._go({ids[place]: place for place in places}, worlds, done)
             if why is not None and why.kind == "unknown-world":
-                for place in places:  # which of them are meant by whom?
+                # A run with a wrong id leaves it open which world each of the others belongs to.
+                for place in places:
                     done.pop(place, None)
             left = [place for place in places if place not in done]
             if why is not None and len(left) > 1 and why.kind != "silent":
@@ -154,9 +158,10 @@ class BatchExaminer:
     def _go(
         self, waiting: dict[str, int], worlds: Sequence[Named], done: dict[int, BatchAnswer]
     ) -> Misbehaved | None:
-        """Hand worlds to a fresh process and take what comes; why that ended early, if it did."""
+        """Send worlds to a fresh process and collect its runs; returns why it failed, if it did."""
         self._child = child = Child(self.command, self._reaper)
         try:
+            # Read while writing: a program that waits for its output to be read reads no input.
             for name, place in list(waiting.items()):
                 data = world_json.to_data(worlds[place].world)
                 child.write(msgspec.json.encode(ms.BatchTask(name, data)) + b"\n")
@@ -175,7 +180,7 @@ class BatchExaminer:
         return None
 
     def _take(self, child: Child, waiting: dict[str, int], done: dict[int, BatchAnswer]) -> None:
-        """One run from the program."""
+        """Read one run."""
         try:
             line = child.line(seconds=self.job.limits.world_timeout)
         except Silent:
@@ -185,8 +190,10 @@ class BatchExaminer:
             raise crash_report(child, "wrote a run for this world") from None
         run: ms.BatchRun = decoded(line, _run.decode, validate=self.job.validate)
         if run.id not in waiting:
-            told = f"no world {run.id!r} waits for a run: {shown_line(line)}"
-            raise Misbehaved("unknown-world", told)
+            raise Misbehaved(
+                "unknown-world",
+                f"expected the id of an unanswered world, got {run.id!r}: {shown_line(line)}",
+            )
         done[waiting.pop(run.id)] = run
 
     # ------------------------------------------------------------ a run
@@ -225,16 +232,18 @@ class BatchExaminer:
 
 
 def _require_end(child: Child) -> None:
-    """Has the program nothing more to say?"""
+    """Refuse a line after the last run."""
     try:
         line = child.line(seconds=GRACE)
     except (Silent, Ended):
         return
-    raise Misbehaved("unknown-world", f"no world waits for a run any more: {shown_line(line)}")
+    raise Misbehaved(
+        "unknown-world", f"expected the end of the output, got another line: {shown_line(line)}"
+    )
 
 
 def _ids(worlds: Sequence[Named]) -> list[str]:
-    """A name for each world; one that comes twice has its place behind it."""
+    """An id for each world: its name; for a repeated name, with its index."""
     seen: set[str] = set()
     ids: list[str] = []
     for place, at in enumerate(worlds):

@@ -1,10 +1,10 @@
-"""Two runs in one world, event for event: the first event in which they differ.
+"""The first event in which two runs in one world differ.
 
-What is compared: the doors and percepts of moves, and every declared decision with its evidence.
-What is not: what a move is said to be for; the sentence of a contradiction, whose words are no
-promise; the map at the end, whose darts a mapper may number as it likes (its own claim judges it).
+Compared are the doors and percepts of moves, and every declared decision with its evidence. Not
+compared are the purpose of a move; the sentence of a contradiction, whose words are no promise; the
+map at the end, whose darts a mapper may number freely (`map-isomorphic` judges it).
 
-A mapper that declares nothing has its moves compared with the reference's moves.
+If a mapper declares nothing, its moves are compared with the reference's moves.
 """
 
 from __future__ import annotations
@@ -28,18 +28,18 @@ from topo_verify.robot.events import (
 )
 
 SHOWN = 4
-"""So many events before the first difference are shown."""
+"""How many events before the first difference are shown."""
 
 
 class KnownState(msgspec.Struct, frozen=True):
-    """What was known when two runs parted.
+    """The knowledge that two runs share when they part.
 
     Attributes:
         moves: edge traversals so far.
         vertices: the degree of each vertex of S.
         explored: the explored edges of S, lesser dart first.
-        edge: the dart whose other end is being asked for, or None.
-        left: of its hypotheses, those that were neither rejected nor confirmed.
+        edge: the dart whose other end is in question, or None.
+        left: its hypotheses that were neither rejected nor confirmed.
         doors: the doors taken since S last grew.
     """
 
@@ -52,13 +52,13 @@ class KnownState(msgspec.Struct, frozen=True):
 
 
 class Difference(msgspec.Struct, frozen=True):
-    """The first event in which a mapper does not do as the reference does.
+    """The first event in which a mapper differs from the reference.
 
     Attributes:
         event: its index in the mapper's trace.
-        expected, seen: the reference's event and the mapper's, in words; None: its run had ended.
-        before: the events just before, in which they agree.
-        state: what was known then.
+        expected, seen: the reference's event and the mapper's, in words; None: no more events.
+        before: the last events in which they agree.
+        state: the knowledge at this point.
     """
 
     event: int
@@ -69,15 +69,16 @@ class Difference(msgspec.Struct, frozen=True):
 
 
 def declares(trace: Iterable[Event]) -> bool:
-    """Does the mapper say anything of its decisions?"""
+    """Whether the trace holds a declared decision."""
     return any(isinstance(event, Pose | Reject | Confirm | Augment) for event in trace)
 
 
 def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
-    """Where the mapper's run parts from the reference's; None if nowhere.
+    """The first difference between the two runs; None if there is none.
 
     If the mapper declares nothing, only the moves are compared.
     """
+    # A mapper that declares some decisions must declare all of them: it is compared in full.
     silent = not declares(mapper)
     ours = _events(reference, silent=silent)
     theirs = _events(mapper, silent=silent)
@@ -85,6 +86,7 @@ def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
         expected = None if one is None else _bare(one[1])
         seen = None if other is None else _bare(other[1])
         if expected != seen:
+            # The knowledge comes from the reference: a mapper that declares nothing shows none.
             upto = len(reference) if one is None else one[0]
             return Difference(
                 event=len(mapper) if other is None else other[0],
@@ -97,13 +99,13 @@ def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
 
 
 def _events(trace: Trace, *, silent: bool) -> list[tuple[int, Event]]:
-    """What is compared of a run, each event with its index."""
+    """The compared events of a run, each with its index."""
     kinds = (Move,) if silent else (Move, Pose, Reject, Confirm, Augment)
     return [(when, event) for when, event in enumerate(trace) if isinstance(event, kinds)]
 
 
 def _bare(event: Event) -> Event:
-    """The event without what is not compared."""
+    """The event without the fields that are not compared."""
     if isinstance(event, Move):
         return Move(event.door, event.percept)
     if isinstance(event, Reject) and event.evidence.contradiction is not None:
@@ -146,7 +148,7 @@ def _why(event: Reject) -> str:
 
 
 def _state(trace: Sequence[Event]) -> KnownState:
-    """What is known when the reference has come so far."""
+    """The knowledge after the first events of the reference."""
     vertices: list[int] = []
     explored: list[tuple[int, int]] = []
     edge: int | None = None

@@ -1,15 +1,15 @@
-"""What became of one world: a run of the implementation's, judged on four levels.
+"""The result of one world: one run of the implementation, judged on four levels.
 
     result      the map is the world, the cost is honest and within the bound
-    claims      the decisions that it declares are sound and justified, and the map is proved
-    decisions   event for event as the reference that it is to be like
-    cost        what it pays beside the reference
+    claims      the declared decisions are sound and justified, and the history proves the map
+    decisions   the run equals that of the reference, event for event
+    cost        the cost relative to that of the reference
 
 A run without a map has ONE finding on level `result`, which says what the implementation did
-instead. A world that it skips or gives up, or in which it runs out of time though it moves on, is
-not decided: neither passed nor failed.
+instead. A world is undecided, neither passed nor failed, if the implementation skips it, gives it
+up, or exceeds its time while it still moves.
 
-What this does not show: a program that behaves differently in the same world another time.
+What this does not show: that a program behaves in the same way the next time.
 """
 
 from __future__ import annotations
@@ -31,22 +31,22 @@ Level = Literal["result", "claims", "decisions", "cost"]
 LEVELS: tuple[Level, ...] = get_args(Level)
 
 LevelState = Literal["passed", "failed", "skipped", "errored", "undecided", "not-declared"]
-"""What became of a world on one level."""
+"""The state of a world on one level."""
 
 RESULT = ("percepts-true", "map-isomorphic", "cost-honest", "cost-within-bound")
-"""The claims of level `result`; all others are of level `claims`."""
+"""The claims of level `result`. All others belong to level `claims`."""
 
 KEPT = 5
-"""So many findings of a world are kept on a level."""
+"""The most findings that are kept for a world and a level."""
 
 
 class WorldFinding(msgspec.Struct, frozen=True, kw_only=True):
-    """One thing that is wrong; the fields of `Finding`, and its kind.
+    """A `Finding` with its kind.
 
     Attributes:
         kind: what the program did instead of delivering a map (docs/oracle.md), `move-timeout`,
             `budget`, `no-map`, `decisions`; else the claim.
-        difference: on level `decisions`: where the runs part, and what was known then.
+        difference: on level `decisions`, the first difference of the runs.
     """
 
     claim: str
@@ -62,16 +62,16 @@ class WorldFinding(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class WorldResult(msgspec.Struct, frozen=True, kw_only=True):
-    """What became of one world.
+    """The result of one world.
 
     Attributes:
-        world, group: its name, and the text of WORLDS that led to it.
-        edges: of the world.
-        states: by level; `decisions` only where it is asked for.
-        findings: by level, those that were kept.
+        world, group: its name, and the text of WORLDS that names it.
+        edges: the number of its edges.
+        states: by level; `decisions` only if a reference is to be followed.
+        findings: by level, the first ones.
         claims: the status of each claim.
-        why: why it is not decided, if it is not.
-        timeout: a time limit struck.
+        why: the reason why the world is undecided, if it is.
+        timeout: whether a time limit struck.
         cost, reference: edge traversals, the implementation's and the reference's.
     """
 
@@ -88,15 +88,15 @@ class WorldResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class ConformJob(msgspec.Struct, frozen=True, kw_only=True):
-    """What is asked of every world, as plain data that a worker can be handed.
+    """The questions to ask in every world, as data that can be sent to a worker.
 
     Attributes:
         target: the implementation, as a TARGET.
-        like: the algorithm whose decisions it is to make; None: that is not asked.
+        like: the algorithm whose decisions it should make; None: decisions are not compared.
         policies: of the reference.
-        limits: of one run.
-        validate: refuse what the protocol passes over.
-        transcript: the folder for what was said in failing worlds.
+        limits: of each run.
+        validate: refuse unknown and doubled fields in a program's messages.
+        transcript: the folder for the transcripts of failing worlds.
         replay_arguments: the command line that asks for this again, without the world.
     """
 
@@ -110,7 +110,7 @@ class ConformJob(msgspec.Struct, frozen=True, kw_only=True):
 
     @property
     def reference(self) -> str:
-        """The algorithm that costs are relative to."""
+        """The algorithm that costs and decisions are compared with."""
         return self.like or "basic"
 
 
@@ -124,18 +124,20 @@ def world_result(
     misbehaved: Misbehaved | None = None,
     replay: str = "",
 ) -> WorldResult:
-    """What became of a world.
+    """The result of one world.
 
     Args:
-        report: on the run; its findings are told anew with `replay`.
-        reference: the run of the algorithm that it is compared with.
+        report: the judgement on the run.
+        reference: the reference's run in the same world.
         misbehaved: what the program did instead of delivering a map.
+        replay: the command line for the findings, in place of the report's.
     """
     findings = [_found(finding, at, replay) for finding in report.findings]
     lost = run.map is None
     result = [found for found in findings if found.claim in RESULT]
     claims = [found for found in findings if found.claim not in RESULT]
     if lost:
+        # Without a map, claims about the map and the run as a whole add nothing to the one finding.
         result = [_loss(run, misbehaved, at, replay)]
         claims = [
             found for found in claims if found.event is not None and found.claim != "map-entailed"
@@ -167,11 +169,12 @@ def world_result(
         cost=run.cost,
         reference=reference.cost,
     )
+    # With one worker as with many: what is compared and printed never holds a mapper's objects.
     return plain(made)
 
 
 def plain(made: WorldResult) -> WorldResult:
-    """The same outcome as it comes out of another process: data, no mapper's objects."""
+    """The same result as data alone, as another process would send it: no object of the mapper."""
     return _decoder.decode(msgspec.json.encode(made, enc_hook=repr))
 
 
@@ -179,9 +182,10 @@ _decoder = msgspec.json.Decoder(WorldResult)
 
 
 def _open_ended(run: Exploration, misbehaved: Misbehaved | None) -> LevelState | None:
-    """Why nobody knows whether the implementation is right in this world, if so."""
+    """The state of a world in which the implementation cannot be judged; None if it can."""
     if misbehaved is not None and misbehaved.kind in ("skip", "error"):
         return "skipped" if misbehaved.kind == "skip" else "errored"
+    # Only this limit leaves it open: a run stopped by another one stands still or walks for ever.
     return "undecided" if run.limit == "world-timeout" else None
 
 
@@ -200,7 +204,7 @@ def _found(finding: Finding, at: Named, replay: str) -> WorldFinding:
 
 
 def _loss(run: Exploration, misbehaved: Misbehaved | None, at: Named, replay: str) -> WorldFinding:
-    """The one finding of a run without a map."""
+    """The single finding of a run without a map."""
     kind = misbehaved.kind if misbehaved is not None else run.limit or "no-map"
     detail = misbehaved.detail if misbehaved is not None else ""
     return WorldFinding(
@@ -218,10 +222,10 @@ def _loss(run: Exploration, misbehaved: Misbehaved | None, at: Named, replay: st
 def _likeness(
     run: Exploration, reference: Exploration, at: Named, like: str, replay: str
 ) -> tuple[WorldFinding | None, LevelState]:
-    """Does it do as the reference does?"""
+    """The first difference from the reference as a finding, and the state of level `decisions`."""
     difference = first_difference(reference.trace, run.trace)
     if difference is not None and difference.seen is None and run.map is None:
-        return None, "undecided"  # as far as it went
+        return None, "undecided"  # the run was cut off before any difference
     if difference is None:
         silent = bool(at.world.edges) and not declares(run.trace)
         return None, "not-declared" if silent else "passed"

@@ -1,11 +1,11 @@
-"""The main job: what can be checked in about a minute, each part with its own verdict.
+"""The main job: six parts, each with its own verdict, in about a minute.
 
-verify.py        which parts, in which sizes
-parts.py         what a part says when it is done
-counts.py        the part that counts worlds
+verify.py        the parts and their sizes
+parts.py         the result of a part, and the protocol of its job
+counts.py        the part that compares the numbers of worlds with formulas
 small_worlds.py  the part that searches all small worlds
-proofs.py        the part that asks for the theorems
+proofs.py        the part that proves theorems
 trials.py        the parts that run mappers in given worlds
-generated.py     worlds of the part that draws them by strategies
+generated.py     the worlds of the part that draws by strategies
 by_claim.py      a verdict for each claim, for the pytest plugin
 """

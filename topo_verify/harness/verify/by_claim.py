@@ -1,14 +1,14 @@
-"""One mapper in every world of 1 to N edges, and a verdict of its own for each claim.
+"""One mapper in every world of 1 to N edges, with a verdict for each claim.
 
-The mapper runs once in each world, and all claims are judged on that run. Of every claim that fails
-the first world is kept, which is the smallest: not only of the first failing runs, as in a report.
+The mapper runs once in each world, and every claim is judged on this run. For each claim that fails
+the first failing world is kept, which is one of the smallest.
 
-| status | what it means |
+| verdict | meaning |
 | --- | --- |
-| `holds` | in every world |
-| `fails` | in one at least |
-| `undecided` | it fails in none, but not every world was tried, or a run was out of time |
-| `not-declared` | the mapper did not declare, in every world, what the claim speaks of |
+| `holds` | the claim holds in every world |
+| `fails` | it fails in at least one world |
+| `undecided` | it fails in none, but a world was not tried, or a run exceeded its time |
+| `not-declared` | in some world the mapper did not declare the decisions that the claim is about |
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ ClaimVerdict = Literal["holds", "fails", "undecided", "not-declared"]
 
 @dataclass(frozen=True, slots=True)
 class ClaimResults:
-    """What became of a mapper.
+    """The results of one mapper in every world.
 
     Attributes:
-        edges: it was run in every world of 1 to so many edges.
-        part: all claims together.
-        first: of each claim that fails, where it does so first.
-        raised: by world, for these: the line at which the mapper raised an exception, if it did.
+        edges: the mapper ran in every world of 1 to this many edges.
+        part: the results of all claims together.
+        first: the first finding of each claim that fails.
+        raised: by the world of such a finding: the line at which the mapper raised an exception.
     """
 
     edges: int
@@ -45,28 +45,29 @@ class ClaimResults:
     first: dict[str, Finding]
     raised: dict[str, str]
 
-    def status(self, claim: str) -> ClaimVerdict:
-        """What became of one claim."""
+    def verdict(self, claim: str) -> ClaimVerdict:
+        """The verdict on one claim."""
         seen = self.part.claims[claim]
         if seen["failed"]:
             return "fails"
+        # The numbers of one claim add up to fewer runs than worlds if a run was undecided.
         if self.part.checked < self.part.total or sum(seen.values()) < self.part.checked:
             return "undecided"
         return "holds" if seen["ok"] == self.part.checked else "not-declared"
 
     def text(self, claim: str) -> str:
-        """The same in words: how often, where first, why, and how to see it again."""
+        """The verdict in words: in how many worlds, first in which, why, and the replay command."""
         seen, checked = self.part.claims[claim], self.part.checked
-        match self.status(claim):
+        match self.verdict(claim):
             case "fails":
                 return self._failure(claim, seen["failed"])
             case "undecided":
-                return f"{claim} is not decided: {self.part.summary}"
+                return f"{claim} is undecided: {self.part.summary}"
             case "not-declared" if not seen["ok"]:
-                return f"{claim}: not judged, for the mapper declares nothing on it"
+                return f"{claim}: not judged, since the mapper declares none of its decisions"
             case "not-declared":
                 some = f"in {seen['ok']:,} of {checked:,} worlds, where it holds"
-                return f"{claim}: the mapper declares something on it {some}, and not in the others"
+                return f"{claim}: the mapper declares its decisions {some}, and not in the others"
             case "holds":
                 return f"{claim} holds in {checked:,} worlds of 1 to {self.edges} edges"
 
@@ -83,16 +84,17 @@ class ClaimResults:
 
 
 def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
-    """Run the mapper in every world of 1 to so many edges; after a few time-outs that is enough.
+    """Run the mapper in every world of 1 to `edges` edges; a few time-outs end this early.
 
     Raises:
-        InputError: more edges than worlds are enumerated with.
+        InputError: `edges` is larger than the corpus allows.
     """
     corpus = corpus_from([f"edges<={edges}"])
     first: dict[str, Finding] = {}
     raised: dict[str, str] = {}
 
     def note(run: Exploration, report: Report) -> None:
+        # Worlds come smallest first, so the first finding of a claim is in a smallest world.
         for finding in () if undecided(run, report) else report.findings:
             if first.setdefault(finding.claim, finding) is finding and run.error is not None:
                 raised[finding.world] = _place(run.error)
@@ -112,6 +114,6 @@ def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
 
 
 def _place(error: BaseException) -> str:
-    """Where an exception was raised: file and line."""
+    """The file and the line where an exception was raised."""
     frames = traceback.extract_tb(error.__traceback__)
     return f"{frames[-1].filename}:{frames[-1].lineno}"

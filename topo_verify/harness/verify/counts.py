@@ -1,8 +1,8 @@
-"""The part `counts`: the enumeration of worlds against what is known about their number.
+"""The part `counts`: the number of enumerated worlds against three formulas.
 
-Everything exhaustive rests on the enumeration: what it leaves out, nobody looks at. So all that it
-lists is counted, different worlds only, and compared with three numbers that are found otherwise:
-the sum of completions F, a recurrence in the edges alone, and Tutte's count of planar worlds.
+Every exhaustive result rests on the enumeration: a world that it omits is never tried. So this part
+counts its worlds, different ones only, and compares three numbers that are computed otherwise: the
+sum of completions F, a recurrence in the number of edges, and Tutte's number of planar worlds.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _PLANAR = WorldClass.parse("planar")
 
 
 class Counts:
-    """Every world of 1 … `edges` edges, listed and counted. A `PartJob`."""
+    """Enumerates and counts every world of 1 to `edges` edges. A `PartJob`."""
 
     def __init__(self, edges: int) -> None:
         self.edges = edges
@@ -28,10 +28,10 @@ class Counts:
         self.wrong: list[Finding] = []
 
     def work(self, tell: Progress) -> None:
-        """List them, edges by edges."""
+        """Enumerate the worlds, by their number of edges, and compare the numbers."""
         before = 0
         for edges in range(1, self.edges + 1):
-            different: set[rank_order.Table] = set()
+            different: set[rank_order.Table] = set()  # a set: a table that comes twice counts once
             planar = 0
             for table in rank_order.tables(edges):
                 different.add(table)
@@ -47,16 +47,21 @@ class Counts:
 
     def _compare(self, edges: int, source: str, expected: int, seen: int) -> None:
         if expected != seen:
-            told = (
-                f"with {plural(edges, 'edge')} {seen} worlds are listed, {source} says {expected}"
-            )
-            again = f"topo-verify world count --edges {edges}"
             self.wrong.append(
-                Finding("counts", None, expected, seen, told, None, f"m{edges}", again)
+                Finding(
+                    claim="counts",
+                    event=None,
+                    expected=expected,
+                    seen=seen,
+                    message=f"with {plural(edges, 'edge')} {seen} worlds are listed, {source} says"
+                    f" {expected}",
+                    world=f"m{edges}",
+                    replay=f"topo-verify world count --edges {edges}",
+                )
             )
 
     def part(self, *, interrupted: bool = False) -> Part:
-        """What was found so far."""
+        """The result so far."""
         verdict: Verdict = "EXHAUSTED"
         how = "two formulas agree, and Tutte's on the planar ones"
         if self.wrong:

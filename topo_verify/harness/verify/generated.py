@@ -1,10 +1,10 @@
-"""The worlds of the part `generated-worlds`: as property tests meet them, of every strategy.
+"""The worlds of the part `generated-worlds`: drawn by every strategy of property tests.
 
-Evenly drawn worlds have few vertices and many handles, so lattices, trees and worlds in which many
-places look alike hardly ever come; the strategies see to it that they do.
+Uniformly drawn worlds have few vertices and many handles. Lattices, trees and worlds in which many
+places look alike are rare among them; the strategies draw these on purpose.
 
-What this does not show: anything beyond these worlds. A property test of one's own draws as many as
-one likes, and shrinks what fails; here smaller worlds only come first.
+What this does not show: anything beyond these worlds. A property test draws as many as it is asked
+to and shrinks a failing one; here the smaller worlds merely come first.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from topo_verify.world.rooted_map import World
 
 @cache
 def generated_worlds(each: int, seed: int) -> tuple[World, ...]:
-    """So many worlds of each strategy, smallest first."""
+    """`each` worlds of every strategy, smallest first."""
     from topo_verify.strategies.resolve import resolve_strategy
     from topo_verify.strategies.sample import sample
 

@@ -1,4 +1,4 @@
-"""What a part of a campaign says when it is done, and what the parts at work have in common."""
+"""The result of one part of `verify`, and the protocol of the jobs that work the parts off."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from topo_verify.harness.progress import Progress
 
 
 class MapperCost(msgspec.Struct, frozen=True):
-    """What one mapper pays in one world.
+    """The cost of one mapper in one world.
 
     Attributes:
         cost: edge traversals.
-        ratio: the cost relative to that of `basic`; None if the mapper fails here.
-        of_least: the cost relative to the least cost of a proof, map in hand.
+        ratio: the cost relative to that of `basic`; None if a claim fails in this world.
+        of_least: the cost relative to the least cost at which a walk can prove the map.
         rejected_free, rejected_moving: hypotheses rejected without and by motion.
         confirmed: hypotheses confirmed.
         reference: an algorithm of the catalogue, shown for comparison with a mapper of the user's.
@@ -33,19 +33,19 @@ class MapperCost(msgspec.Struct, frozen=True):
 
 
 class Part(msgspec.Struct, frozen=True):
-    """What one part found.
+    """The result of one part.
 
     Attributes:
         part: its name.
         verdict: PROVED: of worlds of any size. EXHAUSTED: every world of a finite class, `checked`
             equals `total`.
-        ok: nothing was found, and nothing left out.
-        checked, total: worlds.
+        ok: there is no finding, and every world was judged.
+        checked, total: the worlds that were judged, and all worlds of the part.
         summary: one sentence.
         failing: in how many of the checked worlds a claim fails.
-        claims: of each claim, in how many runs it was ok, failed, not-declared.
-        findings: of the first failing runs, which are in the smallest worlds.
-        costs: what each mapper pays in the part's one world.
+        claims: for each claim, the number of runs with each status.
+        findings: those of the first failing runs, which are in the smallest worlds.
+        costs: the cost of each mapper, for a part of one world.
     """
 
     part: str
@@ -61,12 +61,12 @@ class Part(msgspec.Struct, frozen=True):
 
 
 class PartJob(Protocol):
-    """A part at work. Lives from `work` to `part`; `part` may be asked of work that was cut off."""
+    """The work on one part. Life cycle: `work`, then `part`, also if `work` was interrupted."""
 
     def work(self, tell: Progress) -> None:
-        """Do it all."""
+        """Do the whole work."""
         ...
 
     def part(self, *, interrupted: bool = False) -> Part:
-        """What was found so far."""
+        """The result so far."""
         ...

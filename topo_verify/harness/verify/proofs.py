@@ -1,10 +1,10 @@
-"""The part `proofs`: what Z3 proves of worlds of any size, and what it must not be able to prove.
+"""The part `proofs`: the theorems that Z3 proves, and the false statements that it must refute.
 
-The inductive theorems, the negatives and the mutants; the bounded theorems take longer and are left
-to `topo-verify prove`. It says nothing about a mapper of the user's: it is about the rules of the
-catalogue, which the algorithms are compared with decision by decision in the tests.
+The part covers the inductive theorems, the negatives and the mutants; `topo-verify prove` covers
+the bounded theorems, which take longer. The theorems are about the rules of the catalogue, not
+about a user's mapper. Tests compare the algorithms with these rules, decision by decision.
 
-What this does not show: docs/proofs.md says what is argued in words, what is assumed, and what is
+What this does not show: docs/proofs.md lists what is argued in words, what is assumed, and what is
 not established.
 """
 
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Theorem, TheoremResult
 
 TIMEOUT = 20.0
-"""Seconds for each question; each takes a small part of one."""
+"""Seconds for each question to Z3; each takes less than one."""
 
 
 class Proofs:
-    """The theorems that take seconds. A `PartJob`.
+    """Proves the theorems that take seconds. A `PartJob`.
 
     Args:
-        theorems: which; default: all inductive ones, negatives and mutants.
-        quick: the inductive ones alone, in two seconds.
+        theorems: the theorems; default: all inductive ones, negatives and mutants.
+        quick: only the inductive ones, which take two seconds.
     """
 
     def __init__(self, theorems: Iterable[Theorem] | None = None, *, quick: bool = False) -> None:
@@ -41,7 +41,7 @@ class Proofs:
         self.done: list[tuple[Theorem, TheoremResult]] = []
 
     def work(self, tell: Progress) -> None:
-        """Prove them all."""
+        """Prove the theorems one by one."""
         from topo_verify.proofs.catalogue import QUICK, choose
         from topo_verify.proofs.theorem import Budget
 
@@ -53,8 +53,9 @@ class Proofs:
             self.done.append((theorem, theorem.prove(Budget(timeout=TIMEOUT))))
 
     def part(self, *, interrupted: bool = False) -> Part:
-        """What was found so far."""
+        """The result so far."""
         standings = Counter(theorem.status(outcome) for theorem, outcome in self.done)
+        # No theorem at all (an interrupt before the first) is not a proof of anything.
         whole = len(self.done) == self.total > 0 and not interrupted
         verdict: Verdict = "UNKNOWN"
         if standings["failed"]:
@@ -81,13 +82,13 @@ class Proofs:
         all_of = Counter[str](theorem.kind for theorem, _ in self.done)
         replays = [outcome.replayed for _, outcome in self.done if outcome.replayed is not None]
         came, found = sum(one[0] for one in replays), sum(one[1] for one in replays)
-        said = {
+        forms = {
             "inductive": "{} of {} theorems proved for any size",
             "bounded": "{} of {} exhausted",
             "negative": "{} of {} negatives refuted",
             "mutant": "{} of {} mutants refuted",
         }
-        words = [told.format(ok[kind], n) for kind, told in said.items() if (n := all_of[kind])]
+        words = [form.format(ok[kind], n) for kind, form in forms.items() if (n := all_of[kind])]
         words += [f"{came} of {found} models replayed"] if found else []
         undecided = [t.name for t, outcome in self.done if t.status(outcome) == "open"]
         if undecided:
@@ -98,13 +99,13 @@ class Proofs:
 
 
 def _finding(theorem: Theorem, outcome: TheoremResult) -> Finding:
-    told = f"theorem {theorem.name} is {outcome.verdict}, not {theorem.expected}: {theorem.words}"
     return Finding(
         claim=theorem.claims[0] if theorem.claims else "proofs",
         event=None,
         expected=theorem.expected,
         seen=outcome.verdict,
-        message=told,
+        message=f"theorem {theorem.name} is {outcome.verdict}, not {theorem.expected}:"
+        f" {theorem.words}",
         world=outcome.counterexample or "",
         replay=f"topo-verify prove {theorem.name}",
     )

@@ -1,17 +1,17 @@
-"""The main job: what can be checked in about a minute, in six parts, each with its own verdict.
+"""The main job: six parts, each with its own verdict, in about a minute.
 
-| part | what | quick |
+| part | content | quick |
 | --- | --- | --- |
-| `counts` | every world of 1 to 6 edges is listed; their numbers are the known ones | 1 to 5 |
+| `counts` | the numbers of worlds of 1 to 6 edges equal those of formulas | 1 to 5 |
 | `small-worlds` | every world of 1 to 5 edges, every mapper, every claim | 1 to 3 |
-| `proofs` | what Z3 proves of worlds of any size; negatives, mutants refuted | the first |
+| `proofs` | theorems on worlds of any size; negatives and mutants | the first |
 | `sampled-worlds` | 200 worlds of 6 to 30 edges, drawn uniformly among those of a size | 40 |
-| `generated-worlds` | 160 worlds as property tests meet them, 20 of each strategy | 40 |
-| `street-network` | a real street network, and what each mapper pays there | the same |
+| `generated-worlds` | 160 worlds as property tests draw them, 20 of each strategy | 40 |
+| `street-network` | a real street network, and the cost of each mapper there | the same |
 
-Nothing is printed here: parts are yielded as they are done.
+Each part is yielded as soon as it is done; the command line prints it.
 
-What this does not show: anything about worlds beyond those that each part names.
+What this does not show: anything about worlds that no part names.
 """
 
 from __future__ import annotations
@@ -44,27 +44,27 @@ def verify(
     limits: Limits | None = None,
     tell: Progress | None = None,
 ) -> Iterator[Part]:
-    """Check these mappers, part by part.
+    """The parts, each yielded when these mappers were checked in it.
 
-    On KeyboardInterrupt the part at work is yielded as far as it came (its verdict is UNKNOWN, or
-    REFUTED if it found something); then the exception goes on.
+    On KeyboardInterrupt the current part is yielded with its results so far (its verdict is
+    UNKNOWN, or REFUTED if there is a finding); then the exception is raised again.
 
     Args:
-        quick: smaller sizes.
+        quick: use the smaller sizes.
         seed: of the sampled worlds.
         limits: of each run of a mapper.
     """
     for job in _jobs(targets, seed, limits or Limits(), quick=quick):
         try:
-            job.work(tell or _silence)
+            job.work(tell or _ignore)
         except KeyboardInterrupt:
             yield job.part(interrupted=True)
             raise
         yield job.part()
 
 
-def _silence(_part: str, _done: int, _total: int) -> None:
-    """Tell nobody."""
+def _ignore(_part: str, _done: int, _total: int) -> None:
+    """The progress callback if there is none."""
 
 
 def _jobs(
@@ -83,6 +83,7 @@ def _jobs(
         limits=limits,
         max_failing=MAX_TIMEOUTS,
     )
+    # Drawing takes seconds: this generator gets here only when the parts above are done.
     generated = generated_worlds(each, seed)
     yield Trials(
         name="generated-worlds",
