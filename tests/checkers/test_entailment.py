@@ -12,10 +12,11 @@ from tests.helpers import trace_of, variant, worlds
 from topo_verify import World, examine
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.algorithms.basic import NoRule
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.checkers import check, decision_conclusions, map_conclusion
+from topo_verify.faults import FAULTS
 from topo_verify.harness.run import Report
 from topo_verify.robot.events import (
     Augment,
@@ -33,29 +34,6 @@ from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import first_percept
 
 
-class ByElimination(NoRule):
-    """Walks all hypotheses but the last, which it takes for true: it forgets that vu may be new."""
-
-    def __init__(self) -> None:
-        self.rejected = 0
-
-    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:  # noqa: ARG002  a rule's
-        self.rejected = 0
-
-    def observe(self, sequence: Executed) -> None:
-        self.rejected += len(sequence.doors) > 0
-
-    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
-        return remaining[0] if self.rejected and len(remaining) == 1 else None
-
-
-class TheOnlyOne(NoRule):
-    """Takes a hypothesis that is alone for true at once."""
-
-    def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
-        return remaining[0] if len(remaining) == 1 else None
-
-
 class TheRestIsNew(NoRule):
     """Takes vu for new after the first mismatch."""
 
@@ -66,14 +44,6 @@ class TheRestIsNew(NoRule):
             return None
         percept = chart.percepts[hypothesis.dart]
         return Refutation("history", Evidence(0, percept, percept))
-
-
-class StopsEarly(NoRule):
-    """Takes the last two darts of U for the two ends of one edge, and does not go there."""
-
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:  # noqa: ARG002  a rule's
-        if len(chart.unexplored) == 2:
-            chart.join(*chart.unexplored)
 
 
 class Mute:
@@ -99,7 +69,10 @@ class Tactful(Mute):
             self.robot.declare(event)
 
 
-GUESSERS = {"elimination": variant(ByElimination), "the only one": variant(TheOnlyOne)}
+GUESSERS = {
+    "elimination": FAULTS["concludes-by-elimination"],
+    "the only one": FAULTS["confirms-what-is-alone"],
+}
 
 
 def lucky(report: Report) -> bool:
@@ -138,7 +111,7 @@ def test_where_a_guess_is_lucky_its_witness_breaks_it(
 
 
 def test_a_silent_guess_is_convicted_by_its_history_alone() -> None:
-    guesser = variant(StopsEarly)
+    guesser = FAULTS["joins-the-last-two-unseen"]
     convicted = 0
     for world in worlds([3, 4]):
         report = examine(lambda robot: guesser(Mute(robot)), world)

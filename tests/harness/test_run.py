@@ -169,7 +169,7 @@ def test_a_mapper_that_takes_a_door_that_is_not_there_is_a_finding() -> None:
 
 def test_a_mapper_that_declares_nonsense_is_a_finding() -> None:
     assert why(lambda robot: robot.declare({"type": "boast"})).startswith(
-        "the mapper declared what is no decision: "
+        "expected a decision (pose, reject, confirm, augment): "
     )
 
 

@@ -61,7 +61,7 @@ def star(leaves: int) -> tuple[int, ...]:
 
 @pytest.mark.parametrize("purpose", ["fun", "", 1, object()])
 def test_a_move_is_for_one_of_the_known_purposes(robot: SimulatedRobot, purpose: Any) -> None:
-    with pytest.raises(Misuse, match="there are walk, cross, validate, retrace"):
+    with pytest.raises(Misuse, match="expected a purpose of walk, cross, validate, retrace, got"):
         robot.move(0, purpose)
     assert robot.cost == 0
 
@@ -166,7 +166,7 @@ def test_the_darts_of_a_decision_may_be_of_any_integer_type(robot: SimulatedRobo
     ],
 )
 def test_what_is_no_decision_stops_the_robot(robot: SimulatedRobot, nonsense: Any) -> None:
-    with pytest.raises(Misuse, match="the mapper declared what is no decision: "):
+    with pytest.raises(Misuse, match=r"expected a decision \(pose, reject, confirm, augment\): "):
         robot.declare(nonsense)
     assert robot.events == []
     assert robot.stopped is not None

@@ -1,7 +1,12 @@
-"""The trusted core's verdict on a run: the claims, and what a history proves.
+"""The checkers, trusted: they judge a trace in its world, and what its history proves.
 
-`claims` holds the claims of docs/semantics.md, section 9, one function each; `entailment` what
-claims 9 and 10 rest on; `folding` the fold of a history; `findings` what a check says.
+claims.py           the ten claims of docs/semantics.md, section 9, one function each
+replayed_trace.py   a trace replayed in its world, which the claims are asked about
+map_in_world.py     S beside the world (claims 1-8); excursions.py: the walks behind an edge
+entailment.py       what a history proves (claims 9 and 10)
+folding.py          the fold of a history; map_on_fold.py: S beside the fold
+darts.py            the two kinds of darts; findings.py: the result of a check
+certificate.py      a log judged by itself, without a world
 """
 
 from topo_verify.checkers.claims import CLAIMS, check

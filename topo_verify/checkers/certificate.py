@@ -1,4 +1,4 @@
-"""A log judged by itself: what percepts and doors prove, where nobody knows the world.
+"""Certificates: what a log of percepts and doors proves where nobody knows the world.
 
 A real robot leaves a log of the doors that it took and what it sensed behind them. Folded, the log
 either has no open dart: then there is one world that shows it, and that is the map. Or it has: then
@@ -34,7 +34,7 @@ from topo_verify.world.rooted_map import World
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """What a log proves.
+    """What a log proves: its one map, or witnesses that it has none.
 
     Attributes:
         map: the one world that shows the log, or None.
@@ -70,15 +70,15 @@ def certify(trace: Sequence[Event]) -> Certificate:
         entailed = sum(not conclusion.why for conclusion in decision_conclusions(trace))
     if broken is not None:
         when, why = broken
-        told = f"no world shows this history: {why}"
-        finding = Finding("map-entailed", when, "percepts that some world shows", why, told)
+        message = f"no world shows this history: {why}"
+        finding = Finding("map-entailed", when, "percepts that some world shows", why, message)
         return Certificate(None, fold.open_darts(), (), entailed, decisions, (finding,))
     if left := fold.open_darts():
         witnesses = tuple(map(fold.world, (1, 2)))
         for witness in witnesses:
             _require_shown(witness, trace)
-        told = f"two different worlds show this log, with {left} darts of its fold never crossed"
-        finding = Finding("map-entailed", None, 0, left, told, witnesses[0].text)
+        message = f"two different worlds show this log, with {left} darts of its fold never crossed"
+        finding = Finding("map-entailed", None, 0, left, message, witnesses[0].text)
         return Certificate(None, left, witnesses, entailed, decisions, (finding,))
     world = fold.world()
     _require_shown(world, trace)
@@ -86,7 +86,7 @@ def certify(trace: Sequence[Event]) -> Certificate:
 
 
 def _findings(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
-    """What is wrong in the one world that it can have been; a plain log delivers no map."""
+    """The findings of all claims in the proved world, but not that a plain log delivers no map."""
     plain = not isinstance(trace[-1], Finish)
     return tuple(
         finding
@@ -98,7 +98,7 @@ def _findings(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
 
 
 def _require_shown(world: World, trace: Sequence[Event]) -> None:
-    """A world is given out as a proof or a witness only after the log was replayed in it."""
+    """Raise InternalError unless the world shows the log, as a proof and a witness must."""
     robot = SimulatedRobot(world, budget=len(trace))
     for event in trace:
         if isinstance(event, Move):

@@ -29,7 +29,7 @@ from topo_verify.world.rooted_map import Code, World
 
 
 class Conclusion(NamedTuple):
-    """What was concluded at event `when`: why it does not follow ("": it does), and a witness."""
+    """Why what was concluded at event `when` does not follow ("": it does), and a witness."""
 
     when: int
     why: str
@@ -37,7 +37,7 @@ class Conclusion(NamedTuple):
 
 
 def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
-    """The fold of a trace; and at which move, and why, no world shows it any more, if so."""
+    """The fold of a trace; and the first event with which no world shows it, and why, or None."""
     assert isinstance(trace[0], Start)
     fold = Fold(trace[0].percept)
     for when, event in enumerate(trace):
@@ -47,7 +47,7 @@ def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
 
 
 def _followed(fold: Fold, event: Event) -> str:
-    """Let the fold grow by an event; why no world shows the history any more, or ""."""
+    """Let the fold grow by an event. Returns why no world shows the history now, or ""."""
     if isinstance(event, Move):
         try:
             fold.move(event.door, event.percept)
@@ -62,12 +62,15 @@ def _followed(fold: Fold, event: Event) -> str:
 
 @lru_cache(maxsize=16)
 def delivered_code(delivered: MapData) -> Code:
-    """The canonical code of a delivered map; asked twice a run. Raises InputError: it is none."""
+    """The canonical code of a delivered map, which claims 5 and 9 ask for. Raises InputError."""
     return World.from_rotations(delivered.vertices, delivered.edges, delivered.marker).code
 
 
 def map_conclusion(trace: Sequence[Event]) -> Conclusion:
-    """Does the history alone prove the map that was delivered?"""
+    """Whether the history alone proves the map that was delivered (claim 9).
+
+    If a dart of the fold is open, two worlds show the history; the map is at most one of them.
+    """
     finish, last = trace[-1], len(trace) - 1
     if not isinstance(finish, Finish):
         return Conclusion(0, "no map was delivered")

@@ -1,4 +1,4 @@
-"""What a check says: a status for each claim, and a finding for each thing that is wrong."""
+"""The result of a check: a status for each claim, and a finding for each thing that is wrong."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import Any, Literal
 import msgspec
 
 Verdict = Literal["PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED"]
-"""What a check concludes: of worlds of any size, of every world of a finite class, of some worlds,
-nothing, or that there is a counterexample. Docs/semantics.md, section 16."""
+"""A conclusion about worlds of any size, about every world of a finite class, about some worlds,
+about none, or a counterexample (docs/semantics.md, section 16)."""
 
 Status = Literal["ok", "failed", "not-declared", "not-asked"]
 """`not-declared`: the mapper declared no decision that the claim speaks of. `not-asked`: the world
@@ -39,7 +39,7 @@ class Finding(msgspec.Struct, frozen=True):
 
 
 class Judgement(msgspec.Struct, frozen=True):
-    """What became of one claim in one run."""
+    """The status of one claim in one run, and its findings."""
 
     claim: str
     status: Status

@@ -1,4 +1,4 @@
-"""What a history proves, from its percepts and doors alone: no world is needed.
+"""The fold of a history: what percepts and doors alone prove, with no world at hand.
 
 **Folding** (Stallings). One node a visit, its dart 0 the reference dart of that visit. The move by
 door k joins the earlier node's dart k with the later node's dart 0. Every visit that saw the marker
@@ -59,7 +59,7 @@ class Fold:
         return node
 
     def move(self, door: Door, percept: Percept) -> None:
-        """The robot left its last visit by a door; what it sensed behind it."""
+        """Add a visit: the robot left the last by a door and saw this. Raises Contradiction."""
         here, marker = len(self._seen) - 1, percept.marker
         if not 0 <= door < self._seen[here].degree or percept.degree < 1:
             raise Contradiction(f"door {door} of {self._seen[here].degree} cannot be crossed")
@@ -85,7 +85,7 @@ class Fold:
         return None if end is None else self.find(end)
 
     def join(self, one: Place, other: Place) -> None:
-        """The two are the ends of one edge. Raises Contradiction."""
+        """Make the two the ends of one edge, and draw what follows. Raises Contradiction."""
         for place, end in ((one, other), (other, one)):
             node, dart = self.find(place)
             if (node, dart) == self.find(end):
@@ -96,6 +96,7 @@ class Fold:
                 self._set(node, dart, end)
 
     def _identify(self, one: Place, other: Place) -> None:
+        """Make the two one dart, and draw what follows. Raises Contradiction."""
         pairs = [(one, other)]
         while pairs:
             (a, i), (b, j) = map(self.find, pairs.pop())
@@ -110,6 +111,8 @@ class Fold:
                 raise Contradiction(f"degree {kept.degree} and degree {lost.degree} at one place")
             if (lost.marker is None) != (kept.marker is None):
                 raise Contradiction("the marker seen and not seen at one place")
+            # Paths are never shortened: to undo a union is to cut one link, and unions by size keep
+            # the paths logarithmic.
             self._parent[a], self._offset[a] = b, j - i
             self._size[b] += self._size[a]
             self._undo.append((a, None))
@@ -128,7 +131,10 @@ class Fold:
 
     @contextmanager
     def assuming(self, one: Place, other: Place) -> Generator[None]:
-        """Inside the block the two are the ends of one edge. Raises Contradiction."""
+        """Inside the block the two are ends of one edge; after it the fold is as before.
+
+        Raises Contradiction at the head of the block, if there is one; nothing remains of it.
+        """
         mark = len(self._undo)
         try:
             self.join(one, other)
@@ -143,7 +149,7 @@ class Fold:
                     self._parent[node], self._offset[node] = node, 0
 
     def possible(self, one: Place, other: Place) -> bool:
-        """Does some world with this history have the two as the ends of one edge?"""
+        """Whether some world with this history has the two as the ends of one edge."""
         try:
             with self.assuming(one, other):
                 return True

@@ -1,1 +1,1 @@
-"""The robot: what it senses, what happens to it, and the simulator that plays it."""
+"""The robot: percepts and doors, the events of a trace, the simulator, limits for mappers."""

@@ -21,7 +21,7 @@ from topo_verify.errors import InputError
 from topo_verify.robot.percept import Door, Percept, Purpose
 
 Number = Annotated[int, msgspec.Meta(ge=-(2**62), le=2**62)]
-"""Longer integers mean nothing here, and could not be shown in a message."""
+"""An integer of at most 62 bits: longer ones mean nothing here, and flood a message."""
 
 MapDart = Number
 """A dart of S by its number, as a mapper declares it; the checkers find out whether S has it."""
@@ -154,15 +154,15 @@ class Robot(Protocol):
 
     @property
     def percept(self) -> Percept:
-        """What is sensed where the robot stands now."""
+        """The percept where the robot stands now."""
         ...
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        """Leave by this door (0 … degree-1; cost: one edge traversal); what is sensed behind it."""
+        """Leave by this door (0 … degree-1) and return the percept behind it. Costs 1."""
         ...
 
     def declare(self, event: Decision) -> None:
-        """Put a decision on record, to have it checked. Costs nothing."""
+        """Put a decision on record, so that the checkers judge it. Costs nothing."""
         ...
 
 
@@ -181,7 +181,7 @@ def read_trace(text: bytes, *, name: str = "trace") -> Trace:
     Args:
         name: what to call the input in messages.
     Raises:
-        InputError: the first line that is no event, or no `start` at the head, or a newer version.
+        InputError: a line is not an event, the first is not a `start`, or its version is newer.
     """
     events: list[Event] = []
     for number, line in enumerate(text.splitlines(), 1):
@@ -190,7 +190,9 @@ def read_trace(text: bytes, *, name: str = "trace") -> Trace:
         try:
             events.append(_decoder.decode(line))
         except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError) as error:
-            raise InputError(f"{name}, line {number}: no event of a trace: {error}") from error
+            raise InputError(
+                f"{name}, line {number}: expected an event of a trace: {error}"
+            ) from error
     head = events[0] if events else None
     if not isinstance(head, Start):
         raise InputError(f"{name}: a trace begins with a line of type 'start'")

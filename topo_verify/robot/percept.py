@@ -22,9 +22,8 @@ Purpose = Literal["walk", "cross", "validate", "retrace"]
 
 PURPOSES: tuple[Purpose, ...] = get_args(Purpose)
 
-
 MOST_DOORS = 1_000_000
-"""What is read from a file may not claim more: a fold has a place for every door."""
+"""The highest degree that is read from a file: to fold a history takes memory for every door."""
 
 
 class Percept(msgspec.Struct, frozen=True, gc=False):
@@ -40,7 +39,7 @@ class Percept(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def signature(self) -> tuple[int, bool]:
-        """What of it does not depend on the reference dart: degree, and is the marker here?"""
+        """The degree, and whether the marker is here: equal for all reference darts of a vertex."""
         return self.degree, self.marker is not None
 
     def __str__(self) -> str:

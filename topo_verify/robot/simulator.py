@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 from operator import index
-from typing import NoReturn, get_args
+from typing import NoReturn
 
 import msgspec
 
@@ -21,20 +21,17 @@ from topo_verify.robot.limits import BudgetExceeded, MapperStopped
 from topo_verify.robot.percept import PURPOSES, Door, Percept, Purpose
 from topo_verify.world.rooted_map import Dart, World
 
-_PURPOSES = frozenset(get_args(Purpose))
-
-
 _plain = msgspec.msgpack.Encoder(enc_hook=index)
 _decision: msgspec.msgpack.Decoder[Decision] = msgspec.msgpack.Decoder(Decision)
 
 
 class Misuse(MapperStopped):
-    """The mapper asked for something that no robot does: a door that is not there, nonsense."""
+    """The mapper asked for what a robot cannot do: a door that is not there, a malformed event."""
 
 
 @lru_cache(maxsize=64)
 def percepts(world: World) -> tuple[Percept, ...]:
-    """What is sensed with each dart as the reference dart: sigma^marker(dart) = root."""
+    """The percept with each dart as the reference dart: sigma^marker(dart) = root."""
     row = [Percept(world.degrees[vertex], None) for vertex in world.vertex_of]
     if world.root is not None:
         rotation = world.vertices[world.marker_vertex]
@@ -45,7 +42,7 @@ def percepts(world: World) -> tuple[Percept, ...]:
 
 
 def first_percept(world: World) -> Percept:
-    """What is sensed at the start."""
+    """The percept at the start, where the reference dart is the marked one."""
     return Percept(0, None) if world.root is None else percepts(world)[world.root]
 
 
@@ -80,7 +77,7 @@ class SimulatedRobot:
 
     @property
     def percept(self) -> Percept:
-        """What is sensed where the robot stands now."""
+        """The percept where the robot stands now."""
         return self._percept
 
     @property
@@ -90,11 +87,11 @@ class SimulatedRobot:
 
     @property
     def stopped(self) -> MapperStopped | None:
-        """Why the robot does not move any more, also where the mapper swallowed the exception."""
+        """Why the robot was stopped, or None; also where the mapper swallowed the exception."""
         return self._stopped
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        """Leave by a door; the percept behind it. Cost 1. See `Robot.move`."""
+        """Leave by a door and return the percept behind it. Costs 1. See `Robot.move`."""
         if self._stopped is not None or self._cost >= self._budget:
             self._stop(BudgetExceeded(f"the mapper asked for more than {self._budget} moves"))
         try:
@@ -105,7 +102,7 @@ class SimulatedRobot:
             doors = self._percept.degree
             self._stop(Misuse(f"the mapper asked for door {door!r} at a vertex with {doors} doors"))
         if purpose is not None and purpose not in PURPOSES:
-            self._stop(Misuse(f"the mapper moves for {purpose!r}: there are {', '.join(PURPOSES)}"))
+            self._stop(Misuse(f"expected a purpose of {', '.join(PURPOSES)}, got {purpose!r}"))
         self._at = self._world.alpha[exit_dart(self._world, self._at, number)]
         self._cost += 1
         self._percept = self._percepts[self._at]
@@ -118,10 +115,10 @@ class SimulatedRobot:
             raise self._stopped
         try:
             # Through plain data and back: a struct may have been built with anything inside.
-            decided = _decision.decode(_plain.encode(event))
+            decision = _decision.decode(_plain.encode(event))
         except (msgspec.MsgspecError, TypeError, OverflowError) as error:
-            self._stop(Misuse(f"the mapper declared what is no decision: {error}"))
-        self.events.append(decided)
+            self._stop(Misuse(f"expected a decision (pose, reject, confirm, augment): {error}"))
+        self.events.append(decision)
 
     def _stop(self, why: MapperStopped) -> NoReturn:
         self._stopped = self._stopped or why
