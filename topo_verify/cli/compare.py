@@ -15,13 +15,13 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.record import Opening, mapper_options
 from topo_verify.harness.baseline import file
-from topo_verify.harness.baseline.compare import KINDS, Change, Comparison, Group, Kind
+from topo_verify.harness.baseline.compare import KINDS, Change, ChangeKind, Comparison, Group
 from topo_verify.harness.baseline.compare import compare as run_all
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import Policies
 from topo_verify.text import plural
 
-TITLES: dict[Kind, str] = {
+TITLES: dict[ChangeKind, str] = {
     "wrong": "a claim fails",
     "dearer": "dearer",
     "cheaper": "cheaper",
@@ -32,7 +32,7 @@ TITLES: dict[Kind, str] = {
 }
 """Each kind in words."""
 
-SHORT: dict[Kind, str] = {
+SHORT: dict[ChangeKind, str] = {
     "wrong": "fails",
     "dearer": "dearer",
     "cheaper": "cheaper",
@@ -189,14 +189,14 @@ def _summary(entry: Compared) -> Table:
     return Table(("", ">worlds"), rows)
 
 
-def _count(entry: Compared, kind: Kind) -> int:
+def _count(entry: Compared, kind: ChangeKind) -> int:
     number: int = getattr(entry, kind)
     return number
 
 
 def _table(groups: Sequence[Group]) -> Table:
     """The classes; a kind that no world is of has no column."""
-    kinds: list[Kind] = [
+    kinds: list[ChangeKind] = [
         k for k in KINDS if k != "equal" and any(group.kinds[k] for group in groups)
     ]
     rows = [
@@ -218,7 +218,7 @@ def _percentage(before: int, after: int) -> str:
     return f"{100 * (after - before) / before:+.1f}" if before else "-"
 
 
-def _examples(kind: Kind, entry: Compared) -> Iterator[Block]:
+def _examples(kind: ChangeKind, entry: Compared) -> Iterator[Block]:
     changes = [change for change in entry.examples if change.kind == kind][:SHOWN]
     if not changes:
         return
