@@ -182,7 +182,7 @@ def test_a_file_that_is_no_database_is_refused_and_left_alone(here: Path) -> Non
 def test_a_shard_with_a_wrong_count_is_an_error() -> None:
     with (
         opened() as ledger,
-        pytest.raises(InternalError, match="1 worlds were gone into in the sh"),
+        pytest.raises(InternalError, match="mappers ran in 1 worlds of the sh"),
     ):
         ledger.put(Shard(2, 0, 10), Tally(worlds=1))
 

@@ -116,7 +116,7 @@ def test_all_worlds_that_kill_their_workers_are_found() -> None:
 
 
 def test_a_shard_that_a_stranger_kills_once_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    hears = Pool._hear
+    hears = Pool[Shard, Tally]._hear
     kills: list[Shard] = []
 
     def hear(pool: Pool[Shard, Tally], worker: WorkerProcess) -> None:
@@ -135,7 +135,7 @@ def test_a_shard_that_a_stranger_kills_once_is_tried_again(monkeypatch: pytest.M
 def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_done(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    hears = Pool._hear
+    hears = Pool[Shard, Tally]._hear
     kills: list[Shard] = []
 
     def hear(pool: Pool[Shard, Tally], worker: WorkerProcess) -> None:
@@ -304,7 +304,7 @@ Numbers = list[int]
 @pytest.fixture
 def toy(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (folder / "toy.py").write_text(TOY)
-    monkeypatch.syspath_prepend(str(folder))
+    monkeypatch.setattr(sys, "path", [str(folder), *sys.path])
     return folder
 
 

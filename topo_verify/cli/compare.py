@@ -15,13 +15,13 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.record import MapperOpener, mapper_options
 from topo_verify.harness.baseline import file
-from topo_verify.harness.baseline.compare import KINDS, Change, Comparison, Group, Kind
+from topo_verify.harness.baseline.compare import KINDS, Change, ChangeKind, Comparison, Group
 from topo_verify.harness.baseline.compare import compare as run_all
 from topo_verify.programs.loading import Target
 from topo_verify.robot.events import Policies
 from topo_verify.text import plural
 
-TITLES: dict[Kind, str] = {
+TITLES: dict[ChangeKind, str] = {
     "wrong": "a claim fails",
     "dearer": "dearer",
     "cheaper": "cheaper",
@@ -32,7 +32,7 @@ TITLES: dict[Kind, str] = {
 }
 """The title of each kind of change."""
 
-SHORT: dict[Kind, str] = {
+SHORT: dict[ChangeKind, str] = {
     "wrong": "fails",
     "dearer": "dearer",
     "cheaper": "cheaper",
@@ -189,14 +189,14 @@ def _summary(entry: CompareEntry) -> TextTable:
     return TextTable(("", ">worlds"), rows)
 
 
-def _count(entry: CompareEntry, kind: Kind) -> int:
+def _count(entry: CompareEntry, kind: ChangeKind) -> int:
     number: int = getattr(entry, kind)
     return number
 
 
 def _table(groups: Sequence[Group]) -> TextTable:
     """The table of classes; a kind without worlds has no column."""
-    kinds: list[Kind] = [
+    kinds: list[ChangeKind] = [
         k for k in KINDS if k != "equal" and any(group.kinds[k] for group in groups)
     ]
     rows = [
@@ -218,7 +218,7 @@ def _percentage(before: int, after: int) -> str:
     return f"{100 * (after - before) / before:+.1f}" if before else "-"
 
 
-def _examples(kind: Kind, entry: CompareEntry) -> Iterator[Block]:
+def _examples(kind: ChangeKind, entry: CompareEntry) -> Iterator[Block]:
     changes = [change for change in entry.examples if change.kind == kind][:SHOWN]
     if not changes:
         return

@@ -1,10 +1,12 @@
-"""A mapper in many worlds: run, judged, tallied.
+"""Runs a mapper in many worlds, judges each run, and tallies the results.
 
 run.py        the one way to run a mapper in a world, and to judge the run
 targets.py    what a TARGET means
 corpus.py     what WORLDS means
-tally.py      what was found, as values that add up
-ledger.py     what a search has done, kept in a file
+tally.py      counts of runs judged in worlds, as values that add up
+pool.py       worker processes that may die or hang; worker.py is one of them
+progress.py   the progress callback, and the rate of progress
+ledger.py     the finished shards of a search, kept in a file
 gap.py        how far a rule is from the best possible
 search/       every world of a class
 conform/      an implementation against the reference

@@ -1,14 +1,14 @@
-"""What a search has done, in a file: a search that was cut off at any moment goes on from there.
+"""The ledger: a file of the finished shards, from which a search that was cut off goes on.
 
-A SQLite database. `meta` says what was searched, so that nothing is added up that does not belong
-together: format and version of the ledger, the version of topo-verify, the targets and a hash of
-their sources, the class of worlds, policies, limits. `shards` has a row for each shard that is
-done: its ranks, how many worlds were gone into and in how many a claim fails, and the whole tally
-as JSON. The size of the worlds is not in `meta`: a search that is done goes on to larger ones.
+It is a SQLite database. `meta` says what was searched, so that only tallies of the same search are
+added up: format and version of the ledger, the version of topo-verify, the targets and a hash of
+their sources, the class of worlds, policies, limits. `shards` has a row for each finished shard:
+its ranks, in how many worlds mappers ran and in how many a claim fails, and the whole tally as
+JSON. The size of the worlds is not in `meta`: a finished search goes on to larger ones.
 
-Why nothing is lost: a row is written in a transaction once its shard is done, and what was cut off
-in the middle is rolled back by SQLite when the file is opened. Why nobody else writes: the file is
-locked from the first moment to the last, by a lock of the system's that ends with the process.
+Nothing is lost: a row is written in a transaction once its shard is finished, and SQLite rolls back
+a transaction that was cut off when the file is opened next. Nobody else writes: the file is locked
+for as long as it is open, by a lock of the operating system's, which ends with the process.
 
 Only the process that searches opens the ledger; workers never do.
 """
@@ -47,26 +47,26 @@ CREATE TABLE shards (
 
 
 class Ledger:
-    """An open ledger: `with` it, `get` and `put` shards. Closing it lets the lock go.
+    """An open ledger. Life cycle: `with` it, which locks the file; `get` and `put` shards.
 
     Args:
-        path: the file; made if there is none.
+        path: the file; a new one is made if there is none.
         plan: what is searched.
         mappers: the targets of the plan.
         tool: the version of topo-verify.
     Raises:
-        InputError: the file is no ledger, of another search, of a newer version, in use, or cannot
-            be written; one sentence says which, and what to do.
+        InputError: the file is not a ledger, is of another search or of a newer version, is in use,
+            or cannot be written; the message says which, and what to do.
     """
 
     def __init__(self, path: str, plan: Plan, mappers: Sequence[Target], tool: str) -> None:
         self.path = path
         self._plan = plan
         meta = _meta(plan, mappers, tool)
-        with self._told():
+        with self._explained():
             self._base = sqlite3.connect(path, timeout=0, isolation_level=None)
         try:
-            with self._told():
+            with self._explained():
                 self._open(meta)
         except BaseException:
             self._base.close()
@@ -84,13 +84,13 @@ class Ledger:
         self._base.close()
 
     def get(self, shard: Shard) -> Tally | None:
-        """What was found in a shard; None if it is not done.
+        """The tally of a shard; None if it is not finished.
 
         Raises:
             InputError: the row is of another shard.
-            InternalError: it does not have as many worlds as there are.
+            InternalError: the tally has another number of worlds than the shard.
         """
-        with self._told():
+        with self._explained():
             row = self._base.execute(
                 "SELECT stop, worlds, tally FROM shards WHERE edges = ? AND start = ?",
                 (shard.edges, str(shard.start)),
@@ -108,15 +108,15 @@ class Ledger:
         return tally
 
     def put(self, shard: Shard, tally: Tally) -> None:
-        """A shard is done. What this returns from is kept whatever happens next.
+        """Record the tally of a finished shard. Once this returns, it is kept whatever happens.
 
         Raises:
-            InputError: it cannot be written, as on a full disk.
+            InputError: the file cannot be written; the disk may be full.
         """
         self._require_count(shard, tally)
         ranks = (shard.edges, str(shard.start), str(shard.stop))
         text = msgspec.json.encode(tally).decode()
-        with self._told():
+        with self._explained():
             self._base.execute(
                 "INSERT INTO shards VALUES (?, ?, ?, ?, ?, ?)",
                 (*ranks, tally.worlds, tally.failing, text),
@@ -125,9 +125,9 @@ class Ledger:
     # ------------------------------------------------------------ opening
 
     def _open(self, meta: dict[str, str]) -> None:
-        """Lock the file, and see whether it is of this search; a new one is made to be."""
+        """Lock the file and require that it is of this search; give a new one its tables."""
         self._base.execute("PRAGMA locking_mode = EXCLUSIVE")
-        self._base.execute("BEGIN EXCLUSIVE")  # taken now, and kept beyond the transaction
+        self._base.execute("BEGIN EXCLUSIVE")  # locks now, and for longer than COMMIT
         tables = {name for (name,) in self._base.execute("SELECT name FROM sqlite_master")}
         if not tables:
             for statement in _SCHEMA.split(";\n"):
@@ -140,7 +140,7 @@ class Ledger:
         self._base.execute("COMMIT")
 
     def _require_same(self, meta: dict[str, str]) -> None:
-        """Is the ledger of this search? (InputError)."""
+        """Raise an InputError unless the ledger is of this search."""
         known: dict[str, str] = dict(self._base.execute("SELECT key, value FROM meta"))
         if known.get("format") != FORMAT:
             raise InputError(f"{self.path} is a database, but no ledger: name another file")
@@ -158,25 +158,25 @@ class Ledger:
                 )
 
     @contextmanager
-    def _told(self) -> Generator[None]:
-        """What SQLite objects to, as a sentence."""
+    def _explained(self) -> Generator[None]:
+        """Turn an error of SQLite's into an InputError that says what to do."""
         try:
             yield
         except sqlite3.Error as error:
-            told = str(error)
-            if "locked" in told:
-                told = "another search has it open: wait for its end, or name another file"
-            elif "not a database" in told:
-                told = "it is no ledger: name another file"
-            elif "readonly" in told or "read-only" in told:
-                told = "it cannot be written: name a file that can"
-            elif "unable to open" in told:
-                told = "it cannot be opened: name a file in a folder that can be written"
-            elif "full" in told or "I/O" in told:
-                told += "; what was recorded before is kept: make room and start again"
+            message = str(error)
+            if "locked" in message:
+                message = "another search has it open: wait for its end, or name another file"
+            elif "not a database" in message:
+                message = "it is no ledger: name another file"
+            elif "readonly" in message or "read-only" in message:
+                message = "it cannot be written: name a file that can"
+            elif "unable to open" in message:
+                message = "it cannot be opened: name a file in a folder that can be written"
+            elif "full" in message or "I/O" in message:
+                message += "; what was recorded before is kept: make room and start again"
             else:
-                told += "; name another file"
-            raise InputError(f"ledger {self.path}: {told}") from error
+                message += "; name another file"
+            raise InputError(f"ledger {self.path}: {message}") from error
 
     # ------------------------------------------------------------ what is in it
 
@@ -190,17 +190,18 @@ class Ledger:
             ) from error
 
     def _require_count(self, shard: Shard, tally: Tally) -> None:
-        """In class `any` a shard has as many worlds as ranks, unless it stopped at a failure."""
+        """Raise an InternalError if a shard of class `any` has not a world for each rank."""
+        # Both may stop a shard before its end: a failure, and too many time-outs.
         whole = (self._plan.keep_going or not tally.failing) and self._plan.max_timeouts is None
         if self._plan.kind == "any" and whole and tally.worlds != shard.stop - shard.start:
             raise InternalError(
-                f"{tally.worlds} worlds were gone into in the shard m{shard.edges}/{shard.start} …"
+                f"mappers ran in {tally.worlds} worlds of the shard m{shard.edges}/{shard.start} …"
                 f" {shard.stop - 1}, and there are {shard.stop - shard.start}"
             )
 
 
 def _meta(plan: Plan, mappers: Sequence[Target], tool: str) -> dict[str, str]:
-    """What a search has to agree in to go on with a ledger."""
+    """What must be equal for a search to go on with a ledger."""
     return {
         "format": FORMAT,
         "version": str(VERSION),

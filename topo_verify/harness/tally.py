@@ -134,7 +134,7 @@ class Tally(msgspec.Struct, frozen=True):
     """What runs judged in some worlds came to.
 
     Attributes:
-        worlds: how many worlds were gone into.
+        worlds: in how many worlds mappers ran.
         undecided: in how many of them a run was out of time, and nothing else is wrong.
         failing: in how many a claim fails.
         timeouts: how many runs a time limit ended.

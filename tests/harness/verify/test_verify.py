@@ -137,7 +137,7 @@ def test_a_part_counts_all_failing_worlds_but_keeps_few_findings() -> None:
 
 
 def test_a_part_stops_after_a_few_failing_worlds_where_that_is_asked_for() -> None:
-    part = done(lambda _robot: None, patience=2)
+    part = done(lambda _robot: None, max_failing=2)
     assert (part.checked, part.total, part.failing) == (2, 12, 2)
     assert part.summary.endswith("stopped after 2 failing worlds")
 

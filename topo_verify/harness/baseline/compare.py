@@ -1,13 +1,13 @@
-"""A mapper against a baseline: in which worlds is it wrong, dearer, cheaper, or otherwise minded?
+"""Compares a mapper with a baseline: where is it wrong, dearer, cheaper, or decides otherwise?
 
 The mapper runs in the baseline's own worlds, under the baseline's own limits, and every claim is
 judged. Each world then falls into one kind, the first of these that fits:
 
 | kind | meaning |
 | --- | --- |
-| `undecided` | the mapper was out of time, or declined, or was not run: nobody knows |
+| `undecided` | the mapper was out of time, or declined, or was not run |
 | `wrong` | a claim fails, whatever the baseline says |
-| `newly_right` | no claim fails, but in the baseline one did, or nobody knew |
+| `newly_right` | no claim fails, but in the baseline one did, or the world was undecided |
 | `dearer`, `cheaper` | right in both, at another cost |
 | `other_decisions` | right in both, at the same cost, by other moves or other decisions |
 | `equal` | right in both, at the same cost, by the same moves and decisions |
@@ -39,8 +39,10 @@ from topo_verify.harness.progress import Progress
 from topo_verify.programs.loading import Target
 from topo_verify.world.rooted_map import World
 
-Kind = Literal["wrong", "dearer", "cheaper", "other_decisions", "newly_right", "undecided", "equal"]
-KINDS: tuple[Kind, ...] = get_args(Kind)
+ChangeKind = Literal[
+    "wrong", "dearer", "cheaper", "other_decisions", "newly_right", "undecided", "equal"
+]
+KINDS: tuple[ChangeKind, ...] = get_args(ChangeKind)
 
 Property = Literal["edges", "genus", "shape"]
 
@@ -51,23 +53,23 @@ HANDLES = 3
 """From this genus on worlds are one class."""
 
 EXAMPLES = 5
-"""Of each kind so many worlds are kept."""
+"""How many worlds of each kind are kept."""
 
 
 class Change(msgspec.Struct, frozen=True):
-    """A world in which the mapper is not what it was.
+    """A world in which the mapper does not do what it did.
 
     Attributes:
         edges, genus: of the world.
         before, after: costs, in edge traversals; None where the run was not right.
         percent: how much dearer (cheaper if below 0), to a tenth; None where a cost is missing.
         beyond: it exceeds the tolerance.
-        message: what is wrong, or otherwise than it was; "" where the costs say it.
+        message: what is wrong or has changed; "" where the costs say it.
         replay: the command line that shows the run again.
     """
 
     world: str
-    kind: Kind
+    kind: ChangeKind
     edges: int
     genus: int
     before: int | None
@@ -91,11 +93,11 @@ class Group(msgspec.Struct, frozen=True):
     worlds: int
     before: int
     after: int
-    kinds: dict[Kind, int]
+    kinds: dict[ChangeKind, int]
 
     @property
     def changed(self) -> bool:
-        """Is any of its worlds not as it was?"""
+        """Is there a world of another kind than `equal`?"""
         return self.kinds["equal"] < self.worlds
 
 
@@ -112,7 +114,7 @@ class Comparison:
             the smallest worlds.
     """
 
-    kinds: dict[Kind, int]
+    kinds: dict[ChangeKind, int]
     beyond: int
     before: int
     after: int
@@ -143,58 +145,62 @@ def compare(
             yield _argument(entry), world_of(entry, name=name, line=line)
 
     for _ in worlds():
-        pass  # each of them can be read: known before the mapper runs for the first time
+        pass  # that each can be read is to be known before the mapper runs for the first time
     seen = runs(target, worlds(), len(baseline.entries), limits, tell)
-    books = _Books()
+    tally = _ComparisonTally()
     for entry in baseline.entries:
         now = next(seen, None)
         world = World.from_text(entry.world) if now is None else now.world
         replay = replay_command(target, _argument(entry), limits)
-        books.enter(_change(entry, world, now, Fraction(tolerance), replay), world)
-    return books.comparison()
+        tally.enter(_change(entry, world, now, Fraction(tolerance), replay), world)
+    return tally.comparison()
 
 
 def _argument(entry: BaselineEntry) -> str:
-    """How the command line names the world wherever it is called."""
+    """How a command line names the world, in whatever folder it is called."""
     known = entry.name in NETWORKS or entry.name.startswith("family:")
     return entry.name if known or entry.world.startswith("{") else entry.world
 
 
 @dataclass
-class _Tally:
-    """Worlds of one kind beside another."""
+class _ChangeCounts:
+    """Counts changes by kind, and sums up the costs where the mapper is right then and now."""
 
-    kinds: Counter[Kind] = field(default_factory=Counter[Kind])
+    kinds: Counter[ChangeKind] = field(default_factory=Counter[ChangeKind])
     before: int = 0
     after: int = 0
 
     def enter(self, change: Change) -> None:
-        """One more world."""
+        """Count one world."""
         self.kinds[change.kind] += 1
         if change.before is not None and change.after is not None:
             self.before += change.before
             self.after += change.after
 
-    def counts(self) -> dict[Kind, int]:
-        """How many of each kind."""
+    def by_kind(self) -> dict[ChangeKind, int]:
+        """How many worlds are of each kind, those without any included."""
         return {kind: self.kinds[kind] for kind in KINDS}
 
 
 @dataclass
-class _Books:
-    """Takes one world after the other; `comparison` is what came of it."""
+class _ComparisonTally:
+    """Tallies changes, in all worlds and by class. Life cycle: `enter` each, then `comparison`.
+
+    Not a `tally.Tally`: that counts runs by what claims say of them, this by what was before. And
+    its examples are the largest changes, not the first.
+    """
 
     beyond: int = 0
-    total: _Tally = field(default_factory=_Tally)
-    classes: dict[_Class, _Tally] = field(default_factory=dict["_Class", _Tally])
-    changes: dict[Kind, list[Change]] = field(default_factory=dict[Kind, list[Change]])
+    total: _ChangeCounts = field(default_factory=_ChangeCounts)
+    classes: dict[_Class, _ChangeCounts] = field(default_factory=dict["_Class", _ChangeCounts])
+    changes: dict[ChangeKind, list[Change]] = field(default_factory=dict[ChangeKind, list[Change]])
 
     def enter(self, change: Change, world: World) -> None:
-        """What became of a world."""
+        """Count one world, and keep it if its change is among the largest of its kind."""
         self.beyond += change.beyond
         self.total.enter(change)
         for one in _classes(world):
-            self.classes.setdefault(one, _Tally()).enter(change)
+            self.classes.setdefault(one, _ChangeCounts()).enter(change)
         kept = self.changes.setdefault(change.kind, [])
         if change not in kept:  # a corpus may name a world twice
             kept.append(change)
@@ -202,15 +208,22 @@ class _Books:
             del kept[EXAMPLES:]
 
     def comparison(self) -> Comparison:
-        """What was entered."""
+        """The comparison over the worlds that were entered."""
         groups = [
-            Group(one.by, one.value, tally.kinds.total(), tally.before, tally.after, tally.counts())
-            for one, tally in sorted(self.classes.items())
+            Group(
+                one.by,
+                one.value,
+                counts.kinds.total(),
+                counts.before,
+                counts.after,
+                counts.by_kind(),
+            )
+            for one, counts in sorted(self.classes.items())
         ]
         examples = [c for kind in KINDS if kind != "equal" for c in self.changes.get(kind, ())]
         total = self.total
         return Comparison(
-            total.counts(), self.beyond, total.before, total.after, tuple(groups), tuple(examples)
+            total.by_kind(), self.beyond, total.before, total.after, tuple(groups), tuple(examples)
         )
 
 
@@ -241,7 +254,7 @@ def _change(
     )
 
 
-def _kind(then: BaselineEntry, now: BaselineEntry | None) -> Kind:
+def _kind(then: BaselineEntry, now: BaselineEntry | None) -> ChangeKind:
     if now is None or now.undecided:
         return "undecided"
     if now.failed:
@@ -250,13 +263,13 @@ def _kind(then: BaselineEntry, now: BaselineEntry | None) -> Kind:
         return "newly_right"
     if now.cost != then.cost:
         return "dearer" if now.cost > then.cost else "cheaper"
-    told = then.decisions is not None and now.decisions is not None
-    if then.moves != now.moves or (told and then.decisions != now.decisions):
+    declared = then.decisions is not None and now.decisions is not None
+    if then.moves != now.moves or (declared and then.decisions != now.decisions):
         return "other_decisions"
     return "equal"
 
 
-def _message(kind: Kind, then: BaselineEntry, now: Recorded | None) -> str:
+def _message(kind: ChangeKind, then: BaselineEntry, now: Recorded | None) -> str:
     if now is None:
         return f"not run: the mapper was out of time {MAX_TIMEOUTS} times before"
     if kind == "other_decisions":
@@ -266,7 +279,7 @@ def _message(kind: Kind, then: BaselineEntry, now: Recorded | None) -> str:
 
 
 def _weight(change: Change) -> tuple[float, int]:
-    """Largest first: by edge traversals; where no cost changed, the smallest world first."""
+    """A key that sorts the largest change of cost first; where none changed, the smallest world."""
     if change.kind in ("dearer", "cheaper"):
         assert change.before is not None
         assert change.after is not None
@@ -278,7 +291,7 @@ def _weight(change: Change) -> tuple[float, int]:
 
 
 class _Class(NamedTuple):
-    """A class of worlds, in the order in which classes are told."""
+    """A class of worlds; classes are shown in the order of (by, place)."""
 
     by: Property
     place: int
@@ -286,7 +299,7 @@ class _Class(NamedTuple):
 
 
 def _classes(world: World) -> Iterator[_Class]:
-    """Those that a world is in, one for each property."""
+    """The classes that a world is in, one for each property."""
     edges = len(world.edges)
     place = next((place for place, most in enumerate(SIZES) if edges <= most), len(SIZES))
     least = SIZES[place - 1] + 1 if place else 0

@@ -1,4 +1,4 @@
-"""One world after the other in this process: an implementation run, judged, and compared."""
+"""Examines worlds in this process: runs an implementation, judges it, and compares it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from topo_verify.robot.events import write_trace
 from topo_verify.world.formats import files
 
 TRANSCRIPT = {"format": "topo-verify/transcript", "version": 1}
-"""The head of a transcript."""
+"""The head of a transcript: format and version."""
 
 
 class Examiner:
@@ -42,7 +42,7 @@ class Examiner:
             self.program.start()
 
     def examine(self, at: Named) -> WorldResult:
-        """What becomes of one world."""
+        """Run the implementation in a world; the outcome on each level."""
         job, program = self.job, self.program
         run = explore(at.world, self.target, limits=job.limits)
         misbehaved, lines = (program.misbehaved, program.lines) if program else (None, [])
@@ -89,7 +89,7 @@ def reference(job: ConformJob) -> Target:
 def keep(
     folder: str, at: Named, run: Exploration, made: WorldResult, lines: list[TranscriptLine] | None
 ) -> Path:
-    """Write down what was said in a world: the messages of a program, the trace of a mapper."""
+    """Write a transcript of one world: the messages of a program, or the trace of a mapper."""
     path = Path(folder) / f"{file_name(at.name)}.jsonl"
     if lines is None:
         text = write_trace(run.trace)
@@ -104,7 +104,7 @@ def keep(
 
 
 def file_name(world: str) -> str:
-    """A name for files about a world, fit for every file system and different for each world."""
+    """A file name for a world, valid in every file system and different for each world."""
     name = re.sub(r"[^A-Za-z0-9_.=,()-]", "-", world)
     plain = re.fullmatch(r"m[0-9]+/[0-9]+", world) or name == world
     tag = "" if plain and len(name) <= 80 else f"-{sha256(world.encode()).hexdigest()[:8]}"

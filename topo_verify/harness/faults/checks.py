@@ -1,8 +1,8 @@
-"""One seeded fault put to one check: exhaustive search, property tests, or a theorem.
+"""Tries one check on one seeded fault: exhaustive search, property tests, or a theorem.
 
-Mappers are counted, not clocked: their moves, and the edges that they declare. The clock is there
-for one that neither moves nor declares and never ends. A run that was cut off says nothing: it is
-undecided, and no fault counts as found by it.
+Mappers are limited by counts, not by time: of their moves, and of the edges that they declare. The
+time limit is for a mapper that neither moves nor declares and never ends. A run that a time limit
+ended is undecided: no fault counts as found by it.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from topo_verify.robot.limits import Limits
 from topo_verify.world.rooted_map import World
 
 LARGEST = 7
-"""Up to so many edges a fault is searched for."""
+"""The most edges of worlds in which a fault is searched for."""
 
 COUNTED = 5
-"""Up to so many edges all failing worlds of a size are counted; beyond, only if thorough."""
+"""Up to so many edges all failing worlds of a size are counted; in larger ones if thorough."""
 
 SEEDS = range(5)
 EXAMPLES = 100
-"""Hypothesis's default."""
+"""The most examples of a property test: Hypothesis's default."""
 
 STRATEGIES = (
     "worlds(max_edges=30)",
@@ -45,23 +45,23 @@ STRATEGIES = (
 enough for ways home on which a second look at a place seen before makes a difference."""
 
 A_SECOND = Limits(move_timeout=1, world_timeout=1)
-"""Who needs longer for a world is out of time, whether it moves or not; milliseconds are usual.
+"""The time limits of a run: a second, moves or not; a few milliseconds are usual.
 (A mapper that walks in a circle on its map, without moving, fills the memory in a minute.)"""
 
 TIMEOUT = 20.0
-"""Seconds for a question to the solver; each takes a small part of one."""
+"""Seconds for a question to the solver; each takes a fraction of one."""
 
 
 class Smallest(msgspec.Struct, frozen=True):
-    """What exhaustive search found in the worlds of the smallest size in which it found anything.
+    """What exhaustive search found in worlds of the smallest size in which a claim fails.
 
     Attributes:
         edges: that size; the largest that was searched if nothing was found.
         failing, checked: in how many of so many worlds of that size a claim fails. Beyond
             `COUNTED` edges the search ends at the first of them, unless it is thorough.
         total: how many worlds of that size there are.
-        undecided: in how many of all worlds a run was out of time.
-        claims: of each claim that fails there, in how many worlds.
+        undecided: in how many of all searched worlds a run was out of time.
+        claims: for each claim that fails there, in how many worlds.
         world: the first of them.
         convicting: the first in which claim 9 or 10 fails: one run, judged without its world.
         message, replay: what is wrong in `world`, and the command line that shows it again.
@@ -99,12 +99,12 @@ class Examples(msgspec.Struct, frozen=True):
 
     @property
     def found(self) -> bool:
-        """Did any of the tests find anything?"""
+        """Does a test of any strategy and seed fail?"""
         return any(number is not None for row in self.examples.values() for number in row)
 
 
 class Proof(msgspec.Struct, frozen=True):
-    """A theorem with the same mistake in it, which must be REFUTED, and what came out."""
+    """The verdict on the theorem with the same mistake in it, which must be REFUTED."""
 
     theorem: str
     verdict: Verdict
@@ -122,7 +122,7 @@ def smallest(
     thorough: bool = False,
     tell: Progress | None = None,
 ) -> Smallest:
-    """Every world of 1, 2, … edges, up to the first size with a world in which a claim fails.
+    """Search the worlds of 1, 2, … edges up to the first size in which a claim fails.
 
     Args:
         first, largest: the first size at which to stop, and the last.
@@ -177,17 +177,17 @@ def _smallest(size: Size, undecided: int) -> Smallest:
 
 
 class _Failed(Exception):
-    """A claim fails: the property test has found something."""
+    """A claim fails in the world that was drawn: the property test found the fault."""
 
 
 class _TooManyEdges(Exception):
-    """More edges declared than there are."""
+    """The mapper declared more edges than the world has."""
 
 
 def examples(fault: Fault, *, seeds: Sequence[int] = SEEDS, most: int = EXAMPLES) -> Examples:
-    """How many examples property tests take to find the fault, once for each strategy and seed.
+    """How many examples property tests take to find the fault, for each strategy and seed.
 
-    Where one strategy finds it with every seed, the next is not asked.
+    If one strategy finds it with every seed, the next is not tried.
     """
     numbers: dict[str, tuple[int | None, ...]] = {}
     undecided = 0
@@ -251,10 +251,10 @@ def examples_to_detection(
 def fails(fault: Fault, world: World) -> bool | None:
     """Does a claim fail in this world? None if the run was cut off, which says nothing.
 
-    Asks one claim after the other, up to the first that does. Who declares more edges than there
-    are has failed, and is stopped there: a map S that is wrong may grow without end. A harmless
-    mapper has the moves of claim 7. One with a mistake has 4m², twice what any of the catalogue is
-    known to need: the bound of claim 7 takes seconds to use up, and the next world comes sooner.
+    It judges one claim after the other, up to the first that fails. A mapper that declares more
+    edges than there are has failed and is stopped: a map S that is wrong may grow without end. A
+    harmless mapper may make the moves of claim 7. One with a mistake may make 4m², twice what any
+    of the catalogue is known to need: to use up the bound of claim 7 takes seconds.
     """
     edges = len(world.edges)
     bound = world.cost_bound
@@ -269,7 +269,7 @@ def fails(fault: Fault, world: World) -> bool | None:
 
 
 class _Counting(ForwardingRobot):
-    """Counts the edges that the mapper declares to have explored."""
+    """Stops a mapper that declares more explored edges than the world has."""
 
     def __init__(self, robot: Robot, edges: int) -> None:
         super().__init__(robot)
@@ -286,7 +286,7 @@ class _Counting(ForwardingRobot):
 
 
 def proof(fault: Fault) -> Proof | None:
-    """What becomes of the theorem with the same mistake in it, if there is one."""
+    """The verdict on the theorem with the same mistake in it; None if there is no such theorem."""
     if fault.theorem is None:
         return None
     from topo_verify.proofs.catalogue import choose
@@ -294,5 +294,6 @@ def proof(fault: Fault) -> Proof | None:
 
     (theorem,) = choose([fault.theorem])
     outcome = theorem.prove(Budget(timeout=TIMEOUT))
-    open_ended = outcome.verdict == "REFUTED" and not theorem.ok(outcome)  # not replayed
+    # A refutation that the replay in worlds does not confirm decides nothing.
+    open_ended = outcome.verdict == "REFUTED" and not theorem.ok(outcome)
     return Proof(theorem.name, "UNKNOWN" if open_ended else outcome.verdict)

@@ -1,4 +1,4 @@
-"""The seeded faults: which check finds which, how fast, and in which smallest world.
+"""Tries all checks on all seeded faults: which finds which, how fast, in which smallest world.
 
     search       every world of 1, 2, … edges, until there are some in which a claim fails: how many
                  of that size, and the smallest in which the one run already convicts the mapper,
@@ -9,9 +9,8 @@
                  pairs are made by hand, and most mistakes in motion and drawing have none
 
 A fault counts as caught if each of the checks asked for finds it, and the claim that must catch it
-fails in worlds of the smallest size. A harmless difference must be found by none. What a time limit
-has ended says nothing: it counts as undecided, never as a fault found. Nothing is printed here:
-entries are yielded in the order of the faults.
+fails in worlds of the smallest size. A harmless difference must be found by none. A run that a time
+limit ended counts as undecided, never as a fault found. Entries come in the order of the faults.
 
 What this does not show: that these are all the mistakes there are; or, for the harmless ones,
 anything about larger worlds beyond those that were drawn.
@@ -45,17 +44,17 @@ Check = Literal["search", "properties", "proofs"]
 CHECKS: tuple[Check, ...] = get_args(Check)
 
 LARGEST_HARMLESS, LARGEST_THOROUGH = 4, 5
-"""Up to so many edges every world is tried with a harmless difference; if thorough."""
+"""The most edges of worlds in which a harmless difference is tried: usually; if thorough."""
 
 
 class Caught(msgspec.Struct, frozen=True):
-    """One fault, and what found it; docs/commands.md.
+    """One fault and what each check found, as in docs/commands.md.
 
     Attributes:
         name, part, why, claim, harmless, target: of the fault.
-        search, properties: None where it was not asked.
-        proofs: None also where no theorem has this mistake.
-        undecided: nothing is wrong, but something was out of time, or a question stayed open.
+        search, properties: None if the check was not asked for.
+        proofs: None also if no theorem has this mistake.
+        undecided: nothing is wrong, but a run was out of time or a theorem is UNKNOWN.
         ok: a fault is caught by every check that was asked; a harmless difference by none.
     """
 
@@ -80,14 +79,14 @@ def try_faults(
     thorough: bool = False,
     tell: Progress | None = None,
 ) -> Iterator[Caught]:
-    """Put the checks to each of these faults.
+    """Try the checks on each of these faults.
 
     Args:
         by: which checks.
         workers: so many processes, each with a fault of its own; 0: this one.
         thorough: count the failing worlds of every size, and try the harmless differences in all
             worlds of 5 edges, too.
-        tell: told of progress in the larger worlds.
+        tell: the progress callback, called in the larger worlds.
     """
     faults = list(faults)
     known = all(FAULTS.get(fault.name) is fault for fault in faults)
@@ -141,7 +140,7 @@ def serve_faults(job: bytes) -> Generator[Handler]:
 
 
 def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool) -> Caught:
-    """Every check, the search up to `COUNTED` edges."""
+    """Try every check on a fault, the search in worlds of up to `COUNTED` edges."""
     last = (LARGEST_THOROUGH if thorough else LARGEST_HARMLESS) if fault.harmless else COUNTED
     return entry_of(
         fault,
@@ -154,7 +153,7 @@ def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool) -> Caught:
 def _to_the_end(
     fault: Fault, entry: Caught, workers: int, *, thorough: bool, tell: Progress | None
 ) -> Caught:
-    """The same with the larger sizes, where nothing was found in the smaller."""
+    """Go on with the larger worlds if the search found nothing in the smaller ones."""
     if fault.harmless or entry.search is None or entry.search.failing:
         return entry
     found = smallest(fault, first=COUNTED + 1, workers=workers, thorough=thorough, tell=tell)
@@ -164,14 +163,14 @@ def _to_the_end(
 def entry_of(
     fault: Fault, found: Smallest | None, drawn: Examples | None, proved: Proof | None
 ) -> Caught:
-    """What these checks found, and whether it is as it must be."""
+    """The entry of a fault: what these checks found, and whether each finds what it must."""
     asked: list[bool | None] = []
     if found is not None:
         caught = bool(found.failing) if fault.harmless else fault.claim in found.claims
-        asked.append(_as_it_must_be(fault, caught, found.undecided))
+        asked.append(_finds_what_it_must(fault, caught, found.undecided))
     if drawn is not None:
         caught = drawn.found if fault.harmless else drawn.median_examples is not None
-        asked.append(_as_it_must_be(fault, caught, drawn.undecided))
+        asked.append(_finds_what_it_must(fault, caught, drawn.undecided))
     if proved is not None:
         asked.append(None if proved.verdict == "UNKNOWN" else proved.verdict == "REFUTED")
     return Caught(
@@ -189,8 +188,8 @@ def entry_of(
     )
 
 
-def _as_it_must_be(fault: Fault, caught: bool, undecided: int) -> bool | None:  # noqa: FBT001  private
-    """None: that depends on runs that were out of time."""
+def _finds_what_it_must(fault: Fault, caught: bool, undecided: int) -> bool | None:  # noqa: FBT001  private
+    """Does a check find a fault, and no harmless difference? None: a run was undecided."""
     if caught:
         return not fault.harmless
     return None if undecided else fault.harmless

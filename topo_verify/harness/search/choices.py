@@ -1,4 +1,4 @@
-"""The choices that the paper leaves open: which e next, in which order H is tried.
+"""Tries the choices that the paper leaves open: which e comes next, in which order H is tried.
 
 A claim must hold for all of them. A search goes through
 
@@ -6,9 +6,9 @@ A claim must hold for all of them. A search goes through
     all          every named pick policy with every named order policy, `random` with a few seeds
     every        every choice that any policy could make
 
-`every` runs the algorithm again and again: policies that are told, choice by choice, what to take,
-and that note how many ways there were. The next run differs in the last choice that has a way left
-(backtracking with no memory but one list). With motion `retrace`, what stands in H behind the
+`every` runs the algorithm again and again. A script tells its policies, choice by choice, what to
+take, and notes how many ways there were. The next run differs in the last choice that has a way
+left (backtracking with no memory but one list). With motion `retrace`, what stands in H behind the
 hypothesis that is confirmed is never tried, so its order is no choice. The runs of a world are
 finitely many, but they grow beyond all bounds that matter: a vertex with three loops has some ten
 thousand, with four over a hundred million. Hence `MOST_EDGES`.
@@ -39,7 +39,7 @@ from topo_verify.robot.limits import Limits
 from topo_verify.world.rooted_map import World
 
 SEEDS = 3
-"""So many seeds of `random` are among all policies."""
+"""How many seeds of `random` are among all policies."""
 
 MOST_EDGES = 3
 """The largest worlds in which every choice is tried."""
@@ -63,7 +63,7 @@ def examinations(
 
 
 def require_choices(targets: Iterable[Target], plan: Plan) -> None:
-    """Has each mapper these choices, and are the worlds small enough? (`InputError` if not)."""
+    """Raise an InputError unless each mapper has these choices and the worlds are small enough."""
     if plan.choices == "reference":
         return
     for target in targets:
@@ -91,7 +91,7 @@ def _examined(target: Target, limits: Limits, world: World, beat: Callable[[], N
 
 @cache
 def _variants(target: Target, *, named: bool) -> tuple[Target, ...]:
-    """The mapper with each pair of policies."""
+    """The mapper with each pair of named policies; without `named`, as it is."""
     if not named or not isinstance(target.mapper, Algorithm):
         return (target,)
     random = [f"random({seed})" for seed in range(SEEDS)]
@@ -111,7 +111,7 @@ class Script:
     Life cycle: `choose` during a run, `advance` behind it; it says whether there is a further run.
 
     Attributes:
-        told: the choices of this run, in words.
+        words: the choices of this run, to be shown.
     """
 
     def __init__(self) -> None:
@@ -119,10 +119,10 @@ class Script:
         self._ways: list[int] = []
         self._next = 0
         self._orders: list[tuple[int, list[Dart]]] = []  # where each H begins, and its order
-        self.told: list[str] = []
+        self.words: list[str] = []
 
     def choose(self, ways: int) -> int:
-        """One of so many ways: as the script says; beyond its end, the first."""
+        """The number of the way to take, of so many; beyond the script's end the first."""
         if self._next == len(self._taken):
             self._taken.append(0)
             self._ways.append(ways)
@@ -131,7 +131,7 @@ class Script:
         return self._taken[self._next - 1]
 
     def settle(self, trace: Trace) -> None:
-        """The order of what was never tried is no choice: go on behind it.
+        """Count the order of the hypotheses that were never tried as no choice.
 
         Args:
             trace: of this run, whose motion is `retrace`.
@@ -145,7 +145,7 @@ class Script:
                     self._ways[place] = self._taken[place] + 1
 
     def advance(self) -> bool:
-        """Go to the next script; is there one?"""
+        """Go to the next script; False: all were made."""
         while self._taken and self._taken[-1] + 1 >= self._ways[-1]:
             self._taken.pop()
             self._ways.pop()
@@ -153,26 +153,26 @@ class Script:
             self._taken[-1] += 1
         self._next = 0
         self._orders = []
-        self.told = []
+        self.words = []
         return bool(self._taken)
 
     def pick(self, chart: Chart, _at: Dart) -> Dart:
-        """A pick policy."""
+        """A pick policy that takes the dart that the script says."""
         row = list(chart.unexplored)
         e = row[self.choose(len(row))]
-        self.told.append(f"e = {e}")
+        self.words.append(f"e = {e}")
         return e
 
     def order(self, darts: Iterable[Dart], _chart: Chart, _tree: Tree) -> list[Dart]:
-        """An order policy."""
+        """An order policy that takes the order that the script says."""
         left, begin = sorted(darts), self._next
         row = [left.pop(self.choose(len(left))) for _ in range(len(left))]
         self._orders.append((begin, row))
-        self.told.append(f"H = {row}")
+        self.words.append(f"H = {row}")
         return row
 
     def mapper(self, algorithm: Algorithm) -> Callable[[Robot], Survey]:
-        """The algorithm, choosing as the script says."""
+        """The algorithm with the script for its policies."""
 
         def explore(robot: Robot) -> Survey:
             rule, motion = algorithm.rule(), algorithm.motion
@@ -188,18 +188,18 @@ def _every(
 ) -> Iterator[Examined]:
     assert isinstance(target.mapper, Algorithm), "require_choices has seen to it"
     script = Script()
-    again = f"topo-verify search {target.text} --edges {len(world.edges)} --policies every"
+    command = f"topo-verify search {target.text} --edges {len(world.edges)} --policies every"
     scripted = Target(target.text, script.mapper(target.mapper))
     more = True
     while more:
         run, report = _examined(scripted, plan.limits, world, beat)
-        chosen = f" (choices: {', '.join(script.told)})"
-        findings = tuple(_retold(finding, chosen, again) for finding in report.findings)
+        chosen = f" (choices: {', '.join(script.words)})"
+        findings = tuple(_with_choices(finding, chosen, command) for finding in report.findings)
         yield run, msgspec.structs.replace(report, findings=findings)
         if target.mapper.motion is retrace:
             script.settle(run.trace)
         more = script.advance()
 
 
-def _retold(finding: Finding, chosen: str, again: str) -> Finding:
-    return msgspec.structs.replace(finding, message=finding.message + chosen, replay=again)
+def _with_choices(finding: Finding, chosen: str, command: str) -> Finding:
+    return msgspec.structs.replace(finding, message=finding.message + chosen, replay=command)

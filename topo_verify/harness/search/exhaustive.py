@@ -1,14 +1,14 @@
-"""The search: every world of a class, smallest first; the smallest counterexample or EXHAUSTED.
+"""The search: a mapper in every world of a class, up to the smallest counterexample or EXHAUSTED.
 
-`search` does it in one call. `Search` is the same in the hands of somebody who wants to hear of it
-as it goes, or to keep what was done when it is cut off.
+`search` does it in one call. `Search` offers the same in steps: it has a ledger, and keeps what was
+found when it is cut off.
 
-The worlds are cut into shards by rank. Shards may be examined in any order, by anybody; they are
-added up in the order of the ranks, and a search that stops at the first counterexample counts
-nothing behind it. So the result depends on the plan alone, not on who worked how fast.
+The worlds are cut into shards by rank. Shards may be examined in any order, by any process; their
+tallies are added up in the order of the ranks, and a search that stops at the first counterexample
+counts nothing behind it. So the result depends on the plan alone, not on the speed of workers.
 
-EXHAUSTED takes two lists that know nothing of each other: the worlds that were gone into, and their
-number (`WorldClass.count`). If the search comes to its end and they differ, that is a bug of ours.
+EXHAUSTED compares two numbers that are computed apart: in how many worlds mappers ran, and how many
+there are (`WorldClass.count`). If they differ at the end of a search, that is a bug of ours.
 """
 
 from __future__ import annotations
@@ -36,10 +36,11 @@ from topo_verify.world.enumeration.classes import WorldClass
 
 
 class Size(msgspec.Struct, frozen=True):
-    """What was found in the worlds of one size.
+    """The result of a search in the worlds of one size.
 
     Attributes:
-        checked, total: worlds.
+        checked: in how many worlds every run was judged; undecided worlds are left out.
+        total: how many worlds there are.
         tally: everything else.
     """
 
@@ -76,11 +77,11 @@ class SearchResult(msgspec.Struct, frozen=True):
 
     @property
     def tally(self) -> Tally:
-        """All sizes together."""
+        """The tally of all sizes together."""
         return sum((size.tally for size in self.by_edges), Tally())
 
     def costs(self, edges: int, target: str) -> CostTotals:
-        """What a mapper spent in the worlds of one size."""
+        """The costs of a mapper in the worlds of one size."""
         return self.by_edges[edges - 1].tally.costs.get(target, CostTotals())
 
 
@@ -102,13 +103,13 @@ def search(  # noqa: PLR0913  an argument an option
             lets them run in each world together.
         world_class: default: all worlds.
         keep_going: do not stop at the first counterexample.
-        policies: which choices an algorithm of the catalogue is tried with; `variants.py`.
+        policies: which choices an algorithm of the catalogue is tried with; `choices.py`.
         limits: of each run.
         workers: so many processes; 0: this one. Other processes are handed the TARGET's text.
-        tell: told of progress.
+        tell: the progress callback.
     Raises:
         InputError: no such mapper; nothing knows how many worlds the class has; and the like.
-        InternalError: the worlds gone into are not as many as there are.
+        InternalError: mappers ran in another number of worlds than there are.
     """
     mappers = _targets(target)
     if workers and not isinstance(target, str):
@@ -131,7 +132,7 @@ def _targets(target: Mapper | str | Target) -> tuple[Target, ...]:
 
 
 def _require_texts(mappers: Sequence[Target]) -> None:
-    """Can other processes find these mappers by their texts? (`InputError` if not)."""
+    """Raise an InputError unless other processes can find these mappers by their texts."""
     for mapper in mappers:
         if isinstance(mapper.mapper, Program):
             continue
@@ -150,12 +151,12 @@ def _require_texts(mappers: Sequence[Target]) -> None:
 
 
 class Search:
-    """A search at work. Lives from `work` to `found`, which may be asked of work that was cut off.
+    """A search in steps. Life cycle: `work`, then `found`, also if the work was cut off.
 
     Args:
         mappers: the targets of the plan, as they run in this process.
         workers: so many processes; 0: this one.
-        ledger: where what is done is looked up, and kept.
+        ledger: has the tallies of finished shards, and is given those of new ones.
     Raises:
         InputError: nothing knows how many worlds there are; a mapper has no such policies; workers
             for a mapper that has no text.
@@ -175,11 +176,11 @@ class Search:
         self.tallies = dict.fromkeys(self.totals, Tally())
 
     def work(self, tell: Progress | None = None) -> None:
-        """Go through the worlds.
+        """Examine the shards until the end, or as far as the plan says.
 
         Raises:
-            KeyboardInterrupt: Ctrl-C; `found` has what was done.
-            InternalError: the worlds gone into are not as many as there are.
+            KeyboardInterrupt: Ctrl-C; `found` has what was found before.
+            InternalError: mappers ran in another number of worlds than there are.
         """
         rate = ProgressRate(", ".join(self.plan.targets), sum(self.totals.values()), tell)
         timeouts = 0
@@ -200,9 +201,9 @@ class Search:
         self._require_all()
 
     def _in_order(self, rate: ProgressRate) -> Generator[tuple[Shard, Tally]]:
-        """Every shard and what was found there, in the order of their worlds."""
-        ahead: dict[Shard, Tally] = {}
-        enough = False  # nothing behind a counterexample matters
+        """Every shard and its tally, in the order of their worlds."""
+        ahead: dict[Shard, Tally] = {}  # finished, but not all shards before them are
+        enough = False  # a shard fails: what is not begun lies behind it and does not matter
 
         def todo() -> Iterator[Shard]:
             for shard in self.plan.shards():
@@ -227,13 +228,13 @@ class Search:
                 yield shard, tally
 
     def _known(self, shard: Shard) -> Tally | None:
-        """What the ledger says of a shard."""
+        """The tally of a shard that the ledger has; None if it has none."""
         return None if self.ledger is None else self.ledger.get(shard)
 
     def _executed(
         self, todo: Iterator[Shard], rate: ProgressRate
     ) -> Generator[tuple[Shard, Tally]]:
-        """The shards examined, here or in other processes, in any order."""
+        """Shards and their tallies, as they are finished, here or in other processes."""
         if self.workers:
             work = shard_work(self.plan, self.mappers)
             with Pool(work, self.workers, in_flight=rate.in_flight) as pool:
@@ -243,16 +244,16 @@ class Search:
                 yield shard, examine_shard(self.plan, self.mappers, shard, rate.in_flight)
 
     def _require_all(self) -> None:
-        """Was every world gone into?"""
+        """Raise an InternalError if mappers did not run in as many worlds as there are."""
         for edges, total in self.totals.items():
             if self.tallies[edges].worlds != total:
                 raise InternalError(
-                    f"the search went into {self.tallies[edges].worlds} worlds of class"
+                    f"the search ran mappers in {self.tallies[edges].worlds} worlds of class"
                     f" {self.plan.kind} where m = {edges}, and there are {total}"
                 )
 
     def found(self) -> SearchResult:
-        """What was found so far."""
+        """The result so far."""
         sizes = tuple(
             Size(
                 edges,

@@ -1,9 +1,8 @@
-"""What a mapper is made of: a hash of its sources, so that nothing is added up that differs.
+"""A hash of a mapper's sources, so that results of different sources are never added up.
 
 For an algorithm of the catalogue these are the parts of topo_verify that decide what a search
-finds. For a mapper of the user's these and its own file, and the neighbours that it imports (they
-stand in the same folder, or in the same package), and theirs. For a program, what stands in the
-files that its command names.
+finds. For a user's mapper these, its own file, the neighbours that it imports (files in the same
+folder or package), and theirs. For a program, the files that its command names.
 
 What this does not see: imports by a computed name, data that a mapper reads, libraries.
 """
@@ -30,7 +29,7 @@ DECIDE = ("algorithms", "checkers", "harness", "programs", "robot", "world")
 
 
 def source_hash(mappers: Iterable[Target]) -> str:
-    """The hash of these mappers' sources, as they are now, in hexadecimal."""
+    """The hash of these mappers' sources, as they are in the files now, in hexadecimal."""
     digest = sha256(_own().encode())
     for mapper in mappers:
         if isinstance(mapper.mapper, Program):
@@ -43,7 +42,7 @@ def source_hash(mappers: Iterable[Target]) -> str:
 
 @cache
 def _own() -> str:
-    """The hash of what topo_verify itself is made of."""
+    """The hash of the parts of topo_verify that decide what a search finds."""
     digest = sha256()
     for part in DECIDE:
         place = _PACKAGE / part
@@ -72,7 +71,7 @@ def _sources(mapper: Target) -> dict[str, bytes]:
 
 
 def _neighbours(path: Path, text: bytes, root: Path) -> Iterator[Path]:
-    """Where the modules would stand that a file imports from its folder or package."""
+    """The paths at which a file's imports would stand if they were neighbours of it."""
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError):  # no Python: then nothing is imported either

@@ -1,4 +1,4 @@
-"""What a search is about, as plain data that a worker or a ledger can be handed."""
+"""The plan of a search and its shards, as data for workers and the ledger."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 
 Choices = Literal["reference", "all", "every"]
-"""Which policies a search goes through; see `variants.py`."""
+"""Which policies a search goes through; see `choices.py`."""
 
 CHOICES: tuple[Choices, ...] = get_args(Choices)
 
 SHARD: dict[Choices, int] = {"reference": 400, "all": 12, "every": 1}
-"""Worlds of a shard, on average: a fraction of a second of work, except where it cannot be less."""
+"""How many worlds a shard has on average: a fraction of a second of work, where one world is."""
 
 
 class Shard(msgspec.Struct, frozen=True):
@@ -31,7 +31,7 @@ class Shard(msgspec.Struct, frozen=True):
 
 
 class Plan(msgspec.Struct, frozen=True, kw_only=True):
-    """What is searched for what.
+    """What a search goes through, and when it stops.
 
     Attributes:
         targets: mappers by their texts; each runs in every world.
@@ -75,7 +75,7 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
         return {edges: _total(kind, edges) for edges in range(1, self.edges + 1)}
 
     def shards(self) -> Iterator[Shard]:
-        """The search in pieces: the same ones, whoever asks and however far the search goes."""
+        """The shards. They depend on the plan alone, so a later search finds them in a ledger."""
         for edges, worlds in self.totals().items():
             ranks = rank_order.count(edges)
             width = max(1, ranks * SHARD[self.choices] // max(1, worlds))

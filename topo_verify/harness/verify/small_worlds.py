@@ -1,7 +1,7 @@
-"""The part `small-worlds`: every mapper in every world up to a size, by exhaustive search.
+"""The part `small-worlds`: exhaustive search with every mapper in every world up to a size.
 
-The catalogue alone is handed to workers: a mapper of the user's runs in this process, so that
-Ctrl-C finds it, and its few thousand runs take seconds.
+Only algorithms of the catalogue run in workers. A user's mapper runs in this process, so that
+Ctrl-C reaches it; its few thousand runs take seconds.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 
 WORTH = 4
-"""Worlds with fewer edges are examined before a worker has started."""
+"""From so many edges on workers are used: smaller worlds take less time than to start one."""
 
 
 class SmallWorlds:
-    """Every mapper in every world of 1 … `edges` edges, every claim. A `PartJob`."""
+    """Runs every mapper in every world of 1 … `edges` edges, judges every claim. A `PartJob`."""
 
     def __init__(self, edges: int, targets: Sequence[Target], limits: Limits) -> None:
         ours = all(CATALOGUE.get(target.text) == target.mapper for target in targets)
@@ -39,11 +39,11 @@ class SmallWorlds:
         self.search = Search(plan, targets, workers=workers)
 
     def work(self, tell: Progress) -> None:
-        """Go through the worlds."""
+        """Search the worlds."""
         self.search.work(lambda _what, done, total: tell("small-worlds", done, total))
 
     def part(self, *, interrupted: bool = False) -> Part:
-        """What was found so far."""
+        """The part's result so far."""
         found = self.search.found()
         tally = found.tally
         claims = part_claims(tally.statuses)

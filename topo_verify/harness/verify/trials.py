@@ -1,9 +1,9 @@
 """The parts that run mappers in worlds and have every claim judged.
 
-A part that meets a counterexample goes on, so as to say how many worlds fail, but keeps the
-findings of the first few only; worlds come smallest first, so these are the smallest. It stops
-early where going on would take for ever: after a few time-outs and, if it is told so, after a few
-failing worlds.
+A part that meets a counterexample goes on, so as to say how many worlds fail, and keeps the
+findings of the first few; worlds come smallest first, so these are the smallest. It stops early
+after a few time-outs, for each may cost a whole time limit, and, if asked to, after a few failing
+worlds.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ class Trials:
 
     Attributes:
         name: of the part.
-        about: which worlds, in words to be put behind "792 worlds".
+        about: which worlds these are, in words that follow "792 worlds".
         total: how many worlds there are; counted apart from the worlds themselves.
         worlds: lists them, smallest first.
-        finite: they are all worlds of a finite class.
+        finite: the worlds are all of a finite class.
         max_failing: stop after so many failing worlds; None: never.
-        where: how the command line names the one world, if it is not by its id.
+        where: how the command line names the one world; None: by its id.
         note: called for every run.
         counts: what the runs came to so far.
     """
@@ -62,7 +62,7 @@ class Trials:
     findings: list[Finding] = field(default_factory=list[Finding])
 
     def work(self, tell: Progress) -> None:
-        """Go through the worlds, as far as it makes sense."""
+        """Run the mappers in one world after the other, until too many time out or fail."""
         for world in self.worlds():
             tell(self.name, self.counts.worlds, self.total)
             for target in self.targets:
@@ -90,7 +90,7 @@ class Trials:
     # ------------------------------------------------------------ what was found
 
     def part(self, *, interrupted: bool = False) -> Part:
-        """What was found so far."""
+        """The part's result so far."""
         counts = self.counts
         whole = counts.worlds == self.total and not counts.undecided_runs and not interrupted
         verdict: Verdict = "UNKNOWN"
@@ -203,6 +203,6 @@ class CostTrial:
         )
 
     def part(self, *, interrupted: bool = False) -> Part:
-        """What was found so far."""
+        """The part's result so far."""
         part = self.trials.part(interrupted=interrupted)
         return msgspec.structs.replace(part, costs=tuple(self.costs))
