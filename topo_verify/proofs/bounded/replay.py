@@ -230,15 +230,15 @@ class _Replayer:
         self.pilot.back(0)
         self.pilot.turned = 0
 
-    def judge(self, result: Decision, claim: str) -> ReplayedCounterexample:
+    def judge(self, decision: Decision, claim: str) -> ReplayedCounterexample:
         """Declare a decision; the checkers must find that the claim fails at this very event."""
-        self.robot.declare(result)
+        self.robot.declare(decision)
         # The verdict of the trusted checkers counts, not that of the encoding.
         trace = (Start(percept=first_percept(self.world)), *self.robot.events)
         event = len(trace) - 1
         findings = [found for judged in check(self.world, trace) for found in judged.findings]
         if (claim, event) not in [(found.claim, found.event) for found in findings]:
-            raise Disagreement(f"in {self.world.text}, {claim} does not fail at {result}")
+            raise Disagreement(f"in {self.world.text}, {claim} does not fail at {decision}")
         moves = tuple(move.door for move in trace if isinstance(move, Move))
         return ReplayedCounterexample(self.world, moves, event, claim)
 
