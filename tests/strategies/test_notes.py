@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -45,12 +46,21 @@ def test_the_failing_example_prints_its_world_and_the_run() -> None:
     assert "basic (pick nearest, order shortest) in m2/8: " in notes
 
 
+def appending(messages: list[object]) -> Callable[[str, int], None]:
+    """What stands in for Hypothesis's `event`: it keeps the features in this list."""
+
+    def event(feature: str, value: int) -> None:
+        messages.append((feature, value))
+
+    return event
+
+
 def test_outside_of_a_test_of_hypothesis_nothing_is_said(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     messages: list[object] = []
     monkeypatch.setattr(notes, "note", messages.append)
-    monkeypatch.setattr(notes, "event", lambda *feature: messages.append(feature))
+    monkeypatch.setattr(notes, "event", appending(messages))
     monkeypatch.setattr(notes, "observability_enabled", lambda: True)
     observe(explore(World.from_id("m2/0"), "basic"))
     assert not messages
@@ -65,7 +75,7 @@ def test_within_a_test_of_hypothesis_the_same_run_is_noted(
     monkeypatch.setattr(notes, "currently_in_test_context", lambda: True)
     monkeypatch.setattr(notes, "observability_enabled", lambda: True)
     monkeypatch.setattr(notes, "note", messages.append)
-    monkeypatch.setattr(notes, "event", lambda *feature: messages.append(feature))
+    monkeypatch.setattr(notes, "event", appending(messages))
     run = explore(World.from_id("m2/0"), "basic")
     observe(run)
     assert messages == [describe(run), *features(run).items()]

@@ -9,6 +9,7 @@ from topo_verify.robot.percept import Door
 
 class _NextDart(Chart):
     def join(self, e: Dart, other: Dart) -> None:
+        # `other` is the first dart of the newest vertex only when the loop has just added it for e.
         new = self.first[-1] == other > 0 and e < other
         super().join(e, self.turn(other, 1) if new else other)
 
@@ -24,6 +25,7 @@ joins_by_the_second_dart = Fault(
 
 class _OneWay(Chart):
     def join(self, e: Dart, other: Dart) -> None:
+        # The newest vertex keeps both directions, or the robot could not walk away from it.
         older = self.vertex[other] < len(self.first) - 1
         super().join(e, other)
         if older:
@@ -56,6 +58,7 @@ counts_doors_anticlockwise = Fault(
 class _Unreduced(Chart):
     def turn(self, dart: Dart, door: Door) -> Dart:
         first = self.first[self.vertex[dart]]
+        # The reference reduces the sum modulo the degree.
         return first + min(dart - first + door % self.degree[self.vertex[dart]], self._last(dart))
 
     def _last(self, dart: Dart) -> int:

@@ -100,6 +100,8 @@ def rebound(**names: object) -> dict[str, Any]:
     """
     reference = vars(exploration)
     assert names.keys() <= reference.keys(), f"the loop knows no {names.keys() - reference.keys()}"
+    # A function finds names in the namespace that it was made with. So copies of the functions see
+    # the replacements, and the module itself, which every other mapper uses, is not touched.
     space = dict(reference)
     for name, value in reference.items():
         if isinstance(value, FunctionType) and value.__module__ == exploration.__name__:

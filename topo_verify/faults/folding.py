@@ -24,6 +24,8 @@ def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
 
 class _StaysKnown(PartialFold):
     def roll_back(self, mark: int) -> None:
+        # The identifications in `done` may have made their leaders vertices of S. The reference
+        # restores what was known before, and the lines after it set it again.
         known = {self.leader[node] for node, door, _ in self.done[mark:] if door is None}
         still = {node for node in known if self.known[node]}
         super().roll_back(mark)
@@ -57,7 +59,7 @@ takes_each_place_for_known = Fault(
 
 class _Unturned(PartialFold):
     def _merge(self, small: int, large: int, turned: Door) -> None:
-        super()._merge(small, large, 0 * turned)
+        super()._merge(small, large, 0 * turned)  # the reference turns them against each other
 
 
 identifies_without_turning = Fault(
@@ -88,6 +90,7 @@ enters_old_places_by_door_0 = Fault(
 class _MarkerMirrored(FoldingRule):
     def _cross(self, exit_place: NodeDart, percept: Percept) -> NodeDart:
         if percept.marker is not None:
+            # Anticlockwise instead of clockwise; the same where the marker is straight ahead.
             percept = Percept(percept.degree, -percept.marker % percept.degree)
         return super()._cross(exit_place, percept)
 
@@ -103,6 +106,7 @@ lays_the_marker_on_mirrored = Fault(
 
 class _Hasty(FoldingRule):
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
+        # The reference also asks whether vu is known to be a vertex of S.
         return remaining[0] if len(remaining) == 1 else None
 
 

@@ -75,6 +75,7 @@ def _passes_by(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
         if step > len(pilot.doors):
             pilot.forward(h.doors[step - 1])
         seen, last = pilot.percepts[step], step == len(h.doors)
+        # A marker passed on the way is a mismatch, but the walk ends at v0, where all is compared.
         if seen != expected if last else seen.degree != expected.degree:
             return step
     return None
@@ -110,6 +111,7 @@ class _AllAgain(HistoryRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
+        # The reference looks at the last sequence alone: S has not changed since the earlier ones.
         looks = (
             super(_AllAgain, self).refute(chart, hypothesis, sequences[: n + 1])
             for n in range(len(sequences))
@@ -144,6 +146,7 @@ never_drops_a_record = Fault(
 
 class _FromTheEnd(Chart):
     def survey(self, cost: int) -> Survey:
+        # Any distinct integers will do as darts: the map is compared up to isomorphism.
         names = {dart: 7 + 3 * dart for dart in range(len(self.alpha))}
         survey = super().survey(cost)
         rows = [tuple(names[d] for d in (*row[1:], *row[:1])) for row in survey.vertices[::-1]]

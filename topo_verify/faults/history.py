@@ -21,6 +21,7 @@ class _ThroughTheUnexplored(HistoryRule):
             for step, door in enumerate(last.doors, 1):
                 exit_dart = chart.turn(at, door)
                 arrival = chart.alpha[exit_dart]
+                # The reference stops here: nothing is known behind an unexplored dart.
                 at = exit_dart if arrival is None else arrival
                 expected, observed = chart.percepts[at], last.percepts[step]
                 if expected != observed:
@@ -59,7 +60,7 @@ class _NothingThere(HistoryRule):
     def beyond(
         self, exit_dart: Dart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
-        seen = sequence.percepts[step]
+        seen = sequence.percepts[step]  # stands for what S would show
         return Refutation("history", Evidence(step, seen, seen, number, exit_dart))
 
 
@@ -82,7 +83,7 @@ class _OfTheEdgeBefore(HistoryRule):
         return super().refute(chart, hypothesis, [*self.before, *sequences])
 
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
-        self.before = list(sequences)
+        self.before = list(sequences)  # these started at another vu
 
 
 keeps_sequences_of_last_edge = Fault(

@@ -62,6 +62,7 @@ leaves_out_the_darts_of_v0 = Fault(
 class _StaysOpen(Chart):
     def join(self, e: Dart, other: Dart) -> None:
         super().join(e, other)
+        # Only if it led to an older vertex: else the edge to a new vertex would be posed again.
         if self.vertex[other] < len(self.first) - 1:
             self.unexplored[other] = None
 
@@ -118,6 +119,7 @@ compares_degrees_modulo_3 = Fault(
 )
 
 
+# `order` is asked for all of H at once, so a policy can drop hypotheses unseen.
 def _nearest_two(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
     return shortest(darts, chart, tree)[:2]
 

@@ -13,6 +13,7 @@ class _Mirrored(Chart):
     def add_vertex(self, percept: Percept) -> Dart:
         first = super().add_vertex(percept)
         if percept.marker is not None:
+            # v0's darts are 0 … degree-1. The reference subtracts the turn, and this adds it.
             turned = (Percept(percept.degree, d % percept.degree) for d in self.darts(0))
             self.percepts[first:] = turned
         return first
@@ -32,6 +33,7 @@ def _alike(pilot: Pilot, h: Hypothesis, step: int) -> bool:
 
 
 def _any_direction_at_the_end(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
+    # A mismatch at the last step counts as a match if degree and presence of the marker agree.
     step = execute(pilot, h, shared)
     return None if step and step == len(h.doors) and _alike(pilot, h, step) else step
 

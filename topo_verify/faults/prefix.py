@@ -19,6 +19,7 @@ class _OneDoorBeyond(PrefixRule):
             return None
         *before, last = sequences
         shared = common_prefix(hypothesis.doors, last.doors) + 1
+        # The rule sees the sequence as if one more of its doors were the hypothesis' own.
         doors = hypothesis.doors[: min(shared, len(last.doors))]
         return super().refute(chart, hypothesis, [*before, Executed(doors, last.percepts)])
 
@@ -56,6 +57,7 @@ class _EqualAnywhere(PrefixRule):
         if not sequences:
             return None
         *before, last = sequences
+        # Equal doors behind the first difference lead through other places.
         equal = sum(map(int.__eq__, hypothesis.doors, last.doors))
         doors = hypothesis.doors[:equal]
         return super().refute(chart, hypothesis, [*before, Executed(doors, last.percepts)])

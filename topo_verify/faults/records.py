@@ -13,7 +13,7 @@ from topo_verify.faults.fault import Fault, mapper, one_late
 
 class _LoopsFromDart0(RecordsRule):
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
-        super().learn(chart, e, entry, ())
+        super().learn(chart, e, entry, ())  # drops T[e] and T[h], as the reference does
         super().learn(chart, e, chart.first[chart.vertex[entry]], sequences)
 
 
@@ -61,7 +61,7 @@ class _ByDoor(RecordsRule):
         super()._record(self._door(exit_dart), sequence, step)
 
     def _door(self, dart: Dart) -> int:
-        return dart - self.chart.first[self.chart.vertex[dart]]
+        return dart - self.chart.first[self.chart.vertex[dart]]  # not unique on S
 
 
 files_records_by_the_door = Fault(
@@ -78,7 +78,7 @@ class _OnSuspicion(RecordsRule):
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
         found = super().refute(chart, hypothesis, sequences)
-        if found is None:
+        if found is None:  # not refuted is not confirmed: only then may it be recorded
             self.learn(chart, hypothesis.dart, hypothesis.dart, sequences[-1:])
         return found
 

@@ -88,7 +88,7 @@ marks_the_last_dart = Fault(
 
 class _WaysBackAreFree(Pilot):
     def back(self, steps: int) -> None:
-        before = self.cost
+        before = self.cost  # the robot still pays: the simulator counts every move
         super().back(steps)
         self.cost = before
 
@@ -118,6 +118,7 @@ counts_the_start_as_a_move = Fault(
 
 class _TwoDartsLeft(NoRule):
     def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+        # The last two open darts may also be the ends of two edges to vertices not yet seen.
         if len(chart.unexplored) == 2:
             chart.join(*chart.unexplored)
 

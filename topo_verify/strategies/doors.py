@@ -59,6 +59,7 @@ def _door_words(draw: st.DrawFn, world: World, least: int, most: int) -> tuple[D
     doors: list[Door] = []
     at = world.root or 0
     for byte in draw_bytes(draw, least, most):
+        # Modulo the degree of the vertex at hand, so every string of bytes is a walk.
         doors.append(byte % world.degrees[world.vertex_of[at]])
         at = world.alpha[exit_dart(world, at, doors[-1])]
     return tuple(doors)

@@ -57,12 +57,14 @@ def _grown(
     steps = draw_bytes(draw, least, most)
     if not steps:
         return World((), (), None)
+    # A leaf is dart 0 by construction (growth.py). The range of the place does not depend on the
+    # length drawn, so that shrinking the string does not change what the place means.
     place = 0 if marker == "leaf" else draw(st.integers(0, 2 * most - 1))
     further = b"\0"
     if len(steps) > ONE_STRING:  # drawn last, so that shrinking to fewer edges drops it
         further = draw(st.binary(min_size=_FURTHER, max_size=most))
     grown = grow(shape, kinds, steps, further)
-    if grown is None:
+    if grown is None:  # rare: tight bounds on degrees, loops or parallel edges
         reject()
     darts = marked_darts(grown.vertex, marker)
     return World(grown.alpha, grown.sigma, darts[nth(place, len(darts))])
@@ -70,7 +72,7 @@ def _grown(
 
 def draw_bytes(draw: st.DrawFn, least: int, most: int) -> bytes:
     """A string of bytes with a length from `least` to `most`; long ones are drawn as well."""
-    if least < most:
+    if least < most:  # a choice that cannot matter would only slow shrinking down
         least = min(least + draw(st.sampled_from(_AT_LEAST)), most)
     return draw(st.binary(min_size=least, max_size=most))
 

@@ -54,10 +54,12 @@ def lattices(
 
 @st.composite
 def _lattices(draw: st.DrawFn, least: int, most: int, marker: LatticeMarker) -> World:
+    # Most worlds are small; the bound is drawn first, so that a failure shrinks its size first.
     bound = max(least, at_most(most, draw(st.sampled_from(AT_MOST))))
     sizes = _sizes(least, bound)
     columns = draw(sizes.columns)
     rows = draw(sizes.rows[columns])
+    # One string for all holes: Hypothesis shrinks it to none, which is a whole rectangle.
     turn, *holes = draw(st.binary(min_size=1, max_size=1 + most // _HOLES))
     grid = _rectangle(rows, columns)
     for hole in holes:
@@ -80,6 +82,7 @@ class _RectangleSizes:
     rows: dict[int, SearchStrategy[int]]
 
 
+# Called for each example with few different arguments.
 @lru_cache(maxsize=256)
 def _sizes(least: int, bound: int) -> _RectangleSizes:
     """The rectangles with at least `least` edges and about `bound` at most.
@@ -142,7 +145,7 @@ def _thin(grid: Grid, bound: int, turn: int) -> None:
         before = grid[u], grid[v]
         grid[u] = [w for w in grid[u] if w != v]
         grid[v] = [w for w in grid[v] if w != u]
-        if _are_joined(grid, [u, v]):
+        if _are_joined(grid, [u, v]):  # else the edge is a bridge and goes back
             spare -= 1
         else:
             grid[u], grid[v] = before

@@ -127,8 +127,11 @@ class _Sapling:
         for step, more in zip(steps, cycle(further), strict=False):
             place = step % PLACES + PLACES * more
             kind = kinds[step // PLACES]
+            # After a dead end, handles come before all other closings: the bounds leave least room
+            # for them.
             if self._genus_first and self._genus < self._shape.min_genus and kind != "leaf":
                 kind = "split" if self._faces == 1 else "cross"
+            # `any` stops at the first kind that is possible.
             if not any(self._add(kind, place) for kind in _INSTEAD[kind]):
                 return None
         return Grown(tuple(self._sigma), tuple(self._vertex), tuple(self._closings))
@@ -171,7 +174,7 @@ class _Sapling:
     def _moves(self, kind: EdgeKind, place: int) -> Iterator[tuple[Dart, Dart]]:
         """The pairs of corners that an edge of this kind may join, from this place on."""
         darts = len(self._sigma)
-        if not darts:
+        if not darts:  # the first edge has no corner to grow from: -1 stands for the lone vertex
             if kind == "leaf" or self._may_join(0, 0):
                 yield -1, -1
         elif kind != "leaf":
@@ -179,6 +182,7 @@ class _Sapling:
                 for far in _from_place(self._far_ends(near, across=kind == "cross"), place):
                     yield near, far
         elif self._bounded:
+            # d ^ 1 puts the far end of each edge first: place 0 is the newest leaf's sister.
             corners = (d ^ 1 for d in range(darts - 1, -1, -1))
             free = [d for d in corners if self._room[self._vertex[d]] > 0]
             for near in _from_place(free, place):
@@ -195,7 +199,7 @@ class _Sapling:
             ends = [d for d in corners if face[d ^ 1] != here]
         else:
             ends = [d for d in corners if face[d ^ 1] == here]
-        if not (self._bounded or self._counts_joins):
+        if not (self._bounded or self._counts_joins):  # nothing can forbid an end: save the check
             return ends
         u = vertex[near]
         fit = [self._may_join(u, v) for v in range(len(self._room))]
@@ -241,6 +245,7 @@ class _Sapling:
             self._sigma += [b, a]
         else:
             u, v, face = self._vertex[far], self._vertex[near], self._face[near ^ 1]
+            # Order matters where both ends share a corner: the second goes behind the first.
             self._insert(far, a)
             self._insert(a if near == far else near, b)
         self._vertex += [u, v]
@@ -259,7 +264,7 @@ class _Sapling:
 
     def _label(self, dart: Dart, face: int) -> None:
         """Label the darts along the face of this dart, which a split or a cross has changed."""
-        first = dart
+        first = dart  # cross, then turn, until the walk along the face comes round
         while True:
             self._face[dart] = face
             dart = self._sigma[dart ^ 1]

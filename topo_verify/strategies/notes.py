@@ -60,7 +60,7 @@ def observe(run: ObservedRun) -> None:
     """Note the run in Hypothesis. Does nothing outside of a test of Hypothesis."""
     if not currently_in_test_context():
         return
-    note(describe(run))
+    note(describe(run))  # Hypothesis prints the notes of the failing example alone
     if observability_enabled():
         for feature, value in features(run).items():
             event(feature, value)

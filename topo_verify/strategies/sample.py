@@ -39,7 +39,7 @@ def _one_run(strategy: SearchStrategy[World], number: int, start: int) -> list[W
     @settings(
         max_examples=number,
         phases=[Phase.generate],
-        database=None,
+        database=None,  # or examples of earlier runs would come first
         deadline=None,
         suppress_health_check=[
             HealthCheck.too_slow,

@@ -81,10 +81,12 @@ class Shape:
         """The same bounds for this number of edges: if dense, with the most vertices it allows."""
         if not self.dense:
             return self
+        # The largest n with n(n-1)/2 <= 2m.
         return replace(self, max_vertices=(1 + isqrt(1 + 16 * edges)) // 2)
 
     def capacity(self, vertices: int) -> int:
         """The most edges that so many vertices can carry."""
+        # The leaf with the marker has one edge; all others lie between the other vertices.
         inner = vertices - 1 if self.leaf and vertices > 1 else vertices
         pairs = inner * (inner - 1) // 2
         return pairs * self.max_parallel + inner * self.max_loops + vertices - inner
@@ -96,6 +98,7 @@ class Shape:
 
         The answer uses counts alone: no is always right, yes may be wrong.
         """
+        # As in the table above: the closings that must come, and the most leaves besides them.
         missing = max(0, self.min_genus - genus)
         cycles = edges - left - vertices + 1
         closings = max(missing + max(0, missing - faces + 1), self.min_cycles - cycles)

@@ -118,7 +118,7 @@ def symmetric_worlds(
 def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: MarkerPlace) -> World:
     bound, is_necklace = draw(_FIRST)
     kinds = _kinds(shape, least, max(least, at_most(most, bound)))
-    if not any(kinds):
+    if not any(kinds):  # the bound drawn is too tight: use the bounds that were asked for
         kinds = _kinds(shape, least, most)
     sizes = kinds[is_necklace] or kinds[not is_necklace]
     assert sizes is not None
@@ -132,7 +132,7 @@ def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Mar
         small = reject() if bead is None else necklace(shape, sheets, bead, numbers)
     if not small.alpha:
         return World((), (), None)
-    if marker == "leaf":
+    if marker == "leaf":  # dart 0 of a bead grown with `leaf` leaves a vertex of degree 1
         return cover(small, sheets, 0)
     return cover(small, sheets, draw_dart(draw, marked_darts(small.vertex, marker), 2 * most))
 
@@ -175,11 +175,11 @@ def _drawn(sheets: dict[int, list[int]]) -> _CoverSizes | None:
 
 def _is_rosette(shape: Shape, sheets: int, darts: int) -> bool:
     """Is there a connected rosette with so many darts, 1 or more, within the bounds?"""
-    if darts == 1:
+    if darts == 1:  # half an edge at each vertex: two sheets and one edge
         return sheets == 2
     if shape.leaf or sheets * darts % 2:
         return False
-    if shape.max_parallel == 1:
+    if shape.max_parallel == 1:  # darts lead to different other vertices
         return darts < sheets
     return shape.max_loops > 0 or sheets > 1
 
@@ -203,6 +203,7 @@ def rosette(shape: Shape, sheets: int, darts: int, drawn: Iterator[int]) -> Smal
     The first whole edge shifts by 1, which joins all sheets.
     """
     halves = darts % 2
+    # Half edges all shift by sheets/2, so in a simple graph there is one at most.
     if sheets % 2 == 0 and shape.max_parallel > 1:
         spare = darts - halves - 2 * (sheets > 2 and darts > 1)
         halves += 2 * (next(drawn) % (spare // 2 + 1))
@@ -224,6 +225,7 @@ def rosette(shape: Shape, sheets: int, darts: int, drawn: Iterator[int]) -> Smal
                 s = _free_shift(shape, sheets, next(drawn))
             alpha += [dart + 1, dart]
             shift += [s, -s]
+        # Byte 0 appends, so zeros keep the two darts of an edge side by side.
         for new in range(dart, len(alpha)):
             row.insert(new - next(drawn) % (new + 1), new)
     after = dict(zip(row, row[1:] + row[:1], strict=True))

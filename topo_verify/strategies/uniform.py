@@ -37,6 +37,7 @@ def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
     if edges > WIDEST:
         raise InputError(f"uniform_worlds: expected at most {WIDEST} edges, got {edges}")
     total = rank_order.count(edges)
+    # Bytes of a fixed length: Hypothesis draws these evenly, and 0 bytes are rank 0.
     length = (total.bit_length() + 7) // 8 + _SPARE
 
     def world(drawn: bytes) -> World:

@@ -333,6 +333,7 @@ class World:
         back = [0] * len(self.sigma)
         for dart, after in enumerate(self.sigma):
             back[after] = dart
+        # Reflected in the y axis, so that the drawing stays clockwise as the rotations are.
         flipped = tuple((-x, y) for x, y in self.positions)
         return replace(self, sigma=tuple(back), positions=flipped, name="")
 
@@ -389,7 +390,7 @@ def _cycles(
     for start in (*starts, *range(len(permutation))):
         cycle: list[Dart] = []
         dart = start
-        while not seen[dart]:
+        while not seen[dart]:  # empty for a start that an earlier cycle went through
             seen[dart] = True
             cycle.append(dart)
             dart = permutation[dart]

@@ -34,6 +34,7 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
             f"the marker points at dart {root}, which is out of range:"
             f" the darts are 0 … {darts - 1}"
         )
+    # Ranges first: the checks after these use images as indices.
     for name, row in (("alpha", alpha), ("sigma", sigma)):
         for dart, image in enumerate(row):
             if not 0 <= image < darts:
@@ -48,7 +49,7 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
                 f"alpha is not an involution: alpha[{dart}] = {other}, but"
                 f" alpha[{other}] = {alpha[other]}"
             )
-    if len(set(sigma)) != darts:
+    if len(set(sigma)) != darts:  # all images are in range, so one dart is the image of two
         first = {image: dart for dart, image in reversed(list(enumerate(sigma)))}
         second = min(dart for dart, image in enumerate(sigma) if first[image] != dart)
         raise InputError(
@@ -147,6 +148,7 @@ def _rows(name: str, value: object) -> list[list[int]]:
         raise InputError(f"expected a list of lists of darts as the map's {name!r}, got a {seen}")
     rows: list[list[int]] = []
     for place, row in enumerate(given):
+        # A set has no order, and the order is the rotation. An edge may be a set of two darts.
         items = None if name == "vertices" and isinstance(row, AbstractSet) else _items(row)
         darts = [dart for item in items or () if (dart := _integer(item)) is not None]
         if items is None or len(darts) < len(items):

@@ -1,22 +1,22 @@
 """Families of worlds: well-known graphs, lattices, random graphs and maps, named by arguments.
 
-Every world is called as it was made, `lattice(10,10,holes=0.2,seed=7)`, defaults left out; behind
-`family:` that text makes the same world again. What is random comes from `random.Random(seed)`, so
-it is the same on every machine whose Python draws alike (all of 3.11 to 3.13 do).
+The name of each world is the call that made it without its defaults, such as
+`lattice(10,10,holes=0.2,seed=7)`; behind `family:` that text makes the same world again. All random
+draws come from `random.Random(seed)`, so a world is the same on every machine whose Python draws
+alike (3.11 to 3.13 do).
 
-**Holes** are nodes taken out at random, `round(holes·nodes)` of them. Of what is left the largest
-component is kept (of equally large ones, that with the lowest node), here and in every family that
-can come out in parts.
+**Holes** are `round(holes·nodes)` nodes taken out at random. The largest component of the rest is
+kept (of equally large ones, that with the lowest node), as in every family that may fall apart.
 
 **The marker** is drawn from the same seed after everything else: a vertex, then one of its exits.
 So an average over seeds is one over starting places too, and a lattice does not always start in
-its corner. Random maps have it at their root (random_maps.py), families without a seed at dart 0.
-`marker=DART` puts it elsewhere and changes nothing else.
+its corner. Random maps have the marker at their root (random_maps.py), families without a seed at
+dart 0. `marker=DART` puts it elsewhere and changes nothing else.
 
-**Rotations** follow the drawing where there is one (`lattice`, `king`: node 0 at the top left,
-exits clockwise from the north, positions with y upwards; the tori, shapes and solids likewise, but
-without positions); random maps are drawn with theirs; in the other families they are drawn, each
-vertex's uniformly.
+**Rotations** follow the drawing if there is one (`lattice`, `king`: node 0 at the top left, exits
+clockwise from the north, positions with y upwards; the tori, shapes and solids likewise, but
+without positions). Random maps are drawn with their rotations. In the other families each vertex's
+rotation is drawn uniformly.
 """
 
 from collections.abc import Callable, Mapping
@@ -47,7 +47,7 @@ from topo_verify.world.rooted_map import World
 # shapes.py         path, cycle, star, wheel, prism
 # solids.py         tetrahedron, cube, octahedron, dodecahedron, icosahedron
 # _rotated_graph.py graphs with exits in clockwise order, and their worlds
-# _arguments.py     checks, limits, names
+# _arguments.py     checks and limits of arguments, names of worlds
 
 FAMILIES: Mapping[str, Callable[..., World]] = {
     make.__name__: make
@@ -59,7 +59,7 @@ FAMILIES: Mapping[str, Callable[..., World]] = {
         *(tetrahedron, cube, octahedron, dodecahedron, icosahedron),
     )
 }
-"""All families by name: what may follow `family:`."""
+"""All families by name, as it may follow `family:`."""
 
 __all__ = [
     "FAMILIES",

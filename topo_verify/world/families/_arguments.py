@@ -1,4 +1,4 @@
-"""What a family may be asked for: arguments made plain, and the texts that name worlds."""
+"""Checks the arguments of families, and names the worlds that they make."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from topo_verify.errors import InputError
 from topo_verify.world.rooted_map import Dart
 
 MAX_DARTS = 10**6
-"""Larger worlds are refused: they would be asked for by accident and take minutes and gigabytes."""
+"""Larger worlds are refused: they take minutes and gigabytes, and are asked for by accident."""
 
 
 def integer(family: str, name: str, value: object, least: int) -> int:
-    """The value as a plain int (NumPy has others), once it is sure that it is one in range."""
+    """The value as a plain int (NumPy has others); refuses what is not one, or is too small."""
     if isinstance(value, SupportsIndex) and not isinstance(value, bool) and index(value) >= least:
         return index(value)
     raise InputError(f"{family}: {name} is {value!r}, expected an integer of {least} or more")
 
 
 def marker(family: str, value: object) -> Dart | None:
-    """The value as a dart, or None for one to be drawn; the world says if it has that dart."""
+    """The value as a dart, or None for one to be drawn. `World` refuses unknown darts."""
     return None if value is None else integer(family, "marker", value, 0)
 
 
 def share(family: str, name: str, value: object, *, whole: bool) -> float:
-    """The value as a plain float, once it is sure that it lies in 0 … 1 (1 only if `whole`)."""
+    """The value as a plain float; refuses what is not in 0 … 1 (1 only if `whole`)."""
     if isinstance(value, SupportsFloat):
         with suppress(OverflowError):
             share = float(value)
@@ -37,23 +37,23 @@ def share(family: str, name: str, value: object, *, whole: bool) -> float:
 
 
 def size(family: str, size: tuple[int, int], *, darts_each: int) -> tuple[int, int]:
-    """Rows and columns of a grid that is not too large."""
+    """The rows and columns as plain integers; refuses a grid that is too large."""
     rows, columns = integer(family, "rows", size[0], 1), integer(family, "columns", size[1], 1)
     require_darts(family, darts_each * rows * columns)
     return rows, columns
 
 
 def require_darts(family: str, darts: int) -> None:
-    """Refuse what might get too large, before any of it is made."""
+    """Refuse a world that might get too large, before any of it is made."""
     if darts > MAX_DARTS:
         raise InputError(
-            f"{family}: so large a world might have more than {MAX_DARTS} darts (two an edge), the"
-            " most that is made here: ask for a smaller one"
+            f"{family}: so large a world might have more than {MAX_DARTS} darts (two an edge): ask"
+            " for a smaller one"
         )
 
 
 def name(family: str, *places: float, marker: Dart | None, **options: float) -> str:
-    """The text that makes the world again: no marker where it is drawn, no option that is 0."""
+    """The call that makes the world again, without a drawn marker and without options of 0."""
     given = [f"{key}={value!r}" for key, value in options.items() if value]
     if marker is not None:
         given.append(f"marker={marker}")

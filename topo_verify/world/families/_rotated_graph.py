@@ -1,4 +1,4 @@
-"""From a graph whose exits are in clockwise order to its world."""
+"""Graphs whose exits are in clockwise order, and the worlds that they make."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def from_neighbours(rows: Iterable[Sequence[int]]) -> Graph:
 
 
 def with_holes(name: str, graph: Graph, holes: float, random: Random) -> Graph:
-    """What is left when `round(holes·nodes)` nodes are taken out: its largest component."""
+    """The largest component that is left when `round(holes·nodes)` nodes are taken out."""
     removed = set(random.sample(range(len(graph)), round(holes * len(graph))))
     if len(removed) == len(graph):
         raise InputError(f"{name}: no node is left among so many holes: take out fewer")
@@ -45,7 +45,7 @@ def with_holes(name: str, graph: Graph, holes: float, random: Random) -> Graph:
 
 
 def largest_component(graph: Graph) -> Graph:
-    """The first of the largest components, in order of their lowest nodes."""
+    """The largest component; of several, that with the lowest node."""
     largest: list[int] = []
     seen: set[int] = set()
     for node in graph:

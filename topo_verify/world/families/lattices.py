@@ -1,4 +1,4 @@
-"""Lattices: nodes on a grid, joined with their neighbours."""
+"""Lattices: worlds whose nodes lie on a grid and are joined with their neighbours."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> W
     graph: Graph = {}
     for cell in range(rows * columns):
         row, column = divmod(cell, columns)
-        for side in (0, 1):  # the cell's west node, whose three exits the edges are called by
+        for side in (0, 1):  # the three edges are named by the cell's west node and its exits
             step = (-1, 1)[side]
             others = (
                 cell,
@@ -123,7 +123,11 @@ def _drawn(
 
 
 def _grid(rows: int, columns: int, steps: Sequence[tuple[int, int]], *, wrapped: bool) -> Graph:
-    """The steps are half of the directions, clockwise; an edge is called by its node and step."""
+    """The grid as a graph.
+
+    Args:
+        steps: half of the directions, clockwise. An edge is named by its first node and its step.
+    """
     graph: Graph = {}
     for node in range(rows * columns):
         exits = graph[node] = []

@@ -1,4 +1,4 @@
-"""Random graphs with random rotations: no drawing goes with them."""
+"""Random graphs with random rotations and without positions."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def dense(nodes: int, probability: float, *, seed: int = 0, marker: Dart | None 
         probability: 0 to 1.
         seed, marker: as for `lattice`.
     Raises:
-        InputError: an argument is out of range, or more than `MAX_DARTS` darts were possible.
+        InputError: an argument is out of range, or more than `MAX_DARTS` darts are possible.
     """
     family = "dense"
     nodes, seed = (
@@ -114,12 +114,12 @@ def complete_bipartite(
 
 
 def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[int, int]]:
-    """The edges of a random regular graph, in an order that depends on nothing but the draws."""
-    if 2 * degree >= nodes:  # pair what is not joined: in a nearly full graph hardly a pair fits
+    """The edges of a random regular graph, in an order that depends on the draws alone."""
+    if 2 * degree >= nodes:  # draw the complement: in a nearly full graph hardly a pair fits
         missing = set(_regular_edges(nodes, nodes - 1 - degree, random))
         return [pair for pair in combinations(range(nodes), 2) if pair not in missing]
     while True:
-        edges: dict[tuple[int, int], None] = {}  # a dict: a set has no order to rely on
+        edges: dict[tuple[int, int], None] = {}  # a dict keeps its order, a set does not
         ends = [node for node in range(nodes) for _ in range(degree)]
         while ends:
             random.shuffle(ends)
@@ -131,7 +131,7 @@ def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[in
                 else:
                     edges[pair] = None
             if len(left) == len(ends) and not _some_fit(left, edges):
-                break  # stuck: begin again, as the paper does
+                break  # no pair of free ends fits: start again, as the paper does
             ends = left
         if not ends:
             return edges

@@ -37,7 +37,7 @@ from topo_verify.world.families import _arguments as arguments
 from topo_verify.world.rooted_map import Dart, World
 
 MAX_EDGES = 10_000
-"""The most edges of `random_genus`: with as many it takes half a second."""
+"""The most edges of `random_genus`, which takes half a second for them."""
 
 
 def random_tree(edges: int, *, seed: int = 0, marker: Dart | None = None) -> World:
@@ -71,7 +71,7 @@ def random_planar(edges: int, *, seed: int = 0, marker: Dart | None = None) -> W
 
 
 def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None = None) -> World:
-    """A map of this genus; any can come out, not each as likely as another.
+    """A map of this genus. Every one can be drawn; they are not equally likely.
 
     Args:
         edges: at least twice the genus, at most `MAX_EDGES`.
@@ -89,7 +89,7 @@ def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None =
     name = arguments.name(family, edges, genus, seed=seed, marker=marker)
     random = Random(seed)
     in_tree = sum(random.randrange(2) for _ in range(edges - 2 * genus))
-    kinds = [1] * (edges - in_tree - genus) + [-1] * genus  # what each edge does to the faces
+    kinds = [1] * (edges - in_tree - genus) + [-1] * genus  # what each adds to the faces
     random.shuffle(kinds)
     faces = _Faces(_walk(_tree(in_tree, random)))
     for kind in _from_lowest_point(kinds):
@@ -136,9 +136,9 @@ def _tree(edges: int, random: Random) -> list[int]:
 
 
 def _from_lowest_point(word: list[int]) -> list[int]:
-    """The word from behind its first lowest point on, then its beginning.
+    """The word rotated to start behind its first lowest point.
 
-    Where it ends at least as high as it starts, it never sinks below its start any more.
+    If it ends at least as high as it starts, the result never sinks below its start.
     """
     heights = [0, *accumulate(word)]
     lowest = heights.index(min(heights))
@@ -164,7 +164,7 @@ def _walk(word: Sequence[int]) -> list[Dart]:
 
 
 def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple[list[Dart], Dart]:
-    """`sigma` and the root of the map that a tree with steps and a coin stand for.
+    """`sigma` and the root of the map that a tree, its steps and a coin encode.
 
     Args:
         word: the tree, ups (1) and downs (-1), at least one.
@@ -212,7 +212,7 @@ def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dar
     arriving: list[list[Dart]] = [[] for _ in range(corners)]
     at_new: list[Dart] = []
     nearest: dict[int, int] = {}
-    for walked in reversed(range(2 * corners)):  # around twice: what follows the last is the first
+    for walked in reversed(range(2 * corners)):  # around twice: the first follows the last
         corner = walked % corners
         if walked < corners:
             after = nearest.get(labels[corner] - 1)
@@ -220,10 +220,13 @@ def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dar
         nearest[labels[corner]] = corner
     rotations: list[list[Dart]] = [[] for _ in range(max(vertices) + 1)]
     for corner, (vertex, darts) in enumerate(zip(vertices, arriving, strict=True)):
-        # Arcs do not cross: at the corner, the one that comes from nearest before it is first.
+        # Arcs do not cross, so the arc from the nearest corner before this one comes first.
         rotations[vertex] += [*sorted(darts, key=_distance_to(corner, corners)), 2 * corner]
     around = [0] * (2 * corners)
-    for rotation in [*rotations, at_new]:  # the new vertex lies outside: there it is backwards
+    for rotation in [
+        *rotations,
+        at_new,
+    ]:  # the new vertex lies outside: the order is reversed
         for place, dart in enumerate(rotation):
             around[rotation[place - 1]] = dart
     return around
@@ -274,14 +277,14 @@ class _Faces:
             self.face_of[dart] = large
         self.faces[large] = joined
         last = self.faces.pop()
-        if small < len(self.faces):  # the last face takes the number that is free
+        if small < len(self.faces):  # the last face takes the number that became free
             moved = joined if large == len(self.faces) else last
             self.faces[small] = moved
             for dart in moved:
                 self.face_of[dart] = small
 
     def _corner(self, random: Random) -> tuple[int, int]:
-        """A random dart's face and place in it; what is before a dart is its corner."""
+        """The face of a random dart and its place there, which stands for the corner before it."""
         if not self.face_of:
             return 0, 0
         dart = random.randrange(len(self.face_of))

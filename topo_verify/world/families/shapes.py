@@ -1,9 +1,9 @@
 """Small well-known graphs, each drawn in the plane without crossings: genus 0.
 
-Nodes that lie on a circle are numbered clockwise, and exits are listed as they leave in that
-drawing. Nothing is drawn at random, so there is no seed; the marker is at dart 0 unless it is put
-elsewhere. The simplest world of each: `path(1)` (a node alone), `cycle(1)` (a loop), `star(1)` (an
-edge), `wheel(3)` (the tetrahedron), `prism(3)`.
+Nodes on a circle are numbered clockwise, and exits are listed in the order of that drawing. Nothing
+is random, so there is no seed; the marker is at dart 0 by default. The simplest world of each:
+`path(1)` (a node alone), `cycle(1)` (a loop), `star(1)` (an edge), `wheel(3)` (the tetrahedron),
+`prism(3)`.
 """
 
 from __future__ import annotations
@@ -86,7 +86,11 @@ def _made(
     marker: Dart | None,
     graph: Callable[[int], Graph],
 ) -> World:
-    """The world, its one number (value, least, darts that each counts for) checked first."""
+    """The world of this graph, once its one argument is checked.
+
+    Args:
+        number: the argument's value, the least that it may be, and darts per unit.
+    """
     value, least, darts_each = number
     value = arguments.integer(family, parameter, value, least)
     arguments.require_darts(family, darts_each * value)

@@ -121,6 +121,7 @@ def _course(way: DrawnEdge, places: Sequence[DrawnVertex]) -> tuple[Point, ...]:
             f"at vertex '{shown(start.name)}' begins {what} a single point, so it leaves in"
             " no direction: give it a geometry with two different points, or leave it out"
         )
+    # The course belongs to the way in the direction that brings its ends nearer to its places.
     as_is = _apart(course[0], start.at) + _apart(course[-1], end.at)
     turned = _apart(course[-1], start.at) + _apart(course[0], end.at)
     return course[::-1] if turned < as_is else course
@@ -140,7 +141,7 @@ def _merged(
     for number, (way, course) in enumerate(zip(ways, courses, strict=True)):
         partners = waiting.get((way.end, way.start, course[::-1])) if way.directed else None
         if partners:
-            same[number] = partners.pop(0)
+            same[number] = partners.pop(0)  # each way has one partner at most
             continue
         kept.append(number)
         if way.directed:
@@ -242,6 +243,7 @@ def _compared(one: _LeavingEnd, other: _LeavingEnd) -> int:
     ahead, back = a * d, b * c
     if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):  # more than rounding can amount to
         return 1 if ahead > back else -1
+    # Too close to call in floating point: the coordinates are exact as fractions.
     (p, q), (r, s) = one.exact, other.exact
     turn = p * s - q * r
     return (turn > 0) - (turn < 0)

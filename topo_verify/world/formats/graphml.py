@@ -168,7 +168,7 @@ class _Reader:
                 )
             text = data.get("geometry", "").strip()
             course = embedding.line(text, f"{self._what()}, geometry") if text else ()
-            own = attributes.get("directed")
+            own = attributes.get("directed")  # an edge may differ from its graph
             directed = bool(self.directed) if own is None else own == "true"
             ways.append(DrawnEdge(start, end, course, directed, self._name()))
         return ways

@@ -1,6 +1,6 @@
-"""NetworkX: planar embeddings both ways, and any graph with positions.
+"""NetworkX: planar embeddings both ways, and worlds of any graph with positions.
 
-NetworkX is loaded when one of these functions is called, not before.
+NetworkX is imported when one of these functions is called, because it takes long to load.
 
 **Planar embeddings** (`networkx.PlanarEmbedding`) hold clockwise orders, as worlds do, for simple
 planar graphs: other worlds are refused. The vertices come in the order of the nodes, each from its
@@ -53,7 +53,7 @@ def from_planar_embedding(
 
     source = "the planar embedding"
     given = cast("Any", embedding)
-    try:
+    try:  # NetworkX's own check, because a half-made embedding fails in many ways
         given.check_structure()
         rows = {node: list(given.neighbors_cw_order(node)) for node in given}
     except (nx.NetworkXException, KeyError, TypeError) as error:
@@ -86,7 +86,7 @@ def to_planar_embedding(world: World) -> nx.PlanarEmbedding[int]:
     first = world.marker_vertex
     order = [first, *(v for v in range(len(world.vertices)) if v != first)]
     rotations = list(world.vertices)
-    if world.root is not None:
+    if world.root is not None:  # the marker's dart comes first at its vertex, as it is read back
         turn = world.place_of[world.root]
         rotations[first] = rotations[first][turn:] + rotations[first][:turn]
     embedding: nx.PlanarEmbedding[int] = nx.PlanarEmbedding()
@@ -118,7 +118,7 @@ def from_positions(
             node.
         name: what to call the world.
     Raises:
-        InputError: a position or geometry is missing or none, two edges leave a node at the same
+        InputError: a position is missing, a geometry is malformed, two edges leave a node at one
             angle, the graph is empty or not connected, or the marker names no edge or several.
     """
     given = cast("Any", graph)
@@ -164,7 +164,7 @@ def _geometry(graph: Any, label: tuple[Any, ...]) -> Sequence[Point]:
 
 
 def _row(value: Any, what: str) -> list[Any]:
-    """What is in the row, whatever it is a row of."""
+    """The items of a row, of whatever type."""
     if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
         seen = shown(repr(cast("Any", value)), limit=60)
         raise InputError(f"{what} is {seen}, expected x and y in a row, or such rows")
@@ -172,7 +172,7 @@ def _row(value: Any, what: str) -> list[Any]:
 
 
 def _marked(marker: MarkerEnds, labels: Sequence[tuple[Any, ...]]) -> DrawnEnd:
-    """The one end of an edge that the marker's name fits; in a loop, its start.
+    """The one end of an edge that the marker names; of a loop, its start.
 
     In a directed graph an edge in the direction of the name goes before one against it.
     """

@@ -2,18 +2,19 @@
 
     >>planar_code<<  3  2 3 0  1 3 0  1 2 0       (a triangle; a number is a byte)
 
-Behind the head, which may be missing, stands one graph after the other: the number of vertices,
-then for each vertex the numbers of its neighbours in clockwise order, counted from 1, and a zero.
+After the head, which may be missing, the graphs follow one another: the number of vertices, then
+for each vertex the numbers of its neighbours in clockwise order, counted from 1, and a zero.
 A graph of more than 255 vertices begins with a zero byte, and from there on its numbers have two
 bytes each: the high byte first, as nauty writes them, unless the head is `>>planar_code le<<`.
 
-A neighbour's number tells which edge is meant only where the graph is simple, and the format is one
-for planar maps: any other world is refused, when read and when written. The format knows no marker.
-When read, it points at the first dart of the first vertex; when written, its vertex comes first,
-its dart first there, and the rest is numbered breadth-first: isomorphic worlds give the same bytes.
+A neighbour's number identifies an edge only if the graph is simple, and the format is for planar
+maps: any other world is refused, when read and when written. The format has no marker. When
+a file is read, the marker is at the first dart of the first vertex; when it is written, its vertex
+comes first, its dart first there, and the rest is numbered breadth-first. So isomorphic worlds give
+the same bytes.
 
-What this does not show: that the writer's clockwise is ours. Seen from the other side of the sphere
-a file is that of the mirror image, and its bytes do not tell.
+What this does not show: that the writer meant clockwise as we do. The mirror image of a world has a
+valid file as well, and the bytes do not tell which was meant.
 
 Source: G. Brinkmann and B. D. McKay, plantri-guide.txt; the head and the byte order as in the guide
 of CaGe and in `planarg` of nauty 2.8.
@@ -74,6 +75,7 @@ def decode(
                 f"{name} holds several graphs: say which, counted from 0, as in"
                 " World.load(path, graph=0), or give each a file"
             )
+        # The graphs before the one that is asked for are parsed, because only that finds its start.
         if number == (graph or 0):
             found = rows
         if number == graph:
@@ -112,7 +114,7 @@ def encode(world: World) -> bytes:
 
 
 def require_simple_and_planar(world: World, what: str) -> None:
-    """Refuse a world that a format which names darts by their neighbours cannot hold."""
+    """Refuse a world that is not simple and planar: the format names darts by their neighbours."""
     if not world.is_simple:
         raise InputError(
             f"{what} holds simple worlds, and this one has loops or parallel edges: keep it as"
@@ -145,13 +147,13 @@ def _graphs(data: bytes, name: str) -> Iterator[list[Sequence[int]]]:
 
 
 def _graph(data: bytes, at: int, name: str, *, little: bool) -> tuple[list[Sequence[int]], int]:
-    """The graph that begins at this byte, and where it ends."""
-    wide = data[at] == 0
+    """The graph that begins at this byte, and the position behind it."""
+    wide = data[at] == 0  # no graph has 0 vertices, so a zero announces numbers of two bytes
     size = data[at]
     if wide:
         size = int.from_bytes(data[at + 1 : at + 3], "little" if little else "big")
         if len(data) < at + 3 or not size:
-            raise InputError(f"{name}: a number of vertices was expected at byte {at}")
+            raise InputError(f"{name}: expected a number of vertices at byte {at}, got none")
     at += 3 if wide else 1
     rows: list[Sequence[int]] = []
     for vertex in range(1, size + 1):
@@ -166,7 +168,7 @@ def _graph(data: bytes, at: int, name: str, *, little: bool) -> tuple[list[Seque
 
 
 def _row(data: bytes, at: int) -> tuple[Sequence[int], int]:
-    """The numbers up to the next zero, and where it goes on; past the end if there is no zero."""
+    """The numbers up to the next zero, and the position behind it; past the end if none follows."""
     end = data.find(0, at)
     return (data[at:end], end + 1) if end >= 0 else ((), len(data) + 1)
 

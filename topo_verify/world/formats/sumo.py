@@ -63,7 +63,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
             if not key or key in known:
                 why = "stands there twice" if key else "has no id"
                 raise InputError(f"{what} {why}: each has an id of its own")
-            if key.startswith(":"):
+            if key.startswith(":"):  # within a junction
                 return
             if path[1] == "edge":
                 edges[key] = attributes
@@ -95,6 +95,7 @@ def _ways(
             raise InputError(f"{what}: expected the ids of two junctions as 'from' and 'to'")
         rows = [point.split(",") for point in attributes.get("shape", "").split()]
         course = embedding.points(rows, f"{what}, shape")
+        # SUMO names the other direction of a street with a leading "-".
         other = ways.get(key[1:] if key.startswith("-") else f"-{key}")
         if other is None or (other.start, other.end) != (end, start):
             ways[key] = DrawnEdge(start, end, course, directed=True, name=key)

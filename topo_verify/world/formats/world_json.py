@@ -150,6 +150,7 @@ def from_data(cls: type[W], data: WorldFile, *, name: str, stem: str = "") -> W:
 def _parse(text: str | bytes, name: str) -> WorldFile:
     text = _text(text, name)
     try:
+        # The header alone first: a newer version may have fields that this one would refuse.
         _require_version(msgspec.json.decode(text, type=_Header), name)
         data = msgspec.json.decode(text, type=WorldFile)
     except msgspec.ValidationError as error:
