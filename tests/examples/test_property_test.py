@@ -14,8 +14,17 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "property_test"
 PYTEST = [
     *(sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"),
-    "--hypothesis-profile=topo-ci",  # no deadline: a busy machine is no finding
+    "--hypothesis-profile=brief",
 ]
+PROFILE = """
+from hypothesis import Phase, settings
+
+settings.register_profile(
+    "brief", settings.get_profile("topo-ci"), phases=set(Phase) - {Phase.explain}
+)
+"""
+"""topo-ci has no deadline: a busy machine is no finding. To explain a failure, Hypothesis traces
+each line, which takes three times as long as to find and to shrink it; no test here asks why."""
 PAGE = (ROOT / "docs" / "property-tests.md").read_text()
 
 
@@ -31,6 +40,7 @@ def test_it_fails_with_the_world_that_the_page_says(
     shutil.copytree(EXAMPLE, tmp_path, dirs_exist_ok=True)
     test = tmp_path / "test_my_mapper.py"
     test.write_text(test.read_text().replace("max_edges=30", f"max_edges=30{arguments}"))
+    (tmp_path / "conftest.py").write_text(PROFILE)
     done = subprocess.run(
         [*PYTEST, test],
         cwd=tmp_path,

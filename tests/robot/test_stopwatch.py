@@ -168,3 +168,7 @@ def test_a_process_that_ends_while_it_is_read_has_no_account(
 
     monkeypatch.setattr(os, "read", ended)
     assert Stopwatch().seconds() < 5
+
+
+def test_a_process_that_has_ended_has_no_account() -> None:
+    assert Stopwatch(lambda: ["0/task/0"]).seconds() < 5

@@ -9,7 +9,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from hypothesis import find, settings
+from hypothesis import Phase, find, settings
 from hypothesis.strategies import SearchStrategy
 
 from examples.undirected import Undirected
@@ -51,7 +51,13 @@ def minimal(
         calls += 1
         return condition(world)
 
-    chosen = settings(max_examples=1000, derandomize=seed is None, database=None, deadline=None)
+    chosen = settings(
+        max_examples=1000,
+        derandomize=seed is None,
+        database=None,
+        deadline=None,
+        phases=set(Phase) - {Phase.explain},  # traces every line, and nobody reads what it explains
+    )
     random = None if seed is None else Random(seed)
     return find(strategy, counted, settings=chosen, random=random), calls
 
