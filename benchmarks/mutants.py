@@ -224,7 +224,7 @@ def _outcome(pipe: Connection, process: ForkProcess) -> tuple[str, dict[str, flo
     if code == pytest.ExitCode.OK:
         return "", seconds
     if code == pytest.ExitCode.TESTS_FAILED:
-        return failed, seconds
+        return failed or "the collection of the tests", seconds  # `-x` ends it with this code
     if code == pytest.ExitCode.INTERRUPTED:
         return "the collection of the tests", seconds
     raise SystemExit(f"pytest ended with exit code {code}")
