@@ -40,7 +40,7 @@ from typing import Any, Generic, Protocol, Self, TypeVar
 import msgspec
 
 from topo_verify.errors import InputError, InternalError
-from topo_verify.harness.worker import Done, Failed, Ready, WorkerProcess
+from topo_verify.harness.worker import TaskDone, WorkerFailed, WorkerProcess, WorkerReady
 
 LOADING = 120.0
 """Seconds that a worker has to get ready."""
@@ -48,9 +48,9 @@ LOADING = 120.0
 TURN = 0.2
 """Seconds between two looks at the heartbeats."""
 
-Task = TypeVar("Task")
-Result = TypeVar("Result")
-Result_co = TypeVar("Result_co", covariant=True)
+TaskT = TypeVar("TaskT")
+ResultT = TypeVar("ResultT")
+ResultT_co = TypeVar("ResultT_co", covariant=True)
 
 
 def processors() -> int:
@@ -90,7 +90,7 @@ class Loss:
 
 
 @dataclass(frozen=True)
-class Division(Generic[Task, Result]):
+class Division(Generic[TaskT, ResultT]):
     """How a task is cut into pieces, which are tasks, too.
 
     Attributes:
@@ -100,13 +100,13 @@ class Division(Generic[Task, Result]):
         last: no piece behind one with such a result is wanted, and none is joined.
     """
 
-    cut: Callable[[Task, int], Sequence[Task]]
-    join: Callable[[list[Result]], Result]
-    last: Callable[[Result], bool]
+    cut: Callable[[TaskT, int], Sequence[TaskT]]
+    join: Callable[[list[ResultT]], ResultT]
+    last: Callable[[ResultT], bool]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Work(Generic[Task, Result]):
+class Work(Generic[TaskT, ResultT]):
     """What the workers of a pool do, and what becomes of a task that loses them.
 
     Attributes:
@@ -121,19 +121,19 @@ class Work(Generic[Task, Result]):
 
     serve: str
     job: Any
-    result: type[Result]
-    lost: Callable[[Task, Loss], Result]
+    result: type[ResultT]
+    lost: Callable[[TaskT, Loss], ResultT]
     silence: float
     attempts: int = 2
-    division: Division[Task, Result] | None = None
+    division: Division[TaskT, ResultT] | None = None
 
 
-class Backend(Protocol[Task, Result_co]):
+class Backend(Protocol[TaskT, ResultT_co]):
     """Whoever does tasks: the pool here; another one may do them on other machines."""
 
     def run(
-        self, tasks: Iterable[Task], *, room: Callable[[], bool] = ...
-    ) -> Iterator[tuple[Task, Result_co]]:
+        self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = ...
+    ) -> Iterator[tuple[TaskT, ResultT_co]]:
         """Each task, the very object, and its result, in the order in which tasks are finished.
 
         Args:
@@ -143,8 +143,8 @@ class Backend(Protocol[Task, Result_co]):
 
 
 def in_order(
-    backend: Backend[Task, Result], tasks: Iterable[Task], *, ahead: int
-) -> Iterator[Result]:
+    backend: Backend[TaskT, ResultT], tasks: Iterable[TaskT], *, ahead: int
+) -> Iterator[ResultT]:
     """The results in the order of the tasks.
 
     Args:
@@ -152,10 +152,10 @@ def in_order(
         ahead: at most so many tasks are taken before the first of them is finished: a slow one must
             not fill the memory with results that wait for it.
     """
-    taken: deque[Task] = deque()
-    results: dict[int, Result] = {}  # by the identity of the task, which `taken` keeps alive
+    taken: deque[TaskT] = deque()
+    results: dict[int, ResultT] = {}  # by the identity of the task, which `taken` keeps alive
 
-    def take() -> Iterator[Task]:
+    def take() -> Iterator[TaskT]:
         for task in tasks:
             taken.append(task)
             yield task
@@ -170,15 +170,15 @@ def in_order(
 
 
 @dataclass(eq=False)
-class _Whole(Generic[Task, Result]):
+class _Whole(Generic[TaskT, ResultT]):
     """A task as it was taken, and its pieces in their order; at first, it is its only piece."""
 
-    task: Task
-    pieces: list[_Piece[Task, Result]] = field(default_factory=list["_Piece[Task, Result]"])
+    task: TaskT
+    pieces: list[_Piece[TaskT, ResultT]] = field(default_factory=list["_Piece[TaskT, ResultT]"])
 
 
 @dataclass(eq=False)
-class _Piece(Generic[Task, Result]):
+class _Piece(Generic[TaskT, ResultT]):
     """A task or a part of one, done in one go.
 
     Attributes:
@@ -186,13 +186,13 @@ class _Piece(Generic[Task, Result]):
         results: its result, once it is there.
     """
 
-    task: Task
-    whole: _Whole[Task, Result]
+    task: TaskT
+    whole: _Whole[TaskT, ResultT]
     deaths: int = 0
-    results: list[Result] = field(default_factory=list[Result])
+    results: list[ResultT] = field(default_factory=list[ResultT])
 
 
-class Pool(Generic[Task, Result]):
+class Pool(Generic[TaskT, ResultT]):
     """Workers on this machine. A `Backend`; see above.
 
     Args:
@@ -205,16 +205,16 @@ class Pool(Generic[Task, Result]):
 
     def __init__(
         self,
-        work: Work[Task, Result],
+        work: Work[TaskT, ResultT],
         size: int,
         *,
         in_flight: Callable[[int], None] | None = None,
     ) -> None:
         self._work, self._size, self._in_flight = work, size, in_flight
         self._workers: list[WorkerProcess] = []
-        self._at: dict[WorkerProcess, _Piece[Task, Result]] = {}  # what the busy ones are at
-        self._queue: deque[_Piece[Task, Result]] = deque()  # pieces that go before new tasks
-        self._finished: deque[tuple[Task, Result]] = deque()
+        self._at: dict[WorkerProcess, _Piece[TaskT, ResultT]] = {}  # what the busy ones are at
+        self._queue: deque[_Piece[TaskT, ResultT]] = deque()  # pieces that go before new tasks
+        self._finished: deque[tuple[TaskT, ResultT]] = deque()
 
     def __enter__(self) -> Self:
         return self
@@ -232,8 +232,8 @@ class Pool(Generic[Task, Result]):
             worker.kill()
 
     def run(
-        self, tasks: Iterable[Task], *, room: Callable[[], bool] = lambda: True
-    ) -> Generator[tuple[Task, Result]]:
+        self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = lambda: True
+    ) -> Generator[tuple[TaskT, ResultT]]:
         """Each task and its result, in the order in which tasks are finished; see `Backend`."""
         todo = iter(tasks)
         self._hand_out(todo, room)
@@ -244,7 +244,7 @@ class Pool(Generic[Task, Result]):
                 yield self._finished.popleft()
             self._hand_out(todo, room)  # again: results that were looked at make room
 
-    def _hand_out(self, todo: Iterator[Task], room: Callable[[], bool]) -> None:
+    def _hand_out(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> None:
         """Give every idle worker a piece, as long as there are any."""
         idle = [worker for worker in self._workers if worker not in self._at]
         while len(self._at) < self._size:
@@ -259,14 +259,14 @@ class Pool(Generic[Task, Result]):
             worker.start(piece.task)
 
     def _next_piece(
-        self, todo: Iterator[Task], room: Callable[[], bool]
-    ) -> _Piece[Task, Result] | None:
+        self, todo: Iterator[TaskT], room: Callable[[], bool]
+    ) -> _Piece[TaskT, ResultT] | None:
         if self._queue:
             return self._queue.popleft()
         if not room():
             return None
         for task in todo:
-            whole: _Whole[Task, Result] = _Whole(task)
+            whole: _Whole[TaskT, ResultT] = _Whole(task)
             whole.pieces.append(_Piece(task, whole))
             return whole.pieces[0]
         return None
@@ -293,17 +293,17 @@ class Pool(Generic[Task, Result]):
             return
         for message in messages:
             match message:
-                case Ready():
+                case WorkerReady():
                     worker.ready = True
-                case Done(result):
+                case TaskDone(result):
                     piece = self._at.pop(worker)
                     self._finish(piece, msgspec.json.decode(result, type=self._work.result))
-                case Failed(text, bug):
+                case WorkerFailed(text, bug):
                     raise InternalError(f"in a worker: {text}") if bug else InputError(text)
 
     # ------------------------------------------------------------ pieces
 
-    def _finish(self, piece: _Piece[Task, Result], result: Result) -> None:
+    def _finish(self, piece: _Piece[TaskT, ResultT], result: ResultT) -> None:
         """Note the result of a piece; with the last of its pieces a task is finished."""
         piece.results.append(result)
         whole, division = piece.whole, self._work.division
@@ -316,7 +316,7 @@ class Pool(Generic[Task, Result]):
             self._queue = deque(other for other in self._queue if other not in dropped)
             whole.pieces = [other for other in whole.pieces if other not in dropped]
         if all(other.results for other in whole.pieces):
-            results: list[Result] = []
+            results: list[ResultT] = []
             for other in whole.pieces:
                 results += other.results
                 if division.last(results[-1]):  # a worker may have been at what lies behind
@@ -340,7 +340,7 @@ class Pool(Generic[Task, Result]):
         loss = Loss(status, silence, loading=not worker.ready)
         self._finish(piece, self._work.lost(piece.task, loss))
 
-    def _cut(self, piece: _Piece[Task, Result], items: int) -> bool:
+    def _cut(self, piece: _Piece[TaskT, ResultT], items: int) -> bool:
         """Replace a piece by its parts; False if it has none."""
         division, whole = self._work.division, piece.whole
         tasks = division.cut(piece.task, items) if division is not None else ()

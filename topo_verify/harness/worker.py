@@ -1,7 +1,7 @@
 """One worker of a `Pool`: the process, which does tasks, and the handle that its parent has on it.
 
     in          the job, then the tasks: a JSON value a line
-    out         a message a line: Ready, then a Done for each task; or Failed, the last one
+    out         a message a line: WorkerReady, a TaskDone for each task; or WorkerFailed, the last
     heartbeat   a small file: how many items of the task are finished, and a number that grows
 
 What the process works at is named by `module:function` (`Serve`): the pool, which starts it, knows
@@ -62,24 +62,24 @@ _START = (
 _PR_SET_PDEATHSIG = 1
 
 
-class Ready(msgspec.Struct, frozen=True, tag=True):
+class WorkerReady(msgspec.Struct, frozen=True, tag=True):
     """The worker is prepared and waits for tasks."""
 
 
-class Done(msgspec.Struct, frozen=True, tag=True):
+class TaskDone(msgspec.Struct, frozen=True, tag=True):
     """A task is finished."""
 
     result: msgspec.Raw
 
 
-class Failed(msgspec.Struct, frozen=True, tag=True):
+class WorkerFailed(msgspec.Struct, frozen=True, tag=True):
     """The worker cannot go on: the input is bad, or there is a bug of ours (`bug`)."""
 
     text: str
     bug: bool
 
 
-Message = Ready | Done | Failed
+WorkerMessage = WorkerReady | TaskDone | WorkerFailed
 
 
 class Heartbeat:
@@ -157,13 +157,13 @@ class WorkerProcess:
             self.process.stdin.write(msgspec.json.encode(data) + b"\n")
             self.process.stdin.flush()
 
-    def hear(self) -> list[Message] | None:
+    def hear(self) -> list[WorkerMessage] | None:
         """The messages that have come; None if it has ended."""
         text = os.read(self.out.fileno(), 1 << 16)
         if not text:
             return None
         *lines, self._rest = (self._rest + text).split(b"\n")
-        return [msgspec.json.decode(line, type=Message) for line in lines]
+        return [msgspec.json.decode(line, type=WorkerMessage) for line in lines]
 
     def silence(self) -> float:
         """For how many seconds it has written no heartbeat."""
@@ -226,9 +226,9 @@ def main(serve: str, parent: int, heartbeat: int) -> None:
     except BrokenPipeError:
         pass  # the parent is gone: nobody wants the result
     except InputError as error:
-        _send(out, Failed(str(error), bug=False))
+        _send(out, WorkerFailed(str(error), bug=False))
     except Exception:  # noqa: BLE001  whatever it is, the parent is told
-        _send(out, Failed(traceback.format_exc(), bug=True))
+        _send(out, WorkerFailed(traceback.format_exc(), bug=True))
 
 
 def _work(
@@ -239,11 +239,11 @@ def _work(
 ) -> None:
     """Do tasks until there are no more."""
     with served as handle:
-        _send(out, Ready())
+        _send(out, WorkerReady())
         beat(0)
         while (task := lines.get()) is not None:
             beat(0)
-            _send(out, Done(msgspec.Raw(msgspec.json.encode(handle(task, beat)))))
+            _send(out, TaskDone(msgspec.Raw(msgspec.json.encode(handle(task, beat)))))
 
 
 def _function(name: str) -> Serve:
@@ -252,7 +252,7 @@ def _function(name: str) -> Serve:
     return found
 
 
-def _send(out: BinaryIO, message: Message) -> None:
+def _send(out: BinaryIO, message: WorkerMessage) -> None:
     out.write(msgspec.json.encode(message) + b"\n")
     out.flush()
 
