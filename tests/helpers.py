@@ -15,7 +15,7 @@ from topo_verify.algorithms.exploration import Rule
 from topo_verify.algorithms.motion import Motion, retrace
 from topo_verify.checkers import Status, check
 from topo_verify.harness.run import explore
-from topo_verify.programs.loading import Mapper
+from topo_verify.programs.loader import Mapper
 from topo_verify.robot.events import Event, Move, Trace
 from topo_verify.world.enumeration import rank_order
 

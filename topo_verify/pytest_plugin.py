@@ -34,7 +34,7 @@ import pytest
 if TYPE_CHECKING:
     from topo_verify.harness.run import Report
     from topo_verify.harness.verify.by_claim import ClaimResults
-    from topo_verify.programs.loading import Mapper, Target
+    from topo_verify.programs.loader import Mapper, Target
     from topo_verify.robot.simulator import SimulatedRobot
     from topo_verify.world.rooted_map import World
 

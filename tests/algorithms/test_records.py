@@ -8,11 +8,11 @@ import pytest
 
 from tests.helpers import failing, of_type, trace_of, variant
 from topo_verify import CATALOGUE, World
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_iii import RecordsRule, Seen
 from topo_verify.algorithms.motion import Executed, overlap
 from topo_verify.faults import FAULTS
-from topo_verify.robot.events import Evidence, Record, Reject, Trace
+from topo_verify.robot.events import Evidence, MapDart, Record, Reject, Trace
 from topo_verify.robot.percept import Percept
 
 ONE, ALL = "enhancement-iii-one", "enhancement-iii-all"
@@ -29,7 +29,9 @@ class Watched(RecordsRule):
 
     clean = True
 
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         super().learn(chart, e, entry, sequences)
         self.clean &= self.records.keys() <= chart.unexplored.keys()
 

@@ -12,7 +12,7 @@ from topo_verify import CATALOGUE, Limits, World, examine
 from topo_verify.algorithms.chart import Survey
 from topo_verify.faults import FAULTS as SEEDED
 from topo_verify.faults.fault import ForwardingRobot
-from topo_verify.programs.loading import Mapper
+from topo_verify.programs.loader import Mapper
 from topo_verify.robot.events import Robot
 from topo_verify.robot.percept import Door, Percept, Purpose
 

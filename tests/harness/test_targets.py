@@ -14,7 +14,7 @@ from topo_verify import CATALOGUE, InputError, World
 from topo_verify.algorithms import Policies
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.harness.targets import one_target, targets
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.simulator import SimulatedRobot
 
 

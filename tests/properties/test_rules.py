@@ -17,14 +17,14 @@ from tests.helpers import variant
 from tests.properties.worlds import STRATEGIES
 from topo_verify import World, explore
 from topo_verify.algorithms.basic import NoRule
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation, Rule
 from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Executed, Hypothesis, Motion, overlap, retrace
-from topo_verify.robot.events import Policies
+from topo_verify.robot.events import MapDart, Policies
 from topo_verify.robot.percept import Percept
 from topo_verify.strategies import policies
 
@@ -38,7 +38,7 @@ RULES: dict[str, Callable[[], Rule]] = {
 }
 """From the weakest to the strongest."""
 
-Asked = tuple[int, Dart, int, frozenset[str]]
+Asked = tuple[int, MapDart, int, frozenset[str]]
 """Which e, which h, after how many sequences, and the rules that have refuted it by then."""
 
 
@@ -52,11 +52,11 @@ class Jury:
     def __init__(self, steering: str) -> None:
         self.steering = steering
         self.rules = {name: make() for name, make in RULES.items()}
-        self.refuted: dict[tuple[str, Dart], bool] = {}
+        self.refuted: dict[tuple[str, MapDart], bool] = {}
         self.edges = 0
         self.asked: list[Asked] = []
 
-    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+    def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         self.refuted, self.edges = {}, self.edges + 1
         for rule in self.rules.values():
             rule.arrive(chart, e, percept)
@@ -83,7 +83,9 @@ class Jury:
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         return self.rules[self.steering].conclude(remaining)
 
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         for rule in self.rules.values():
             rule.learn(chart, e, entry, sequences)
 

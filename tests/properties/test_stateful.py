@@ -21,9 +21,9 @@ from hypothesis.stateful import (
 )
 
 from topo_verify import World
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.motion import Hypothesis, Pilot
-from topo_verify.robot.events import Move
+from topo_verify.robot.events import MapDart, Move
 from topo_verify.robot.simulator import SimulatedRobot, exit_dart, percepts
 from topo_verify.strategies import worlds
 
@@ -37,11 +37,11 @@ class Exploration(RuleBasedStateMachine):
         self.robot = SimulatedRobot(world, budget=10**6)
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
-        self.at: Dart = 0
-        self.image: list[Dart] = []
+        self.at: MapDart = 0
+        self.image: list[MapDart] = []
         self._number(world.root or 0)
 
-    def _number(self, entry: Dart) -> None:
+    def _number(self, entry: MapDart) -> None:
         degree = self.world.degrees[self.world.vertex_of[entry]]
         self.image += [exit_dart(self.world, entry, door) for door in range(degree)]
 
@@ -154,7 +154,7 @@ def restores_no_orientation(pilot: Pilot, steps: int) -> None:
         pilot.percepts.pop()
 
 
-def turns_the_other_way(chart: Chart, dart: Dart, door: int) -> Dart:
+def turns_the_other_way(chart: Chart, dart: MapDart, door: int) -> MapDart:
     v = chart.vertex[dart]
     return chart.first[v] + (dart - chart.first[v] - door) % chart.degree[v]
 

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Percept
 
 
 class NoRule:
     """Rejects nothing without motion; remembers nothing."""
 
-    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+    def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         """Does nothing: the rule needs nothing of vu."""
 
     def observe(self, sequence: Executed) -> None:
@@ -33,5 +34,7 @@ class NoRule:
         """None: only motion confirms."""
         return None
 
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         """Does nothing: the rule remembers nothing of S."""

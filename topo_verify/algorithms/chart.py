@@ -19,18 +19,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door, Percept
 
-Dart = int
 Vertex = int
 
 
 class Survey(NamedTuple):
     """What a mapper of the catalogue returns: its map, and what it cost in edge traversals."""
 
-    vertices: tuple[tuple[Dart, ...], ...]
-    edges: tuple[tuple[Dart, Dart], ...]
-    marker: Dart | None
+    vertices: tuple[tuple[MapDart, ...], ...]
+    edges: tuple[tuple[MapDart, MapDart], ...]
+    marker: MapDart | None
     cost: int
 
 
@@ -41,7 +41,7 @@ class Tree(NamedTuple):
     """
 
     depth: list[int]
-    parent: list[Dart | None]
+    parent: list[MapDart | None]
 
 
 class Chart:
@@ -54,15 +54,15 @@ class Chart:
 
     def __init__(self, percept: Percept) -> None:
         """Start with v0 alone. The marked dart is dart 0, so the first percept has marker 0."""
-        self.first: list[Dart] = []
+        self.first: list[MapDart] = []
         self.degree: list[int] = []
         self.vertex: list[Vertex] = []
-        self.alpha: list[Dart | None] = []
+        self.alpha: list[MapDart | None] = []
         self.percepts: list[Percept] = []
-        self.unexplored: dict[Dart, None] = {}  # a dict keeps ascending order, a set does not
+        self.unexplored: dict[MapDart, None] = {}  # a dict keeps ascending order, a set does not
         self.add_vertex(percept)
 
-    def add_vertex(self, percept: Percept) -> Dart:
+    def add_vertex(self, percept: Percept) -> MapDart:
         """Add a vertex, given its percept at its first dart. Returns that dart."""
         first = len(self.alpha)
         self.vertex += [len(self.first)] * percept.degree
@@ -76,23 +76,23 @@ class Chart:
             self.unexplored[first + door] = None
         return first
 
-    def join(self, e: Dart, other: Dart) -> None:
+    def join(self, e: MapDart, other: MapDart) -> None:
         """Put on record that the two darts are the two ends of one edge."""
         self.alpha[e], self.alpha[other] = other, e
         self.unexplored.pop(e, None)
         self.unexplored.pop(other, None)
 
-    def turn(self, dart: Dart, door: Door) -> Dart:
+    def turn(self, dart: MapDart, door: Door) -> MapDart:
         """The dart behind a door, for a robot with this reference dart: sigma^door(dart)."""
         v = self.vertex[dart]
         first = self.first[v]
         return first + (dart - first + door) % self.degree[v]
 
-    def door(self, dart: Dart, exit_dart: Dart) -> Door:
+    def door(self, dart: MapDart, exit_dart: MapDart) -> Door:
         """The door through which a robot with reference dart `dart` leaves by `exit_dart`."""
         return (exit_dart - dart) % self.degree[self.vertex[dart]]
 
-    def across(self, dart: Dart) -> Dart:
+    def across(self, dart: MapDart) -> MapDart:
         """The other end of an explored dart."""
         other = self.alpha[dart]
         assert other is not None, f"dart {dart} is unexplored"
@@ -102,13 +102,13 @@ class Chart:
         """The darts of a vertex, clockwise from its first."""
         return range(self.first[v], self.first[v] + self.degree[v])
 
-    def outward(self, root: Vertex) -> Iterator[tuple[Vertex, int, Dart | None]]:
+    def outward(self, root: Vertex) -> Iterator[tuple[Vertex, int, MapDart | None]]:
         """Breadth-first search on S: vertex, distance, dart towards the root; queue order.
 
         Darts are scanned in ascending order. A caller that stops early saves the rest of it.
         """
         seen = {root}
-        queue: list[tuple[Vertex, int, Dart | None]] = [(root, 0, None)]
+        queue: list[tuple[Vertex, int, MapDart | None]] = [(root, 0, None)]
         for v, distance, back in queue:  # grows as it goes
             yield v, distance, back
             for dart in self.darts(v):
@@ -120,7 +120,7 @@ class Chart:
     def tree(self, root: Vertex, *, until: Vertex | None = None) -> Tree:
         """The breadth-first tree rooted at a vertex; complete, or until `until` is reached."""
         depth = [-1] * len(self.first)
-        parent: list[Dart | None] = [None] * len(self.first)
+        parent: list[MapDart | None] = [None] * len(self.first)
         for v, distance, back in self.outward(root):
             depth[v], parent[v] = distance, back
             if v == until:

@@ -13,10 +13,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from topo_verify.algorithms.basic import NoRule
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.robot.events import Evidence
+from topo_verify.robot.events import Evidence, MapDart
 
 
 class HistoryRule(NoRule):
@@ -47,7 +47,7 @@ class HistoryRule(NoRule):
         return None
 
     def beyond(
-        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+        self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
         """What contradicts step `step` of a sequence behind an unexplored dart. Here: nothing."""
         return None

@@ -16,11 +16,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed
-from topo_verify.robot.events import Evidence, Record
+from topo_verify.robot.events import Evidence, MapDart, Record
 from topo_verify.robot.percept import Door, Percept
 
 
@@ -43,10 +43,10 @@ class RecordsRule(HistoryRule):
 
     def __init__(self, levels: int | None = None) -> None:
         self.levels = levels
-        self.records: dict[Dart, Seen] = {}  # T: A3.3
+        self.records: dict[MapDart, Seen] = {}  # T: A3.3
 
     def beyond(
-        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+        self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
         """The first recorded percept behind the dart that the sequence contradicts, if any."""
         place = self.records.get(exit_dart)  # A3.14
@@ -69,7 +69,9 @@ class RecordsRule(HistoryRule):
             step += 1
         return None
 
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         """Record what the sequences showed behind unexplored darts, traced on the grown S."""
         self.records.pop(e, None)
         self.records.pop(entry, None)
@@ -83,7 +85,7 @@ class RecordsRule(HistoryRule):
                     break
                 at = arrival
 
-    def _record(self, exit_dart: Dart, sequence: Executed, step: int) -> None:
+    def _record(self, exit_dart: MapDart, sequence: Executed, step: int) -> None:
         """Record the percepts of the sequence from this step on, as many as `levels` allows."""
         place = self.records.setdefault(exit_dart, Seen(sequence.percepts[step]))
         deepest = len(sequence.doors) if self.levels is None else step + self.levels - 1

@@ -22,10 +22,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
-from topo_verify.algorithms.chart import Chart, Dart, Survey
+from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.motion import Executed, Hypothesis, Motion, Pilot
 from topo_verify.algorithms.policies import Order, Pick
-from topo_verify.robot.events import Augment, Confirm, Evidence, Pose, Reject, Robot, RuleName
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Evidence,
+    MapDart,
+    Pose,
+    Reject,
+    Robot,
+    RuleName,
+)
 from topo_verify.robot.percept import Percept
 
 
@@ -39,7 +48,7 @@ class Refutation(NamedTuple):
 class Rule(Protocol):
     """Rejects hypotheses without motion. A rule lives for one run and may remember what it saw."""
 
-    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+    def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         """Take note that the robot has crossed e and senses this percept at vu."""
         ...
 
@@ -61,7 +70,9 @@ class Rule(Protocol):
         """The hypothesis that must be true because no alternative is left; None if there is one."""
         ...
 
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         """Take note that S has grown: the robot crossed e and came in by dart `entry`."""
         ...
 
@@ -70,7 +81,7 @@ def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Orde
     """Map the robot's world: the map, and its cost in edge traversals, which is O(m²n)."""
     chart = Chart(robot.percept)  # A1.1 A1.2 A2.1 A2.2 A3.1 A3.2
     pilot = Pilot(robot)
-    at: Dart = 0  # the robot's reference dart, on S
+    at: MapDart = 0  # the robot's reference dart, on S
     while chart.unexplored:  # A1.3 A2.3 A3.4
         e = pick(chart, at)  # A1.4 A2.4 A3.5
         # e leaves U before H is made, since no edge ends in its own dart; `join` explores it later.
@@ -108,7 +119,7 @@ def hypotheses(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]
 def validate(
     pilot: Pilot,
     chart: Chart,
-    e: Dart,
+    e: MapDart,
     remaining: list[Hypothesis],
     sequences: list[Executed],
     *,
@@ -145,7 +156,7 @@ def validate(
 def sift(
     pilot: Pilot,
     chart: Chart,
-    e: Dart,
+    e: MapDart,
     remaining: Sequence[Hypothesis],
     sequences: Sequence[Executed],
     *,
@@ -179,7 +190,7 @@ def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
     return None
 
 
-def localise(pilot: Pilot, chart: Chart, entry: Dart) -> Dart:
+def localise(pilot: Pilot, chart: Chart, entry: MapDart) -> MapDart:
     """The robot's reference dart on S, once vu's entry dart is known; it may walk back to vu first.
 
     At v0 the marker tells the reference dart, so the robot stays. Elsewhere it goes back to vu,

@@ -28,10 +28,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from topo_verify.algorithms.basic import NoRule
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.robot.events import Evidence
+from topo_verify.robot.events import Evidence, MapDart
 from topo_verify.robot.percept import Door, Percept
 
 NodeDart = tuple[int, Door]
@@ -154,13 +154,13 @@ class FoldingRule(NoRule):
         self.e: NodeDart = (0, 0)
         self.vu: NodeDart = (0, 0)
 
-    def node_dart(self, chart: Chart, dart: Dart) -> NodeDart:
+    def node_dart(self, chart: Chart, dart: MapDart) -> NodeDart:
         """The node and door of a dart of S."""
         v = chart.vertex[dart]
         node, door = self.entries[v]
         return node, door + dart - chart.first[v]
 
-    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+    def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         """Take note of vu, which is a place seen before, or a new ghost."""
         if not self.entries:
             self.entries.append((self.fold.add(chart.percepts[0], known=True), 0))
@@ -201,7 +201,9 @@ class FoldingRule(NoRule):
         node, _ = self.fold.resolve(self.vu)
         return remaining[0] if len(remaining) == 1 and self.fold.known[node] else None
 
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         """Note which vertex of S vu is: a new one, or that of `entry`."""
         if len(self.entries) < len(chart.first):
             self.entries.append(self.vu)

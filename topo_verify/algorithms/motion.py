@@ -21,8 +21,8 @@ from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
-from topo_verify.algorithms.chart import Chart, Dart, Tree
-from topo_verify.robot.events import Robot
+from topo_verify.algorithms.chart import Chart, Tree
+from topo_verify.robot.events import MapDart, Robot
 from topo_verify.robot.percept import Door, Percept, Purpose
 
 
@@ -41,11 +41,11 @@ class Hypothesis:
     for, because most hypotheses are rejected before that.
     """
 
-    def __init__(self, dart: Dart, chart: Chart, tree: Tree) -> None:
+    def __init__(self, dart: MapDart, chart: Chart, tree: Tree) -> None:
         self.dart, self._chart, self._tree = dart, chart, tree
 
     @cached_property
-    def arrivals(self) -> tuple[Dart, ...]:
+    def arrivals(self) -> tuple[MapDart, ...]:
         """The reference darts on the way: h itself, then the dart of arrival behind each door."""
         chart, row = self._chart, [self.dart]
         while (up := self._tree.parent[chart.vertex[row[-1]]]) is not None:
@@ -78,7 +78,7 @@ class Pilot:
         self.doors: list[Door] = []
         self.percepts: list[Percept] = [robot.percept]
 
-    def walk(self, chart: Chart, at: Dart, v: int) -> Dart:
+    def walk(self, chart: Chart, at: MapDart, v: int) -> MapDart:
         """Walk on S to v along the tree rooted there. Returns the reference dart at the end."""
         towards = chart.tree(v, until=chart.vertex[at]).parent
         while (exit_dart := towards[chart.vertex[at]]) is not None:
@@ -86,7 +86,7 @@ class Pilot:
             at = chart.across(exit_dart)
         return at
 
-    def cross(self, chart: Chart, at: Dart, e: Dart) -> Percept:
+    def cross(self, chart: Chart, at: MapDart, e: MapDart) -> Percept:
         """Leave the known world by e. Returns the percept at vu, where excursions start."""
         percept = self._move(chart.door(at, e), "cross")
         self.turned, self.doors, self.percepts = 0, [], [percept]

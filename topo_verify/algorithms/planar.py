@@ -13,10 +13,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation, Rule
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.robot.events import Evidence
+from topo_verify.robot.events import Evidence, MapDart
 from topo_verify.robot.percept import Percept
 
 
@@ -26,9 +26,9 @@ class PlanarRule:
     def __init__(self, rule: Rule) -> None:
         self.rule = rule
         self.percept = Percept(0, None)  # vu's
-        self.face: frozenset[Dart] = frozenset()
+        self.face: frozenset[MapDart] = frozenset()
 
-    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+    def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         """Find the darts on the face of e."""
         self.percept = percept
         self.face = frozenset(face(chart, e))
@@ -51,12 +51,14 @@ class PlanarRule:
         """The conclusion of the other rule."""
         return self.rule.conclude(remaining)
 
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         """Passes the new edge on to the other rule."""
         self.rule.learn(chart, e, entry, sequences)
 
 
-def face(chart: Chart, e: Dart) -> list[Dart]:
+def face(chart: Chart, e: MapDart) -> list[MapDart]:
     """The darts of S on the face of e, from e on."""
     darts = [e]
     while True:

@@ -14,21 +14,22 @@ from collections.abc import Callable, Iterable
 from random import Random
 from typing import TYPE_CHECKING
 
-from topo_verify.algorithms.chart import Chart, Dart, Tree
+from topo_verify.algorithms.chart import Chart, Tree
+from topo_verify.robot.events import MapDart
 
 if TYPE_CHECKING:
     from topo_verify.robot.events import Policies
 
-Pick = Callable[[Chart, Dart], Dart]
+Pick = Callable[[Chart, MapDart], MapDart]
 """(S, the robot's reference dart on S) -> the dart of U to explore next."""
 
-Order = Callable[[Iterable[Dart], Chart, Tree], list[Dart]]
+Order = Callable[[Iterable[MapDart], Chart, Tree], list[MapDart]]
 """(H, S, the breadth-first tree rooted at v0) -> H in the order in which it is tried."""
 
 
-def nearest(chart: Chart, at: Dart) -> Dart:
+def nearest(chart: Chart, at: MapDart) -> MapDart:
     """The dart of U whose vertex is nearest on S to the robot; ties: the lowest dart."""
-    best: Dart | None = None
+    best: MapDart | None = None
     reach = 0
     for v, distance, _ in chart.outward(chart.vertex[at]):
         if best is not None and distance > reach:
@@ -40,27 +41,27 @@ def nearest(chart: Chart, at: Dart) -> Dart:
     return best
 
 
-def last(chart: Chart, at: Dart) -> Dart:
+def last(chart: Chart, at: MapDart) -> MapDart:
     """The highest dart of U: depth-first."""
     return next(reversed(chart.unexplored))
 
 
-def first(chart: Chart, at: Dart) -> Dart:
+def first(chart: Chart, at: MapDart) -> MapDart:
     """The lowest dart of U: breadth-first."""
     return next(iter(chart.unexplored))
 
 
-def shortest(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
+def shortest(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
     """By the length of the validation path, then by dart."""
     return sorted(darts, key=lambda h: (tree.depth[chart.vertex[h]], h))
 
 
-def oldest(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
+def oldest(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
     """By dart, ascending."""
     return sorted(darts)
 
 
-def newest(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
+def newest(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
     """By dart, descending."""
     return sorted(darts, reverse=True)
 
@@ -107,7 +108,7 @@ def _random(text: str) -> Random | None:
     return Random(int(match[1])) if match else None
 
 
-def _shuffled(random: Random, darts: Iterable[Dart]) -> list[Dart]:
+def _shuffled(random: Random, darts: Iterable[MapDart]) -> list[MapDart]:
     row = sorted(darts)
     random.shuffle(row)
     return row

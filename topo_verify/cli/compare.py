@@ -17,7 +17,7 @@ from topo_verify.cli.record import MapperOpener, mapper_options
 from topo_verify.harness.baseline import file
 from topo_verify.harness.baseline.compare import KINDS, Change, ChangeKind, Comparison, Group
 from topo_verify.harness.baseline.compare import compare as run_all
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Policies
 from topo_verify.text import plural
 

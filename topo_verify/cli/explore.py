@@ -27,7 +27,7 @@ from topo_verify.harness.gap import gap as measure
 from topo_verify.harness.run import Exploration
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import target_text, targets
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural

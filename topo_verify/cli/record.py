@@ -22,7 +22,7 @@ from topo_verify.harness.baseline.record import Recorded
 from topo_verify.harness.baseline.record import record as run_all
 from topo_verify.harness.corpus import DEFAULT, Corpus, corpus_from
 from topo_verify.harness.targets import one_target, target_text
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits

@@ -22,7 +22,7 @@ from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
 from topo_verify.harness.tally import CostComparison, CostTotals, Failure
 from topo_verify.harness.targets import target_text, targets
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass

@@ -16,7 +16,7 @@ from topo_verify.cli.runs import finding_blocks, undeclared
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.parts import Part
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.faults.fault import Fault, mapper
+from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door
 
 
 class _NextDart(Chart):
-    def join(self, e: Dart, other: Dart) -> None:
+    def join(self, e: MapDart, other: MapDart) -> None:
         # `other` is the first dart of the newest vertex only when the loop has just added it for e.
         new = self.first[-1] == other > 0 and e < other
         super().join(e, self.turn(other, 1) if new else other)
@@ -24,7 +25,7 @@ joins_by_the_second_dart = Fault(
 
 
 class _OneWay(Chart):
-    def join(self, e: Dart, other: Dart) -> None:
+    def join(self, e: MapDart, other: MapDart) -> None:
         # The newest vertex keeps both directions, or the robot could not walk away from it.
         older = self.vertex[other] < len(self.first) - 1
         super().join(e, other)
@@ -42,7 +43,7 @@ joins_a_loop_one_way = Fault(
 
 
 class _Anticlockwise(Chart):
-    def door(self, dart: Dart, exit_dart: Dart) -> Door:
+    def door(self, dart: MapDart, exit_dart: MapDart) -> Door:
         return super().door(exit_dart, dart)
 
 
@@ -56,12 +57,12 @@ counts_doors_anticlockwise = Fault(
 
 
 class _Unreduced(Chart):
-    def turn(self, dart: Dart, door: Door) -> Dart:
+    def turn(self, dart: MapDart, door: Door) -> MapDart:
         first = self.first[self.vertex[dart]]
         # The reference reduces the sum modulo the degree.
         return first + min(dart - first + door % self.degree[self.vertex[dart]], self._last(dart))
 
-    def _last(self, dart: Dart) -> int:
+    def _last(self, dart: MapDart) -> int:
         return self.degree[self.vertex[dart]] - 1
 
 

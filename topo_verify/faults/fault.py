@@ -14,10 +14,10 @@ from types import FunctionType
 from typing import Any, Literal
 
 from topo_verify.algorithms import CATALOGUE, Rule, exploration
-from topo_verify.algorithms.chart import Chart, Dart, Survey
+from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.motion import Executed, Motion
 from topo_verify.algorithms.policies import Order, Pick, order_policy, pick_policy
-from topo_verify.robot.events import Decision, Robot
+from topo_verify.robot.events import Decision, MapDart, Robot
 from topo_verify.robot.percept import Door, Percept, Purpose
 
 PartName = Literal[
@@ -138,7 +138,7 @@ class ForwardingRobot:
         self.robot.declare(event)
 
 
-def crossed(chart: Chart) -> Dart:
+def crossed(chart: Chart) -> MapDart:
     """The dart e that the robot has just crossed: not yet explored, and not in U any more."""
     return next(d for d, o in enumerate(chart.alpha) if o is None and d not in chart.unexplored)
 

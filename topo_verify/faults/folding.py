@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.folding import FoldingRule, NodeDart, PartialFold
 from topo_verify.algorithms.motion import Hypothesis
 from topo_verify.faults.fault import Fault, mapper
+from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door, Percept
 
 
@@ -73,7 +74,7 @@ identifies_without_turning = Fault(
 
 
 class _FromDoor0(FoldingRule):
-    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+    def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         super().arrive(chart, e, percept)
         self.vu = self.vu[0], 0
 

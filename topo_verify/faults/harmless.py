@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.algorithms.chart import Chart, Dart, Survey
+from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.enhancement_iii import RecordsRule
@@ -18,7 +18,7 @@ from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Executed, Hypothesis, Pilot
 from topo_verify.algorithms.policies import Order, last, newest
 from topo_verify.faults.fault import Fault, ForwardingRobot, mapper
-from topo_verify.robot.events import Decision, Robot
+from topo_verify.robot.events import Decision, MapDart, Robot
 from topo_verify.robot.percept import Percept
 
 basic = CATALOGUE["basic"]
@@ -47,8 +47,8 @@ tries_the_newest_first = Fault(
 
 
 class _OtherTree(Pilot):
-    def walk(self, chart: Chart, at: Dart, v: int) -> Dart:
-        way: list[Dart] = []
+    def walk(self, chart: Chart, at: MapDart, v: int) -> MapDart:
+        way: list[MapDart] = []
         parent = chart.tree(chart.vertex[at]).parent
         while (up := parent[v]) is not None:
             way.append(chart.across(up))
@@ -129,7 +129,9 @@ traces_every_sequence_again = Fault(
 
 
 class _NeverDropped(RecordsRule):
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         kept = dict(self.records)
         super().learn(chart, e, entry, sequences)
         self.records = kept | self.records

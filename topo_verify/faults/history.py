@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.faults.fault import Fault, mapper, one_late
-from topo_verify.robot.events import Evidence
+from topo_verify.robot.events import Evidence, MapDart
 
 
 class _ThroughTheUnexplored(HistoryRule):
@@ -58,7 +58,7 @@ traces_from_the_first_dart = Fault(
 
 class _NothingThere(HistoryRule):
     def beyond(
-        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+        self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
         seen = sequence.percepts[step]  # stands for what S would show
         return Refutation("history", Evidence(step, seen, seen, number, exit_dart))
@@ -82,7 +82,9 @@ class _OfTheEdgeBefore(HistoryRule):
     ) -> Refutation | None:
         return super().refute(chart, hypothesis, [*self.before, *sequences])
 
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         self.before = list(sequences)  # these started at another vu
 
 

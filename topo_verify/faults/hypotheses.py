@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from topo_verify.algorithms.basic import NoRule
-from topo_verify.algorithms.chart import Chart, Dart, Tree
+from topo_verify.algorithms.chart import Chart, Tree
 from topo_verify.algorithms.exploration import hypotheses
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.algorithms.planar import PlanarRule
 from topo_verify.algorithms.policies import Order, shortest
 from topo_verify.faults.fault import Fault, ForwardingRobot, crossed, mapper
-from topo_verify.robot.events import Robot
+from topo_verify.robot.events import MapDart, Robot
 from topo_verify.robot.percept import Percept
 
 
@@ -60,7 +60,7 @@ leaves_out_the_darts_of_v0 = Fault(
 
 
 class _StaysOpen(Chart):
-    def join(self, e: Dart, other: Dart) -> None:
+    def join(self, e: MapDart, other: MapDart) -> None:
         super().join(e, other)
         # Only if it led to an older vertex: else the edge to a new vertex would be posed again.
         if self.vertex[other] < len(self.first) - 1:
@@ -100,7 +100,7 @@ class _CoarseSight(ForwardingRobot):
 
 
 class _CoarseChart(Chart):
-    def add_vertex(self, percept: Percept) -> Dart:
+    def add_vertex(self, percept: Percept) -> MapDart:
         first = super().add_vertex(percept)
         self.percepts[first:] = [_Coarse(p.degree, p.marker) for p in self.percepts[first:]]
         return first
@@ -120,7 +120,7 @@ compares_degrees_modulo_3 = Fault(
 
 
 # `order` is asked for all of H at once, so a policy can drop hypotheses unseen.
-def _nearest_two(darts: Iterable[Dart], chart: Chart, tree: Tree) -> list[Dart]:
+def _nearest_two(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
     return shortest(darts, chart, tree)[:2]
 
 
@@ -137,7 +137,7 @@ class _ByElimination(NoRule):
     def __init__(self) -> None:
         self.rejected = 0
 
-    def arrive(self, chart: Chart, e: Dart, percept: Percept) -> None:
+    def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         self.rejected = 0
 
     def observe(self, sequence: Executed) -> None:

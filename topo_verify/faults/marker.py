@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import execute
 from topo_verify.algorithms.motion import Hypothesis, Pilot, overlap
 from topo_verify.faults.fault import Fault, mapper
+from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Percept
 
 
 class _Mirrored(Chart):
-    def add_vertex(self, percept: Percept) -> Dart:
+    def add_vertex(self, percept: Percept) -> MapDart:
         first = super().add_vertex(percept)
         if percept.marker is not None:
             # v0's darts are 0 … degree-1. The reference subtracts the turn, and this adds it.

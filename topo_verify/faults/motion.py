@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 
-from topo_verify.algorithms.chart import Chart, Dart, Tree
+from topo_verify.algorithms.chart import Chart, Tree
 from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, Pilot, overlap
 from topo_verify.faults.fault import Fault, crossed, mapper
+from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door, Percept
 
 
@@ -88,7 +89,7 @@ retraces_one_edge_short = Fault(
 )
 
 
-def _as_it_came_in(pilot: Pilot, chart: Chart, entry: Dart) -> Dart:
+def _as_it_came_in(pilot: Pilot, chart: Chart, entry: MapDart) -> MapDart:
     pilot.back(0)
     return entry
 
@@ -120,7 +121,7 @@ counts_doors_from_dart_0 = Fault(
 
 
 class _OverTheEdge(Hypothesis):
-    def __init__(self, dart: Dart, chart: Chart, tree: Tree) -> None:
+    def __init__(self, dart: MapDart, chart: Chart, tree: Tree) -> None:
         super().__init__(dart, chart, tree)
         way = Hypothesis(crossed(chart), chart, tree)
         # Door 0 at vu leads back over e, and the tree leads home from there.
@@ -139,7 +140,7 @@ walks_home_over_e_itself = Fault(
 
 class _WithoutTheLastDoor(Hypothesis):
     @cached_property
-    def arrivals(self) -> tuple[Dart, ...]:
+    def arrivals(self) -> tuple[MapDart, ...]:
         way = super().arrivals
         return way[:-1] if len(way) > 2 else way  # a single door stays, or none is left
 

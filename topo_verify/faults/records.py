@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.faults.fault import Fault, mapper, one_late
+from topo_verify.robot.events import MapDart
 
 
 class _LoopsFromDart0(RecordsRule):
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         super().learn(chart, e, entry, ())  # drops T[e] and T[h], as the reference does
         super().learn(chart, e, chart.first[chart.vertex[entry]], sequences)
 
@@ -28,7 +31,9 @@ records_a_loop_from_dart_0 = Fault(
 
 
 class _FromTheOtherEnd(RecordsRule):
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         super().learn(chart, entry, e, sequences)
 
 
@@ -49,18 +54,20 @@ class _ByDoor(RecordsRule):
         return super().refute(chart, hypothesis, sequences)
 
     def beyond(
-        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+        self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
         return super().beyond(self._door(exit_dart), sequence, step, number)
 
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         self.chart = chart
         super().learn(chart, e, entry, sequences)
 
-    def _record(self, exit_dart: Dart, sequence: Executed, step: int) -> None:
+    def _record(self, exit_dart: MapDart, sequence: Executed, step: int) -> None:
         super()._record(self._door(exit_dart), sequence, step)
 
-    def _door(self, dart: Dart) -> int:
+    def _door(self, dart: MapDart) -> int:
         return dart - self.chart.first[self.chart.vertex[dart]]  # not unique on S
 
 
@@ -94,7 +101,7 @@ keeps_records_of_the_rejected = Fault(
 
 class _OneStepLate(RecordsRule):
     def beyond(
-        self, exit_dart: Dart, sequence: Executed, step: int, number: int
+        self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
         return super().beyond(exit_dart, one_late([sequence])[0], step, number)
 

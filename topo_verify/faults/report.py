@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.algorithms.basic import NoRule
-from topo_verify.algorithms.chart import Chart, Dart, Survey
+from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.motion import Executed, Pilot
 from topo_verify.faults.fault import Fault, mapper
-from topo_verify.robot.events import Robot
+from topo_verify.robot.events import MapDart, Robot
 
 basic = CATALOGUE["basic"]
 
@@ -117,7 +117,9 @@ counts_the_start_as_a_move = Fault(
 
 
 class _TwoDartsLeft(NoRule):
-    def learn(self, chart: Chart, e: Dart, entry: Dart, sequences: Sequence[Executed]) -> None:
+    def learn(
+        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
+    ) -> None:
         # The last two open darts may also be the ends of two edges to vertices not yet seen.
         if len(chart.unexplored) == 2:
             chart.join(*chart.unexplored)

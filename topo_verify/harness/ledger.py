@@ -27,7 +27,7 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.search.identity import source_hash
 from topo_verify.harness.search.plan import SHARD, Plan, Shard
 from topo_verify.harness.tally import Tally
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 
 FORMAT = "topo-verify/ledger"
 VERSION = 1

@@ -25,7 +25,7 @@ from topo_verify.algorithms import Algorithm
 from topo_verify.checkers import Finding, Status, check
 from topo_verify.errors import ClaimFailed, InputError
 from topo_verify.harness.targets import one_target
-from topo_verify.programs.loading import Mapper, Target
+from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import PREFIX, Program
 from topo_verify.robot.events import (
     Confirm,

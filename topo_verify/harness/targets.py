@@ -21,7 +21,7 @@ from pathlib import Path
 
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.errors import InputError
-from topo_verify.programs.loading import Mapper, Target, load
+from topo_verify.programs.loader import Mapper, Target, load
 from topo_verify.programs.program import PREFIX, Program, split
 
 

@@ -29,7 +29,7 @@ import msgspec
 from topo_verify.errors import InputError
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import AHEAD, GRACE, Child, Ended, ReaperProcess, TooLong
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.events import MapData
 from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded, helped_by
 from topo_verify.robot.simulator import Misuse, SimulatedRobot

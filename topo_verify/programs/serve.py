@@ -21,7 +21,7 @@ import msgspec
 
 from topo_verify.errors import InputError
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.loading import Mapper, load
+from topo_verify.programs.loader import Mapper, load
 from topo_verify.robot.events import Decision, MapData
 from topo_verify.robot.percept import Door, Percept, Purpose
 from topo_verify.robot.simulator import SimulatedRobot

@@ -14,7 +14,7 @@ from topo_verify.harness.baseline.file import Baseline
 from topo_verify.harness.baseline.record import record
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.harness.targets import one_target
-from topo_verify.programs.loading import Mapper
+from topo_verify.programs.loader import Mapper
 from topo_verify.robot.limits import Limits
 
 WORLDS = ("edges<=3", "m9/67076232", "m13/15648481438039", "nyc")

@@ -11,17 +11,17 @@ import msgspec
 import pytest
 
 from topo_verify import CATALOGUE, Robot
-from topo_verify.harness.baseline.record import (  # pyright: ignore[reportPrivateUsage]
+from topo_verify.harness.baseline.record import (
     MAX_TIMEOUTS,
     Recorded,
-    _decisions,
+    _decisions,  # pyright: ignore[reportPrivateUsage]
     record,
     replay_command,
     runs,
 )
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.harness.targets import one_target
-from topo_verify.programs.loading import Mapper
+from topo_verify.programs.loader import Mapper
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Augment, Confirm, Decision, Evidence, Move, Pose, Reject
 from topo_verify.robot.limits import Limits

@@ -11,7 +11,7 @@ from topo_verify.algorithms.policies import ORDERS, PICKS
 from topo_verify.harness.search.choices import SEEDS, Script, examinations
 from topo_verify.harness.search.exhaustive import search
 from topo_verify.harness.search.plan import Choices, Plan
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Pose
 from topo_verify.world.enumeration import rank_order
 

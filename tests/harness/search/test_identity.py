@@ -9,7 +9,7 @@ import pytest
 
 from topo_verify.harness.search.identity import source_hash
 from topo_verify.harness.targets import targets
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ from topo_verify.harness.search import plan as planning
 from topo_verify.harness.search.exhaustive import Search, search
 from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.tally import KEPT_FINDINGS, KEPT_RUNS, KEPT_WORLDS, Tally
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 

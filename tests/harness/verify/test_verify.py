@@ -15,7 +15,7 @@ from topo_verify.harness.verify.counts import Counts
 from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import MAX_TIMEOUTS, Trials
 from topo_verify.harness.verify.verify import verify
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
 

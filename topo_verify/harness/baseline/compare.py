@@ -36,7 +36,7 @@ from topo_verify.harness.baseline.file import Baseline, BaselineEntry, world_of
 from topo_verify.harness.baseline.record import MAX_TIMEOUTS, Recorded, replay_command, runs
 from topo_verify.harness.corpus import NETWORKS
 from topo_verify.harness.progress import Progress
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.world.rooted_map import World
 
 ChangeKind = Literal[

@@ -29,7 +29,7 @@ from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import Exploration, Report, explore, judge, replay_line
 from topo_verify.harness.run import undecided as is_undecided
 from topo_verify.harness.targets import target_arguments
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject
 from topo_verify.robot.limits import Limits

@@ -32,7 +32,7 @@ from topo_verify.harness.corpus import Named
 from topo_verify.harness.run import explore, judge
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import GRACE, Child, Ended, ReaperProcess, Silent, TooLong
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.programs.program import (
     PREFIX,
     DeliveredMap,

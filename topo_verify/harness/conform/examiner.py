@@ -15,7 +15,7 @@ from topo_verify.harness.conform.outcome import ConformJob, WorldResult, world_r
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.run import Exploration, explore, judge
 from topo_verify.harness.targets import one_target
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program, TranscriptLine
 from topo_verify.robot.events import write_trace
 from topo_verify.world.formats import files

@@ -22,7 +22,7 @@ from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import explore
 from topo_verify.harness.search.exhaustive import Size, search
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Augment, Decision, Robot
 from topo_verify.robot.limits import Limits
 from topo_verify.world.rooted_map import World

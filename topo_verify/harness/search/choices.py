@@ -26,15 +26,15 @@ from itertools import product
 import msgspec
 
 from topo_verify.algorithms import Algorithm, exploration
-from topo_verify.algorithms.chart import Chart, Dart, Survey, Tree
+from topo_verify.algorithms.chart import Chart, Survey, Tree
 from topo_verify.algorithms.motion import retrace
 from topo_verify.algorithms.policies import ORDERS, PICKS
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
 from topo_verify.harness.run import Exploration, Report, explore, judge
 from topo_verify.harness.search.plan import Plan
-from topo_verify.programs.loading import Target
-from topo_verify.robot.events import Confirm, Pose, Robot, Trace
+from topo_verify.programs.loader import Target
+from topo_verify.robot.events import Confirm, MapDart, Pose, Robot, Trace
 from topo_verify.robot.limits import Limits
 from topo_verify.world.rooted_map import World
 
@@ -118,7 +118,7 @@ class Script:
         self._taken: list[int] = []
         self._ways: list[int] = []
         self._next = 0
-        self._orders: list[tuple[int, list[Dart]]] = []  # where each H begins, and its order
+        self._orders: list[tuple[int, list[MapDart]]] = []  # where each H begins, and its order
         self.words: list[str] = []
 
     def choose(self, ways: int) -> int:
@@ -156,14 +156,14 @@ class Script:
         self.words = []
         return bool(self._taken)
 
-    def pick(self, chart: Chart, _at: Dart) -> Dart:
+    def pick(self, chart: Chart, _at: MapDart) -> MapDart:
         """A pick policy that takes the dart that the script says."""
         row = list(chart.unexplored)
         e = row[self.choose(len(row))]
         self.words.append(f"e = {e}")
         return e
 
-    def order(self, darts: Iterable[Dart], _chart: Chart, _tree: Tree) -> list[Dart]:
+    def order(self, darts: Iterable[MapDart], _chart: Chart, _tree: Tree) -> list[MapDart]:
         """An order policy that takes the order that the script says."""
         left, begin = sorted(darts), self._next
         row = [left.pop(self.choose(len(left))) for _ in range(len(left))]

@@ -29,7 +29,7 @@ from topo_verify.harness.search.plan import Choices, Plan, Shard
 from topo_verify.harness.search.shard import Interrupted, examine_shard
 from topo_verify.harness.tally import CostTotals, Failing, Failure, Tally
 from topo_verify.harness.targets import one_target, targets
-from topo_verify.programs.loading import Mapper, Target
+from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.classes import WorldClass

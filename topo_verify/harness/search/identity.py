@@ -19,7 +19,7 @@ from pathlib import Path
 from topo_verify import errors
 from topo_verify.algorithms import Algorithm
 from topo_verify.harness.targets import fingerprint
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
 
 _PACKAGE = Path(errors.__file__).resolve().parent

@@ -22,7 +22,7 @@ from topo_verify.harness.search.shard import examine_shard
 from topo_verify.harness.tally import Failing, Failure, Tally
 from topo_verify.harness.targets import targets
 from topo_verify.harness.worker import Beat, Handler
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.pruned import ranked_tables
 

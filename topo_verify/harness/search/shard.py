@@ -10,7 +10,7 @@ from topo_verify.harness.search.choices import examinations
 from topo_verify.harness.search.plan import Plan, Shard
 from topo_verify.harness.tally import Tallier, Tally
 from topo_verify.harness.worker import Beat
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.world.enumeration.pruned import ranked_tables
 from topo_verify.world.rooted_map import World
 

@@ -22,7 +22,7 @@ from topo_verify.harness.corpus import corpus_from
 from topo_verify.harness.run import Exploration, Report, undecided
 from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import Trials
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import shown
 

@@ -15,7 +15,7 @@ from topo_verify.harness.search.exhaustive import Search, SearchResult
 from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import MAX_TIMEOUTS, claims_in_words, part_claims
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 

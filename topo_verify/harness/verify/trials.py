@@ -20,7 +20,7 @@ from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import Exploration, Report, explore, judge
 from topo_verify.harness.tally import KEPT_FINDINGS, KEPT_RUNS, RunCounts
 from topo_verify.harness.verify.parts import MapperCost, Part
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.rooted_map import World

@@ -26,7 +26,7 @@ from topo_verify.harness.verify.parts import Part, PartJob
 from topo_verify.harness.verify.proofs import Proofs
 from topo_verify.harness.verify.small_worlds import SmallWorlds
 from topo_verify.harness.verify.trials import MAX_TIMEOUTS, CostTrial, Trials
-from topo_verify.programs.loading import Target
+from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.resolve import resolve_world

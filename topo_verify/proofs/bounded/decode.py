@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from topo_verify.algorithms.chart import Dart
 from topo_verify.proofs.bounded.cnf import CnfRow
 from topo_verify.proofs.bounded.encoding import EncodedMap, Worlds
 from topo_verify.proofs.bounded.solve import Assignment
 from topo_verify.proofs.bounded.word_rules import EncodedCounterexample
+from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door
 from topo_verify.world.enumeration.rank_order import Table
 from topo_verify.world.rooted_map import World
@@ -20,11 +20,11 @@ DoorWord = tuple[Door, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Excursion:
+class EarlierExcursion:
     """An earlier excursion: the explored edges before it, the dart crossed, the doors behind it."""
 
-    explored: frozenset[tuple[Dart, Dart]]
-    e: Dart
+    explored: frozenset[tuple[MapDart, MapDart]]
+    e: MapDart
     word: DoorWord
 
 
@@ -43,13 +43,13 @@ class BoundedCounterexample:
     """
 
     world: World
-    explored: frozenset[tuple[Dart, Dart]]
-    e: Dart
-    h: Dart
+    explored: frozenset[tuple[MapDart, MapDart]]
+    e: MapDart
+    h: MapDart
     word: DoorWord
     own: DoorWord
     turned: Door | None = None
-    earlier: Excursion | None = None
+    earlier: EarlierExcursion | None = None
     levels: int | None = None
 
 
@@ -96,7 +96,7 @@ def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCountere
         turned=None if encoded.turned is None else model.index(encoded.turned),
         earlier=None
         if behind is None
-        else Excursion(
+        else EarlierExcursion(
             _edges(world, behind.chart, model),
             model.index(behind.e),
             _word(behind.executed, model),
@@ -109,5 +109,7 @@ def _word(rows: tuple[CnfRow, ...], model: Assignment) -> DoorWord:
     return tuple(model.index(row) for row in rows)
 
 
-def _edges(world: World, chart: EncodedMap, model: Assignment) -> frozenset[tuple[Dart, Dart]]:
+def _edges(
+    world: World, chart: EncodedMap, model: Assignment
+) -> frozenset[tuple[MapDart, MapDart]]:
     return frozenset(edge for edge in world.edges if model.holds(chart.explored[edge[0]]))

@@ -19,11 +19,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.motion import Pilot, common_prefix
 from topo_verify.checkers import check
 from topo_verify.errors import InternalError
-from topo_verify.proofs.bounded.decode import BoundedCounterexample, DoorWord, Excursion
+from topo_verify.proofs.bounded.decode import BoundedCounterexample, DoorWord, EarlierExcursion
 from topo_verify.proofs.bounded.encoding import MarkerDetail
 from topo_verify.proofs.bounded.walks import RuleFault
 from topo_verify.robot.events import (
@@ -31,6 +31,7 @@ from topo_verify.robot.events import (
     Confirm,
     Decision,
     Evidence,
+    MapDart,
     Move,
     Pose,
     Reject,
@@ -126,7 +127,7 @@ def _compared(
     return _along(run, way or _way(run.chart, found.h, found.word), fault)
 
 
-def _along(run: _Replayer, way: list[Dart], fault: RuleFault) -> PerceptPairs:
+def _along(run: _Replayer, way: list[MapDart], fault: RuleFault) -> PerceptPairs:
     """The percepts along a way, one for one; with the fault `shifted` one later."""
     later = int(fault == "shifted")
     for step, (at, seen) in enumerate(zip(way, run.pilot.percepts[later:], strict=False)):
@@ -157,7 +158,7 @@ def _records(run: _Replayer, found: BoundedCounterexample) -> PerceptPairs:
         yield step + level, run.recorded_percepts[place + level], run.pilot.percepts[step + level]
 
 
-def _way(chart: Chart, at: Dart, word: DoorWord) -> list[Dart]:
+def _way(chart: Chart, at: MapDart, word: DoorWord) -> list[MapDart]:
     """The reference darts on a way over explored darts, the first included."""
     way = [at]
     for door in word:
@@ -165,7 +166,7 @@ def _way(chart: Chart, at: Dart, word: DoorWord) -> list[Dart]:
     return way
 
 
-def _traced(chart: Chart, at: Dart, word: DoorWord, fault: RuleFault = "") -> list[Dart]:
+def _traced(chart: Chart, at: MapDart, word: DoorWord, fault: RuleFault = "") -> list[MapDart]:
     """The reference darts while a word is traced, until it crosses an unexplored dart."""
     way = [at]
     for door in word:
@@ -200,15 +201,15 @@ class _Replayer:
         self.robot = SimulatedRobot(found.world, 10_000)
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
-        self.at: Dart = 0
+        self.at: MapDart = 0
         # The dart under which records are kept, and the index of its first percept.
-        self.recorded: tuple[Dart, int] | None = None
+        self.recorded: tuple[MapDart, int] | None = None
         self.recorded_percepts: tuple[Percept, ...] = ()
         if found.earlier is not None:
             self._learn(found.earlier, fault)
         self._draw(found.explored)
 
-    def cross(self, e: Dart, marker: MarkerDetail = "undirected") -> None:
+    def cross(self, e: MapDart, marker: MarkerDetail = "undirected") -> None:
         """Walk to e, cross it, and pose the hypotheses that look like the vertex behind it."""
         del self.chart.unexplored[e]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
@@ -242,7 +243,7 @@ class _Replayer:
         moves = tuple(move.door for move in trace if isinstance(move, Move))
         return ReplayedCounterexample(self.world, moves, event, claim)
 
-    def _draw(self, explored: frozenset[tuple[Dart, Dart]]) -> None:
+    def _draw(self, explored: frozenset[tuple[MapDart, MapDart]]) -> None:
         """Explore these edges: first those that find vertices, in their order, then the others."""
         # First the edges by which vertices are found, or others would find them with other numbers.
         firsts = {rotation[0] for rotation in self.world.vertices[1:]}
@@ -251,7 +252,7 @@ class _Replayer:
                 self.cross(e)
                 self._augment(e, end)
 
-    def _augment(self, e: Dart, end: Dart) -> None:
+    def _augment(self, e: MapDart, end: MapDart) -> None:
         """Go back behind e and join it with its end, a new vertex if S does not know it."""
         self.pilot.back(0)
         percept = self.robot.percept
@@ -262,7 +263,7 @@ class _Replayer:
         self.robot.declare(Augment(e, "new" if new else "loop", end, percept.degree))
         self.at = self.chart.turn(end, self.pilot.turned)
 
-    def _learn(self, behind: Excursion, fault: RuleFault) -> None:
+    def _learn(self, behind: EarlierExcursion, fault: RuleFault) -> None:
         """Draw the earlier map, execute the word behind its dart, trace it again from there."""
         self._draw(behind.explored)
         self.cross(behind.e)

@@ -17,13 +17,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from topo_verify.algorithms.chart import Chart, Dart, Tree
+from topo_verify.algorithms.chart import Chart, Tree
 from topo_verify.algorithms.motion import Hypothesis
 from topo_verify.proofs.first_order.rules import RULES
 from topo_verify.proofs.first_order.run_structure import RecordTrie, structure
 from topo_verify.proofs.first_order.structures import Structure
 from topo_verify.proofs.first_order.terms import Term
-from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject, Start
+from topo_verify.robot.events import Augment, Confirm, Event, MapDart, Move, Pose, Reject, Start
 from topo_verify.robot.percept import Door, Percept
 
 
@@ -31,7 +31,7 @@ from topo_verify.robot.percept import Door, Percept
 class RuleRejection:
     """The rejection of a hypothesis by a rule at a step of the executed sequence."""
 
-    hypothesis: Dart
+    hypothesis: MapDart
     rule: str
     step: int
 
@@ -52,7 +52,7 @@ class DescribedRule:
     terms: Mapping[str, Term] = field(default_factory=lambda: RULES)
     trie: RecordTrie = field(default_factory=RecordTrie)
 
-    def posed(self, chart: Chart, e: Dart, seen: Percept) -> set[Dart]:
+    def posed(self, chart: Chart, e: MapDart, seen: Percept) -> set[MapDart]:
         """The hypotheses for e, behind which this percept was sensed."""
         place = structure(chart, [seen], self.trie)
         open_darts = [d for d in range(len(chart.alpha)) if chart.alpha[d] is None]
@@ -94,7 +94,7 @@ class DescribedRule:
                 return None
         return None
 
-    def _traced(self, place: Structure, at: Dart, doors: Sequence[Door]) -> RuleRejection | None:
+    def _traced(self, place: Structure, at: MapDart, doors: Sequence[Door]) -> RuleRejection | None:
         hypothesis, functions = at, place.functions
         node: int | None = None  # of the trie, once tracing has left S through a dart with a record
         depth = 0
@@ -121,7 +121,11 @@ class DescribedRule:
         return None
 
     def learn(
-        self, chart: Chart, e: Dart, entry: Dart, words: Iterable[tuple[list[Door], list[Percept]]]
+        self,
+        chart: Chart,
+        e: MapDart,
+        entry: MapDart,
+        words: Iterable[tuple[list[Door], list[Percept]]],
     ) -> None:
         """Write the records of one edge, whose entry dart is now known."""
         if self.rule != "records":
@@ -132,7 +136,7 @@ class DescribedRule:
         for doors, seen in words:
             self._write(chart, entry, doors, seen)
 
-    def _write(self, chart: Chart, at: Dart, doors: list[Door], seen: list[Percept]) -> None:
+    def _write(self, chart: Chart, at: MapDart, doors: list[Door], seen: list[Percept]) -> None:
         node: int | None = None
         left = self.levels
         for step, door in enumerate(doors, 1):
@@ -177,7 +181,7 @@ class TraceReader:
             self.seen.append(move.percept)
             self.turned = 0
 
-    def augment(self, event: Augment) -> Dart:
+    def augment(self, event: Augment) -> MapDart:
         """Let S grow, and return the entry dart."""
         if event.kind == "loop":
             self.chart.join(event.edge, event.dart)
@@ -199,7 +203,7 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
     reading = TraceReader(start.percept)
     words: list[tuple[list[Door], list[Percept]]] = []
     expected: list[RuleRejection] = []
-    remaining: list[Dart] = []
+    remaining: list[MapDart] = []
     tree = reading.chart.tree(0)
     for when, event in enumerate(trace):
         match event:
@@ -242,7 +246,7 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
 
 
 def _sifted(
-    described: DescribedRule, reading: TraceReader, remaining: Iterable[Dart], tree: Tree
+    described: DescribedRule, reading: TraceReader, remaining: Iterable[MapDart], tree: Tree
 ) -> Iterator[RuleRejection]:
     place = structure(reading.chart, reading.seen, described.trie)
     for dart in remaining:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.proofs.first_order.structures import Function, Structure, Value
+from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door, Percept
 
 NO_DOOR = -1
@@ -22,7 +23,7 @@ class RecordTrie:
     def __init__(self) -> None:
         self.percepts: list[Percept] = []
         self.behind: list[dict[Door, int]] = []
-        self.records: dict[Dart, int] = {}
+        self.records: dict[MapDart, int] = {}
 
     def node(self, percept: Percept) -> int:
         """Add a node for this percept, and return its number."""

@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Collection
 from functools import cached_property
 
-from topo_verify.algorithms.chart import Chart, Dart
+from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.motion import Hypothesis, Pilot
 from topo_verify.errors import InternalError
 from topo_verify.proofs.first_order.run_structure import RecordTrie, structure
 from topo_verify.proofs.first_order.scenes import Scene
 from topo_verify.proofs.first_order.terms import Term
-from topo_verify.robot.events import Move
+from topo_verify.robot.events import MapDart, Move
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.robot.simulator import SimulatedRobot
 
@@ -37,12 +37,12 @@ class SceneReplay:
         self.robot = SimulatedRobot(scene.world, MOVES)
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
-        self.at: Dart = 0
+        self.at: MapDart = 0
         self.trie = RecordTrie()
         left_out = {scene.constants[name] for name in without}
         # Both darts of an edge are left out, whichever of them is named.
         left_out |= {self._other(x) for x in left_out}
-        self.number: dict[int, Dart] = {}
+        self.number: dict[int, MapDart] = {}
         """For each dart of the scene's S, its number on the chart."""
         self._enter(self._at_place(scene.world.root), 0)
         self._draw(left_out)
@@ -56,7 +56,7 @@ class SceneReplay:
     def _other(self, x: int) -> int:
         return self._at_place(self.scene.world.alpha[self.scene.place[x]])
 
-    def _enter(self, x: int, first: Dart) -> None:
+    def _enter(self, x: int, first: MapDart) -> None:
         """Number the vertex of x, a dart of the scene's S, from dart `first` of the chart on."""
         world, degree = self.scene.world, self.chart.degree[self.chart.vertex[first]]
         dart = self.scene.place[x]
@@ -93,17 +93,17 @@ class SceneReplay:
             raise InternalError(f"S of {self.scene.world.id} differs from what the robot senses")
         return self.pilot.cross(self.chart, self.at, e)
 
-    def _join(self, x: int, other: Dart) -> None:
+    def _join(self, x: int, other: MapDart) -> None:
         self.chart.join(self.number[x], other)
         self.at = other
 
     # ------------------------------------------------------------ the moves of the mutant
 
-    def dart(self, name: str) -> Dart:
+    def dart(self, name: str) -> MapDart:
         """The number on the chart of a constant that is a dart of S."""
         return self.number[self.scene.constants[name]]
 
-    def first(self, dart: Dart) -> Dart:
+    def first(self, dart: MapDart) -> MapDart:
         """The first dart of a vertex."""
         return self.chart.first[self.chart.vertex[dart]]
 
