@@ -37,6 +37,7 @@ from typing import IO, Any, BinaryIO
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
 Beat = Callable[[int], None]
 """Called in the course of a task, before anything that may take long: (items finished so far)."""
@@ -135,7 +136,7 @@ class WorkerProcess:
         self.ready = False
         self.items: int = 0
         self._beats: int = 0
-        self._heard = monotonic()
+        self._since_beat = self._stopwatch()
         self._rest = b""
         self._grace = 0.0
         self._write(job)
@@ -148,7 +149,7 @@ class WorkerProcess:
 
     def start(self, task: object) -> None:
         """Hand it a task. It must be idle: a busy one would not read, and the pipe may fill up."""
-        self.items, self._heard = 0, monotonic()
+        self.items, self._since_beat = 0, self._stopwatch()
         self._write(task)
 
     def _write(self, data: object) -> None:
@@ -166,11 +167,17 @@ class WorkerProcess:
         return [msgspec.json.decode(line, type=WorkerMessage) for line in lines]
 
     def silence(self) -> float:
-        """For how many seconds it has written no heartbeat."""
+        """For how many seconds it has written no heartbeat.
+
+        Seconds in which it waits for a processor do not count: a busy machine hangs no worker.
+        """
         items, beats = self.heartbeat.read()
         if beats != self._beats:
-            self.items, self._beats, self._heard = items, beats, monotonic()
-        return monotonic() - self._heard
+            self.items, self._beats, self._since_beat = items, beats, self._stopwatch()
+        return self._since_beat.seconds()
+
+    def _stopwatch(self) -> Stopwatch:
+        return Stopwatch(lambda: tasks_of(self.process.pid))
 
     def dismiss(self, *, busy: bool) -> None:
         """Have it end: an idle worker leaves its context, a busy one gets SIGTERM."""
