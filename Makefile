@@ -17,7 +17,8 @@ INSTALLER ?= pip
 JUNIT ?=
 
 BIN := $(VENV)/bin
-PYTEST := $(BIN)/python -m pytest $(if $(JUNIT),--junitxml="$(JUNIT)")
+PYTEST := $(BIN)/python -m pytest
+report = $(if $(JUNIT),--junitxml="$(JUNIT)/$(1).xml")
 # Few long tests and many short ones: a worker that is done takes over half of another's tests.
 PARALLEL := --numprocesses=auto --dist=worksteal
 EVERY := -m 'slow or not slow'
@@ -40,7 +41,8 @@ verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
 
 test: $(VENV)/.dev
-	$(PYTEST) $(PARALLEL) --cov --cov-report=
+	$(PYTEST) $(PARALLEL) -m 'traced and not slow' --cov --cov-report= $(call report,traced)
+	$(PYTEST) $(PARALLEL) -m 'not (traced or coq or slow)' $(call report,test)
 	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
 	$(BIN)/coverage report --fail-under=100
 
@@ -50,7 +52,7 @@ nightly: $(VENV)/.dev
 # Coq itself comes from the distribution: apt install coq
 coq: $(VENV)/.dev
 	$(BIN)/topo-verify prove --kind mechanised
-	$(PYTEST) $(PARALLEL) $(EVERY) tests/proofs/mechanised tests/cli/test_certify_kernel.py
+	$(PYTEST) $(PARALLEL) $(EVERY) tests/proofs/mechanised tests/cli/test_certify_kernel.py $(call report,coq)
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .

@@ -49,6 +49,7 @@ def test_each_verdict_is_stated_in_a_file_of_its_own(
     assert "forall W, world W -> ~ replays W log" in Path("certificate_none_3.v").read_text()
 
 
+@pytest.mark.coq
 @needs_coq
 @pytest.mark.slow
 def test_each_verdict_is_accepted_by_coqc(results: Results) -> None:
@@ -56,6 +57,7 @@ def test_each_verdict_is_accepted_by_coqc(results: Results) -> None:
     assert [(one["accepted"], one["by"]) for one in found] == [(True, toolchain.version())] * 3
 
 
+@pytest.mark.coq
 @needs_coq
 @pytest.mark.slow
 def test_the_command_that_is_printed_checks_the_certificate(call: Call, folder: Path) -> None:
@@ -195,6 +197,7 @@ def test_decisions_that_are_refused_are_a_bug_of_ours(
     assert "the program refuses certificate_run.v: refused" in done.stderr
 
 
+@pytest.mark.coq
 @needs_coq
 @pytest.mark.slow
 def test_the_decisions_of_a_run_are_accepted_by_coqc(results: Results) -> None:

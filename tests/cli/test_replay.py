@@ -107,7 +107,7 @@ def test_options_that_mean_nothing_for_a_trace_are_refused(
             '{"type": "start", "world": "-", "percept": {"degree": 1, "marker": 0}}',
             "expected a world id",
         ),
-        ("no JSON at all", "no valid JSON"),
+        ("no JSON at all", "not valid JSON"),
         ("", "is empty"),
         ("[" * 100_000, "one JSON object"),
     ],
