@@ -22,11 +22,13 @@ report = $(if $(JUNIT),--junitxml="$(JUNIT)/$(1).xml")
 # Few long tests and many short ones: a worker that is done takes over half of another's tests.
 PARALLEL := --numprocesses=auto --dist=worksteal
 EVERY := -m 'slow or not slow'
+# Python keeps what it compiles, whatever the environment says: the tests start hundreds of processes.
+export PYTHONDONTWRITEBYTECODE :=
 
 # The build backend is looked up on PATH, hence the environment's own programs come first there.
 ifeq ($(INSTALLER),uv)
 CREATE := uv venv --quiet --allow-existing --python "$(PYTHON)" $(VENV)
-INSTALL := PATH="$(abspath $(BIN)):$$PATH" uv pip install --quiet --python $(BIN)/python
+INSTALL := PATH="$(abspath $(BIN)):$$PATH" uv pip install --quiet --compile-bytecode --python $(BIN)/python
 else
 CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
@@ -108,7 +110,7 @@ constraints: $(VENV)/.created
 oldest: $(VENV)/.created
 	$(INSTALL) uv
 	$(BIN)/uv venv --quiet --allow-existing --python $(BIN)/python .venv-oldest
-	$(BIN)/uv pip install --quiet --python .venv-oldest/bin/python --upgrade --resolution lowest-direct -e '.[dev]'
+	$(BIN)/uv pip install --quiet --compile-bytecode --python .venv-oldest/bin/python --upgrade --resolution lowest-direct -e '.[dev]'
 	.venv-oldest/bin/python -m pytest -W default $(PARALLEL)
 
 clean:

@@ -96,7 +96,7 @@ def test_the_digest_names_the_worlds_and_nothing_else() -> None:
         ("edges=5", "'edges<=N'"),
         ("generated:0", "'generated:N'"),
         ("generated", "'generated:N'"),
-        ("generated:5:no_worlds", "no strategy"),
+        ("generated:5:no_worlds", "no such strategy"),
         ("-", "name a file"),
         ("nowhere", "no such world"),
         ("m3/9999", "m3"),

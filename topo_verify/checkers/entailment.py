@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, assert_never
 
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.folding import Contradiction, Fold
@@ -148,6 +148,8 @@ def _doubt(on_fold: MapOnFold, event: Reject | Confirm | Augment, *, planar: boo
             return _may_be_apart(on_fold, e, KnownDart(h)) or _has_another_degree(
                 on_fold, KnownDart(h), degree
             )
+        case _:
+            assert_never(event)
 
 
 def _may_lead_to(
