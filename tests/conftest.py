@@ -11,6 +11,7 @@ took 2.6 times as long: coverage that is paused for a test still slows it down u
 """
 
 import os
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -29,6 +30,15 @@ TRACED = ("world", "robot", "checkers", "algorithms")
 
 TRACING = tuple(ROOT / folder / room for folder in ("tests", "topo_verify") for room in TRACED)
 """Where their tests are, doctests included."""
+
+NIGHTLY = re.compile(
+    r"test_growth\.py::test_every_world_within_the_bounds_grows_and_no_other\[.*-4\]"
+    r"|test_model_count\.py::test_the_models_are_exactly_the_canonical_codes\[4-706\]"
+    r"|test_encoding\.py::test_the_maps_are_exactly_those_that_an_exploration_can_draw\[3\]"
+    r"|test_check\.py::test_no_claim_fails_for_any_algorithm_on_any_world\[4\]"
+    r"|test_least_cost\.py::test_it_is_what_brute_force_finds\[3\]"
+)
+"""The largest sizes of statements whose smaller sizes are always run: `slow`."""
 
 settings.register_profile(
     "ci",
@@ -54,6 +64,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         inside = any(folder in item.path.parents for folder in TRACING)
         if inside and item.get_closest_marker("no_cover") is None:
             item.add_marker("traced")
+        if NIGHTLY.search(item.nodeid):
+            item.add_marker("slow")
         if "library" in getattr(item, "fixturenames", ()):  # tests/proofs/mechanised/conftest.py
             item.add_marker("coq")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -100,6 +101,7 @@ def test_what_is_executed_already_is_confirmed_without_motion() -> None:
     assert (confirm.hypothesis, reject.evidence.observed.marker) == (9, 1)
 
 
+@pytest.mark.no_cover
 def test_the_marker_direction_counts_where_the_whole_way_is_executed_already() -> None:
     # Overlap with no rule in between: what the direction excludes is rejected when it is looked at.
     for world in worlds(range(1, 5)):

@@ -121,6 +121,7 @@ CLASSES: dict[str, Callable[[World], bool]] = {
         (unmarked, {"any": "m2/3", "loopless": "m2/3", "simple": "m3/12"}),
     ],
 )
+@pytest.mark.no_cover
 def test_without_a_directed_marker_there_are_false_confirmations(
     mapper: Mapper, smallest: dict[str, str]
 ) -> None:

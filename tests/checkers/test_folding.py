@@ -25,6 +25,7 @@ def shows(world: World, history: Sequence[Event]) -> bool:
 
 
 @pytest.mark.parametrize("algorithm", ["basic", "enhancement-iii-all+i"])
+@pytest.mark.no_cover
 def test_the_whole_history_of_a_right_mapper_folds_to_the_world(algorithm: str) -> None:
     for world in worlds(range(1, 5)):
         fold, _ = fold_history(trace_of(world, algorithm))
@@ -102,6 +103,7 @@ def test_what_no_world_shows_contradicts(
     assert re.search(why, told)
 
 
+@pytest.mark.no_cover
 def test_an_assumption_leaves_no_trace() -> None:
     for world in worlds([3]):
         trace = trace_of(world)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -33,6 +34,7 @@ names = st.sampled_from(PAPER)
 
 @settings(max_examples=400)
 @given(case=doctored())
+@pytest.mark.no_cover
 def test_a_doctored_trace_gets_the_same_verdict_from_a_second_opinion(case: Doctored) -> None:
     assert failing(case.world, case.trace) & EIGHT == failing_claims(case.world, case.trace)
 
@@ -95,6 +97,7 @@ def test_any_other_map_is_caught_unless_it_is_isomorphic(
     head=starts,
     tail=finishes,
 )
+@pytest.mark.no_cover
 def test_nonsense_is_judged_and_never_crashes(
     world: World, events: list[Event], head: Start, tail: Finish
 ) -> None:

@@ -16,14 +16,24 @@ from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.rooted_map import World
 
 
-@cache
 def cost(world: World, name: str) -> int:
     return CATALOGUE[name](SimulatedRobot(world, world.cost_bound)).cost
 
 
+@cache
+def costs(name: str, edges: int) -> list[int]:
+    """The cost of one algorithm in each world of this size, in rank order."""
+    return [cost(world, name) for world in worlds(range(edges, edges + 1))]
+
+
 def dearer(name: str, than: str, edges: range) -> list[str]:
     """The worlds in which one algorithm costs more than another, smallest first."""
-    return [world.id for world in worlds(edges) if cost(world, name) > cost(world, than)]
+    return [
+        f"m{size}/{rank}"
+        for size in edges
+        for rank, pair in enumerate(zip(costs(name, size), costs(than, size), strict=True))
+        if pair[0] > pair[1]
+    ]
 
 
 @pytest.mark.parametrize(

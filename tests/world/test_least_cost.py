@@ -70,11 +70,13 @@ def place(fold: Fold, entries: list[tuple[int, int]], end: tuple[int, int]) -> t
 
 
 @pytest.mark.parametrize("edges", [1, 2, 3, pytest.param(4, marks=pytest.mark.slow)])
+@pytest.mark.no_cover
 def test_it_is_what_brute_force_finds(edges: int) -> None:
     for world in worlds([edges]):
         assert cheapest_proof(world, world.least_cost()) == world.least_cost(), world
 
 
+@pytest.mark.no_cover
 def test_no_run_costs_less() -> None:
     for world in worlds(range(5)):
         for name, algorithm in CATALOGUE.items():

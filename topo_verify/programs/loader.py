@@ -10,7 +10,9 @@ import importlib.util
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
+from types import CodeType
 from typing import cast
 
 from topo_verify.errors import InputError
@@ -67,20 +69,32 @@ def _load_module(name: str, text: str) -> object:
         raise InputError(f"target {text!r}: cannot import {name!r}: {_one_line(error)}") from error
 
 
+class _UncachedLoader(SourceFileLoader):
+    """Compiles the source each time, and writes no bytecode beside it.
+
+    Python takes bytecode for current if the source has the same second and size: a mapper that is
+    edited and run twice in a second would be the old one.
+    """
+
+    def get_code(self, fullname: str) -> CodeType:  # noqa: ARG002  given by the base class
+        """The code of the source as it is now."""
+        return self.source_to_code(self.get_data(self.path), self.path)
+
+
 def _load_file(path: Path, text: str) -> object:
     if not path.is_file():
         raise InputError(f"target {text!r}: there is no file {str(path)!r}")
     name = f"_topo_verify_target_{path.resolve().stem}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    assert spec is not None, "a name that ends in .py has a loader"
-    assert spec.loader is not None
+    loader = _UncachedLoader(name, str(path))
+    spec = importlib.util.spec_from_file_location(name, path, loader=loader)
+    assert spec is not None, "it has a loader"
     module = importlib.util.module_from_spec(spec)
     folder = str(path.resolve().parent)
     if folder not in sys.path:
         sys.path.insert(0, folder)  # so that the file can import modules beside it
     sys.modules[name] = module  # before it runs: dataclasses look their module up here
     try:
-        spec.loader.exec_module(module)
+        loader.exec_module(module)
     except (Exception, SystemExit) as error:
         raise InputError(f"target {text!r}: {str(path)!r} fails: {_one_line(error)}") from error
     return module

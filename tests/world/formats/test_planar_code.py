@@ -48,6 +48,7 @@ def test_nautys_solids_are_ours(graph: int, name: str) -> None:
     assert world.name == f"solids-{graph}"
 
 
+@pytest.mark.no_cover
 def test_nautys_grid_of_300_vertices_is_our_lattice() -> None:
     world = World.load(DATA / "grid_300.pc")
     lattice = families.lattice(15, 20, marker=0)
@@ -75,6 +76,7 @@ def test_every_small_simple_planar_world_comes_back(edges: int) -> None:
 
 
 @given(seed=st.integers(0, 99), holes=st.floats(0, 0.5), rows=st.integers(2, 20))
+@pytest.mark.no_cover
 def test_a_lattice_comes_back_with_its_marker(seed: int, holes: float, rows: int) -> None:
     world = families.lattice(rows, 20, holes=holes, seed=seed)
     data = planar_code.encode(world)

@@ -67,6 +67,7 @@ def doctored(**fields: Any) -> str:
 
 
 @given(world=dressed_worlds())
+@pytest.mark.no_cover
 def test_a_world_comes_back_with_all_that_it_carries(world: World) -> None:
     back = World.from_json(world.to_json())
     assert back == world
@@ -357,6 +358,7 @@ fields = st.sampled_from([*world_json.schema()["$defs"]["WorldFile"]["properties
 
 
 @given(changes=st.dictionaries(fields, json_values, max_size=3))
+@pytest.mark.no_cover
 def test_any_values_in_the_fields_give_a_world_or_one_sentence(changes: dict[str, Any]) -> None:
     read_or_refused(doctored(**changes))
 
