@@ -19,9 +19,8 @@ JUNIT ?=
 BIN := $(VENV)/bin
 PYTEST := $(BIN)/python -m pytest
 report = $(if $(JUNIT),--junitxml="$(JUNIT)/$(1).xml")
-# One worker more than processors, since some tests wait. Few tests are long and many are short: a
-# worker that is done takes over half of another's.
-PARALLEL := --numprocesses=$(shell expr $$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1) --dist=worksteal
+# Few tests are long and many are short: a worker that is done takes over half of another's.
+PARALLEL := --numprocesses=auto --dist=worksteal
 EVERY := -m 'slow or not slow'
 # Python keeps what it compiles, whatever the environment says: the tests start hundreds of processes.
 export PYTHONDONTWRITEBYTECODE :=

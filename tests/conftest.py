@@ -37,8 +37,12 @@ NIGHTLY = re.compile(
     r"|test_encoding\.py::test_the_maps_are_exactly_those_that_an_exploration_can_draw\[3\]"
     r"|test_check\.py::test_no_claim_fails_for_any_algorithm_on_any_world\[4\]"
     r"|test_least_cost\.py::test_it_is_what_brute_force_finds\[3\]"
+    r"|test_findings\.py::test_a_stronger_algorithm_may_cost_more\[.*-m5/177-.*\]"
+    r"|harness/verify/test_verify\.py::test_the_whole_campaign_exhausts_what_it_says"
+    r"|harness/verify/test_proofs\.py::test_all_that_is_quick_comes_out_as_it_must"
 )
-"""The largest sizes of statements whose smaller sizes are always run: `slow`."""
+"""The largest sizes of statements whose smaller sizes are always run, and whole campaigns whose
+parts are always run one by one (the theorems in tests/proofs): `slow`."""
 
 settings.register_profile(
     "ci",

@@ -48,7 +48,6 @@ def test_without_a_class_all_worlds_are_listed() -> None:
 
 
 @given(text=st.sampled_from(CLASSES), edges=st.integers(1, 5), data=st.data())
-@pytest.mark.no_cover
 def test_a_shard_is_the_stretch_of_the_list_with_these_ranks(
     text: str, edges: int, data: st.DataObject
 ) -> None:
