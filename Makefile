@@ -1,7 +1,7 @@
 # Every target does all the set-up that it needs; a second call finds it done.
 #
 #   make verify                     the main job: one report, under a minute
-#   make test                       the whole suite and the branch coverage of the trusted rooms
+#   make test                       the suite and the branch coverage of the trusted rooms
 #   make nightly                    every test, the slow ones too, with new examples each time
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
 #   make mutants                    the checkers with one thing changed: each must fail a test
