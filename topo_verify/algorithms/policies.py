@@ -57,12 +57,12 @@ def shortest(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart
 
 
 def oldest(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
-    """By dart, ascending."""
+    """Sort H by dart, ascending."""
     return sorted(darts)
 
 
 def newest(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
-    """By dart, descending."""
+    """Sort H by dart, descending."""
     return sorted(darts, reverse=True)
 
 

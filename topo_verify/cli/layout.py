@@ -34,7 +34,7 @@ STYLES = {
 
 @dataclass(frozen=True)
 class Text:
-    """A paragraph."""
+    """A paragraph of plain text."""
 
     text: str
 
@@ -56,7 +56,7 @@ class Bullets:
 
 @dataclass(frozen=True)
 class TextTable:
-    """Rows of cells.
+    """A table: rows of cells.
 
     Attributes:
         columns: the titles; a column whose title begins with `>` is flush right, for numbers.

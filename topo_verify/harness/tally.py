@@ -318,7 +318,7 @@ class _CostCounts:
     worst: list[int] = field(default_factory=list[int])
 
     def enter(self, rank: int, cost: int) -> None:
-        """Count one run."""
+        """Count one run of a mapper."""
         self.runs += 1
         self.total += cost
         if cost < self.most:

@@ -130,7 +130,7 @@ class Program:
         return Target(PREFIX + shlex.join(self.command), self)
 
     def __call__(self, robot: SimulatedRobot) -> DeliveredMap:
-        """Play one world.
+        """Play one world with the program.
 
         Raises:
             MapperStopped: the program misbehaved, or a limit struck.

@@ -34,7 +34,7 @@ QUICK: tuple[TheoremKind, ...] = ("inductive", "negative", "mutant")
 
 @cache
 def catalogue(edges: int | None = None) -> tuple[Theorem, ...]:
-    """All theorems.
+    """All theorems, in their order.
 
     Args:
         edges: the largest worlds that the bounded ones speak of; default: as large as is quick.

@@ -37,7 +37,7 @@ class ObservedRun(Protocol):
 
     @property
     def algorithm(self) -> str:
-        """The mapper's name."""
+        """The name of the mapper."""
         ...
 
     @property

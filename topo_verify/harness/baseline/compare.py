@@ -103,7 +103,7 @@ class Group(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """What has changed.
+    """What has changed since the baseline.
 
     Attributes:
         kinds: how many worlds are of each kind; together all of the baseline.
@@ -171,7 +171,7 @@ class _ChangeCounts:
     after: int = 0
 
     def enter(self, change: Change) -> None:
-        """Count one world."""
+        """Count the change in one world."""
         self.kinds[change.kind] += 1
         if change.before is not None and change.after is not None:
             self.before += change.before

@@ -48,7 +48,7 @@ _SUM = re.compile(rb'(.*),"sum":"([0-9a-f]{16})"\}\n', re.DOTALL)
 
 
 class Header(msgspec.Struct, frozen=True, kw_only=True):
-    """The first line.
+    """The first line of a baseline.
 
     Attributes:
         tool: the version of topo-verify that recorded it.

@@ -180,7 +180,7 @@ class BatchExaminer:
         return None
 
     def _take(self, child: Child, waiting: dict[str, int], done: dict[int, BatchAnswer]) -> None:
-        """Read one run."""
+        """Read one run from its line."""
         try:
             line = child.line(seconds=self.job.limits.world_timeout)
         except Silent:

@@ -111,7 +111,7 @@ class _LevelCounts:
     whys: list[str] = field(default_factory=list[str])
 
     def enter(self, made: WorldResult, level: Level) -> None:
-        """Count one world."""
+        """Count the outcome of one world."""
         self.states[made.states[level]] += 1
         found = made.findings.get(level, ())
         for kind in dict.fromkeys(one.kind for one in found):
@@ -140,7 +140,7 @@ class ConformTally:
         self.timeouts = self.tried = 0
 
     def enter(self, made: WorldResult) -> None:
-        """Count one world."""
+        """Count the outcome of one world."""
         self.tried += 1
         self.timeouts += made.timeout
         for level, counts in self.levels.items():

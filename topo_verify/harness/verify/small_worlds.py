@@ -39,7 +39,7 @@ class SmallWorlds:
         self.search = Search(plan, targets, workers=workers)
 
     def work(self, tell: Progress) -> None:
-        """Search the worlds."""
+        """Search every world of each size."""
         self.search.work(lambda _what, done, total: tell("small-worlds", done, total))
 
     def part(self, *, interrupted: bool = False) -> Part:

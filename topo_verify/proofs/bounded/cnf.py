@@ -42,7 +42,7 @@ class Formula:
     # ------------------------------------------------------------ adding clauses
 
     def boolean(self, name: str) -> CnfLiteral:
-        """A new Boolean."""
+        """A new Boolean of this name."""
         self.names.append(name)
         return len(self.names)
 

@@ -221,7 +221,7 @@ class _Replayer:
         self.robot.declare(Pose(e, tuple(alike)))
 
     def out(self, word: DoorWord) -> None:
-        """Take these doors."""
+        """Take these doors in the simulator."""
         for door in word:
             self.pilot.forward(door)
 

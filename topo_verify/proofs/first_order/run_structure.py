@@ -87,7 +87,7 @@ def _of_records(trie: RecordTrie) -> dict[str, Function]:
 
 
 def nullary(value: Value) -> Function:
-    """A constant."""
+    """A constant of the structure."""
     return lambda: value
 
 

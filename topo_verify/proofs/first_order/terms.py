@@ -72,7 +72,7 @@ class Forall:
 
     @property
     def sort(self) -> str:
-        """Always Bool."""
+        """The sort of a formula: Bool."""
         return BOOL
 
 
