@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from topo_verify.algorithms import CATALOGUE, Algorithm
     from topo_verify.checkers.certificate import Certificate, certify
     from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
-    from topo_verify.harness.run import Exploration, Report, assert_maps, examine, explore
+    from topo_verify.harness.judge import Report, assert_maps, examine
+    from topo_verify.harness.run import Exploration, explore
     from topo_verify.robot.events import Robot
     from topo_verify.robot.limits import Limits
     from topo_verify.robot.percept import Percept
@@ -56,7 +57,8 @@ _MODULES = {
     "robot.limits": ("Limits",),
     "robot.events": ("Robot",),
     "robot.percept": ("Percept",),
-    "harness.run": ("Exploration", "Report", "assert_maps", "examine", "explore"),
+    "harness.judge": ("Report", "assert_maps", "examine"),
+    "harness.run": ("Exploration", "explore"),
     "world": ("families",),
     "world.rooted_map": ("World",),
 }

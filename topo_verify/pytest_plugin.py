@@ -32,7 +32,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
-    from topo_verify.harness.run import Report
+    from topo_verify.harness.judge import Report
     from topo_verify.harness.verify.by_claim import ClaimResults
     from topo_verify.programs.loader import Mapper, Target
     from topo_verify.robot.simulator import SimulatedRobot
@@ -358,7 +358,7 @@ def topo_examine() -> Callable[..., Report]:
     """
 
     def examine(mapper: Mapper | str, world: World | str, **options: Any) -> Report:
-        from topo_verify.harness.run import examine
+        from topo_verify.harness.judge import examine
 
         if isinstance(world, str):
             options.setdefault("where", world)

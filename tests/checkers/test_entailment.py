@@ -17,7 +17,7 @@ from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.checkers import check, decision_conclusions, map_conclusion
 from topo_verify.faults import FAULTS
-from topo_verify.harness.run import Report
+from topo_verify.harness.judge import Report
 from topo_verify.robot.events import (
     Augment,
     Confirm,

@@ -11,7 +11,7 @@ import pytest
 
 from tests.harness.test_run import SHORT, WORLD, Unspeakable, delivers, why
 from topo_verify import CATALOGUE, examine, explore
-from topo_verify.harness.run import judge
+from topo_verify.harness.judge import judge
 from topo_verify.robot.simulator import SimulatedRobot
 
 VERTICES, EDGES = [[0, 1, 2], [3]], [[0, 2], [1, 3]]

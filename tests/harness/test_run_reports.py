@@ -26,7 +26,7 @@ from topo_verify import (
 )
 from topo_verify.algorithms import Policies
 from topo_verify.faults import FAULTS
-from topo_verify.harness.run import Report, judge, judge_trace, replay_line, world_argument
+from topo_verify.harness.judge import Report, judge, judge_trace, replay_line, world_argument
 from topo_verify.harness.targets import one_target
 from topo_verify.robot.simulator import SimulatedRobot
 

@@ -19,7 +19,7 @@ from tests.properties.statements import OF_ALL_WORLDS, STATEMENTS
 from tests.properties.worlds import STRATEGIES, runs
 from topo_verify import CATALOGUE, Exploration, World, explore
 from topo_verify.checkers import CLAIMS
-from topo_verify.harness.run import judge
+from topo_verify.harness.judge import judge
 from topo_verify.robot.events import (
     Augment,
     Confirm,

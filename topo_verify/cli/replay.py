@@ -18,7 +18,7 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import NamedWorld, finding_line, held, judged, named_world, silent
 from topo_verify.errors import InputError
-from topo_verify.harness.run import Report, judge_trace
+from topo_verify.harness.judge import Report, judge_trace
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import one_target, target_text
 from topo_verify.robot.events import Start, read_trace

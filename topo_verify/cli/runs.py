@@ -15,7 +15,8 @@ import msgspec
 from topo_verify.checkers import Finding
 from topo_verify.cli.layout import Block, Bullets, Command, Text
 from topo_verify.errors import InputError
-from topo_verify.harness.run import Exploration, Report, judge, replay_line, undecided
+from topo_verify.harness.judge import Report, judge, replay_line, undecided
+from topo_verify.harness.run import Exploration
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES

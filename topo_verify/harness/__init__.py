@@ -1,6 +1,7 @@
 """Runs a mapper in many worlds, judges each run, and tallies the results.
 
-run.py        the one way to run a mapper in a world, and to judge the run
+run.py        the one way to run a mapper in a world
+judge.py      the judgement of a run by every claim
 targets.py    what a TARGET means
 corpus.py     what WORLDS means
 tally.py      counts of runs judged in worlds, as values that add up

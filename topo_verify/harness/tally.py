@@ -20,7 +20,8 @@ from dataclasses import dataclass, field
 import msgspec
 
 from topo_verify.checkers import CLAIMS, Finding
-from topo_verify.harness.run import Exploration, Report, undecided
+from topo_verify.harness.judge import Report, undecided
+from topo_verify.harness.run import Exploration
 
 KEPT_RUNS, KEPT_FINDINGS = 3, 5
 """How many failing runs are kept, and how many findings of each."""

@@ -25,9 +25,10 @@ from topo_verify.algorithms import Algorithm
 from topo_verify.errors import InputError
 from topo_verify.harness.baseline.file import Baseline, BaselineEntry, Header
 from topo_verify.harness.corpus import Corpus
+from topo_verify.harness.judge import Report, judge, replay_line
+from topo_verify.harness.judge import undecided as is_undecided
 from topo_verify.harness.progress import Progress
-from topo_verify.harness.run import Exploration, Report, explore, judge, replay_line
-from topo_verify.harness.run import undecided as is_undecided
+from topo_verify.harness.run import Exploration, explore
 from topo_verify.harness.targets import target_arguments
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program

@@ -29,7 +29,8 @@ from topo_verify.errors import InputError
 from topo_verify.harness.conform.examiner import keep, reference
 from topo_verify.harness.conform.outcome import ConformJob, WorldResult, world_result
 from topo_verify.harness.corpus import Named
-from topo_verify.harness.run import explore, judge
+from topo_verify.harness.judge import judge
+from topo_verify.harness.run import explore
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import GRACE, Child, Ended, ReaperProcess, Silent, TooLong
 from topo_verify.programs.loader import Target

@@ -13,7 +13,8 @@ import msgspec
 
 from topo_verify.harness.conform.outcome import ConformJob, WorldResult, world_result
 from topo_verify.harness.corpus import Named
-from topo_verify.harness.run import Exploration, explore, judge
+from topo_verify.harness.judge import judge
+from topo_verify.harness.run import Exploration, explore
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program, TranscriptLine

@@ -21,7 +21,8 @@ import msgspec
 from topo_verify.checkers import Finding, Status
 from topo_verify.harness.conform.likeness import Difference, declares, first_difference
 from topo_verify.harness.corpus import Named
-from topo_verify.harness.run import Exploration, Report
+from topo_verify.harness.judge import Report
+from topo_verify.harness.run import Exploration
 from topo_verify.programs.program import Misbehaved
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits

@@ -31,7 +31,8 @@ from topo_verify.algorithms.motion import retrace
 from topo_verify.algorithms.policies import ORDERS, PICKS
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
-from topo_verify.harness.run import Exploration, Report, explore, judge
+from topo_verify.harness.judge import Report, judge
+from topo_verify.harness.run import Exploration, explore
 from topo_verify.harness.search.plan import Plan
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Confirm, MapDart, Pose, Robot, Trace

@@ -14,8 +14,8 @@ import msgspec
 
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
+from topo_verify.harness.judge import replay_line
 from topo_verify.harness.pool import Division, Loss, Work
-from topo_verify.harness.run import replay_line
 from topo_verify.harness.search.identity import source_hash
 from topo_verify.harness.search.plan import Plan, Shard
 from topo_verify.harness.search.shard import examine_shard

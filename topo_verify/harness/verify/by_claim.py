@@ -19,7 +19,8 @@ from typing import Literal
 
 from topo_verify.checkers import Finding
 from topo_verify.harness.corpus import corpus_from
-from topo_verify.harness.run import Exploration, Report, undecided
+from topo_verify.harness.judge import Report, undecided
+from topo_verify.harness.run import Exploration
 from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import Trials
 from topo_verify.programs.loader import Target

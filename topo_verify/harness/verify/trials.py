@@ -16,8 +16,9 @@ import msgspec
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.checkers.findings import Verdict
+from topo_verify.harness.judge import Report, judge
 from topo_verify.harness.progress import Progress
-from topo_verify.harness.run import Exploration, Report, explore, judge
+from topo_verify.harness.run import Exploration, explore
 from topo_verify.harness.tally import KEPT_FINDINGS, KEPT_RUNS, RunCounts
 from topo_verify.harness.verify.parts import MapperCost, Part
 from topo_verify.programs.loader import Target
