@@ -119,19 +119,20 @@ class PartialFold:
         """Make two darts one, and fold."""
         waiting = [(one, other)]
         while waiting:
-            (small, k), (large, n) = (self.resolve(place) for place in waiting.pop())
+            one, other = waiting.pop()
+            (small, k), (large, n) = self.resolve(one), self.resolve(other)
             if small == large:
                 if k != n:
                     return "a vertex would be itself, turned"
                 continue
             if self._size(small) > self._size(large):  # keeps every chain of leaders short
-                (small, k), (large, n) = (large, n), (small, k)
+                small, k, large, n = large, n, small, k
             if wrong := self._clash(small, large):
                 return wrong
-            doors = [*self._behind.get(small, {}).items(), *self.behind.get(small, {}).items()]
             self._merge(small, large, n - k)
-            for door, place in doors:
-                moved = self.resolve((small, door))
+            turned, degree = self.leader[small][1], self.percepts[small].degree
+            for door, place in self._edges(small):
+                moved = large, (door + turned) % degree
                 beyond = self._across(*moved)
                 if self.resolve(place) == moved:
                     return "a dart would be its own other end"
@@ -148,6 +149,11 @@ class PartialFold:
             return "two degrees, or the marker and its absence, at one place"
         both = self.is_known(small) and self.is_known(large)
         return "two vertices of S would be one" if both else ""
+
+    def _edges(self, node: int) -> list[tuple[Door, NodeDart]]:
+        """The doors of a node with something behind them, and the other ends."""
+        edges = [*self._behind[node].items()] if node in self._behind else []
+        return [*edges, *self.behind[node].items()] if node in self.behind else edges
 
     def _size(self, node: int) -> int:
         """How many nodes a leader stands for."""
