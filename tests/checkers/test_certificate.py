@@ -1,4 +1,4 @@
-"""A log judged by itself: proved, or refuted with two worlds that tell."""
+"""A log judged by itself: proved, incomplete with what is left to walk, or refuted."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from topo_verify.checkers import Fold
 from topo_verify.errors import InputError, InternalError
 from topo_verify.robot.events import Augment, Event, Finish, MapData, Move, Start, Trace
 from topo_verify.robot.percept import Percept
-from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.robot.simulator import SimulatedRobot, exit_dart, first_percept
 
 
 def plain(trace: Trace) -> list[Event]:
@@ -46,7 +46,9 @@ def test_a_log_that_stops_early_has_two_worlds_that_tell() -> None:
     assert certificate.map is None
     one, other = certificate.witnesses
     assert not one.is_isomorphic(other)
-    assert certificate.findings[0].claim == "map-entailed"
+    assert (certificate.verdict, certificate.findings) == ("UNKNOWN", ())
+    assert (certificate.vertices, certificate.edges) == (len(one.vertices), len(one.edges))
+    assert len(other.edges) == certificate.edges + certificate.open_darts
 
 
 def test_a_log_that_no_world_shows_names_its_line() -> None:
@@ -54,8 +56,9 @@ def test_a_log_that_no_world_shows_names_its_line() -> None:
     log[2] = Move(0, Percept(9, None))
     log.insert(3, Move(0, Percept(7, None)))
     certificate = certify(log)
-    assert certificate.map is None
+    assert (certificate.verdict, certificate.map, certificate.shown) == ("REFUTED", None, False)
     assert certificate.witnesses == ()
+    assert not list(certificate.open_doors())
     assert certificate.findings[0].event is not None
     assert "no world shows this history" in certificate.findings[0].message
 
@@ -98,7 +101,10 @@ def test_a_tampered_log_is_caught_or_certifies_a_world_that_shows_it(
         if shown is not None:
             robot = SimulatedRobot(shown, budget=len(log))
             assert all(not isinstance(e, Move) or robot.move(e.door) == e.percept for e in log)
-    assert certificate.findings or certificate.map is not None
+    expected = (
+        "REFUTED" if not certificate.shown else "UNKNOWN" if certificate.open_darts else "PROVED"
+    )
+    assert certificate.verdict == expected
 
 
 def test_a_fold_that_does_not_show_its_log_would_be_a_bug_of_ours(
@@ -110,6 +116,9 @@ def test_a_fold_that_does_not_show_its_log_would_be_a_bug_of_ours(
     monkeypatch.setattr(Fold, "world", another)
     with pytest.raises(InternalError):
         certify(plain(trace_of("m4/300")))
+    incomplete = certify(plain(trace_of("m4/300"))[:-2])
+    with pytest.raises(InternalError):
+        _ = incomplete.witnesses
 
 
 def test_a_false_decision_is_found_with_its_world_proved() -> None:
@@ -120,3 +129,81 @@ def test_a_false_decision_is_found_with_its_world_proved() -> None:
     assert certificate.map is not None
     assert certificate.entailed < certificate.decisions
     assert certificate.findings
+
+
+def test_a_log_is_not_a_mapper_and_may_walk_an_edge_as_often_as_it_likes() -> None:
+    there, back = Move(0, Percept(1, None)), Move(0, Percept(1, 0))
+    certificate = certify([Start(percept=Percept(1, 0)), there, back, there, back, there])
+    assert (certificate.verdict, certificate.findings) == ("PROVED", ())
+    assert certificate.map == World.from_id("m1/0")
+
+
+def test_a_map_that_an_incomplete_log_delivers_does_not_follow() -> None:
+    trace = trace_of("m4/300")
+    delivered = (*plain(trace)[:-2], trace[-1])
+    (finding,) = certify(delivered).findings
+    assert (finding.claim, finding.event) == ("map-entailed", len(delivered) - 1)
+    assert finding.witness is not None
+
+
+def test_a_decision_in_an_incomplete_log_that_does_not_follow_is_found() -> None:
+    start = Start(percept=first_percept(World.from_id("m2/0")))
+    certificate = certify([start, Augment(0, "new", 1, 2)])
+    assert (certificate.verdict, certificate.entailed, certificate.decisions) == ("REFUTED", 0, 1)
+    (finding,) = certificate.findings
+    assert (finding.claim, finding.event) == ("decisions-entailed", 1)
+
+
+def test_decisions_in_a_log_that_stops_early_follow_all_the_same() -> None:
+    trace = trace_of("m4/300")
+    crossed = [i for i, e in enumerate(trace) if isinstance(e, Move) and e.purpose == "cross"]
+    certificate = certify(trace[: crossed[-1]])
+    assert (certificate.verdict, certificate.entailed) == ("UNKNOWN", certificate.decisions)
+
+
+# ---------------------------------------------------------------- what is left to walk
+
+
+@given(any_world(max_edges=12), st.lists(st.integers(0, 23), max_size=20))
+def test_an_open_door_is_where_it_is_said_to_be_and_was_never_crossed(
+    world: World, doors: list[int]
+) -> None:
+    robot = SimulatedRobot(world, budget=len(doors))
+    log: list[Event] = [Start(percept=robot.percept)]
+    at, crossed = world.root or 0, set[int]()
+    places = [at]  # of each event: the robot's reference dart
+    for door in doors:
+        if robot.percept.degree:
+            log.append(Move(taken := door % robot.percept.degree, robot.move(taken)))
+            leaves = exit_dart(world, at, taken)
+            at = world.alpha[leaves]
+            crossed |= {leaves, at}
+            places.append(at)
+    certificate = certify(log)
+    found = list(certificate.open_doors())
+    assert len(found) == certificate.open_darts
+    assert [len(door.walk) for door in found] == sorted(len(door.walk) for door in found)
+    for door in found:
+        exits, here = exit_dart(world, places[door.event], door.door), at
+        assert exits not in crossed
+        for step in door.walk[:-1]:
+            here = exit_dart(world, here, step)
+            assert here in crossed
+            here = world.alpha[here]
+        assert exit_dart(world, here, door.walk[-1]) == exits
+
+
+# ---------------------------------------------------------------- what a log may cost
+
+
+def test_a_place_with_a_million_doors_makes_no_world_until_one_is_asked_for() -> None:
+    certificate = certify([Start(percept=Percept(10**6, 0))])
+    assert (certificate.verdict, certificate.open_darts) == ("UNKNOWN", 10**6)
+    nearest = next(certificate.open_doors())
+    assert (nearest.event, nearest.door, nearest.walk) == (0, 0, (0,))
+
+
+def test_the_doors_of_all_places_of_a_log_have_a_bound() -> None:
+    start = Start(percept=Percept(10**6, 0))
+    with pytest.raises(InputError, match="have 1100000 doors together: expected at most 1048576"):
+        certify([start, Move(0, Percept(10**5, None))])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from pathlib import Path
 
 import pytest
@@ -34,15 +35,15 @@ def test_a_proved_map_is_written(results: Results) -> None:
     assert World.load("map.json").degrees == (2, 2)
 
 
-def test_a_log_that_proves_nothing_exits_1_with_its_two_worlds(
+def test_an_incomplete_log_is_unknown_and_exits_3_with_its_two_worlds(
     call: Call, results: Results
 ) -> None:
-    assert call("certify short.jsonl").exit_code == 1
-    (entry,) = results("certify short.jsonl --witness there", code=1)["results"]
-    assert entry["verdict"] == "REFUTED"
+    assert call("certify short.jsonl").exit_code == 3
+    (entry,) = results("certify short.jsonl --witness there", code=3)["results"]
+    assert (entry["verdict"], entry["findings"]) == ("UNKNOWN", [])
     one, other = map(World.load, entry["witnesses"])
     assert not one.is_isomorphic(other)
-    assert results("certify short.jsonl", code=1)["results"][0]["witnesses"] == [one.id, other.id]
+    assert results("certify short.jsonl", code=3)["results"][0]["witnesses"] == [one.id, other.id]
 
 
 def test_a_trace_of_explore_is_a_log(call: Call, results: Results) -> None:
@@ -58,10 +59,51 @@ def test_standard_input_is_a_log(results: Results) -> None:
     assert entry["verdict"] == "PROVED"
 
 
-def test_findings_are_printed_with_the_witness_worlds(call: Call) -> None:
-    text = call("certify short.jsonl").stdout
-    assert "with 2 darts of its fold never crossed" in " ".join(text.split())
+def test_a_log_that_no_world_shows_is_refuted_and_exits_1(call: Call, results: Results) -> None:
+    Path("false.jsonl").write_text(RING.replace('"marker": 1', '"marker": 7'))
+    (entry,) = results("certify false.jsonl", code=1)["results"]
+    assert (entry["verdict"], entry["witnesses"], entry["open_doors"]) == ("REFUTED", [], [])
+    text = " ".join(call("certify false.jsonl").stdout.split())
+    assert "the marker cannot point at door 7 of 2" in text
+
+
+def test_the_open_doors_are_named_with_a_way_there_and_the_worlds_that_differ(
+    call: Call, results: Results
+) -> None:
+    (entry,) = results("certify short.jsonl", code=3)["results"]
+    assert entry["open_doors"] == [
+        {"event": 1, "door": 1, "walk": [1]},
+        {"event": 0, "door": 1, "walk": [0, 1]},
+    ]
+    text = " ".join(call("certify short.jsonl").stdout.split())
+    assert "incomplete, true of several worlds, with 2 doors never crossed" in text
+    assert "door 1 of the place reached at event 1: from where the log ends, take door 1" in text
+    assert (
+        "door 1 of the place reached at event 0: from where the log ends, take doors 0, 1" in text
+    )
     assert "2 worlds that show this log and differ" in text
+
+
+def test_an_edge_walked_five_times_is_proved(results: Results) -> None:
+    start, there, back = (
+        '{"type": "start", "percept": {"degree": 1, "marker": 0}}\n',
+        '{"type": "move", "door": 0, "percept": {"degree": 1, "marker": null}}\n',
+        '{"type": "move", "door": 0, "percept": {"degree": 1, "marker": 0}}\n',
+    )
+    log = start + there + back + there + back + there
+    assert results("certify -", log)["results"][0]["verdict"] == "PROVED"
+
+
+def test_a_long_patrol_takes_no_memory_but_eight_bytes_a_move(results: Results) -> None:
+    start, there, back = RING.splitlines(keepends=True)
+    again = there.replace('"door": 0', '"door": 1') + back
+    Path("patrol.jsonl").write_text(start + there + back + again * 5000)
+    tracemalloc.start()
+    (entry,) = results("certify patrol.jsonl")["results"]
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert entry["verdict"] == "PROVED"
+    assert peak < 1_000_000  # its bytes alone are 660,000; 10,000 events apart took 4.6 million
 
 
 @pytest.mark.parametrize(
@@ -70,9 +112,15 @@ def test_findings_are_printed_with_the_witness_worlds(call: Call) -> None:
         ("certify nowhere.jsonl", "nowhere.jsonl"),
         ("certify ring.jsonl short.jsonl -o map.json", "expected one TRACE, got 2"),
         ("certify short.jsonl --witness ring.jsonl", "cannot create this folder"),
+        ("certify doubled.jsonl", "doubled.jsonl, line 2: the key 'door' stands twice"),
+        ("certify wide.jsonl", "wide.jsonl: the places of this log have 3000000 doors together"),
     ],
 )
 def test_bad_input_gets_one_sentence(call: Call, line: str, why: str) -> None:
+    start, there, _ = RING.splitlines(keepends=True)
+    Path("doubled.jsonl").write_text(start + there.replace("{", '{"door": 1, ', 1))
+    wide = start + (there + there.replace(": 0", ": 1")) * 2
+    Path("wide.jsonl").write_text(wide.replace('"degree": 2', '"degree": 1000000', 3))
     done = call(line)
     assert done.exit_code == 2
     assert why in done.stderr

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import shlex
@@ -256,6 +257,49 @@ def test_a_full_disk_is_told_as_such(folder: Path) -> None:
     assert "cannot write to standard output: No space left on device" in done.stderr
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full here")
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("explore m3/9999 2>/dev/full", 2),
+        ("world sample --edges 5 2>/dev/full", 0),
+        ("--help >/dev/full", 2),
+        ("world show - <&-", 2),
+        ("certify - <&-", 2),
+    ],
+)
+def test_exit_1_is_for_counterexamples_and_not_for_broken_streams(
+    folder: Path, line: str, code: int
+) -> None:
+    shell = f"{shlex.quote(sys.executable)} -m topo_verify {line}"
+    done = subprocess.run(["/bin/sh", "-c", shell], cwd=folder, capture_output=True, check=False)
+    assert done.returncode == code
+    assert b"Traceback" not in done.stderr
+    assert b"bug" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "words"),
+    [
+        (MemoryError(), 3, "out of memory before the end"),
+        (OSError(errno.ENOMEM, "Cannot allocate memory"), 3, "out of memory before the end"),
+        (FileNotFoundError(2, "No usable temporary directory found"), 2, "TMPDIR no folder?"),
+        (OSError(errno.ENOSPC, "No space left on device"), 2, "is the disk full"),
+    ],
+)
+def test_what_the_machine_lacks_is_no_bug_of_ours(
+    call: Call, monkeypatch: pytest.MonkeyPatch, error: Exception, code: int, words: str
+) -> None:
+    def fails(_text: str, *, stdin: object) -> object:  # noqa: ARG001  as resolve_world
+        raise error
+
+    monkeypatch.setattr(runs, "resolve_world", fails)
+    done = call("explore m3/14 --algorithm basic")
+    assert done.exit_code == code
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
 def test_closed_streams_do_not_hurt(folder: Path) -> None:
     line = f"{shlex.quote(sys.executable)} -m topo_verify explore nyc >&- 2>&-"
     assert subprocess.run(["/bin/sh", "-c", line], cwd=folder, check=False).returncode == 0
@@ -264,7 +308,9 @@ def test_closed_streams_do_not_hurt(folder: Path) -> None:
 # ---------------------------------------------------------------- Ctrl-C
 
 
-def interrupted(folder: Path, *words: str) -> tuple[int, str, str]:
+def interrupted(
+    folder: Path, *words: str, by: signal.Signals = signal.SIGINT
+) -> tuple[int, str, str]:
     """What comes of a command that gets Ctrl-C as soon as its mapper says that it is at work."""
     running = subprocess.Popen(
         [sys.executable, "-m", "topo_verify", *words],
@@ -278,7 +324,7 @@ def interrupted(folder: Path, *words: str) -> tuple[int, str, str]:
     while not (folder / "at-work").exists():
         assert running.poll() is None, running.communicate()
         time.sleep(0.02)
-    running.send_signal(signal.SIGINT)
+    running.send_signal(by)
     out, error = running.communicate(timeout=30)
     return running.returncode, out, error
 
@@ -309,6 +355,14 @@ def test_ctrl_c_in_explore_keeps_the_runs_that_are_done(folder: Path) -> None:
     assert code == 3
     assert "m1/0" in out
     assert "m2/5" not in out
+    assert "interrupted after 1 result" in error
+
+
+def test_sigterm_says_where_it_stopped_and_keeps_what_is_done(folder: Path) -> None:
+    words = ("explore", "m1/0", "m2/5", "--algorithm", "mappers.py:starts_and_sleeps")
+    code, out, error = interrupted(folder, *words, "--move-timeout", "60", by=signal.SIGTERM)
+    assert code == 3
+    assert "m1/0" in out
     assert "interrupted after 1 result" in error
 
 

@@ -180,3 +180,31 @@ def test_a_newer_version_is_refused_with_what_to_do() -> None:
     newer = write_trace([START]).replace(b'"version":1', b'"version":2')
     with pytest.raises(InputError, match=r"version 2 is newer than 1, .* update it"):
         read_trace(newer)
+
+
+def test_equal_moves_of_a_log_are_one_object() -> None:
+    start, move = (
+        b'{"type": "start", "percept": {"degree": 1, "marker": 0}}',
+        b'{"type": "move", "door": 0, "percept": {"degree": 1, "marker": null}}',
+    )
+    _, one, other = read_trace(b"\n".join((start, move, move)))
+    assert one is other
+
+
+@pytest.mark.parametrize(
+    ("line", "key"),
+    [
+        (b'{"type":"move","door":0,"door":1,"percept":{"degree":1,"marker":0}}', "door"),
+        (b'{"type":"move","door":0,"percept":{"degree":1,"degree":2,"marker":0}}', "degree"),
+        (b'{"type":"move","x":{"y":1,"y":2},"door":0,"percept":{"degree":1,"marker":0}}', "y"),
+    ],
+)
+def test_a_doubled_key_is_refused_by_name(line: bytes, key: str) -> None:
+    start = b'{"type": "start", "percept": {"degree": 1, "marker": 0}}\n'
+    with pytest.raises(InputError, match=f"line 2: the key '{key}' stands twice"):
+        read_trace(start + line)
+
+
+def test_numbers_of_any_length_in_unknown_fields_are_ignored() -> None:
+    start = b'{"type": "start", "x": %s, "percept": {"degree": 1, "marker": 0}}' % (b"7" * 5000)
+    assert read_trace(start) == (Start(percept=Percept(1, 0)),)

@@ -1,13 +1,16 @@
 """Certificates: what a log of percepts and doors proves where nobody knows the world.
 
 A real robot leaves a log of the doors that it took and what it sensed behind them. Folded, the log
-either has no open dart: then there is one world that shows it, and that is the map. Or it has: then
-two different worlds show it, and no mapper could know which one it was in.
+has no open dart: then there is one world that shows it, and that is the map (PROVED). Or it has:
+then two different worlds show it, and no mapper could know which one it was in (UNKNOWN: walk on).
+Or no world shows it, or what it delivers or decides does not follow from it (REFUTED).
 
     certificate = certify(read_trace(log))
-    certificate.map          # the world, proved; or None
-    certificate.witnesses    # else: two worlds, each of which shows this very log
+    certificate.map             # the world, proved; or None
+    certificate.open_doors()    # else: what to walk
+    certificate.witnesses       # and two worlds, each of which shows this very log
 
+A log is not a mapper: how long it is, or how often it walks one edge, is not judged (claim 7).
 What this does not show: that the log is what happened. Percepts that no world shows are found; a
 log of another walk is a proof about another world.
 
@@ -16,40 +19,72 @@ Source: docs/semantics.md, section 11; docs/certify.md.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
 
-from topo_verify.checkers import (
-    Finding,
-    check,
-    decision_conclusions,
-    fold_history,
-)
+from topo_verify.checkers.claims import check
+from topo_verify.checkers.entailment import decision_conclusions, followed, map_conclusion
+from topo_verify.checkers.findings import Finding
+from topo_verify.checkers.folding import Fold
+from topo_verify.checkers.open_doors import OpenDoor, open_doors
 from topo_verify.checkers.replayed_trace import require_order
-from topo_verify.errors import InternalError
+from topo_verify.errors import InputError, InternalError
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Reject, Start
-from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.robot.simulator import exit_dart, first_percept, percepts
 from topo_verify.world.rooted_map import World
+
+MOST_DARTS = 2**20
+"""The most doors that the places of a log may have together: a world of them takes about 2 GB."""
 
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """What a log proves: its one map, or witnesses that it has none.
+    """What a log proves: its one map, or what is left to walk.
 
     Attributes:
+        verdict: PROVED: the map is proved and what was declared follows. UNKNOWN: the log is true
+            of several worlds. REFUTED: there are findings.
         map: the one world that shows the log, or None.
         open_darts: how many darts of the fold were never crossed; 0 if there is a map.
-        witnesses: two different worlds that show the log, if there is no map and the log is sound.
+        vertices, edges: of the map; else of the smaller witness; 0 if no world shows the log.
         entailed, decisions: how many of the declared decisions follow from the log before them.
-        findings: what is wrong; none if the map is proved and all that was declared is right.
+        findings: what is wrong; an incomplete log that declares nothing wrong has none.
     """
 
     map: World | None
     open_darts: int
-    witnesses: tuple[World, ...]
+    vertices: int
+    edges: int
     entailed: int
     decisions: int
     findings: tuple[Finding, ...]
+    _log: Sequence[Event] = field(repr=False)
+    _fold: Fold | None = field(repr=False)  # None if no world shows the log
+    _reached: Sequence[int] = field(repr=False)
+
+    @property
+    def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
+        """The verdict on the log in one word."""
+        if self.findings:
+            return "REFUTED"
+        return "UNKNOWN" if self.map is None else "PROVED"
+
+    @property
+    def shown(self) -> bool:
+        """Whether some world shows the log."""
+        return self._fold is not None
+
+    @property
+    def witnesses(self) -> tuple[World, ...]:
+        """Two different worlds that show an incomplete log, made now; none for any other log."""
+        if self._fold is None or self.map is not None:
+            return ()
+        return tuple(_shown(self._fold.world(hang), self._log) for hang in (1, 2))
+
+    def open_doors(self) -> Iterator[OpenDoor]:
+        """The doors that an incomplete log left open, nearest to its end first; else none."""
+        return iter(()) if self._fold is None else open_doors(self._fold, self._reached)
 
 
 def certify(trace: Sequence[Event]) -> Certificate:
@@ -59,49 +94,102 @@ def certify(trace: Sequence[Event]) -> Certificate:
         trace: at least `start` and `move` events; declared decisions and a delivered map are judged
             too, if there are any.
     Raises:
-        InputError: the trace does not begin with its only `start`, or goes on after `finish`.
+        InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
+            its places have more than 2^20 doors together.
     Complexity: nearly linear for a plain log; claim 10 looks at every open dart once a decision.
     """
     require_order(trace)
-    fold, broken = fold_history(trace)
+    fold, reached, broken = _folded(trace)
+    left = fold.open_darts()
     decisions = sum(isinstance(event, Reject | Confirm | Augment) for event in trace)
-    entailed = 0
-    if decisions:
-        entailed = sum(not conclusion.why for conclusion in decision_conclusions(trace))
+    entailed, doubts = _judged(trace) if decisions else (0, ())
     if broken is not None:
         when, why = broken
         message = f"no world shows this history: {why}"
         finding = Finding("map-entailed", when, "percepts that some world shows", why, message)
-        return Certificate(None, fold.open_darts(), (), entailed, decisions, (finding,))
-    if left := fold.open_darts():
-        witnesses = tuple(map(fold.world, (1, 2)))
-        for witness in witnesses:
-            _require_shown(witness, trace)
-        message = f"two different worlds show this log, with {left} darts of its fold never crossed"
-        finding = Finding("map-entailed", None, 0, left, message, witnesses[0].text)
-        return Certificate(None, left, witnesses, entailed, decisions, (finding,))
-    world = fold.world()
-    _require_shown(world, trace)
-    return Certificate(world, 0, (), entailed, decisions, _findings(world, trace))
+        return Certificate(None, left, 0, 0, entailed, decisions, (finding,), trace, None, reached)
+    world = None if left else _shown(fold.world(), trace)
+    findings = (*doubts, *_unproved(trace)) if world is None else _findings(world, trace)
+    vertices, edges = len(fold.roots()) + left, (fold.darts() + left) // 2
+    return Certificate(
+        world, left, vertices, edges, entailed, decisions, findings, trace, fold, reached
+    )
+
+
+def _folded(trace: Sequence[Event]) -> tuple[Fold, list[int], tuple[int, str] | None]:
+    """The fold of a log; the event that added each node; the first event that no world shows.
+
+    Raises:
+        InputError: its places have too many doors.
+    """
+    start, broken = trace[0], None
+    assert isinstance(start, Start)
+    fold, reached = Fold(start.percept), [0]
+    for when, event in enumerate(trace):
+        if why := followed(fold, event):
+            broken = when, why
+            break
+        if len(fold) > len(reached):
+            reached.append(when)
+    if (darts := fold.darts()) > MOST_DARTS:
+        raise InputError(
+            f"the places of this log have {darts} doors together: expected at most {MOST_DARTS};"
+            " is a degree wrong?"
+        )
+    return fold, reached, broken
+
+
+def _judged(trace: Sequence[Event]) -> tuple[int, Sequence[Finding]]:
+    """How many of the declared decisions follow, and a finding for each that does not."""
+    entailed, doubts = 0, list[Finding]()
+    for when, why, witness in decision_conclusions(trace):
+        if not why:
+            entailed += 1
+            continue
+        message = f"the decision does not follow: {why}"
+        text = None if witness is None else witness.text
+        doubts.append(Finding("decisions-entailed", when, "a proved decision", why, message, text))
+    return entailed, doubts
+
+
+def _unproved(trace: Sequence[Event]) -> tuple[Finding, ...]:
+    """What is wrong with the map that an incomplete log delivers, if it delivers one."""
+    if not isinstance(trace[-1], Finish):
+        return ()
+    when, why, witness = map_conclusion(trace)
+    message = f"the history proves no such map: {why}"
+    text = None if witness is None else witness.text
+    return (Finding("map-entailed", when, "a map that is proved", why, message, text),)
 
 
 def _findings(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
-    """The findings of all claims in the proved world, but not that a plain log delivers no map."""
+    """The findings of all claims in the proved world, but for what only a mapper owes.
+
+    That is a map at the end, and a cost within the bound.
+    """
+    if all(isinstance(event, Start | Move) for event in trace):
+        return ()  # the world shows the log, and it says no more
     plain = not isinstance(trace[-1], Finish)
     return tuple(
         finding
         for judgement in check(world, trace, strict=True)
         for finding in judgement.findings
+        if judgement.claim != "cost-within-bound"
         if not (plain and judgement.claim in ("map-isomorphic", "map-entailed"))
         or finding.event not in (None, len(trace) - 1)
     )
 
 
-def _require_shown(world: World, trace: Sequence[Event]) -> None:
-    """Raise InternalError unless the world shows the log, as a proof and a witness must."""
-    robot = SimulatedRobot(world, budget=len(trace))
+def _shown(world: World, trace: Sequence[Event]) -> World:
+    """The world, which is seen to show the log, as a proof and a witness must.
+
+    Raises:
+        InternalError: it does not.
+    """
+    at, seen = world.root or 0, percepts(world) or (first_percept(world),)
     for event in trace:
         if isinstance(event, Move):
-            robot.move(event.door)
-        if isinstance(event, Start | Move) and robot.percept != event.percept:
+            at = world.alpha[exit_dart(world, at, event.door)]
+        if isinstance(event, Start | Move) and seen[at] != event.percept:
             raise InternalError("a fold does not show the log that it is the fold of")
+    return world

@@ -41,12 +41,12 @@ def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
     assert isinstance(trace[0], Start)
     fold = Fold(trace[0].percept)
     for when, event in enumerate(trace):
-        if why := _followed(fold, event):
+        if why := followed(fold, event):
             return fold, (when, why)
     return fold, None
 
 
-def _followed(fold: Fold, event: Event) -> str:
+def followed(fold: Fold, event: Event) -> str:
     """Let the fold grow by an event. Returns why no world shows the history now, or ""."""
     if isinstance(event, Move):
         try:
@@ -96,7 +96,7 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
     on_fold = MapOnFold(fold)
     planar = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     for when, event in enumerate(trace):
-        if why := _followed(fold, event):
+        if why := followed(fold, event):
             yield Conclusion(when, f"no world shows this history: {why}")
             return
         if not isinstance(event, (Reject, Confirm, Augment)):

@@ -1,8 +1,10 @@
 """The fold of a history: what percepts and doors alone prove, with no world at hand.
 
 **Folding** (Stallings). One node a visit, its dart 0 the reference dart of that visit. The move by
-door k joins the earlier node's dart k with the later node's dart 0. Every visit that saw the marker
-is v0, turned by the marker's direction. A dart has one partner: where it would get two, these are
+door k joins the earlier node's dart k with the later node's dart 0. (A move through a door that was
+crossed before leads to a known place: it must look as it did, and no node is added. So a long
+patrol takes no more memory than the places it saw.) Every visit that saw the marker is v0, turned
+by the marker's direction. A dart has one partner: where it would get two, these are
 one dart, so their vertices are one vertex, turned by an offset; and so on until nothing changes
 (union-find with offsets, nearly linear). Each step identifies only what is one dart in every world
 that shows this history; so the result maps into all of them, dart by dart.
@@ -38,7 +40,11 @@ class Contradiction(Exception):
 
 
 class Fold:
-    """The fold of a history. Grows by `move`; `assuming` looks ahead and returns."""
+    """The fold of a history. Grows by `move`; `assuming` looks ahead and returns.
+
+    Attributes:
+        at: where the robot stands: a node, and its reference dart there.
+    """
 
     def __init__(self, percept: Percept) -> None:
         self._seen: list[Percept] = []
@@ -47,7 +53,11 @@ class Fold:
         self._size: list[int] = []
         self._partner: list[dict[int, Place]] = []
         self._undo: list[tuple[int, int | None]] = []
-        self._visit(percept)
+        self.at: Place = (self._visit(percept), 0)
+
+    def __len__(self) -> int:
+        """How many nodes were added; a node's number says when."""
+        return len(self._seen)
 
     def _visit(self, percept: Percept) -> int:
         node = len(self._seen)
@@ -59,16 +69,20 @@ class Fold:
         return node
 
     def move(self, door: Door, percept: Percept) -> None:
-        """Add a visit: the robot left the last by a door and saw this. Raises Contradiction."""
-        here, marker = len(self._seen) - 1, percept.marker
+        """Let the robot leave by a door and see this behind it. Raises Contradiction."""
+        (here, dart), marker = self.at, percept.marker
         if not 0 <= door < self._seen[here].degree or percept.degree < 1:
             raise Contradiction(f"door {door} of {self._seen[here].degree} cannot be crossed")
         if marker is not None and not 0 <= marker < percept.degree:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
-        there = self._visit(percept)
+        known = self.partner((here, dart + door))
+        if known is not None:
+            _require_alike(percept, self._seen[known[0]])
+        self.at = there, entry = known or (self._visit(percept), 0)
         if marker is not None:
-            self._identify((there, marker), (0, 0))
-        self.join((here, door), (there, 0))
+            self._identify((there, entry + marker), (0, 0))
+        if known is None:
+            self.join((here, dart + door), (there, 0))
 
     def find(self, place: Place) -> Place:
         """The one place that stands for all that are the same dart."""
@@ -106,11 +120,8 @@ class Fold:
                 continue
             if self._size[a] > self._size[b]:
                 (a, i), (b, j) = (b, j), (a, i)
-            lost, kept = self._seen[a], self._seen[b]
-            if lost.degree != kept.degree:
-                raise Contradiction(f"degree {kept.degree} and degree {lost.degree} at one place")
-            if (lost.marker is None) != (kept.marker is None):
-                raise Contradiction("the marker seen and not seen at one place")
+            kept = self._seen[b]
+            _require_alike(self._seen[a], kept)
             # Paths are never shortened: to undo a union is to cut one link, and unions by size keep
             # the paths logarithmic.
             self._parent[a], self._offset[a] = b, j - i
@@ -162,9 +173,14 @@ class Fold:
 
     def open_darts(self) -> int:
         """How many darts were never crossed, neither way."""
-        return sum(self._seen[node].degree - len(self._partner[node]) for node in self._roots())
+        return self.darts() - sum(len(self._partner[node]) for node in self.roots())
 
-    def _roots(self) -> list[int]:
+    def darts(self) -> int:
+        """How many darts there are."""
+        return sum(self._seen[node].degree for node in self.roots())
+
+    def roots(self) -> list[int]:
+        """One node for each place of the fold."""
         return [node for node, parent in enumerate(self._parent) if node == parent]
 
     def world(self, pendant_length: int = 1) -> World:
@@ -173,7 +189,7 @@ class Fold:
         vertices: list[tuple[int, ...]] = []
         edges: list[tuple[int, int]] = []
         count = 0
-        for node in self._roots():
+        for node in self.roots():
             first[node] = count
             count += self.degree(node)
             vertices.append(tuple(range(first[node], count)))
@@ -196,3 +212,11 @@ class Fold:
             return World.from_rotations(vertices, edges, None)
         node, dart = self.find((0, 0))  # the robot starts at v0, its reference dart the marked one
         return World.from_rotations(vertices, edges, first[node] + dart)
+
+
+def _require_alike(one: Percept, other: Percept) -> None:
+    """Raise Contradiction unless two percepts may be of one place."""
+    if one.degree != other.degree:
+        raise Contradiction(f"degree {other.degree} and degree {one.degree} at one place")
+    if (one.marker is None) != (other.marker is None):
+        raise Contradiction("the marker seen and not seen at one place")

@@ -13,7 +13,9 @@ failures.py   exit codes, and the sentences that go with them
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import threading
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
@@ -56,6 +58,10 @@ class CommandLine(click.Group):
     ) -> NoReturn:
         """Run the command line, by default the program's own, and exit."""
         name = prog_name or "topo-verify"
+        # As Ctrl-C: the command says where it stopped, and keeps what is done. A command may run
+        # in another thread than the main one, as in tests, which cannot set a handler.
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGTERM, _interrupt)
         if instruction := os.environ.get(_COMPLETE):
             sys.exit(shell_complete(self, extra, name, _COMPLETE, instruction))
         sys.exit(self._code(list(sys.argv[1:] if args is None else args), name, extra))
@@ -75,7 +81,26 @@ class CommandLine(click.Group):
             code = ExitCode.NOTHING_FOUND
         except Exception as error:  # noqa: BLE001  `explain` reports every exception
             code = explain(error, arguments)
-        return int(code)
+        return _flushed(int(code))
+
+
+def _flushed(code: int) -> int:
+    """The exit code, once all that was printed is written; 2 if it cannot be (--help > full)."""
+    try:
+        if sys.stdout is not None:  # pyright: ignore[reportUnnecessaryComparison]  after >&-
+            sys.stdout.flush()
+    except BrokenPipeError:
+        output.silence(sys.stdout)
+    except OSError as error:
+        output.silence(sys.stdout)
+        say(f"topo-verify: cannot write to standard output: {error.strerror}")
+        return ExitCode.BAD_INPUT
+    return code
+
+
+def _interrupt(_signal: int, _frame: object) -> NoReturn:
+    """Let SIGTERM end a command as Ctrl-C does."""
+    raise KeyboardInterrupt
 
 
 @click.group(

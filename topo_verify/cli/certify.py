@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 import shlex
-import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
+from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING
 
 import click
 import msgspec
@@ -16,13 +16,14 @@ import msgspec
 from topo_verify.checkers import Finding
 from topo_verify.checkers.certificate import Certificate
 from topo_verify.checkers.certificate import certify as judge
+from topo_verify.checkers.open_doors import OpenDoor
 from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, InternalError
-from topo_verify.robot.events import Trace, read_trace
+from topo_verify.robot.events import Trace, read_events
 from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
@@ -33,6 +34,10 @@ if TYPE_CHECKING:
     from topo_verify.proofs.mechanised.vernacular import CoqCertificate
 
     Check = Callable[[str, CoqCertificate], CertificateCheck]
+
+
+MOST_OPEN_DOORS = 100
+"""So many open doors of a log are listed, the nearest; more would not help who has to walk them."""
 
 
 class DecisionCount(msgspec.Struct, frozen=True):
@@ -86,8 +91,10 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     """One log: an entry of `results`; docs/commands.md.
 
     Attributes:
-        verdict: PROVED, or REFUTED: more than one world shows the log, or none.
+        verdict: PROVED. UNKNOWN: the log is incomplete, true of several worlds. REFUTED: no world
+            shows it, or a map or decision in it does not follow.
         vertices, edges: of the proved map; of the smaller witness if there is none.
+        open_doors: those of an incomplete log, nearest to its end first; at most 100.
         witnesses: two worlds that show this log and differ: the files if written, else the ids.
         kernel: the certificate for Coq; null without --kernel.
     """
@@ -97,6 +104,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     vertices: int
     edges: int
     open_darts: int
+    open_doors: tuple[OpenDoor, ...]
     decisions: DecisionCount
     witnesses: tuple[str, ...]
     findings: tuple[Finding, ...]
@@ -140,10 +148,12 @@ def certify(
 
     TRACE is a file in JSON Lines, or - for standard input: a `start` with the first percept, then a
     `move` with door and percept for each edge that was crossed. PROVED: one world alone shows this
-    log, and it is the map. REFUTED: two different worlds show it, or none does. With --kernel the
-    same is stated in Coq for that very log, in a file certificate_LOG.v, and proved by computation.
-    So is each declared decision that follows from the log before it. Where something cannot be
-    checked the exit code is 3.
+    log, and it is the map. UNKNOWN (exit code 3): the log is incomplete, several worlds show it;
+    the doors that it left open are named, each with a way there. REFUTED (1): no world shows it, or
+    a map or decision that it delivers does not follow. With --kernel the same is stated in Coq for
+    that very log, in a file certificate_LOG.v, and proved by computation. So is each declared
+    decision that follows from the log before it. Where something cannot be checked the exit code
+    is 3.
     """
 
     def certified() -> Iterator[Result[CertifyEntry]]:
@@ -152,8 +162,10 @@ def certify(
         with _checking(output, timeout) as check:
             for number, trace in enumerate(traces):
                 output.progress(f"folding {trace}", number, len(traces))
-                log = read_trace(_bytes(trace), name=_name(trace))
-                certificate = judge(log)
+                with _opened(trace) as stream:
+                    lines = files.lines(stream, name=_name(trace))
+                    log = tuple(read_events(lines, name=_name(trace)))
+                certificate = _judged(log, _name(trace))
                 if map_file is not None and certificate.map is not None:
                     files.write(map_file, certificate.map.to_json() + "\n")
                 proof = _proof(traces, number, log, certificate, check) if proving else None
@@ -166,10 +178,15 @@ def _name(trace: str) -> str:
     return "standard input" if trace == "-" else trace
 
 
-def _bytes(trace: str) -> bytes:
-    if trace == "-":
-        return files.read_stream(sys.stdin.buffer, name="standard input")
-    return files.read(trace)
+def _opened(trace: str) -> AbstractContextManager[IO[bytes]]:
+    return nullcontext(files.standard_input()) if trace == "-" else files.opened(trace)
+
+
+def _judged(log: Trace, name: str) -> Certificate:
+    try:
+        return judge(log)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from error
 
 
 def _checking(output: Output, timeout: int) -> AbstractContextManager[Check]:
@@ -197,7 +214,7 @@ def _proof(
     # The certificate is stated by a fold of its own. Were the two folds to differ, Coq would
     # still accept a true statement, but not the one that the user was told.
     stated = certificates.certificate_of(log)
-    shown = "undetermined" if certificate.witnesses else "impossible"
+    shown = "undetermined" if certificate.shown else "impossible"
     if stated.statement != ("map" if certificate.map is not None else shown):
         raise InternalError(f"{traces[number]}: two folds of one log differ: {stated.statement}")
     name = _identifier(traces, number)
@@ -246,44 +263,48 @@ def _identifier(traces: Sequence[str], number: int) -> str:
 def _result(
     trace: str, certificate: Certificate, folder: str | None, proof: KernelCheck | None
 ) -> Result[CertifyEntry]:
-    worlds = certificate.witnesses
-    names = tuple(
-        _written(folder, f"{Path(trace).stem}-witness-{number}.json", world)
-        if folder is not None
-        else _world_name(world)
-        for number, world in enumerate(worlds, 1)
-    )
     replay_command = shlex.join(["topo-verify", "certify", trace])
     findings = tuple(
         msgspec.structs.replace(finding, replay=replay_command) for finding in certificate.findings
     )
-    shown = certificate.map or (worlds[0] if worlds else None)
     entry = CertifyEntry(
         trace=trace,
-        verdict="REFUTED" if findings else "PROVED",
-        vertices=len(shown.vertices) if shown else 0,
-        edges=len(shown.edges) if shown else 0,
+        verdict=certificate.verdict,
+        vertices=certificate.vertices,
+        edges=certificate.edges,
         open_darts=certificate.open_darts,
+        open_doors=tuple(islice(certificate.open_doors(), MOST_OPEN_DOORS)),
         decisions=DecisionCount(certificate.entailed, certificate.decisions),
-        witnesses=names,
+        witnesses=_witnesses(trace, certificate, folder),
         findings=findings,
         kernel=proof,
     )
     # A log that is proved but not certified is no failure of the mapper: exit 3, not 1.
     unchecked = proof is not None and proof.incomplete
-    return Result(entry, failed=bool(findings), incomplete=unchecked)
+    incomplete = unchecked or certificate.verdict == "UNKNOWN"
+    return Result(entry, failed=bool(findings), incomplete=incomplete)
+
+
+def _witnesses(trace: str, certificate: Certificate, folder: str | None) -> tuple[str, ...]:
+    """The two worlds that show an incomplete log: the files, or the ids, or how large they are."""
+    if certificate.map is not None or not certificate.shown:
+        return ()
+    sizes = (certificate.edges, certificate.edges + certificate.open_darts)
+    # A world is made where it is asked for, or small: it may have a million exits.
+    if folder is None and max(sizes) > MAX_ID_EDGES:
+        return tuple(f"a world of {size} edges (--witness DIR writes it)" for size in sizes)
+    if folder is None:
+        return tuple(world.id for world in certificate.witnesses)
+    return tuple(
+        _written(folder, f"{Path(trace).stem}-witness-{number}.json", world)
+        for number, world in enumerate(certificate.witnesses, 1)
+    )
 
 
 def _written(folder: str, name: str, world: World) -> str:
     path = str(options.make_folder(folder, "--witness") / name)
     files.write(path, world.to_json() + "\n")
     return path
-
-
-def _world_name(world: World) -> str:
-    if len(world.edges) <= MAX_ID_EDGES:
-        return world.id
-    return f"a world of {len(world.edges)} edges (--witness DIR writes it)"
 
 
 def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
@@ -298,11 +319,32 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Text("")
             yield Text(f"{entry.trace}:")
             yield Bullets(tuple(map(finding_line, entry.findings[:5])))
+        if entry.open_doors:
+            yield Text("")
+            yield Text(f"{entry.trace}: {_incomplete(entry)}")
+            yield Bullets(tuple(map(_door_line, entry.open_doors[:5])))
         if entry.witnesses:
             yield Text(f"{plural(len(entry.witnesses), 'world')} that show this log and differ:")
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
             yield from _show_proof(entry.kernel)
+
+
+def _incomplete(entry: CertifyEntry) -> str:
+    """The sentence above the open doors."""
+    doors = plural(entry.open_darts, "door")
+    nearest = ", the nearest five" if entry.open_darts > 5 else ""
+    return f"incomplete, true of several worlds, with {doors} never crossed{nearest}:"
+
+
+def _door_line(door: OpenDoor) -> str:
+    """Where to find an open door, and how to get there."""
+    way = ", ".join(map(str, door.walk))
+    doors = "door" if len(door.walk) == 1 else "doors"
+    return (
+        f"door {door.door} of the place reached at event {door.event}: from where the log ends,"
+        f" take {doors} {way}"
+    )
 
 
 _STATED = {

@@ -3,7 +3,7 @@
     0    nothing found
     1    an unexpected counterexample, a claim that fails; nothing else ever exits 1
     2    bad usage or bad input
-    3    incomplete: a time-out, an interruption
+    3    incomplete: a time-out, an interruption, too little memory
     70   a bug of ours
 
 Source: docs/semantics.md, section 16.
@@ -11,14 +11,17 @@ Source: docs/semantics.md, section 16.
 
 from __future__ import annotations
 
+import errno
 import os
 import platform
 import shlex
 import sys
 import traceback
 from collections.abc import Sequence
+from contextlib import suppress
 from enum import IntEnum
 from importlib import metadata
+from typing import IO
 
 import click
 
@@ -30,7 +33,7 @@ TRACEBACK = "TOPO_VERIFY_TRACEBACK"
 
 SUMMARY = """\b
 Exit codes: 0 nothing found; 1 a claim fails; 2 bad usage or input;
-  3 incomplete (time-out, Ctrl-C); 70 a bug of topo-verify."""
+  3 incomplete (time-out, Ctrl-C, memory); 70 a bug of topo-verify."""
 """The last lines of every --help. (The mark at its head tells click to keep the lines.)"""
 
 
@@ -59,8 +62,18 @@ def version() -> str:
 def say(sentence: str) -> None:
     """Print a sentence as one line on stderr, its control characters escaped."""
     line = shown(sentence, limit=4000)
-    # A file's name may hold bytes that are not UTF-8, which cannot be printed as they are.
-    click.echo(line.encode(errors="backslashreplace").decode(), err=True)
+    try:
+        # A file's name may hold bytes that are not UTF-8, which cannot be printed as they are.
+        click.echo(line.encode(errors="backslashreplace").decode(), err=True)
+        sys.stderr.flush()
+    except (OSError, ValueError):  # a full disk, a closed stream: the exit code must not suffer
+        silence(sys.stderr)
+
+
+def silence(stream: IO[str]) -> None:
+    """Point a stream at the null device, so that Python's flush at exit does not fail."""
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
@@ -71,6 +84,18 @@ def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
     if isinstance(error, click.ClickException):
         say(_usage(error))
         return ExitCode.BAD_INPUT
+    if isinstance(error, MemoryError):
+        say(
+            "topo-verify: out of memory before the end: give it more (ulimit -v), a smaller input"
+            " or fewer --workers"
+        )
+        return ExitCode.INCOMPLETE
+    if isinstance(error, OSError):
+        if error.errno == errno.ENOMEM:
+            return explain(MemoryError(), arguments)
+        if error.errno in (errno.ENOSPC, errno.EROFS, errno.EDQUOT) or "temporary" in str(error):
+            say(f"topo-verify: the system refuses: {error}; is the disk full, or TMPDIR no folder?")
+            return ExitCode.BAD_INPUT
     return _our_bug(error, arguments)
 
 

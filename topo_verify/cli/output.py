@@ -13,7 +13,7 @@ import json
 import os
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import contextmanager, redirect_stdout, suppress
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass, field
 from functools import wraps
 from pathlib import Path
@@ -24,7 +24,7 @@ import click
 import msgspec
 
 from topo_verify.cli import layout
-from topo_verify.cli.failures import exit_code, say, version
+from topo_verify.cli.failures import exit_code, say, silence, version
 from topo_verify.cli.layout import Block
 from topo_verify.cli.progress import ProgressBar
 from topo_verify.errors import InputError
@@ -208,12 +208,6 @@ def _reader(out: IO[str]) -> Generator[IO[str]]:
 def _nowhere() -> IO[str]:
     """The null device, for a standard output that was closed before the start."""
     return Path(os.devnull).open("w", encoding="utf-8")
-
-
-def silence(out: IO[str]) -> None:
-    """Point a stream at the null device, so that Python's flush at exit does not fail."""
-    with suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), out.fileno())
 
 
 def options(command: Callable[Concatenate[Output, P], int]) -> Callable[..., int]:

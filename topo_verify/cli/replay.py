@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shlex
-import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import cast
@@ -118,7 +117,7 @@ def _require_none(given: Sequence[str], what: str) -> None:
 def _bytes(what: str) -> bytes | None:
     """The bytes of the file or of standard input; None if the argument names neither."""
     if what == "-":
-        return files.read_stream(sys.stdin.buffer, name="standard input")
+        return files.read_stream(files.standard_input(), name="standard input")
     try:
         there = Path(what).is_file()
     except (OSError, ValueError):  # a name that no file can have

@@ -17,7 +17,6 @@ Source: docs/semantics.md, section 16.
 from __future__ import annotations
 
 import re
-import sys
 from importlib import resources
 from pathlib import Path
 from typing import BinaryIO
@@ -43,7 +42,7 @@ def resolve_world(text: str, *, stdin: BinaryIO | None = None) -> World:
         InputError: there is no such world, or it cannot be read.
     """
     if text == "-":
-        return _from_stream(sys.stdin.buffer if stdin is None else stdin)
+        return _from_stream(files.standard_input() if stdin is None else stdin)
     if text == "nyc":
         return _street_network()
     if _ID.fullmatch(text):

@@ -6,6 +6,9 @@ Every failure is an `InputError` of one sentence that names the file and what th
 from __future__ import annotations
 
 import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from secrets import token_hex
@@ -24,13 +27,47 @@ def read(path: str | PathLike[str]) -> bytes:
     Raises:
         InputError: it cannot be read or holds more than `LIMIT` bytes.
     """
+    with opened(path) as file:
+        return read_stream(file, name=shown(path))
+
+
+@contextmanager
+def opened(path: str | PathLike[str]) -> Iterator[IO[bytes]]:
+    """The file, open for reading inside the block.
+
+    Raises:
+        InputError: it cannot be opened or, inside the block, read.
+    """
     try:
         with Path(path).open("rb") as file:
-            return read_stream(file, name=shown(path))
+            yield file
     except (OSError, ValueError) as error:  # ValueError: a path with a null character
         if isinstance(error, InputError):
             raise
         raise InputError(f"cannot read {shown(path)}: {_reason(error)}; name a file") from error
+
+
+def standard_input() -> IO[bytes]:
+    """Standard input, as bytes.
+
+    Raises:
+        InputError: it was closed before the start.
+    """
+    if sys.stdin is None:  # pyright: ignore[reportUnnecessaryComparison]  it is, after <&-
+        raise InputError("standard input is closed: name a file, or pipe the text in")
+    return sys.stdin.buffer
+
+
+def lines(stream: IO[bytes], *, name: str) -> Iterator[bytes]:
+    """The lines of a stream of any length, one after the other.
+
+    Raises:
+        InputError: a line has more than `LIMIT` bytes.
+    """
+    while line := stream.readline(LIMIT + 1):
+        if len(line) > LIMIT:
+            raise InputError(too_large(f"a line of {name}"))
+        yield line
 
 
 def read_stream(stream: IO[bytes], *, name: str) -> bytes:
