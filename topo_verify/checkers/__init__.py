@@ -6,7 +6,7 @@ map_in_world.py     S beside the world (claims 1-8); excursions.py: the walks be
 entailment.py       what a history proves (claims 9 and 10)
 folding.py          the fold of a history; map_on_fold.py: S beside the fold
 darts.py            the two kinds of darts; findings.py: the result of a check
-certificate.py      a log judged by itself, without a world; open_doors.py: what it left open
+certificate.py      a log judged by itself, without a world
 """
 
 from topo_verify.checkers.claims import CLAIMS, check

@@ -7,8 +7,7 @@ Or no world shows it, or what it delivers or decides does not follow from it (RE
 
     certificate = certify(read_trace(log))
     certificate.map             # the world, proved; or None
-    certificate.open_doors()    # else: what to walk
-    certificate.witnesses       # and two worlds, each of which shows this very log
+    certificate.witnesses       # else: two worlds, each of which shows this very log
 
 A log is not a mapper: how long it is, or how often it walks one edge, is not judged (claim 7).
 What this does not show: that the log is what happened. Percepts that no world shows are found; a
@@ -19,7 +18,7 @@ Source: docs/semantics.md, section 11; docs/certify.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -27,7 +26,6 @@ from topo_verify.checkers.claims import check
 from topo_verify.checkers.entailment import decision_conclusions, followed, map_conclusion
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
-from topo_verify.checkers.open_doors import OpenDoor, open_doors
 from topo_verify.checkers.replayed_trace import require_order
 from topo_verify.errors import InputError, InternalError
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Reject, Start
@@ -50,6 +48,8 @@ class Certificate:
         vertices, edges: of the map; else of the smaller witness; 0 if no world shows the log.
         entailed, decisions: how many of the declared decisions follow from the log before them.
         findings: what is wrong; an incomplete log that declares nothing wrong has none.
+        fold: of the log; None if no world shows it.
+        reached: of each node of the fold, the event that added it.
     """
 
     map: World | None
@@ -60,8 +60,8 @@ class Certificate:
     decisions: int
     findings: tuple[Finding, ...]
     _log: Sequence[Event] = field(repr=False)
-    _fold: Fold | None = field(repr=False)  # None if no world shows the log
-    _reached: Sequence[int] = field(repr=False)
+    fold: Fold | None = field(repr=False)
+    reached: Sequence[int] = field(repr=False)
 
     @property
     def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
@@ -73,18 +73,14 @@ class Certificate:
     @property
     def shown(self) -> bool:
         """Whether some world shows the log."""
-        return self._fold is not None
+        return self.fold is not None
 
     @property
     def witnesses(self) -> tuple[World, ...]:
         """Two different worlds that show an incomplete log, made now; none for any other log."""
-        if self._fold is None or self.map is not None:
+        if self.fold is None or self.map is not None:
             return ()
-        return tuple(_shown(self._fold.world(hang), self._log) for hang in (1, 2))
-
-    def open_doors(self) -> Iterator[OpenDoor]:
-        """The doors that an incomplete log left open, nearest to its end first; else none."""
-        return iter(()) if self._fold is None else open_doors(self._fold, self._reached)
+        return tuple(_shown(self.fold.world(hang), self._log) for hang in (1, 2))
 
 
 def certify(trace: Sequence[Event]) -> Certificate:

@@ -16,13 +16,13 @@ import msgspec
 from topo_verify.checkers import Finding
 from topo_verify.checkers.certificate import Certificate
 from topo_verify.checkers.certificate import certify as judge
-from topo_verify.checkers.open_doors import OpenDoor
 from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, InternalError
+from topo_verify.harness.open_doors import OpenDoor, open_doors
 from topo_verify.robot.events import Trace, read_events
 from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
@@ -273,7 +273,7 @@ def _result(
         vertices=certificate.vertices,
         edges=certificate.edges,
         open_darts=certificate.open_darts,
-        open_doors=tuple(islice(certificate.open_doors(), MOST_OPEN_DOORS)),
+        open_doors=tuple(islice(open_doors(certificate), MOST_OPEN_DOORS)),
         decisions=DecisionCount(certificate.entailed, certificate.decisions),
         witnesses=_witnesses(trace, certificate, folder),
         findings=findings,

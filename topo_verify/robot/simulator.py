@@ -16,7 +16,8 @@ from typing import NoReturn
 
 import msgspec
 
-from topo_verify.robot.events import Decision, Event, Move
+from topo_verify.robot import trace_store
+from topo_verify.robot.events import Decision, Event
 from topo_verify.robot.limits import BudgetExceeded, MapperStopped
 from topo_verify.robot.percept import PURPOSES, Door, Percept, Purpose
 from topo_verify.world.rooted_map import Dart, World
@@ -106,7 +107,7 @@ class SimulatedRobot:
         self._at = self._world.alpha[exit_dart(self._world, self._at, number)]
         self._cost += 1
         self._percept = self._percepts[self._at]
-        self.events.append(Move(number, self._percept, purpose))
+        self.events.append(trace_store.move(number, self._percept, purpose))
         return self._percept
 
     def declare(self, event: Decision | Mapping[str, object]) -> None:

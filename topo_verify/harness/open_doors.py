@@ -1,6 +1,6 @@
 """What a log left open: each door that was never crossed, where to find it, and a way there.
 
-    for door in open_doors(fold, reached): ...     # nearest first; the log is the fold's history
+    for door in open_doors(certify(log)): ...     # nearest to its end first
 
 The map is proved once no door is open; so this is the work that is left. What it does not show: how
 much work that is. Behind an open door there may be further doors.
@@ -8,11 +8,11 @@ much work that is. Behind an open door there may be further doors.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import msgspec
 
-from topo_verify.checkers.folding import Fold
+from topo_verify.checkers.certificate import Certificate
 from topo_verify.robot.percept import Door
 
 
@@ -31,12 +31,11 @@ class OpenDoor(msgspec.Struct, frozen=True):
     walk: tuple[Door, ...]
 
 
-def open_doors(fold: Fold, reached: Sequence[int]) -> Iterator[OpenDoor]:
-    """Every open door of a fold, in the order of a breadth-first search from where it ends.
-
-    Args:
-        reached: of each node of the fold, the event that added it.
-    """
+def open_doors(certificate: Certificate) -> Iterator[OpenDoor]:
+    """The open doors of an incomplete log, breadth-first from where it ends; of others none."""
+    fold = certificate.fold
+    if fold is None:
+        return
     start, reference = fold.find(fold.at)
     entries = {start: reference}  # of each place found: the dart by which the search came in
     taken: dict[int, tuple[int, Door]] = {}  # from where, and by which door
@@ -47,7 +46,7 @@ def open_doors(fold: Fold, reached: Sequence[int]) -> Iterator[OpenDoor]:
             dart = (entries[node] + door) % degree
             end = fold.partner((node, dart))
             if end is None:
-                yield OpenDoor(reached[node], dart, (*_walk(taken, node), door))
+                yield OpenDoor(certificate.reached[node], dart, (*_walk(taken, node), door))
             elif end[0] not in entries:
                 entries[end[0]], taken[end[0]] = end[1], (node, door)
                 queue.append(end[0])
