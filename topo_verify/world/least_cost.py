@@ -55,5 +55,6 @@ def least_cost(table: Table) -> int:
         if v not in core:
             attached[v] = attached[parent[v]]
     pendant = [v for v in range(len(degrees)) if v not in core]
+    # (depth of v below a) - d(a), where attached[v] = d(a).
     saved = max((depth[v] - 2 * attached[v] for v in pendant), default=0)
     return sum(depth[u] + 1 + depth[v] for u, v in loops) + 2 * len(pendant) - max(0, saved)

@@ -53,9 +53,11 @@ def largest_component(graph: Graph) -> Graph:
             seen.add(node)
             component = [node]
             for reached in component:  # grows as it goes: a queue
+                # The order of this set does not show, because the component is sorted at the end.
                 fresh = {end.to for end in graph[reached]} - seen
                 seen |= fresh
                 component += fresh
+            # Of two that are as large, `max` keeps the earlier, which has the lower node.
             largest = max(largest, component, key=len)
     return {node: graph[node] for node in sorted(largest)}
 

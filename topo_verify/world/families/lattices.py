@@ -131,6 +131,7 @@ def _grid(rows: int, columns: int, steps: Sequence[tuple[int, int]], *, wrapped:
     graph: Graph = {}
     for node in range(rows * columns):
         exits = graph[node] = []
+        # First along the steps, then against them: once around, clockwise.
         for side in (0, 1):
             for way, (down, right) in enumerate(steps):
                 row = node // columns + (down, -down)[side]

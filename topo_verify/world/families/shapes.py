@@ -96,5 +96,6 @@ def _made(
     arguments.require_darts(family, darts_each * value)
     marker = arguments.marker(family, marker)
     name = arguments.name(family, value, marker=marker)
+    # path(1) has no dart that a marker could point at.
     made = graph(value)
     return as_world(name, made, 0 if marker is None and made[0] else marker)

@@ -40,6 +40,7 @@ def octahedron(*, marker: Dart | None = None) -> World:
 
 def dodecahedron(*, marker: Dart | None = None) -> World:
     """20 vertices of degree 3, 30 edges, 12 pentagons."""
+    # Faces taken as rotations make the dual or its mirror image; a solid is its own mirror image.
     other = icosahedron()
     return _named("dodecahedron", World.from_rotations(other.faces, other.edges, 0), marker)
 
