@@ -53,6 +53,8 @@ class RecordsRule(HistoryRule):
         first = step
         while place is not None:
             if place.percept != sequence.percepts[step]:
+                # Door number `step` is doors[step - 1], so these are the doors behind the
+                # crossing.
                 record = Record(exit_dart, sequence.doors[first:step])
                 evidence = Evidence(
                     step,
@@ -73,6 +75,7 @@ class RecordsRule(HistoryRule):
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
         """Record what the sequences showed behind unexplored darts, traced on the grown S."""
+        # Before anything is recorded. Both are explored now, so neither gets a new record below.
         self.records.pop(e, None)
         self.records.pop(entry, None)
         for sequence in sequences:  # A3.29
@@ -87,6 +90,7 @@ class RecordsRule(HistoryRule):
 
     def _record(self, exit_dart: MapDart, sequence: Executed, step: int) -> None:
         """Record the percepts of the sequence from this step on, as many as `levels` allows."""
+        # What is recorded already stays: a place shows the same percept each time.
         place = self.records.setdefault(exit_dart, Seen(sequence.percepts[step]))
         deepest = len(sequence.doors) if self.levels is None else step + self.levels - 1
         for deeper in range(step + 1, min(deepest, len(sequence.doors)) + 1):

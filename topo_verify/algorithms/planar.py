@@ -63,6 +63,7 @@ def face(chart: Chart, e: MapDart) -> list[MapDart]:
     darts = [e]
     while True:
         across = chart.alpha[darts[-1]]  # None: an unexplored dart is a dead end, so turn back
+        # The next dart of the face is sigma∘alpha, where alpha of an open dart is the dart itself.
         following = chart.turn(darts[-1] if across is None else across, 1)
         if following == e:
             return darts
