@@ -147,6 +147,7 @@ _MUTANTS = (
 def _mutant(case: _FaultyRule) -> Theorem:
     confirms = case.rule == "confirm"
     name = f"words-{case.rule}-{case.fault}"
+    # Words of as many doors as there are edges, as in the theorem that is changed.
     build = partial(case.build, case.edges, case.edges)
     return Theorem(
         name=name,

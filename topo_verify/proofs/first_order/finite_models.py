@@ -76,6 +76,7 @@ def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) ->
     reply = z3_solver.find_values(grounded(formulas, sizes), sorts, budget)
     if reply.answer != "sat":
         return FiniteModel(reply.answer, why=reply.why)
+    # Z3 names its elements as it likes: the value of the constant tells which element is which.
     number = {
         sort: {reply.values[element(sort, n).symbol.name]: n for n in range(size)}
         for sort, size in sizes.items()

@@ -148,6 +148,7 @@ class ProofProducingFold:
         self.offset += [0] * len(visits)
         self.size += [1] * len(visits)
         self.leaving += [{} for _ in visits]
+        # Move v leads from visit v to visit v + 1, and arrives by dart 0 there.
         self.edges += [((v, door), (v + 1, 0)) for v, door in zip(moves, doors, strict=True)]
         # Markers first: these merges follow from the percepts alone, and need no evidence.
         for visit, percept in zip(visits, percepts, strict=True):
@@ -252,6 +253,7 @@ class ProofProducingFold:
         (kept, i), (lost, j) = one, other
         if kept == lost:
             return []
+        # Dart i of `kept` and dart j of `lost` are one dart.
         degree = self.seen[kept].degree
         self.parent[lost], self.offset[lost] = kept, (i - j) % degree
         self.size[kept] += self.size[lost]
@@ -280,6 +282,7 @@ class ProofProducingFold:
         for number, (visit, dart) in enumerate(order):
             arc = self.leaving[visit].get(dart)
             other = None if arc is None else self.number(self.end(arc), first)
+            # The darts of a vertex have consecutive numbers from `low` on.
             low = first[visit][1]
             degree = self.seen[visit].degree
             after, before = ((number - low + step) % degree + low for step in (1, -1))

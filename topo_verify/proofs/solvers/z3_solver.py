@@ -138,6 +138,7 @@ class Z3Question:
     def true(self) -> frozenset[str]:
         """The names of the Booleans that are true in the model of a `sat` answer."""
         model = self._solver.model()
+        # A Boolean that the model leaves open is not in it, and any value does: it counts as false.
         return frozenset(str(name) for name in model.decls() if _z3.is_true(model[name]))
 
     def values(self, wanted: Mapping[str, str]) -> dict[str, str]:
