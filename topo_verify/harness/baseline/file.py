@@ -205,6 +205,7 @@ def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
     number, size = 1, 0
     try:
         with gzip.GzipFile(fileobj=BytesIO(data)) as file:
+            # A longer line comes in pieces, and the first piece is refused: it has no valid sum.
             while line := file.readline(files.LIMIT):
                 size += len(line)
                 if size > MOST_BYTES:
@@ -282,8 +283,10 @@ def schema() -> dict[str, Any]:
     """The JSON Schema of a line, as in `schemas/baseline.schema.json`."""
     made, components = msgspec.json.schema_components([Header, BaselineEntry])
     for name in ("Header", "BaselineEntry"):
+        # `_summed` appends it to the struct's own fields.
         components[name]["properties"]["sum"] = {"type": "string", "pattern": "^[0-9a-f]{16}$"}
         components[name]["required"].append("sum")
+    # For msgspec their defaults make them optional, but every file has them.
     components["Header"]["required"] += ["format", "version"]
     title = "a line of a topo-verify baseline: first the header, then an entry a world"
     return dialect({"title": title, "anyOf": list(made), "$defs": components})

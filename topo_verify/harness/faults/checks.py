@@ -134,6 +134,8 @@ def smallest(
     while True:
         edges += 1
         counted = thorough or edges <= COUNTED
+        # Each search begins with one edge again. The smaller sizes cost little, and so `undecided`
+        # speaks of all of them.
         found = search(
             target,
             edges=edges if counted else largest,
@@ -262,6 +264,7 @@ def fails(fault: Fault, world: World) -> bool | None:
     limits = replace(A_SECOND, budget=budget)
     target = Target(fault.target, lambda robot: fault(_Counting(robot, edges)))
     run = explore(world, target, limits=limits)
+    # Only the bound of claim 7 counts against a mapper: any other limit is ours, proving nothing.
     if run.limit is not None and (run.limit != "budget" or budget < bound):
         return None
     replayed = ReplayedTrace(world, run.trace, run.stopped)

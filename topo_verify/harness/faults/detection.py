@@ -89,6 +89,7 @@ def try_faults(
         tell: the progress callback, called in the larger worlds.
     """
     faults = list(faults)
+    # A worker finds a fault by its name alone, so any other is tried in this process.
     known = all(FAULTS.get(fault.name) is fault for fault in faults)
     if workers and known and len(faults) > 1:
         with closing(_in_workers(faults, FaultsJob(tuple(by), thorough), workers)) as entries:
@@ -183,6 +184,7 @@ def entry_of(
         search=found,
         properties=drawn,
         proofs=proved,
+        # None, an undecided check, is no pass for `all`.
         undecided=None in asked and False not in asked,
         ok=all(asked),
     )
