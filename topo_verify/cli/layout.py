@@ -105,6 +105,7 @@ def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
                     for item in items:
                         console.print(Padding(Line(_clean(item)), (0, 0, 0, 2)))
                 case Raw(text):
+                    # Not by Rich, which would wrap it.
                     out.write(text + "\n")
                 case TextTable():
                     if block.title:
@@ -124,6 +125,7 @@ def _grid(block: TextTable) -> RichTable:
             _clean(title.removeprefix(">")),
             justify="right" if title.startswith(">") else "left",
             overflow="fold",
+            # Rich takes None, not 0, for the rest of the line.
             width=block.widths[place] or None if block.widths else None,
         )
     for row in block.rows:
@@ -167,6 +169,7 @@ def _escaped(text: str) -> str:
 
 def _code(text: str) -> str:
     text = _clean(text)
+    # A fence must be longer than every run of backticks within it.
     longest = max(map(len, re.findall("`+", text)), default=0)
     fence = "`" * (longest + 1)
     return f"{fence}{' ' if longest else ''}{text}{' ' if longest else ''}{fence}"

@@ -101,6 +101,7 @@ def _opened(
     pick, order = asked
     target = one_target(target_text(name, cmd), pick=pick, order=order)
     if usual is not None and isinstance(target.mapper, Algorithm):
+        # Policies on the command line go before those of the baseline.
         target = one_target(target, pick=pick or usual.pick, order=order or usual.order)
     try:
         yield target
