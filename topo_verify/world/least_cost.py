@@ -46,6 +46,7 @@ def least_cost(table: Table) -> int:
         if dart < other and other not in in_tree
     ]
     core = {0}  # the vertices on tree paths from v0 to the ends of loops
+    # The order of this set does not show, because `core` is the union of the ways.
     for v in {end for loop in loops for end in loop}:
         while v not in core:
             core.add(v)

@@ -132,6 +132,7 @@ def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple
         return
     (degree, times), *others = groups
     for chosen in range(min(darts, times) + 1):
+        # Which of the vertices that are alike, and which dart of each.
         here = comb(times, chosen) * degree**chosen
         left = (degree - 1,) * chosen + (degree,) * (times - chosen)
         for ways, further in _meetings(darts - chosen, tuple(others)):

@@ -89,6 +89,7 @@ def _grown(edges: int, kind: WorldClass, start: int, stop: int) -> Iterator[tupl
         u, r = len(partial.opened), 2 * edges - len(partial.alpha)
         if partial.rank >= stop:
             return
+        # All its completions have ranks below `start`.
         if partial.rank + rank_order.completions(u, r) <= start:
             continue
         if u:

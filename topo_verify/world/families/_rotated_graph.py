@@ -70,6 +70,7 @@ def as_world(
     positions: tuple[tuple[float, float], ...] = (),
 ) -> World:
     """The world of a connected graph: darts numbered node by node, clockwise."""
+    # The side is needed for loops, both ends of which are at one node.
     number = {
         (end.edge, end.side): dart
         for dart, end in enumerate(end for ends in graph.values() for end in ends)
@@ -77,6 +78,7 @@ def as_world(
     rotations = [[number[end.edge, end.side] for end in ends] for ends in graph.values()]
     pairs = [(dart, number[edge, 1]) for (edge, side), dart in number.items() if side == 0]
     if marker is None and number and random:
+        # Not a choice among all darts: every vertex is to be as likely as any other.
         marker = random.choice(random.choice(rotations))
     try:
         return World.from_rotations(rotations, pairs, marker, name=name, positions=positions)

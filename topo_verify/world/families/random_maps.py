@@ -277,6 +277,7 @@ class _Faces:
         two = (one + 1 + random.randrange(len(self.faces) - 1)) % len(self.faces)
         second = random.randrange(len(self.faces[two]))
         here, there = self._edge()
+        # Across the new edge, once around the other face, back, once around this one.
         joined = [here, *_turned(self.faces[two], second), there, *_turned(self.faces[one], first)]
         small, large = sorted((one, two), key=lambda face: len(self.faces[face]))
         for dart in (here, *self.faces[small], there):

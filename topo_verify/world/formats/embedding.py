@@ -239,6 +239,8 @@ def _compared(one: _LeavingEnd, other: _LeavingEnd) -> int:
     """Negative where `one` comes first clockwise from the north, 0 for the very same direction."""
     if one.westward != other.westward:
         return 1 if one.westward else -1
+    # Both point into one half, so less than half a turn lies between them. Then the cross product
+    # a·d - b·c is positive exactly if `other` is anticlockwise from `one`, and so comes first.
     (a, b), (c, d) = one.direction, other.direction
     ahead, back = a * d, b * c
     if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):  # more than rounding can amount to
