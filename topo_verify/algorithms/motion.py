@@ -42,6 +42,7 @@ class Hypothesis:
     """
 
     def __init__(self, dart: MapDart, chart: Chart, tree: Tree) -> None:
+        # What is computed later speaks of the same S: a hypothesis is dropped before S grows.
         self.dart, self._chart, self._tree = dart, chart, tree
 
     @cached_property
