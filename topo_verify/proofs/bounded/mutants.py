@@ -183,6 +183,7 @@ def _refute(
     encoded = build()
     result = first_model(encoded.world, decoded_booleans(encoded), budget)
     if result.model is None:
+        # No model: the mutant was not refuted, and EXHAUSTED is not what is expected of it.
         exhausted = result.answer == "unsat"
         return TheoremResult(
             verdict="EXHAUSTED" if exhausted else "UNKNOWN",

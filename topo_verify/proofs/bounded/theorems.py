@@ -186,6 +186,7 @@ def _one_certificate(
 ) -> tuple[RefutationCertificate | None, str]:
     """The certificates of all sizes as one; or, if a size has none, a note that says why."""
     made = [attempt for attempt in attempts if isinstance(attempt, RefutationCertificate)]
+    # A certificate that the checker refused is a bug, so it is shown whatever the others are.
     if not attempts or any(not attempt.checked for attempt in made):
         return (drup.together(made) if made else None), ""
     if len(made) == len(sizes):

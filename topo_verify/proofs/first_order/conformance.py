@@ -177,6 +177,7 @@ class TraceReader:
             self.turned = self.doors.pop()
             self.seen.pop()
         else:
+            # Validation: in runs of the catalogue every move has a purpose.
             self.doors.append((move.door + self.turned) % self.seen[-1].degree)
             self.seen.append(move.percept)
             self.turned = 0

@@ -130,6 +130,7 @@ def _entries(formulas: Sequence[Term], sizes: Mapping[str, int]) -> Iterator[Fun
     """Every value of every function that occurs in the formulas, in a fixed order."""
     found = {symbol.name: symbol for formula in formulas for symbol in symbols(formula)}
     named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
+    # The elements occur in formulas as constants, and name themselves.
     for name in sorted(found.keys() - named):
         symbol = found[name]
         for row in product(*(range(sizes[sort]) for sort in symbol.arguments)):

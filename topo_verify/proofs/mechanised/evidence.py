@@ -107,6 +107,7 @@ def fold_log(percepts: Sequence[Percept], doors: Sequence[Door]) -> FoldedLog:
 
 def _legal(percepts: Sequence[Percept], doors: Sequence[Door]) -> bool:
     starts = percepts[0].marker == 0
+    # Degree 0 is refused as well: a place to which the robot came has a dart.
     shown = all(p.degree > (p.marker or 0) >= 0 for p in percepts)
     return (
         starts and shown and all(0 <= k < p.degree for k, p in zip(doors, percepts, strict=False))

@@ -99,6 +99,7 @@ class Z3Question:
         assertions = _z3.parse_smt2_string(smt2, ctx=self._context)
         if not labels:
             self._solver.add(assertions)
+        # Strict: with a label too few, an assertion would be left out.
         for label, assertion in zip(labels, assertions if labels else (), strict=True):
             # Z3 drops the names of a script when it parses it; tracking gives them back.
             self._solver.assert_and_track(assertion, label)
