@@ -92,6 +92,7 @@ def one_of(row: list[int]) -> SearchStrategy[int]:
 
 def scaled(length: int, *drawn: int) -> int:
     """The number below `length` that these bytes stand for; it grows with them."""
+    # The bytes are a fraction of 256^n: that part of `length`, rounded down.
     return int.from_bytes(drawn) * length >> 8 * len(drawn)
 
 
