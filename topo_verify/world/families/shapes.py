@@ -58,6 +58,7 @@ def wheel(rim: int, *, marker: Dart | None = None) -> World:
     def rows(n: int) -> Iterable[list[int]]:
         return [
             list(range(1, n + 1)),
+            # At the top of the circle: next node east, hub south, previous node west.
             *([(i + 1) % n + 1, 0, (i - 1) % n + 1] for i in range(n)),
         ]
 
@@ -72,6 +73,7 @@ def prism(sides: int, *, marker: Dart | None = None) -> World:
 
     def rows(n: int) -> Iterable[list[int]]:
         return [
+            # The outer cycle, then the inner one, whose nodes have the outer node in the north.
             *([(i + 1) % n, n + i, (i - 1) % n] for i in range(n)),
             *([i, n + (i + 1) % n, n + (i - 1) % n] for i in range(n)),
         ]

@@ -150,6 +150,7 @@ def _merged(
 
 
 def _survivor(end: DrawnEnd, same: dict[int, int]) -> DrawnEnd:
+    # The way that is kept runs the other way, so its other end is at the same place.
     return DrawnEnd(same[end.way], 1 - end.side) if end.way in same else end
 
 
