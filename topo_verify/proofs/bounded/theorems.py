@@ -68,6 +68,7 @@ def bounded(edges: int = MOST_EDGES) -> tuple[Theorem, ...]:
             if statement.least <= edges
         ),
         *(
+            # Whatever `edges` is: `catalogue.choose` leaves out what is larger than asked for.
             theorem(statement, deep, name=f"{statement.name}-deep", deep=True)
             for statement in WHOLE_WORD_STATEMENTS
             if not statement.name.startswith("words-records")

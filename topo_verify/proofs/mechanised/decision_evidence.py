@@ -173,6 +173,7 @@ class _LogSoFar:
         conflict = self.fold.extend(percepts, doors)
         assert conflict is None, "decisions are judged only where some world shows the log"
         if self.next == 0:
+            # v0, from the marked dart on, which is the reference dart of the first visit.
             self.draw((1, 0))
         self.next = when
 
