@@ -140,6 +140,7 @@ class _Sapling:
 
     def _add(self, kind: EdgeKind, place: int) -> bool:
         """Add an edge of this kind, unless the map could not be finished then. Was one added?"""
+        # What the edge adds: vertices, faces, genus, room.
         if kind == "leaf":
             possible = self._can_finish(1, 0, 0, self._shape.max_degree - 2)
         elif kind == "split":
