@@ -18,6 +18,7 @@ from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import PREFIX
 from topo_verify.robot.events import Event, Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.text import LINE, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
@@ -60,7 +61,7 @@ class Report(msgspec.Struct, frozen=True):
             lines.append(f"  {finding.claim}{place}: {finding.message}")
         if self.findings:
             lines.append(f"  again: {self.findings[0].replay}")
-        return "\n".join(lines)
+        return "\n".join(shown(line, limit=LINE) for line in lines)
 
 
 def examine(
@@ -163,7 +164,12 @@ def judge_trace(
     replay_command = replay_command or replay_line(where, target)
     judgements = check(world, trace, stopped, strict=strict)
     findings = tuple(
-        msgspec.structs.replace(finding, world=where, replay=replay_command)
+        msgspec.structs.replace(
+            finding,
+            world=where,
+            replay=replay_command,
+            message=shown(finding.message, limit=LINE),  # it may quote what a mapper raised
+        )
         for judgement in judgements
         for finding in judgement.findings
     )

@@ -31,6 +31,7 @@ from topo_verify.robot.events import (
 )
 from topo_verify.robot.limits import Limit, Limits, MapperStopped, within
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
+from topo_verify.text import LINE, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 from topo_verify.world.validation import map_parts, optional_part
@@ -169,7 +170,7 @@ def _run(
 def _exception_text(error: BaseException) -> str:
     """The type and the text of an exception; its type alone if the text raises another one."""
     try:
-        return f"{type(error).__name__}: {error}"
+        return shown(f"{type(error).__name__}: {error}", limit=LINE)
     except Exception:  # noqa: BLE001  a mapper's exception may do anything
         return type(error).__name__
 
