@@ -91,7 +91,9 @@ from hypothesis import given, settings
 from topo_verify import World, explore
 from topo_verify.strategies import observe, worlds
 
-@settings(max_examples=10, derandomize=True)
+settings.load_profile("topo-ci")  # in a new folder Hypothesis first parses every module
+
+@settings(max_examples=10)
 @given(world=worlds())
 def test(world: World) -> None:
     observe(explore(world, "basic"))

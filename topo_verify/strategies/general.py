@@ -1,8 +1,8 @@
 """Worlds of every kind: all rooted maps, or those of given genus, degree, simplicity.
 
     strategy           draws                               its simplest world
-    worlds             every world within the bounds       m0/0: one vertex, nothing else
-    planar_worlds      those of genus 0                    m0/0
+    worlds             every world within the bounds       m1/0: a single edge
+    planar_worlds      those of genus 0                    m1/0
     nonplanar_worlds   those of genus 1 or more            m2/8: two loops that cross
 
 Every world within the bounds can be drawn: `growth.py` says why.
@@ -20,7 +20,7 @@ from topo_verify.world.rooted_map import World
 
 def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     min_genus: int = 0,
     max_genus: int | None = None,
@@ -53,7 +53,7 @@ def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
 
 def planar_worlds(
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     simple: bool = False,
     loopless: bool = False,
@@ -80,7 +80,7 @@ def planar_worlds(
 def nonplanar_worlds(
     *,
     genus: int | None = None,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     simple: bool = False,
     loopless: bool = False,

@@ -1,7 +1,7 @@
 """Worlds in which many places look alike, so that the marker alone tells them apart.
 
     strategy           draws                                     its simplest world
-    symmetric_worlds   covers of small maps, all places of       m0/0: one vertex, nothing else
+    symmetric_worlds   covers of small maps, all places of       m1/0: a single edge
                        which look alike `sheets` times over
 
 A **cover** is made of copies of a small map, its *sheets*, numbered round a circle 0 … n-1. Each
@@ -87,7 +87,7 @@ class Small:
 
 def symmetric_worlds(
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     simple: bool = False,
     loopless: bool = False,

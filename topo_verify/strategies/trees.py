@@ -1,7 +1,7 @@
 """Trees: worlds in which no hypothesis is ever true.
 
     strategy      draws                                        its simplest world
-    tree_worlds   every plane tree within the bounds           m0/0: one vertex, nothing else
+    tree_worlds   every plane tree within the bounds           m1/0: a single edge
 
 So whatever a mapper confirms in a tree is false.
 """
@@ -19,7 +19,7 @@ from topo_verify.world.rooted_map import World
 
 def tree_worlds(
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     max_degree: int | None = None,
     marker: MarkerPlace = "any",
