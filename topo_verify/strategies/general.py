@@ -37,7 +37,7 @@ def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     Example:
         >>> from hypothesis import find
         >>> find(worlds(simple=True), lambda world: len(world.vertices) == 3)
-        World.from_id('m2/2')
+        tv.World.from_id('m2/2')
     """
     shape = grown_shape(
         "worlds",

@@ -14,6 +14,7 @@ import os
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis.configuration import set_hypothesis_home_dir, storage_directory
@@ -49,13 +50,13 @@ def leaving_no_folder() -> Generator[None]:
     if observability_enabled():
         yield
         return
-    place = storage_directory(intent_to_write=False)
+    place: Any = storage_directory(intent_to_write=False)
     # No folder can be made in the null device, and Hypothesis goes on where it cannot write.
     set_hypothesis_home_dir(Path(os.devnull, "hypothesis"))
     try:
         yield
     finally:
-        set_hypothesis_home_dir(getattr(place, "path", place))  # before 6.140 or so, a path itself
+        set_hypothesis_home_dir(getattr(place, "path", place))  # a path in older versions
 
 
 def _one_run(strategy: SearchStrategy[World], number: int, start: int) -> list[World]:
