@@ -10,6 +10,7 @@ from hypothesis import find, given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
+import topo_verify
 from topo_verify import InputError, World, strategies
 from topo_verify.strategies import (
     dense_worlds,
@@ -165,6 +166,27 @@ def test_strategies_compose_as_strategies_do() -> None:
     pairs = st.tuples(worlds(), mappers())
     assert find(pairs, lambda _: True)[1].name == "basic"
     assert find(st.builds(World.mirror, worlds(min_edges=3)), lambda _: True).id == "m3/24"
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "worlds()",
+        "worlds(max_edges=6)",
+        "nonplanar_worlds(genus=2, simple=True, marker='hub')",
+        "tree_worlds(min_edges=0)",
+        "lattices(max_edges=9)",
+        "symmetric_worlds(max_degree=3)",
+        "uniform_worlds(edges=5)",
+        "mappers(algorithms=['basic'])",
+        "mappers(policies=policies(random=False))",
+        "door_words(tv.World.from_id('m1/0'), max_length=2)",
+    ],
+)
+def test_a_strategy_prints_as_the_call_that_made_it(call: str) -> None:
+    names = {**vars(strategies), "tv": topo_verify}
+    strategy: SearchStrategy[Any] = eval(call, names)  # noqa: S307  as typed at a prompt
+    assert repr(strategy) == call
 
 
 def test_what_is_exported_is_pinned() -> None:

@@ -15,10 +15,12 @@ from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.draws import worlds_of
 from topo_verify.strategies.growth import CROWDED
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape
 from topo_verify.world.rooted_map import World
 
 
+@shown_as_called
 def dense_worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     *,
     min_edges: int = 1,

@@ -14,10 +14,12 @@ from hypothesis.strategies import SearchStrategy
 
 from topo_verify.errors import InputError
 from topo_verify.strategies.draws import worlds_of
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape, integer
 from topo_verify.world.rooted_map import World
 
 
+@shown_as_called
 def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     *,
     min_edges: int = 1,
@@ -51,6 +53,7 @@ def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     return worlds_of("worlds", shape, min_edges=min_edges, max_edges=max_edges, marker=marker)
 
 
+@shown_as_called
 def planar_worlds(
     *,
     min_edges: int = 1,
@@ -77,6 +80,7 @@ def planar_worlds(
     )
 
 
+@shown_as_called
 def nonplanar_worlds(
     *,
     genus: int | None = None,

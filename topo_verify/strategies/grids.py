@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.draws import AT_MOST, at_most, draw_dart, marked_darts, one_of, scaled
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import WIDEST, edge_bounds, require_marker
 from topo_verify.world.rooted_map import Dart, World
 
@@ -36,6 +37,7 @@ _HOLES = 4
 """There is at most one hole to so many edges."""
 
 
+@shown_as_called
 def lattices(
     *, min_edges: int = 1, max_edges: int = WIDEST, marker: LatticeMarker = "any"
 ) -> SearchStrategy[World]:

@@ -36,6 +36,7 @@ from hypothesis.strategies import SearchStrategy
 from topo_verify.errors import InputError
 from topo_verify.strategies.draws import AT_MOST, at_most, draw_dart, marked_darts, one_of
 from topo_verify.strategies.growth import BALANCED, Grown, grow
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import (
     MANY,
     WIDEST,
@@ -85,6 +86,7 @@ class Small:
     vertex: tuple[int, ...]
 
 
+@shown_as_called
 def symmetric_worlds(
     *,
     min_edges: int = 1,

@@ -13,10 +13,12 @@ from dataclasses import replace
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.draws import worlds_of
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape
 from topo_verify.world.rooted_map import World
 
 
+@shown_as_called
 def tree_worlds(
     *,
     min_edges: int = 1,
