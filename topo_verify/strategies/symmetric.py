@@ -1,7 +1,7 @@
 """Worlds in which many places look alike, so that the marker alone tells them apart.
 
     strategy           draws                                     its simplest world
-    symmetric_worlds   covers of small maps, all places of       m0/0: one vertex, nothing else
+    symmetric_worlds   covers of small maps, all places of       m1/0: a single edge
                        which look alike `sheets` times over
 
 A **cover** is made of copies of a small map, its *sheets*, numbered round a circle 0 … n-1. Each
@@ -36,6 +36,7 @@ from hypothesis.strategies import SearchStrategy
 from topo_verify.errors import InputError
 from topo_verify.strategies.draws import AT_MOST, at_most, draw_dart, marked_darts, one_of
 from topo_verify.strategies.growth import BALANCED, Grown, grow
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import (
     MANY,
     WIDEST,
@@ -85,9 +86,10 @@ class Small:
     vertex: tuple[int, ...]
 
 
+@shown_as_called
 def symmetric_worlds(
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     simple: bool = False,
     loopless: bool = False,

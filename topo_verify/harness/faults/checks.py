@@ -215,6 +215,7 @@ def examples_to_detection(
     import hypothesis
 
     from topo_verify.strategies.resolve import resolve_strategy
+    from topo_verify.strategies.sample import leaving_no_folder
 
     tried = undecided = 0
     found: int | None = None
@@ -245,7 +246,7 @@ def examples_to_detection(
             found, failing = found or tried, world
             raise _Failed
 
-    with suppress(_Failed):
+    with leaving_no_folder(), suppress(_Failed):
         every_claim_holds()
     return found, undecided
 
