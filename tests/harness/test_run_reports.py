@@ -57,7 +57,7 @@ def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
 def test_a_report_is_one_json_object() -> None:
     report = examine(mistaken, WORLD, where="corner.json")
     told = json.loads(report.to_json())
-    assert list(told) == ["world", "target", "ok", "cost", "claims", "findings"]
+    assert list(told) == ["world", "target", "ok", "cost", "claims", "findings", "judgements"]
     assert set(told["findings"][0]) >= {
         "claim", "world", "event", "expected", "seen", "message", "replay",
     }  # fmt: skip
