@@ -6,7 +6,7 @@ dart counts as a dead end when the face is walked. The rule is sound in every pl
 other worlds it rejects true hypotheses, and the checkers must find that. It may stand before any
 other rule.
 
-Source: docs/semantics.md, section 11.
+Source: docs/semantics.md, section 8.
 """
 
 from __future__ import annotations

@@ -83,7 +83,7 @@ def at_most(most: int, bound: int) -> int:
 
 
 def one_of(row: list[int]) -> SearchStrategy[int]:
-    """One of these numbers, as a choice even if there is one number.
+    """One of these numbers; a choice is drawn even where there is one number.
 
     Hypothesis takes an example with fewer choices for a simpler one.
     """

@@ -60,9 +60,9 @@ class _CoverSizes:
     """How large rosettes or necklaces may be.
 
     Attributes:
-        smalls: how many darts a rosette has or edges a bead; ascending, and each as often as there
-            are numbers of sheets that go with it.
-        sheets: these numbers.
+        smalls: how many darts a rosette has, or edges a bead. Ascending; a number stands there once
+            for each number of sheets that it can have.
+        sheets: the number of sheets that goes with each of `smalls`.
     """
 
     smalls: SearchStrategy[int]

@@ -1,4 +1,4 @@
-"""Compares a mapper with a baseline: where is it wrong, dearer, cheaper, or decides otherwise?
+"""Compares a mapper with a baseline: where it is wrong, costs more or less, or decides otherwise.
 
 The mapper runs in the baseline's own worlds, under the baseline's own limits, and every claim is
 judged. Each world then falls into one kind, the first of these that fits:

@@ -83,7 +83,8 @@ class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
         map: the id of the delivered map (beyond 200 edges `sha256:` and the hash of its code); None
             if the mapper delivered none, or no valid one.
         failed: the claims that fail.
-        undecided: the run exceeded its time while it still moved, so no claim was judged.
+        undecided: no claim was judged, since the run exceeded its time while it still moved, or the
+            program declined the world.
     """
 
     world: str

@@ -12,8 +12,8 @@ the properties. They are properties of the map, so where the marker lies never m
 | `simple` | loopless, and no two edges join the same two vertices |
 | `max-degree:D` | no vertex has more than D exits |
 
-What `sample` does not do: it draws from a class other than `any` by rejection. That is exactly
-uniform, but hopeless where hardly a world is in the class; then an error says so.
+`sample` draws from a class other than `any` by rejection. That is exactly uniform, but hopeless
+where hardly a world is in the class; then an error says so.
 
 Source: docs/semantics.md, section 16.
 """

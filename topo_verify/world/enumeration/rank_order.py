@@ -56,7 +56,7 @@ def completions(open_darts: int, to_create: int) -> int:
 
 
 _rows: list[tuple[int, ...]] = [(1,)]
-"""IntTuple t holds F(2t - r, r) for r = 0 … 2t; each row follows from the one before it."""
+"""Row t holds F(2t - r, r) for r = 0 … 2t; each row follows from the one before it."""
 
 
 def _next_row(before: tuple[int, ...]) -> tuple[int, ...]:

@@ -285,9 +285,8 @@ class _Faces:
         self.faces[large] = joined
         last = self.faces.pop()
         if small < len(self.faces):  # the last face takes the number that became free
-            moved = joined if large == len(self.faces) else last
-            self.faces[small] = moved
-            for dart in moved:
+            self.faces[small] = last
+            for dart in last:
                 self.face_of[dart] = small
 
     def _corner(self, random: Random) -> tuple[int, int]:

@@ -170,7 +170,7 @@ class _LeavingEnd(NamedTuple):
 
     @property
     def westward(self) -> bool:
-        """Is the direction from south, inclusive, to north, clockwise?"""
+        """Does the direction point west or due south?"""
         x, y = self.direction
         return x < 0 or (x == 0 and y < 0)
 
