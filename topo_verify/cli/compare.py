@@ -151,6 +151,7 @@ def _entry(
     return CompareEntry(
         target=target.text,
         worlds=sum(kinds.values()),
+        # Each kind is a field of the entry under its own name.
         **kinds,
         tolerance=tolerance,
         beyond=found.beyond,

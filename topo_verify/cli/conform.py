@@ -12,7 +12,7 @@ from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import undeclared
+from topo_verify.cli.runs import unjudged
 from topo_verify.harness.conform.conform import ConformTally, LevelResult
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
@@ -220,15 +220,10 @@ def _shown(levels: Sequence[LevelResult]) -> Iterator[Block]:
     for level in levels:
         yield from _findings(level)
     yield from _costs(levels[-1])
-    silent = [
-        claim
-        for level in levels
-        for claim, seen in level.claims.items()
-        if seen.get("not-declared") and not seen.get("ok") and not seen.get("failed")
-    ]
-    if silent and first.passed:
+    judgements = [one for level in levels for one in level.judgements]
+    for sentence in unjudged(first.target, "these worlds", judgements) if first.passed else ():
         yield Text("")
-        yield Text(undeclared(first.target, silent))
+        yield sentence
 
 
 def _numbers(one: LevelResult) -> tuple[str, ...]:

@@ -106,6 +106,7 @@ def _opened(
     text = target_text(name, cmd)
     target = one_target(text, pick=pick, order=order, in_process=in_process)
     if usual is not None and isinstance(target.mapper, Algorithm):
+        # Policies on the command line go before those of the baseline.
         target = one_target(target, pick=pick or usual.pick, order=order or usual.order)
     try:
         yield target

@@ -9,18 +9,19 @@ from dataclasses import dataclass
 import click
 import msgspec
 
+from topo_verify.checkers import Judgement
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
 from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import undeclared
+from topo_verify.cli.runs import unjudged
 from topo_verify.errors import InputError
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import processors
 from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
-from topo_verify.harness.tally import CostComparison, CostTotals, Failure
+from topo_verify.harness.tally import CostComparison, CostTotals, Failure, joint_judgements
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
@@ -88,6 +89,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     by_edges: tuple[ByEdges, ...]
     claims: tuple[FailingClaim, ...]
     not_declared: tuple[str, ...]
+    judgements: tuple[Judgement, ...]
 
 
 @dataclass(frozen=True)
@@ -249,7 +251,9 @@ def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
     tally = found.tally
     # A claim that some runs were judged on is not listed, even if others declared nothing.
     silent = (
-        c for c, seen in tally.statuses.items() if not seen.keys() & {"ok", "failed"} and seen
+        c
+        for c, seen in tally.statuses.items()
+        if seen and seen.keys() <= {"not-declared", "not-asked"}
     )
     entry = SearchEntry(
         target=",".join(found.plan.targets),
@@ -266,6 +270,7 @@ def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
             for claim, failing in found.claims.items()
         ),
         not_declared=tuple(silent),
+        judgements=joint_judgements(tally.statuses, tally.shares, ()),
     )
     return Result(entry, failed=found.verdict == "REFUTED", incomplete=found.verdict == "UNKNOWN")
 
@@ -315,8 +320,8 @@ def _show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     yield Text("")
     yield Text(f"{entry.verdict}: {_conclusion(entry)}")
     yield from _counterexamples(entry)
-    if entry.not_declared and entry.verdict != "REFUTED":
-        yield Text(undeclared(entry.target, entry.not_declared))
+    if entry.verdict != "REFUTED":
+        yield from unjudged(entry.target, "these worlds", entry.judgements)
 
 
 def _who(entry: SearchEntry) -> str:

@@ -12,7 +12,7 @@ from topo_verify.cli.failures import version
 from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import finding_blocks, undeclared
+from topo_verify.cli.runs import finding_blocks, unjudged
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.parts import Part
@@ -120,22 +120,20 @@ def _end(entries: Sequence[Part]) -> Iterator[Block]:
             yield _costs(entry)
     yield Text("")
     yield Text(_conclusion(entries))
+    if not any(entry.verdict == "REFUTED" for entry in entries):
+        yield from dict.fromkeys(
+            sentence
+            for entry in entries
+            for sentence in unjudged("the mapper", f"part {entry.part}", entry.judgements)
+        )
 
 
 def _conclusion(entries: Sequence[Part]) -> str:
-    silent = {
-        claim
-        for entry in entries
-        for claim, seen in entry.claims.items()
-        if seen["not-declared"] and not seen["ok"] and not seen["failed"]
-    }
     if any(entry.verdict == "REFUTED" for entry in entries):
         return "A claim fails: the commands after 'again' show where."
     words = "No claim failed in the worlds and theorems counted above; nothing else was checked."
     if not all(entry.ok for entry in entries):
         words = "No claim failed, but not everything was checked."
-    if silent:
-        words += " " + undeclared("the mapper", [claim for claim in CLAIMS if claim in silent])
     return words
 
 

@@ -18,6 +18,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs.loaded import is_users
 from topo_verify.robot.events import Finish, MapData
 from topo_verify.robot.limits import MapperStopped
+from topo_verify.text import LINE, shown
 from topo_verify.world.validation import map_parts, optional_part
 
 R = TypeVar("R")
@@ -79,10 +80,11 @@ def exception_text(error: BaseException) -> str:
     """Type and text of an exception, file and line; the type alone if its text raises another."""
     place = _place(error)
     at = f" ({place})" if place else ""
+    name = type(error).__name__
     try:
-        return f"{type(error).__name__}: {error}{at}" if str(error) else type(error).__name__ + at
+        return shown(f"{name}: {error}" if str(error) else name, limit=LINE) + at
     except Exception:  # noqa: BLE001  a mapper's exception may do anything
-        return type(error).__name__ + at
+        return name + at
 
 
 def _place(error: BaseException) -> str:

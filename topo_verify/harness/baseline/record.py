@@ -166,6 +166,7 @@ def _map(run: Exploration, report: Report) -> str | None:
     if run.map is None:
         return None
     try:
+        # If no claim fails the map is the world, so there is nothing to build.
         drawn = run.world if report.ok else World.from_map(run.map)
     except InputError:
         return None

@@ -18,7 +18,7 @@ from typing import Any, Literal, get_args
 
 import msgspec
 
-from topo_verify.checkers import Finding, Status
+from topo_verify.checkers import Finding, Judgement
 from topo_verify.harness.conform.likeness import Difference, declares, first_difference
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.judge import Report
@@ -70,7 +70,7 @@ class WorldResult(msgspec.Struct, frozen=True, kw_only=True):
         edges: the number of its edges.
         states: by level; `decisions` only if a reference is to be followed.
         findings: by level, the first ones.
-        claims: the status of each claim.
+        judgements: of each claim; its findings stand under `findings`.
         why: the reason why the world is undecided, if it is.
         timeout: whether a time limit struck.
         cost, reference: edge traversals, the implementation's and the reference's.
@@ -81,7 +81,7 @@ class WorldResult(msgspec.Struct, frozen=True, kw_only=True):
     edges: int
     states: dict[str, LevelState]
     findings: dict[str, tuple[WorldFinding, ...]]
-    claims: dict[str, Status] = {}
+    judgements: tuple[Judgement, ...] = ()
     why: str | None = None
     timeout: bool = False
     cost: int = 0
@@ -166,7 +166,7 @@ def world_result(
         edges=len(at.world.edges),
         states=states,
         findings=kept,
-        claims=report.claims,
+        judgements=report.with_findings(()).judgements,
         why=run.stopped if open_ended else None,
         timeout=run.limit in ("move-timeout", "world-timeout"),
         cost=run.cost,
