@@ -1,103 +1,168 @@
 """What a mapper's process has loaded: files and distributions, so that results can name them.
 
+    watch()       from now on note every file that is opened for reading
+    loaded()      -> Loaded: each file and its hash, each installed distribution and its version
+
 A file counts if a module was loaded from it, or if Python opened it for reading after `watch`. Left
 out are the standard library, installed distributions (they count by their versions) and topo_verify
 itself. Files are hashed when `loaded` is called.
 
-What this does not show: files that C code opens by itself; what comes from a network, a clock or
-another process.
+What this does not show: files that C code or another process opens; what comes from the
+environment, a network or a clock.
 """
 
 from __future__ import annotations
 
 import os
+import stat
 import sys
 import sysconfig
+from collections.abc import Iterable, Mapping
 from functools import cache
 from hashlib import sha256
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
 from topo_verify import errors
 
-_PACKAGE = Path(errors.__file__).resolve().parent
+_PACKAGE = str(Path(errors.__file__).resolve().parent)
 
-_opened: dict[str, None] = {}
-"""The absolute paths opened for reading since `watch`, in their order."""
+_NO_FILES = ("/proc/", "/sys/", "/dev/")
+"""What is not on a disk."""
 
 
 class Loaded(msgspec.Struct, frozen=True):
     """What a mapper's process has loaded.
 
     Attributes:
-        files: absolute path to SHA-256 of its content; empty for a file that is gone.
-        distributions: the name of each installed distribution that was imported to its version.
+        files: the SHA-256 of each file, by its absolute path.
+        distributions: the version of each installed distribution that it imported, by its name.
+        values: a hash of what the mapper was made with (values.py); empty: not known.
     """
 
-    files: dict[str, str]
-    distributions: dict[str, str]
+    files: dict[str, str] = {}
+    distributions: dict[str, str] = {}
+    values: str = ""
+
+
+# ---------------------------------------------------------------- files
+
+_opened: dict[str, None] = {}
+_hashes: dict[str, tuple[tuple[int, ...], str]] = {}  # by path: what identifies its contents
+
+
+def watch() -> None:
+    """From now on note every file that Python opens for reading in this process."""
+    _opened.clear()
+    _hook()
 
 
 @cache
-def watch() -> None:
-    """From now on note every file that Python opens for reading in this process."""
-    sys.addaudithook(_note)
+def _hook() -> None:
+    sys.addaudithook(_note)  # for good: Python has no way to take one away
 
 
-def _note(event: str, arguments: tuple[object, ...]) -> None:
-    if event != "open":
+def _note(event: str, arguments: tuple[Any, ...]) -> None:
+    if event == "open":
+        path, _, flags = arguments
+        if flags & os.O_ACCMODE == os.O_WRONLY or flags & os.O_TRUNC:
+            return
+    elif event in ("ctypes.dlopen", "sqlite3.connect"):
+        path = arguments[0]
+    else:
         return
-    path, _, flags = arguments
-    writes = isinstance(flags, int) and flags & os.O_ACCMODE == os.O_WRONLY
-    if isinstance(path, str | bytes) and not writes:
-        _opened.setdefault(_absolute(os.fsdecode(path)))  # now: the folder may change
+    if isinstance(path, str | bytes | os.PathLike) and path:
+        _opened[os.path.abspath(os.fsdecode(path))] = None  # noqa: PTH100  far cheaper
 
 
-def loaded() -> Loaded:
-    """What this process has loaded until now."""
-    paths = [getattr(module, "__file__", None) for module in list(sys.modules.values())]
-    found = {_absolute(path) for path in paths if isinstance(path, str)} | _opened.keys()
-    files = {path: _hash(path) for path in sorted(found) if is_users(path) and _is_file(path)}
-    return Loaded(files, _distributions())
+def loaded(values: str = "") -> Loaded:
+    """What this process has loaded and, since `watch`, opened for reading.
+
+    Args:
+        values: the hash of the mapper's values, as it was when the mapper was loaded.
+    """
+    files: dict[str, str] = {}
+    tops: set[str] = set()
+    for name, module in list(sys.modules.items()):
+        path = getattr(module, "__file__", None)
+        if isinstance(path, str):
+            _enter(files, os.path.abspath(path))  # noqa: PTH100
+            if _is_installed(path):
+                tops.add(name.partition(".")[0])
+    for path in list(_opened):
+        _enter(files, path)
+    return Loaded(files, _versions(frozenset(tops)), values)
+
+
+def hashes(paths: Iterable[str]) -> dict[str, str]:
+    """The hash of each of these files; what is no file has none."""
+    files: dict[str, str] = {}
+    for path in paths:
+        if (found := file_hash(path)) is not None:
+            files[os.path.abspath(path)] = found  # noqa: PTH100
+    return files
+
+
+def file_hash(path: str) -> str | None:
+    """The hash of a file as it is now; None if there is none that can be read."""
+    try:
+        found = os.stat(path)  # noqa: PTH116  far cheaper
+        if not stat.S_ISREG(found.st_mode):
+            return None
+        state = (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns)
+        known, made = _hashes.get(path, ((), ""))
+        if known != state:
+            made = sha256(Path(path).read_bytes()).hexdigest()
+            _hashes[path] = (state, made)
+    except (OSError, ValueError):
+        return None
+    return made
+
+
+def _enter(files: dict[str, str], path: str) -> None:
+    # Bytecode is made from a source, which is among the files of the modules.
+    if path in files or "__pycache__" in path or not is_users(path):
+        return
+    if (made := file_hash(path)) is not None:
+        files[path] = made
 
 
 @cache
 def is_users(path: str) -> bool:
     """Whether a file belongs to neither Python, nor an installed distribution, nor topo_verify."""
-    place = Path(path).resolve()
-    if {"site-packages", "dist-packages"} & {*place.parts, *Path(path).parts}:
+    if path.startswith(_NO_FILES) or _is_installed(path):
         return False
-    if place.is_relative_to("/proc") or place.is_relative_to("/sys"):
-        return False
-    return not any(place.is_relative_to(home) for home in (_PACKAGE, *_standard()))
+    real = os.path.realpath(path)
+    return not any(f"{p}{os.sep}" == real[: len(p) + 1] for p in (_PACKAGE, *_standard()))
 
 
 @cache
-def _standard() -> tuple[Path, ...]:
-    paths = sysconfig.get_paths()
-    return tuple({Path(paths[name]).resolve() for name in ("stdlib", "platstdlib")})
+def _is_installed(path: str) -> bool:
+    return any(part in ("site-packages", "dist-packages") for part in Path(path).parts)
 
 
-def _absolute(path: str) -> str:
-    return os.path.abspath(path)  # noqa: PTH100  as it was named: `resolve` follows links
+@cache
+def _standard() -> frozenset[str]:
+    return frozenset(os.path.realpath(sysconfig.get_path(n)) for n in ("stdlib", "platstdlib"))
 
 
-def _is_file(path: str) -> bool:
-    return not Path(path).exists() or Path(path).is_file()  # no folder, no device
+@cache
+def _versions(tops: frozenset[str]) -> dict[str, str]:
+    """The version of each distribution that installs one of these top-level packages."""
+    return dict(sorted(pair for top in tops for pair in _installing(top)))
 
 
-def _hash(path: str) -> str:
+@cache
+def _installing(top: str) -> tuple[tuple[str, str], ...]:
     try:
-        return sha256(Path(path).read_bytes()).hexdigest()
-    except OSError:
-        return ""
+        return ((top, metadata.version(top)),)  # most have one name; to list all takes long
+    except metadata.PackageNotFoundError:
+        return tuple((name, metadata.version(name)) for name in _distributions().get(top, ()))
 
 
-def _distributions() -> dict[str, str]:
-    """The installed distributions of the modules that are loaded, and their versions."""
-    known = metadata.packages_distributions()
-    names = {name.partition(".")[0] for name in sys.modules}
-    used = {dist for name in names for dist in known.get(name, ())}
-    return {name: metadata.version(name) for name in sorted(used) if name != "topo-verify"}
+@cache
+def _distributions() -> Mapping[str, list[str]]:
+    return metadata.packages_distributions()
