@@ -18,6 +18,7 @@ from topo_verify import (
     ClaimFailed,
     InputError,
     Limits,
+    Robot,
     World,
     assert_maps,
     examine,
@@ -141,7 +142,7 @@ def test_assert_maps_fails_like_an_assertion_with_the_report_as_its_text() -> No
 def test_assert_maps_shows_the_mappers_own_exception_as_the_cause() -> None:
     mine = KeyError("dart 7")
 
-    def fail(_robot: SimulatedRobot) -> object:
+    def fail(_robot: Robot) -> object:
         raise mine
 
     with pytest.raises(ClaimFailed) as failed:
@@ -157,7 +158,7 @@ def test_assert_maps_refuses_what_is_no_mapper() -> None:
 def test_the_witness_is_run_with_the_limits_of_the_run() -> None:
     runs = iter([FAULTS["confirms-what-is-alone"]])
 
-    def mapper(robot: SimulatedRobot) -> object:
+    def mapper(robot: Robot) -> object:
         lucky = next(runs, None)
         if lucky is not None:
             return lucky(robot)

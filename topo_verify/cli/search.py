@@ -105,6 +105,7 @@ class _SearchOptions:
     worst: bool
     compare: bool
     limits: Limits
+    in_process: bool
 
 
 @click.command(
@@ -118,6 +119,7 @@ class _SearchOptions:
 )
 @click.argument("target", required=False, metavar="[TARGET]")
 @options.program
+@options.in_process
 @click.option(
     "--edges",
     type=click.IntRange(min=1),
@@ -151,6 +153,7 @@ def search(  # noqa: PLR0913  an argument an option
     *,
     target: str | None,
     command: str | None,
+    in_process: bool,
     edges: int,
     kind: str,
     workers: int | None,
@@ -179,19 +182,25 @@ def search(  # noqa: PLR0913  an argument an option
             worst=worst,
             compare=compare is not None,
             limits=limits,
+            in_process=in_process,
         )
-        for mappers in _mappers(target, command, compare, ledger):
+        for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
             yield from _searched(output, mappers, asked)
 
     def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
         for entry in entries:
             yield from _show(entry, worst=worst)
 
-    return output.run("search", searches, show)
+    return output.run("search", searches, show, in_process=in_process)
 
 
 def _mappers(
-    target: str | None, command: str | None, compare: str | None, ledger: str | None
+    target: str | None,
+    command: str | None,
+    compare: str | None,
+    ledger: str | None,
+    *,
+    in_process: bool,
 ) -> list[tuple[Target, ...]]:
     """The mappers of each search: one, or the two that are compared."""
     if (target is None and command is None) == (compare is None):
@@ -204,7 +213,7 @@ def _mappers(
             )
         return [pair]
     text = target_text(target, command)
-    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(text)]
+    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(text, in_process=in_process)]
     if ledger is not None and len(found) != 1:
         raise InputError(
             f"--ledger {ledger}: expected one TARGET, got {len(found)}; search them one by one"
@@ -223,6 +232,7 @@ def _searched(
         choices=asked.policies,
         keep_going=asked.keep_going,
         limits=asked.limits,
+        in_process=asked.in_process,
     )
     opened = None if asked.ledger is None else Ledger(asked.ledger, plan, mappers, version())
     with opened or nullcontext():

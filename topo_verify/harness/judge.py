@@ -17,7 +17,7 @@ from topo_verify.errors import ClaimFailed
 from topo_verify.harness.run import Exploration, explore
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import PREFIX
-from topo_verify.robot.events import Event, Policies
+from topo_verify.robot.events import Event, Move, Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import LINE, shown
 from topo_verify.world.enumeration import rank_order
@@ -169,6 +169,7 @@ def judge(
         replay_command=replay_command,
         strict=strict,
     )
+    report = _with_count(report, run.cost, replay_command)
     return report.with_findings([_with_run_in_witness(finding, run) for finding in report.findings])
 
 
@@ -205,10 +206,33 @@ def judge_trace(
         for judgement in judgements
         for finding in judgement.findings
     )
-    cost = sum(event.__class__.__name__ == "Move" for event in trace)
+    cost = sum(isinstance(event, Move) for event in trace)
     statuses: dict[str, Status] = {judgement.claim: judgement.status for judgement in judgements}
     report = Report(where, target, not findings, cost, statuses, (), tuple(judgements))
     return report.with_findings(findings)
+
+
+def _with_count(report: Report, made: int, replay_command: str) -> Report:
+    """The report; `cost-honest` fails unless the trace holds as many moves as the robot made."""
+    if report.cost == made:
+        return report
+    claim = "cost-honest"
+    message = (
+        f"the robot made {made} moves and the trace holds {report.cost}: somebody changed the"
+        " trace, as a mapper in the same process can"
+    )
+    wrong = Finding(
+        claim, None, made, report.cost, message, world=report.world, replay=replay_command
+    )
+    judgements = tuple(
+        msgspec.structs.replace(one, status="failed") if one.claim == claim else one
+        for one in report.judgements
+    )
+    claims: dict[str, Status] = {**report.claims, claim: "failed"}
+    changed = msgspec.structs.replace(
+        report, ok=False, cost=made, claims=claims, judgements=judgements
+    )
+    return changed.with_findings([wrong, *report.findings])
 
 
 def undecided(run: Exploration, report: Report) -> bool:

@@ -16,9 +16,12 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
+import msgspec
+
 from topo_verify import errors
 from topo_verify.algorithms import Algorithm
 from topo_verify.harness.targets import fingerprint
+from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
 
@@ -32,7 +35,9 @@ def source_hash(mappers: Iterable[Target]) -> str:
     """The hash of these mappers' sources, as they are in the files now, in hexadecimal."""
     digest = sha256(_own().encode())
     for mapper in mappers:
-        if isinstance(mapper.mapper, Program):
+        if isinstance(mapper.mapper, Foreign):
+            digest.update(msgspec.json.encode(mapper.mapper.loaded()))
+        elif isinstance(mapper.mapper, Program):
             digest.update(fingerprint(mapper.text).encode())
         elif not isinstance(mapper.mapper, Algorithm):
             for name, text in sorted(_sources(mapper).items()):

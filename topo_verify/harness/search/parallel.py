@@ -113,7 +113,9 @@ def serve_shards(job: bytes) -> Generator[Handler]:
     """
     search = msgspec.json.decode(job, type=SearchJob)
     plan = search.plan
-    mappers = [target for text in plan.targets for target in targets(text)]
+    mappers = [
+        target for text in plan.targets for target in targets(text, in_process=plan.in_process)
+    ]
     if source_hash(mappers) != search.sources:
         raise InputError(
             f"target {plan.targets[0]!r}: its source, or topo-verify's, has changed since the"

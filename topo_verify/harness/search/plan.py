@@ -41,6 +41,7 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
         keep_going: do not stop at the first counterexample.
         max_timeouts: stop after about so many time-outs; None: never.
         limits: of one run.
+        in_process: mappers that are not of the catalogue share the process of the harness.
     """
 
     targets: tuple[str, ...]
@@ -50,6 +51,7 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
     keep_going: bool = False
     max_timeouts: int | None = None
     limits: Limits = Limits()
+    in_process: bool = True
 
     def __post_init__(self) -> None:
         if self.edges < 1:
