@@ -61,6 +61,11 @@ def forgets(robot: Robot) -> Any:
     return survey if len(survey.edges) < 3 else survey._replace(edges=survey.edges[1:])
 
 
+def moody(robot: Robot) -> Any:
+    """Right, unless a variable of the environment says otherwise."""
+    return guesses(robot) if os.environ.get("MOOD") else CATALOGUE["basic"](robot)
+
+
 def noisy(robot: Robot) -> Any:
     """Right, but it prints, and reads what is not for it."""
     print("x" * 100_000)  # noqa: T201  that is its fault

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
+from functools import reduce
 from itertools import pairwise
 
 import msgspec
@@ -16,12 +17,13 @@ from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import replay_line
 from topo_verify.harness.pool import Division, Loss, Work
-from topo_verify.harness.search.identity import source_hash
+from topo_verify.harness.search.identity import Identity, merged, source_hash
 from topo_verify.harness.search.plan import Plan, Shard
-from topo_verify.harness.search.shard import examine_shard
+from topo_verify.harness.search.shard import ShardResult, examine_shard
 from topo_verify.harness.tally import Failing, Failure, Tally
 from topo_verify.harness.targets import targets
 from topo_verify.harness.worker import Beat, Handler
+from topo_verify.programs.loaded import Loaded, watch
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.pruned import ranked_tables
@@ -31,42 +33,61 @@ GRACE = 5.0
 
 
 class SearchJob(msgspec.Struct, frozen=True):
-    """What a worker is handed before its first shard; `sources`: the hash of the mappers' files."""
+    """What a worker is handed before its first shard.
+
+    Attributes:
+        sources: the hash of the mappers' files.
+        depends: further files that they depend on; None: what they load is not asked for.
+    """
 
     plan: Plan
     sources: str
+    depends: tuple[str, ...] | None
 
 
-def shard_work(plan: Plan, mappers: Sequence[Target]) -> Work[Shard, Tally]:
+def shard_work(
+    plan: Plan, mappers: Sequence[Target], depends: Sequence[str] | None = None
+) -> Work[Shard, ShardResult]:
     """What a pool is to do for a search.
 
     Args:
         mappers: the targets of the plan, as this process found them.
+        depends: further files that they depend on; None: what they load is not asked for.
     """
 
-    def lost(shard: Shard, loss: Loss) -> Tally:
+    def lost(shard: Shard, loss: Loss) -> ShardResult:
         """The shard has one world, which is to blame; or none, if it was cut behind the last."""
         if loss.loading:
             raise InputError(
                 f"target {plan.targets[0]!r}: a process that loads it ends ({loss.cause})"
             )
         ranks = _ranks(plan, shard)
-        return _convicted(plan, shard.edges, ranks[0], loss) if ranks else Tally()
+        return ShardResult(_convicted(plan, shard.edges, ranks[0], loss) if ranks else Tally())
 
     # A failing mapper is run in a witness world, too, under the usual limits.
     silence = GRACE + max(plan.limits.world_timeout, Limits().world_timeout)
     return Work(
         serve=f"{__name__}:serve_shards",
-        job=SearchJob(plan, source_hash(mappers)),
-        result=Tally,
+        job=SearchJob(plan, source_hash(mappers), None if depends is None else tuple(depends)),
+        result=ShardResult,
         lost=lost,
         silence=silence,
         division=Division(
             cut=lambda shard, worlds: _cut(plan, shard, worlds),
-            join=lambda tallies: sum(tallies, Tally()),
-            last=lambda tally: tally.failing > 0 and not plan.keep_going,
+            join=_joined,
+            last=lambda result: result.tally.failing > 0 and not plan.keep_going,
         ),
     )
+
+
+def _joined(results: list[ShardResult]) -> ShardResult:
+    tally = sum((result.tally for result in results), Tally())
+    known = [result.loaded for result in results if result.loaded is not None]
+    return ShardResult(tally, reduce(_merged, known) if known else None)
+
+
+def _merged(one: Loaded, other: Loaded) -> Loaded:
+    return merged(one, other, "the search")
 
 
 def _cut(plan: Plan, shard: Shard, worlds: int) -> list[Shard]:
@@ -113,6 +134,8 @@ def serve_shards(job: bytes) -> Generator[Handler]:
     """
     search = msgspec.json.decode(job, type=SearchJob)
     plan = search.plan
+    if search.depends is not None:
+        watch()
     mappers = [target for text in plan.targets for target in targets(text)]
     if source_hash(mappers) != search.sources:
         raise InputError(
@@ -120,7 +143,10 @@ def serve_shards(job: bytes) -> Generator[Handler]:
             " search began: start it again"
         )
 
-    def examine(shard: bytes, beat: Beat) -> Tally:
-        return examine_shard(plan, mappers, msgspec.json.decode(shard, type=Shard), beat)
+    identity = None if search.depends is None else Identity(mappers, search.depends)
+
+    def examine(shard: bytes, beat: Beat) -> ShardResult:
+        tally = examine_shard(plan, mappers, msgspec.json.decode(shard, type=Shard), beat)
+        return ShardResult(tally, None if identity is None else identity.loaded())
 
     yield examine
