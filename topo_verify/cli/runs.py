@@ -129,9 +129,9 @@ def _is_saved(path: Path, text: str) -> bool:
 def judged(
     run: Exploration, at: NamedWorld, limits: Limits, *, strict: bool = False
 ) -> tuple[Report, bool]:
-    """The report on a run, and whether it is undecided because the run was out of time."""
+    """The report on a run, and whether it is undecided: out of time, or declined by the mapper."""
     report = judge(run, where=at.text, strict=strict)
-    # Out of time convicts nobody: the findings of such a run only say that it has no map.
+    # That convicts nobody: the findings of such a run only say that it has no map.
     if undecided(run, report):
         return msgspec.structs.replace(report, findings=()), True
     if not report.findings:
@@ -152,7 +152,7 @@ def claims_cell(claims: Mapping[str, str], *, incomplete: bool = False) -> str:
     """A cell that says how many claims hold or fail."""
     failed = sum(status == "failed" for status in claims.values())
     if incomplete:
-        return "out of time"
+        return "not decided"
     return plural(failed, "fails", "fail") if failed else f"{held(claims)} hold"
 
 

@@ -152,7 +152,7 @@ def _conclusion(entry: SearchEntry) -> str:
         worlds += f" ({entry.from_ledger} from the ledger, {now} now)"
     failing = sum(size.failing for size in entry.by_edges)
     undecided = sum(size.undecided for size in entry.by_edges)
-    late = f"; in {plural(undecided, 'more', 'more')} a run was out of time" if undecided else ""
+    late = f"; {undecided} more not decided (out of time, or declined)" if undecided else ""
     if entry.verdict == "REFUTED":
         return f"{worlds}, a claim fails in {failing}{late}"
     if entry.verdict == "UNKNOWN":

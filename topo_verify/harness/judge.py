@@ -173,9 +173,12 @@ def judge_trace(
 
 
 def undecided(run: Exploration, report: Report) -> bool:
-    """Whether the run only exceeded its time while it still moved: then no claim is refuted."""
+    """Whether all that is wrong with the run is that a map is missing, for which none is convicted.
+
+    That is a run that exceeded its time while it still moved, or whose program declined the world.
+    """
     lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
-    return run.limit == "world-timeout" and lost
+    return (run.limit == "world-timeout" or run.declined) and lost
 
 
 def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:

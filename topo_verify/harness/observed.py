@@ -17,7 +17,7 @@ from hashlib import sha256
 
 import msgspec
 
-from topo_verify.harness.judge import Report, undecided
+from topo_verify.harness.judge import Report
 from topo_verify.harness.run import Exploration
 from topo_verify.robot.events import Move
 
@@ -85,7 +85,7 @@ def sampled(seen: Iterable[Observation]) -> tuple[Observation, ...]:
 def run_hash(run: Exploration, report: Report) -> bytes:
     """The hash of one run; see above."""
     what: list[object] = [run.algorithm]
-    if undecided(run, report):
+    if run.limit == "world-timeout":
         what.append("out of time")
     else:
         doors = [event.door for event in run.trace if isinstance(event, Move)]

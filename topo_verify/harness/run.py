@@ -19,7 +19,7 @@ from topo_verify.algorithms import Algorithm
 from topo_verify.errors import InputError
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.loader import Mapper, Target
-from topo_verify.programs.program import Program
+from topo_verify.programs.program import Misbehaved, Program
 from topo_verify.robot.events import (
     Confirm,
     Finish,
@@ -52,6 +52,7 @@ class Exploration:
         limit: the limit that stopped it, if one did.
         mapper: the mapper itself; a program's process lives as long as it.
         limits: the moves and the time that it was allowed.
+        misbehaved: what a program, or a mapper in a process of its own, did in place of a map.
     """
 
     world: World
@@ -65,6 +66,12 @@ class Exploration:
     limit: Limit | None = None
     mapper: Mapper | None = field(default=None, repr=False)
     limits: Limits = field(default_factory=Limits)
+    misbehaved: Misbehaved | None = field(default=None, repr=False)
+
+    @property
+    def declined(self) -> bool:
+        """Whether a program skipped the world or gave it up, as the protocol lets it."""
+        return self.misbehaved is not None and self.misbehaved.kind in ("skip", "error")
 
     @property
     def rejected_free(self) -> int:
@@ -114,7 +121,9 @@ def explore(
         percept=first_percept(world),
     )
     finish, stopped, error, limit = _run(target.mapper, robot, limits)
+    misbehaved = None
     if isinstance(target.mapper, Program):
+        misbehaved = target.mapper.misbehaved
         # Here and not in the next run: ending a process takes time that no limit should count.
         target.mapper.settle()
     trace = (start, *robot.events)
@@ -130,6 +139,7 @@ def explore(
         limit,
         target.mapper,
         limits,
+        misbehaved,
     )
 
 

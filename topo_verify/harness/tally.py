@@ -209,6 +209,31 @@ class Tally(msgspec.Struct, frozen=True):
         )
 
 
+def with_failure(tally: Tally, failure: Tally) -> Tally:
+    """A tally with a failure in one of its worlds that was found in another way.
+
+    Args:
+        failure: a tally of nothing but this failure.
+    """
+    both = tally + failure
+
+    def place(one: Failure) -> tuple[int, int]:
+        return one.edges, one.rank
+
+    claims = {
+        claim: Failing(
+            failing.worlds,
+            min(
+                (t.claims[claim].smallest for t in (tally, failure) if claim in t.claims),
+                key=place,
+            ),
+        )
+        for claim, failing in both.claims.items()
+    }
+    failures = tuple(sorted(tally.failures + failure.failures, key=place)[:KEPT_RUNS])
+    return msgspec.structs.replace(both, claims=claims, failures=failures)
+
+
 # ---------------------------------------------------------------- counting
 
 

@@ -78,12 +78,16 @@ class Misbehaved(MapperStopped):
     Attributes:
         kind: what it did instead.
         detail: words to append to the sentence that says why it was stopped.
+        signal: the name of the signal that ended it, as SIGSEGV; None: none did.
     """
 
-    def __init__(self, kind: Misbehaviour, message: str, *, detail: str = "") -> None:
+    def __init__(
+        self, kind: Misbehaviour, message: str, *, detail: str = "", signal: str | None = None
+    ) -> None:
         super().__init__(message)
         self.kind: Misbehaviour = kind
         self.detail = detail
+        self.signal = signal
 
 
 class DeliveredMap(NamedTuple):
@@ -145,7 +149,7 @@ class Program:
         except Misbehaved as why:
             # Keep a copy: the traceback of `why` refers to this frame and thus to the program, and
             # a program in a circle of references is not ended when its last user drops it.
-            self.misbehaved = Misbehaved(why.kind, str(why), detail=why.detail)
+            self.misbehaved = Misbehaved(why.kind, str(why), detail=why.detail, signal=why.signal)
             # These two end a world as the protocol says, so the process is fit for the next one.
             self._idle = why.kind in ("skip", "error")
             raise
@@ -367,7 +371,9 @@ def crash_report(child: Child, due: str) -> Misbehaved:
         return Misbehaved("half-line", f"the program {end} in the middle of a line{complaint}")
     if status is None:
         return Misbehaved("closed-output", "the program closed its output and runs on")
-    return Misbehaved("crashed", f"the program {status} before it {due}{complaint}")
+    message = f"the program {status} before it {due}{complaint}"
+    killed = status.removeprefix("was ended by ")
+    return Misbehaved("crashed", message, signal=killed if killed != status else None)
 
 
 def _silence_report(child: Child, message: str) -> Misbehaved | None:

@@ -2,6 +2,10 @@
 
 A world that kills its worker twice is a finding, for no map was delivered. So is a world in which a
 worker gives no sign of life for longer than any limit allows: its mapper cannot be interrupted.
+
+A world that kills its worker once, and is done when it is tried again, is a finding, too: a right
+mapper does not crash. Unless a stranger may have done it (SIGKILL, as for lack of memory; or no
+sign of life): then the world is named and the verdict open.
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ from topo_verify.harness.pool import Division, Loss, Work
 from topo_verify.harness.search.identity import Identity, merged, source_hash
 from topo_verify.harness.search.plan import Plan, Shard
 from topo_verify.harness.search.shard import ShardResult, examine_shard
-from topo_verify.harness.tally import Failing, Failure, Tally
+from topo_verify.harness.tally import Failing, Failure, LostWorker, Tally, with_failure
 from topo_verify.harness.targets import targets
 from topo_verify.harness.worker import Beat, Handler
 from topo_verify.programs.loaded import Loaded, watch
@@ -71,6 +75,7 @@ def shard_work(
         job=SearchJob(plan, source_hash(mappers), None if depends is None else tuple(depends)),
         result=ShardResult,
         lost=lost,
+        survived=lambda result, losses, given_up: _survived(plan, result, losses, given_up),
         silence=silence,
         division=Division(
             cut=lambda shard, worlds: _cut(plan, shard, worlds),
@@ -108,18 +113,43 @@ def _ranks(plan: Plan, shard: Shard) -> list[int]:
 
 def _convicted(plan: Plan, edges: int, rank: int, loss: Loss) -> Tally:
     """The tally of one world, in which the mapper took its process with it."""
+    tally = _crash(plan, edges, rank, f"no map was delivered: {loss}")
+    claim = tally.failures[0].claim
+    return msgspec.structs.replace(tally, worlds=1, statuses={claim: {"failed": 1}})
+
+
+def _crash(plan: Plan, edges: int, rank: int, message: str) -> Tally:
+    """The tally of a failure in a world that is counted elsewhere."""
     target, world, claim = plan.targets[0], f"m{edges}/{rank}", "map-isomorphic"
     replay = replay_line(world, target, None, plan.limits.options)
-    message = f"no map was delivered: {loss}"
     finding = Finding(claim, None, "a map", None, message, None, world, replay)
     failure = Failure(edges, rank, target, (finding,))
-    return Tally(
-        worlds=1,
-        failing=1,
-        statuses={claim: {"failed": 1}},
-        claims={claim: Failing(1, failure)},
-        failures=(failure,),
-    )
+    return Tally(failing=1, claims={claim: Failing(1, failure)}, failures=(failure,))
+
+
+def _survived(
+    plan: Plan,
+    result: ShardResult,
+    losses: Sequence[tuple[Shard, Loss]],
+    given_up: Sequence[Shard],
+) -> ShardResult:
+    """The result of a shard, with the losses in worlds that were done when tried again."""
+    tally = result.tally
+    seen: set[int] = set()
+    for shard, loss in losses:
+        ranks = _ranks(plan, shard)
+        rank = ranks[min(loss.items, len(ranks) - 1)] if ranks else shard.start
+        failing = {failure.rank for failure in tally.failures}
+        if rank in seen | failing or any(one.start <= rank < one.stop for one in given_up):
+            continue
+        seen.add(rank)
+        if loss.stranger:
+            lost = LostWorker(shard.edges, rank, loss.cause)
+            tally = msgspec.structs.replace(tally, lost=(*tally.lost, lost))
+        else:
+            message = f"no map was delivered: {loss}; at the second try it delivered one"
+            tally = with_failure(tally, _crash(plan, shard.edges, rank, message))
+    return msgspec.structs.replace(result, tally=tally)
 
 
 # ---------------------------------------------------------------- in a worker
