@@ -114,7 +114,11 @@ def test_a_python_mapper_that_ends_its_worker_is_a_finding(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("deed", "verdict", "words"),
     [
-        ("os.kill(os.getpid(), 9)", "UNKNOWN", "its worker was lost (signal 9), as by a stranger"),
+        (
+            "os.kill(os.getpid(), 9)",
+            "UNKNOWN",
+            "its worker was lost (signal 9), perhaps by a stranger; at the second",
+        ),
         ("os.abort()", "REFUTED", "it ended its process (signal 6); at the second try it deliver"),
     ],
 )
@@ -130,6 +134,29 @@ def test_a_worker_that_is_lost_once_is_tried_again(
     told = [*found["result"].why, *(one.message for one in found["result"].findings)]
     assert len(told) == 1
     assert words in told[0]
+
+
+@pytest.mark.parametrize(
+    ("deed", "verdict", "words"),
+    [
+        (
+            "os.kill(os.getpid(), 9)",
+            "UNKNOWN",
+            "its process was ended by SIGKILL, perhaps by a str",
+        ),
+        ("os.abort()", "REFUTED", "ended by SIGABRT before it delivered a map"),
+    ],
+)
+def test_a_program_that_is_killed_once_is_tried_again(
+    tmp_path: Path, deed: str, verdict: str, words: str
+) -> None:
+    target = served(deadly(tmp_path, deed, once=True))
+    found = standings(ConformJob(target=target), "edges<=1")
+    assert verdicts(found)[0] == verdict
+    told = [*found["result"].why, *(one.message for one in found["result"].findings)]
+    assert len(told) == 1
+    assert words in told[0]
+    assert "at the second try it" in told[0]
 
 
 def test_a_worker_that_is_killed_each_time_convicts_nobody(tmp_path: Path) -> None:

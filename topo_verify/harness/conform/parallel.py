@@ -26,6 +26,7 @@ from topo_verify.harness.conform.outcome import (
     LevelState,
     WorldFinding,
     WorldResult,
+    undecided_by_a_stranger,
 )
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.pool import Loss, Pool, Work, in_order
@@ -109,13 +110,7 @@ def _survived(
     if not loss.stranger:
         message = f"no map was delivered: {loss}; at the second try it delivered one"
         return _convicted(made, job, task.world, message)
-    if "failed" in made.states.values():
-        return made
-    return msgspec.structs.replace(
-        made,
-        states=dict.fromkeys(made.states, "undecided"),
-        why=f"its worker was lost ({loss.cause}), as by a stranger; at the second try it passed",
-    )
+    return undecided_by_a_stranger(made, f"its worker was lost ({loss.cause})")
 
 
 def _convicted(made: WorldResult, job: ConformJob, at: Named, message: str) -> WorldResult:

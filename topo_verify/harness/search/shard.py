@@ -65,8 +65,8 @@ def examine_shard(
             world = World.from_code(table)
             tallier.open(rank)
             for target in mappers:
-                for run, report in examinations(target, plan, world, beats):
-                    tallier.enter(run, report)
+                for run, report, killed in examinations(target, plan, world, beats):
+                    tallier.enter(run, report, killed)
             if tallier.close() and not plan.keep_going:
                 break
             if counts.timeouts == plan.max_timeouts:

@@ -25,6 +25,7 @@ from topo_verify.harness.tally import (
     CostTotals,
     Failing,
     Failure,
+    LostWorker,
     RunCounts,
     Tally,
 )
@@ -53,6 +54,7 @@ class Tallier:
     _compared: CostComparison = field(default_factory=CostComparison)
     _digest: str = ""
     _timeouts: int = 0
+    _lost: list[LostWorker] = field(default_factory=list[LostWorker])
     _sample: list[Observation] = field(default_factory=list[Observation])
     # of the world that is open: the first failure of each claim, and the costs
     _failed: dict[str, Failure] = field(default_factory=dict[str, Failure])
@@ -63,8 +65,14 @@ class Tallier:
         """Go on to the next world."""
         self._rank, self._failed, self._paid, self._runs = rank, {}, {}, []
 
-    def enter(self, run: Exploration, report: Report) -> None:
-        """Count a run in the open world."""
+    def enter(self, run: Exploration, report: Report, killed: str | None = None) -> None:
+        """Count a run in the open world.
+
+        Args:
+            killed: the signal with which a stranger may have ended a run before.
+        """
+        if killed is not None:
+            self._lost.append(LostWorker(self.edges, self._rank, killed))
         self._runs.append(run_hash(run, report))
         if not self.counts.enter(run, report):
             return
@@ -123,6 +131,7 @@ class Tallier:
             compared=self._compared,
             digest=self._digest,
             sample=sampled(self._sample),
+            lost=tuple(self._lost),
         )
 
 
