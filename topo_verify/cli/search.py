@@ -22,7 +22,7 @@ from topo_verify.harness.pool import processors
 from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
-from topo_verify.harness.tally import CostTotals, Failure
+from topo_verify.harness.tally import CostTotals, Failure, joint_judgements
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
@@ -45,6 +45,7 @@ class _SearchOptions:
     worst: bool
     compare: bool
     limits: Limits
+    in_process: bool
 
 
 @click.command(
@@ -58,6 +59,7 @@ class _SearchOptions:
 )
 @click.argument("target", required=False, metavar="[TARGET]")
 @options.program
+@options.in_process
 @click.option(
     "--edges",
     type=click.IntRange(min=1),
@@ -105,6 +107,7 @@ def search(  # noqa: PLR0913  an argument an option
     *,
     target: str | None,
     command: str | None,
+    in_process: bool,
     edges: int,
     kind: str,
     workers: int | None,
@@ -137,24 +140,30 @@ def search(  # noqa: PLR0913  an argument an option
             worst=worst,
             compare=compare is not None,
             limits=limits,
+            in_process=in_process,
         )
         for path in depends:
             if not Path(path).is_file():
                 raise InputError(f"--depends {path}: there is no such file; name one that exists")
         if ledger is not None:
             watch()  # before a mapper is loaded
-        for mappers in _mappers(target, command, compare, ledger):
+        for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
             yield from _searched(output, mappers, asked)
 
     def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
         for entry in entries:
             yield from show_entry(entry, worst=worst)
 
-    return output.run("search", searches, show)
+    return output.run("search", searches, show, in_process=in_process)
 
 
 def _mappers(
-    target: str | None, command: str | None, compare: str | None, ledger: str | None
+    target: str | None,
+    command: str | None,
+    compare: str | None,
+    ledger: str | None,
+    *,
+    in_process: bool,
 ) -> list[tuple[Target, ...]]:
     """The mappers of each search: one, or the two that are compared."""
     if (target is None and command is None) == (compare is None):
@@ -167,7 +176,7 @@ def _mappers(
             )
         return [pair]
     text = target_text(target, command)
-    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(text)]
+    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(text, in_process=in_process)]
     if ledger is not None and len(found) != 1:
         raise InputError(
             f"--ledger {ledger}: expected one TARGET, got {len(found)}; search them one by one"
@@ -187,6 +196,7 @@ def _searched(
         keep_going=asked.keep_going,
         limits=asked.limits,
         seed=asked.seed,
+        in_process=asked.in_process,
     )
     identity = None if asked.ledger is None else Identity(mappers, asked.depends)
     with _opened(output, asked, plan, mappers, identity) as ledger:
@@ -223,7 +233,9 @@ def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
     tally = found.tally
     # A claim that some runs were judged on is not listed, even if others declared nothing.
     silent = (
-        c for c, seen in tally.statuses.items() if not seen.keys() & {"ok", "failed"} and seen
+        c
+        for c, seen in tally.statuses.items()
+        if seen and seen.keys() <= {"not-declared", "not-asked"}
     )
     entry = SearchEntry(
         target=",".join(found.plan.targets),
@@ -242,6 +254,7 @@ def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
             for claim, failing in found.claims.items()
         ),
         not_declared=tuple(silent),
+        judgements=joint_judgements(tally.statuses, tally.shares, ()),
     )
     return Result(entry, failed=found.verdict == "REFUTED", incomplete=found.verdict == "UNKNOWN")
 

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
+from topo_verify.checkers import Judgement
 from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
-from topo_verify.cli.runs import undeclared
+from topo_verify.cli.runs import unjudged
 from topo_verify.harness.tally import CostComparison
 from topo_verify.text import plural
 
@@ -84,6 +85,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     by_edges: tuple[ByEdges, ...]
     claims: tuple[FailingClaim, ...]
     not_declared: tuple[str, ...]
+    judgements: tuple[Judgement, ...]
     from_ledger: int
     lost: tuple[Lost, ...]
 
@@ -116,8 +118,8 @@ def show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
         )
         yield Bullets(tuple(f"{one.world}: {one.how}" for one in entry.lost[:SHOWN]))
     yield from _counterexamples(entry)
-    if entry.not_declared and entry.verdict != "REFUTED":
-        yield Text(undeclared(entry.target, entry.not_declared))
+    if entry.verdict != "REFUTED":
+        yield from unjudged(entry.target, "these worlds", entry.judgements)
 
 
 def _who(entry: SearchEntry) -> str:

@@ -16,11 +16,12 @@ on each of its levels, `compare` the kinds of change between two runs.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import msgspec
 
-from topo_verify.checkers import CLAIMS, Finding
+from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
 from topo_verify.harness.judge import Report, undecided
 from topo_verify.harness.observed import Observation, added, sampled
 from topo_verify.harness.run import Exploration
@@ -156,10 +157,11 @@ class Tally(msgspec.Struct, frozen=True):
 
     Attributes:
         worlds: in how many worlds mappers ran.
-        undecided: in how many of them a run was out of time, and nothing else is wrong.
+        undecided: in how many of them a run was undecided, and nothing else is wrong.
         failing: in how many a claim fails.
         timeouts: how many runs a time limit ended.
         statuses: for each claim, how many runs have which status.
+        shares: for each claim, how much was judged in all runs together, of how much.
         claims: the claims that fail.
         failures: the first failing runs.
         costs: of each mapper.
@@ -181,6 +183,7 @@ class Tally(msgspec.Struct, frozen=True):
     digest: str = ""
     sample: tuple[Observation, ...] = ()
     lost: tuple[LostWorker, ...] = ()
+    shares: dict[str, tuple[int, int]] = {}
 
     def __add__(self, behind: Tally) -> Tally:
         statuses = {claim: dict(seen) for claim, seen in self.statuses.items()}
@@ -206,7 +209,13 @@ class Tally(msgspec.Struct, frozen=True):
             added(self.digest, behind.digest),
             sampled(self.sample + behind.sample),
             self.lost + behind.lost,
+            {claim: self._share(claim, behind) for claim in {**self.shares, **behind.shares}},
         )
+
+    def _share(self, claim: str, behind: Tally) -> tuple[int, int]:
+        pairs = zip(self.shares.get(claim, (0, 0)), behind.shares.get(claim, (0, 0)), strict=True)
+        judged, of = (one + other for one, other in pairs)
+        return judged, of
 
 
 def with_failure(tally: Tally, failure: Tally) -> Tally:
@@ -243,27 +252,33 @@ class RunCounts:
 
     Attributes:
         worlds, failing, undecided, timeouts: as in a `Tally`.
-        undecided_runs: how many runs were out of time and say nothing else.
+        late_runs: how many runs were out of time and say nothing else.
     """
 
     worlds: int = 0
     failing: int = 0
     undecided: int = 0
     timeouts: int = 0
-    undecided_runs: int = 0
+    late_runs: int = 0
     # Counting whole rows of statuses is cheaper than counting ten claims in each run.
     _rows: Counter[tuple[str, ...]] = field(default_factory=Counter[tuple[str, ...]])
+    _judged: Counter[str] = field(default_factory=Counter[str])
+    _of: Counter[str] = field(default_factory=Counter[str])
     _fails: bool = False
     _open: bool = False
 
     def enter(self, run: Exploration, report: Report) -> bool:
-        """Count a run; False: it is undecided, and nothing else of it counts."""
+        """Count a run; False: it was out of time, and nothing else of it counts."""
         self.timeouts += run.limit in ("move-timeout", "world-timeout")
         if undecided(run, report):
-            self.undecided_runs += 1
             self._open = True
-            return False
+            if not report.ok:
+                self.late_runs += 1
+                return False
         self._rows[tuple(report.claims.values())] += 1
+        for judgement in report.judgements:
+            self._judged[judgement.claim] += judgement.judged
+            self._of[judgement.claim] += judgement.of
         self._fails |= not report.ok
         return True
 
@@ -283,3 +298,35 @@ class RunCounts:
             for claim, status in zip(CLAIMS, row, strict=True):
                 statuses[claim][status] = statuses[claim].get(status, 0) + runs
         return statuses
+
+    def shares(self) -> dict[str, tuple[int, int]]:
+        """For each claim, how much was judged in all runs together, of how much."""
+        return {claim: (self._judged[claim], self._of[claim]) for claim in CLAIMS}
+
+
+def joint_judgements(
+    statuses: Mapping[str, Mapping[str, int]],
+    shares: Mapping[str, tuple[int, int]],
+    findings: Sequence[Finding],
+) -> tuple[Judgement, ...]:
+    """The judgement of each claim on many runs: `ok` only if it is `ok` in each."""
+    return tuple(
+        Judgement(
+            claim,
+            joint_status(statuses[claim]),
+            *shares.get(claim, (0, 0)),
+            tuple(finding for finding in findings if finding.claim == claim),
+        )
+        for claim in CLAIMS
+        if any(statuses.get(claim, {}).values())
+    )
+
+
+def joint_status(runs: Mapping[str, int]) -> Status:
+    """The status of a claim in many runs, of which so many have each status."""
+    seen = {status for status, number in runs.items() if number}
+    for status in ("failed", "undecided"):
+        if status in seen:
+            return status
+    alike: tuple[Status, ...] = ("ok", "not-declared", "not-asked")
+    return next((status for status in alike if seen == {status}), "partial")

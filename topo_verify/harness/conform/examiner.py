@@ -22,6 +22,7 @@ from topo_verify.harness.judge import Report, judge
 from topo_verify.harness.run import Exploration, explore
 from topo_verify.harness.second_try import tried
 from topo_verify.harness.targets import one_target
+from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program, TranscriptLine
 from topo_verify.robot.events import write_trace
@@ -40,12 +41,14 @@ class Examiner:
 
     def __init__(self, job: ConformJob) -> None:
         self.reference = reference(job)
-        self.job, self.target = job, one_target(job.target)
+        self.job, self.target = job, one_target(job.target, in_process=job.in_process)
         mapper = self.target.mapper
         self.program = mapper if isinstance(mapper, Program) else None
         if self.program is not None:
-            self.program.validate = job.validate
-            self.program.record = job.transcript is not None
+            self.program.validate = job.validate and not isinstance(mapper, Foreign)
+            # The transcript of a mapper in Python is its trace.
+            spoken = not isinstance(mapper, Foreign)
+            self.program.record = spoken and job.transcript is not None
             self.program.start()
 
     def examine(self, at: Named) -> WorldResult:
@@ -55,7 +58,7 @@ class Examiner:
 
         def judged(run: Exploration) -> Report:
             nonlocal lines
-            if program is not None and lines is None:
+            if program is not None and program.record and lines is None:
                 lines = program.lines  # of the first run; the next line may make another
             report = judge(run, where=at.name)
             if program is not None:

@@ -62,7 +62,8 @@ def outcomes(job: ConformJob, worlds: Iterable[Named], workers: int) -> Generato
     Raises:
         InputError: the job names no mapper, or its mapper cannot be loaded.
     """
-    reference(job)  # before any worker is started: the message is then the first
+    with Examiner(job):  # before any worker is started: the message is then the first
+        pass
     with Pool(_work(job), workers) as pool:
         tasks = (
             ConformTask(at.name, at.world.code, at.group, at.replay_arguments) for at in worlds

@@ -27,6 +27,7 @@ from topo_verify import errors
 from topo_verify.algorithms import Algorithm
 from topo_verify.errors import InputError
 from topo_verify.programs import loaded
+from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX, Program, split
@@ -108,6 +109,8 @@ class Identity:
         mapper = target.mapper
         if isinstance(mapper, Algorithm):
             return Loaded()
+        if isinstance(mapper, Foreign):
+            return mapper.loaded()
         if isinstance(mapper, Program):
             return Loaded(loaded.hashes(named_files(target.text)))
         return loaded.loaded(self._values)

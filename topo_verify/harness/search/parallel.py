@@ -166,7 +166,9 @@ def serve_shards(job: bytes) -> Generator[Handler]:
     plan = search.plan
     if search.depends is not None:
         watch()
-    mappers = [target for text in plan.targets for target in targets(text)]
+    mappers = [
+        target for text in plan.targets for target in targets(text, in_process=plan.in_process)
+    ]
     if source_hash(mappers) != search.sources:
         raise InputError(
             f"target {plan.targets[0]!r}: its source, or topo-verify's, has changed since the"

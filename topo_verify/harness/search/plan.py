@@ -43,6 +43,7 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
         max_timeouts: stop after about so many time-outs; None: never.
         limits: of one run.
         seed: of what is drawn: the worlds that are run again.
+        in_process: mappers that are not of the catalogue share the process of the harness.
     """
 
     targets: tuple[str, ...]
@@ -53,6 +54,7 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
     max_timeouts: int | None = None
     limits: Limits = Limits()
     seed: int = 0
+    in_process: bool = True
 
     def __post_init__(self) -> None:
         if self.edges < 1:

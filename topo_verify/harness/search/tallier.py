@@ -132,6 +132,7 @@ class Tallier:
             digest=self._digest,
             sample=sampled(self._sample),
             lost=tuple(self._lost),
+            shares=self.counts.shares(),
         )
 
 
