@@ -116,6 +116,7 @@ class _ExploreOptions:
     help="Names of the catalogue; module:attribute or file.py:attribute.  [default: all]",
 )
 @options.program
+@options.in_process
 @options.policies
 @options.marker
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
@@ -131,6 +132,7 @@ def explore(  # noqa: PLR0913  an argument an option
     worlds: tuple[str, ...],
     algorithm: str | None,
     command: str | None,
+    in_process: bool,
     pick: str | None,
     order: str | None,
     marker: int | None,
@@ -147,14 +149,14 @@ def explore(  # noqa: PLR0913  an argument an option
 
     def runs() -> Iterator[Result[ExploreEntry]]:
         text = target_text(algorithm, command, "all")
-        found = targets(text, pick=pick, order=order)
+        found = targets(text, pick=pick, order=order, in_process=in_process)
         starts = named_worlds(worlds, marker)
         if trace is not None:
             _require_one_run(trace, found, starts)
         asked = _ExploreOptions(limits, trace, strict, gap)
         return _results(output, starts, found, asked)
 
-    return output.run("explore", runs, show)
+    return output.run("explore", runs, show, in_process=in_process)
 
 
 def _require_one_run(trace: str, found: Sequence[Target], starts: Sequence[NamedWorld]) -> None:

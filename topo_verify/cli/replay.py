@@ -60,6 +60,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 @click.argument("what", metavar="FILE|WORLD")
 @click.option("--target", metavar="TARGET", help="The mapper to run in WORLD.  [default: basic]")
 @options.program
+@options.in_process
 @options.policies
 @options.marker
 @click.option(
@@ -73,6 +74,7 @@ def replay(  # noqa: PLR0913  an argument an option
     what: str,
     target: str | None,
     command: str | None,
+    in_process: bool,
     pick: str | None,
     order: str | None,
     marker: int | None,
@@ -100,13 +102,13 @@ def replay(  # noqa: PLR0913  an argument an option
             )
         at = named_world(what, marker, data)
         text = target_text(target, command, "basic")
-        mapper = one_target(text, pick=pick, order=order)
+        mapper = one_target(text, pick=pick, order=order, in_process=in_process)
         output.progress(f"{mapper.text} in {at.name}", 0, 1)
         run = run_mapper(at.world, mapper, limits=limits)
         report, incomplete = judged(run, at, limits)
         yield _result(report, at, None, run.stopped, incomplete=incomplete)
 
-    return output.run("replay", replayed, _show)
+    return output.run("replay", replayed, _show, in_process=in_process)
 
 
 def _require_none(given: Sequence[str], what: str) -> None:

@@ -27,6 +27,7 @@ from topo_verify.text import plural
 )
 @click.argument("target", required=False, metavar="[TARGET]")
 @options.program
+@options.in_process
 @click.option("--quick", is_flag=True, help="Check smaller worlds, in a few seconds.")
 @click.option(
     "--seed",
@@ -43,6 +44,7 @@ def verify(
     *,
     target: str | None,
     command: str | None,
+    in_process: bool,
     quick: bool,
     seed: int,
     limits: Limits,
@@ -53,7 +55,7 @@ def verify(
     path/file.py:attribute. A mapper takes a robot and returns a map.
     """
     text = target_text(target, command, "all")
-    mappers = targets(text)
+    mappers = targets(text, in_process=in_process)
 
     def parts() -> Iterator[Result[Part]]:
         tell = output.progress
@@ -70,6 +72,7 @@ def verify(
         target=text,
         quick=quick,
         seed=seed,
+        in_process=in_process,
     )
 
 

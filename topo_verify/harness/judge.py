@@ -17,8 +17,9 @@ from topo_verify.errors import ClaimFailed
 from topo_verify.harness.run import Exploration, explore
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import PREFIX
-from topo_verify.robot.events import Event, Policies
+from topo_verify.robot.events import Event, Move, Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.text import LINE, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
@@ -66,7 +67,7 @@ class Report(msgspec.Struct, frozen=True):
             lines.append(f"  {finding.claim}{place}: {finding.message}")
         if self.findings:
             lines.append(f"  again: {self.findings[0].replay}")
-        return "\n".join(lines)
+        return "\n".join(shown(line, limit=LINE) for line in lines)
 
 
 _WORDS: dict[Status, str] = {
@@ -168,6 +169,7 @@ def judge(
         replay_command=replay_command,
         strict=strict,
     )
+    report = _with_count(report, run.cost, replay_command)
     return report.with_findings([_with_run_in_witness(finding, run) for finding in report.findings])
 
 
@@ -195,25 +197,54 @@ def judge_trace(
     replay_command = replay_command or replay_line(where, target)
     judgements = check(world, trace, stopped, strict=strict)
     findings = tuple(
-        msgspec.structs.replace(finding, world=where, replay=replay_command)
+        msgspec.structs.replace(
+            finding,
+            world=where,
+            replay=replay_command,
+            message=shown(finding.message, limit=LINE),  # it may quote what a mapper raised
+        )
         for judgement in judgements
         for finding in judgement.findings
     )
-    cost = sum(event.__class__.__name__ == "Move" for event in trace)
+    cost = sum(isinstance(event, Move) for event in trace)
     statuses: dict[str, Status] = {judgement.claim: judgement.status for judgement in judgements}
     report = Report(where, target, not findings, cost, statuses, (), tuple(judgements))
     return report.with_findings(findings)
 
 
-def undecided(run: Exploration, report: Report) -> bool:
-    """Whether no claim is refuted, but one is undecided, or the run was out of time.
+def _with_count(report: Report, made: int, replay_command: str) -> Report:
+    """The report; `cost-honest` fails unless the trace holds as many moves as the robot made."""
+    if report.cost == made:
+        return report
+    claim = "cost-honest"
+    message = (
+        f"the robot made {made} moves and the trace holds {report.cost}: somebody changed the"
+        " trace, as a mapper in the same process can"
+    )
+    wrong = Finding(
+        claim, None, made, report.cost, message, world=report.world, replay=replay_command
+    )
+    judgements = tuple(
+        msgspec.structs.replace(one, status="failed") if one.claim == claim else one
+        for one in report.judgements
+    )
+    claims: dict[str, Status] = {**report.claims, claim: "failed"}
+    changed = msgspec.structs.replace(
+        report, ok=False, cost=made, claims=claims, judgements=judgements
+    )
+    return changed.with_findings([wrong, *report.findings])
 
-    Out of time is a run that exceeded its time while it still moved: all it lacks is a map.
+
+def undecided(run: Exploration, report: Report) -> bool:
+    """Whether no claim is refuted, but one is undecided, or a map is missing without a fault.
+
+    That is the map of a run that exceeded its time while it still moved, or whose program declined
+    the world.
     """
     if not report.findings:
         return "undecided" in report.claims.values()
     lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
-    return run.limit == "world-timeout" and lost
+    return (run.limit == "world-timeout" or run.declined) and lost
 
 
 def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:

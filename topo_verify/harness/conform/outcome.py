@@ -23,7 +23,7 @@ from topo_verify.harness.conform.likeness import Difference, declares, first_dif
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.judge import Report
 from topo_verify.harness.run import Exploration
-from topo_verify.programs.program import Misbehaved
+from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 
@@ -99,6 +99,7 @@ class ConformJob(msgspec.Struct, frozen=True, kw_only=True):
         validate: refuse unknown and doubled fields in a program's messages.
         transcript: the folder for the transcripts of failing worlds.
         replay_arguments: the command line that asks for this again, without the world.
+        in_process: a mapper that is not of the catalogue shares the process of the harness.
     """
 
     target: str
@@ -108,6 +109,7 @@ class ConformJob(msgspec.Struct, frozen=True, kw_only=True):
     validate: bool = False
     transcript: str | None = None
     replay_arguments: tuple[str, ...] = ()
+    in_process: bool = True
 
     @property
     def reference(self) -> str:
@@ -177,6 +179,18 @@ def world_result(
 def plain(made: WorldResult) -> WorldResult:
     """The same result as data alone, as another process would send it: no object of the mapper."""
     return _decoder.decode(msgspec.json.encode(made, enc_hook=repr))
+
+
+def undecided_by_a_stranger(made: WorldResult, how: str) -> WorldResult:
+    """The result of a world that passed at the second try; the first may have met a stranger.
+
+    Args:
+        how: what became of the first try.
+    """
+    if "failed" in made.states.values():
+        return made
+    why = f"{how}, perhaps by a stranger; at the second try it passed"
+    return msgspec.structs.replace(made, states=dict.fromkeys(made.states, "undecided"), why=why)
 
 
 _decoder = msgspec.json.Decoder(WorldResult)

@@ -25,7 +25,7 @@ from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import Trials
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
-from topo_verify.text import shown
+from topo_verify.text import LINE, shown
 
 ClaimVerdict = Literal["holds", "fails", "undecided", "not-declared"]
 
@@ -64,7 +64,7 @@ class ClaimResults:
             case "fails":
                 return self._failure(claim, seen["failed"])
             case "undecided":
-                return f"{claim} is undecided: {self.part.summary}"
+                return shown(f"{claim} is undecided: {self.part.summary}", limit=LINE)
             case "not-declared" if not seen["ok"] + seen["partial"]:
                 return f"{claim}: not judged, since the mapper declares none of its decisions"
             case "not-declared":
@@ -82,7 +82,7 @@ class ClaimResults:
         if finding.world in self.raised:
             lines.append(f"  raised at: {self.raised[finding.world]}")
         lines += [f"  world: {finding.world}", f"  again: {finding.replay}"]
-        return "\n".join(lines)
+        return "\n".join(shown(line, limit=LINE) for line in lines)
 
 
 def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
