@@ -150,7 +150,6 @@ class FoldingRule(NoRule):
     def __init__(self) -> None:
         self.fold = PartialFold()
         self.entries: list[NodeDart] = []  # of each vertex of S: its first dart
-        self.percept = Percept(0, None)  # vu's
         self.e: NodeDart = (0, 0)
         self.vu: NodeDart = (0, 0)
 
@@ -164,7 +163,6 @@ class FoldingRule(NoRule):
         """Take note of vu, which is a place seen before, or a new ghost."""
         if not self.entries:
             self.entries.append((self.fold.add(chart.percepts[0], known=True), 0))
-        self.percept = percept
         self.e = self.node_dart(chart, e)
         self.vu = self._cross(self.e, percept)
 
@@ -193,8 +191,7 @@ class FoldingRule(NoRule):
         self.fold.roll_back(mark)
         if not wrong:
             return None
-        percept = chart.percepts[hypothesis.dart]
-        return Refutation("folding", Evidence(0, percept, self.percept, contradiction=wrong))
+        return Refutation("folding", Evidence(0, contradiction=wrong))
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The last hypothesis, once vu is known to be a vertex of S."""
