@@ -25,7 +25,7 @@ from topo_verify.text import plural
     short_help="Check the catalogue, or a mapper of your own, in one report.",
     epilog=options.epilog("verify", "verify my_mapper.py:explore", "verify --quick --format json"),
 )
-@click.argument("target", required=False, metavar="[TARGET]")
+@options.target
 @options.program
 @click.option("--quick", is_flag=True, help="Check smaller worlds, in a few seconds.")
 @click.option(
