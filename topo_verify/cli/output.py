@@ -84,9 +84,14 @@ class _ReaderGone(Exception):
 
 
 class Output:
-    """How one command prints, by its --format and --quiet."""
+    """How one command prints, by its --format and --quiet.
+
+    Attributes:
+        timing: what differs from run to run, for `timing` in the JSON; a command may add to it.
+    """
 
     def __init__(self, style: str, *, quiet: bool) -> None:
+        self.timing: dict[str, Any] = {}
         self.style, self.quiet = style, quiet
         self.stdout: IO[str] = sys.stdout or _nowhere()
         self.progress = ProgressBar(quiet=quiet)
@@ -173,7 +178,7 @@ class Output:
                     "exit": int(done.code),
                     **more,
                     "results": msgspec.to_builtins(done.entries),
-                    "timing": {"seconds": seconds, "results": done.seconds},
+                    "timing": {"seconds": seconds, "results": done.seconds, **self.timing},
                 }
                 # One object, written at the end: a script never reads half a result.
                 out.write(json.dumps(envelope) + "\n")

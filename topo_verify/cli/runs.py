@@ -129,9 +129,9 @@ def _is_saved(path: Path, text: str) -> bool:
 def judged(
     run: Exploration, at: NamedWorld, limits: Limits, *, strict: bool = False
 ) -> tuple[Report, bool]:
-    """The report on a run, and whether it is undecided."""
+    """The report on a run, and whether it is undecided: out of time, or declined by the mapper."""
     report = judge(run, where=at.text, strict=strict)
-    # Out of time convicts nobody: the findings of such a run only say that it has no map.
+    # That convicts nobody: the findings of such a run only say that it has no map.
     if undecided(run, report):
         return report.with_findings(()), True
     if not report.findings:
@@ -152,7 +152,7 @@ def claims_cell(claims: Mapping[str, Status], *, incomplete: bool = False) -> st
     """A cell that says how many claims fail; or else how many hold, and what the others are."""
     failed = sum(status == "failed" for status in claims.values())
     if incomplete and "undecided" not in claims.values():
-        return "out of time"
+        return "not decided"
     if failed:
         return plural(failed, "fails", "fail")
     return f"{len(claims)} hold" if {*claims.values()} == {"ok"} else in_words(claims, "hold")

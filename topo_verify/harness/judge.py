@@ -236,14 +236,15 @@ def _with_count(report: Report, made: int, replay_command: str) -> Report:
 
 
 def undecided(run: Exploration, report: Report) -> bool:
-    """Whether no claim is refuted, but one is undecided, or the run was out of time.
+    """Whether no claim is refuted, but one is undecided, or a map is missing without a fault.
 
-    Out of time is a run that exceeded its time while it still moved: all it lacks is a map.
+    That is the map of a run that exceeded its time while it still moved, or whose program declined
+    the world.
     """
     if not report.findings:
         return "undecided" in report.claims.values()
     lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
-    return run.limit == "world-timeout" and lost
+    return (run.limit == "world-timeout" or run.declined) and lost
 
 
 def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:

@@ -71,6 +71,11 @@ class Exploration:
     misbehaved: Misbehaved | None = field(default=None, repr=False)
 
     @property
+    def declined(self) -> bool:
+        """Whether a program skipped the world or gave it up, as the protocol lets it."""
+        return self.misbehaved is not None and self.misbehaved.kind in ("skip", "error")
+
+    @property
     def rejected_free(self) -> int:
         """How many hypotheses were rejected without motion."""
         return sum(isinstance(e, Reject) and e.rule != "motion" for e in self.trace)

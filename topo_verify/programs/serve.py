@@ -104,9 +104,14 @@ Player = Callable[[Mapper, RemoteRobot], object]
 """Plays one world: has the mapper steer the robot, and returns the message that ends the world."""
 
 
-def serve(mapper: Mapper, reader: BinaryIO, writer: BinaryIO, play: Player) -> None:
-    """Play worlds until a `stop` message or the end of the input."""
-    values = values_hash(mapper)  # now: some may change when it runs
+def serve(
+    mapper: Mapper, reader: BinaryIO, writer: BinaryIO, play: Player, values: str = ""
+) -> None:
+    """Play worlds until a `stop` message or the end of the input.
+
+    Args:
+        values: the hash of what the mapper was made with.
+    """
     for line in reader:
         message = _to_child.decode(line)
         if isinstance(message, ms.StartMessage):
@@ -169,9 +174,10 @@ def child(text: str) -> None:
         writer.write(_encode(ms.RefusedMessage(_words(str(error)))) + b"\n")
         writer.flush()
         return
+    made = values_hash(mapper)  # before it runs: a default may change then
     writer.write(_encode(ms.ReadyMessage()) + b"\n")
     writer.flush()
-    serve(mapper, reader, writer, _as_child)
+    serve(mapper, reader, writer, _as_child, made)
 
 
 if __name__ == "__main__":

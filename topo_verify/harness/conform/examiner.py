@@ -11,10 +11,16 @@ from typing import Self
 
 import msgspec
 
-from topo_verify.harness.conform.outcome import ConformJob, WorldResult, world_result
+from topo_verify.harness.conform.outcome import (
+    ConformJob,
+    WorldResult,
+    undecided_by_a_stranger,
+    world_result,
+)
 from topo_verify.harness.corpus import Named
-from topo_verify.harness.judge import judge
+from topo_verify.harness.judge import Report, judge
 from topo_verify.harness.run import Exploration, explore
+from topo_verify.harness.second_try import tried
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.loader import Target
@@ -48,11 +54,18 @@ class Examiner:
     def examine(self, at: Named) -> WorldResult:
         """Run the implementation in a world; the outcome on each level."""
         job, program = self.job, self.program
-        run = explore(at.world, self.target, limits=job.limits)
-        lines = program.lines if program is not None and program.record else None
-        report = judge(run, where=at.name)
-        if program is not None:
-            program.settle()  # it may have been run in a witness world, too
+        lines: list[TranscriptLine] | None = None
+
+        def judged(run: Exploration) -> Report:
+            nonlocal lines
+            if program is not None and program.record and lines is None:
+                lines = program.lines  # of the first run; the next line may make another
+            report = judge(run, where=at.name)
+            if program is not None:
+                program.settle()  # it may have been run in a witness world, too
+            return report
+
+        run, report, killed = tried(at.world, self.target, job.limits, judged)
         made = world_result(
             run,
             report,
@@ -64,6 +77,8 @@ class Examiner:
         )
         if job.transcript is not None and any(made.findings.values()):
             keep(job.transcript, at, run, made, lines)
+        if killed is not None:
+            made = undecided_by_a_stranger(made, f"its process was ended by {killed}")
         return made
 
     def __enter__(self) -> Self:

@@ -181,6 +181,18 @@ def plain(made: WorldResult) -> WorldResult:
     return _decoder.decode(msgspec.json.encode(made, enc_hook=repr))
 
 
+def undecided_by_a_stranger(made: WorldResult, how: str) -> WorldResult:
+    """The result of a world that passed at the second try; the first may have met a stranger.
+
+    Args:
+        how: what became of the first try.
+    """
+    if "failed" in made.states.values():
+        return made
+    why = f"{how}, perhaps by a stranger; at the second try it passed"
+    return msgspec.structs.replace(made, states=dict.fromkeys(made.states, "undecided"), why=why)
+
+
 _decoder = msgspec.json.Decoder(WorldResult)
 
 
