@@ -28,7 +28,7 @@ EXPECTED = {
     "hangs": ("move-timeout", "did not move for 0.9 s"),
     "exits": ("crashed", "ended with exit code 7"),
     "exits with success": ("crashed", "ended with exit code 0"),
-    "raises": ("crashed", "its last line on standard error: IndexError: list index out of range"),
+    "raises": ("crashed", "/ IndexError: list index out of range"),
     "kills itself": ("crashed", "was ended by SIGKILL"),
     "crashes": ("crashed", "was ended by SIGSEGV"),
     "closes its output": ("closed-output", "closed its output and runs on"),
