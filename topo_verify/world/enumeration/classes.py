@@ -75,13 +75,15 @@ class WorldClass:
             exact.add(0)
         if len(exact) > 1 or (exact and most is not None and max(exact) > most):
             raise InputError(
-                f"class {shown(text, limit=80)!r} contradicts itself: a world has one genus; name one or one bound"
+                f"class {shown(text, limit=80)!r} contradicts itself: a world has one genus;"
+                " name one or one bound"
             )
         genus = max(exact, default=None)
         # With degrees 1 and 2 a connected map is a path or a cycle, and those have genus 0.
         if degree == 0 or (genus and degree in (1, 2)):
             raise InputError(
-                f"class {shown(text, limit=80)!r} is empty: with at most {degree} exits a vertex there is no world"
+                f"class {shown(text, limit=80)!r} is empty: with at most {degree} exits a vertex"
+                " there is no world"
                 f" {f'of genus {genus}' if degree else 'with an edge'}; raise max-degree"
             )
         return cls(
@@ -198,9 +200,9 @@ def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
         found = _TERM.fullmatch(term.strip())
         if not found:
             raise InputError(
-                f"class {shown(text, limit=80)!r}: expected any, planar, genus:G, genus<=G, simple, loopless or"
-                " max-degree:D, or several of them joined with commas, all of which hold; got"
-                f" {term.strip()!r}"
+                f"class {shown(text, limit=80)!r}: expected any, planar, genus:G, genus<=G,"
+                " simple, loopless or max-degree:D, or several of them joined with commas, all of"
+                f" which hold; got {term.strip()!r}"
             )
         word, bound, number = found.groups()
         if bound:
