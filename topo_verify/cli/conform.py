@@ -69,6 +69,7 @@ class _ConformOptions:
     help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
 @click.option("--validate", is_flag=True, help="Refuse fields that no schema lists.")
+@options.strict
 @click.option("--transcript", metavar="DIR", help="Write the messages of failing worlds to DIR.")
 @click.option(
     "--seed",
@@ -93,6 +94,7 @@ def conform(  # noqa: PLR0913  an argument an option
     batch: bool,
     workers: int | None,
     validate: bool,
+    strict: bool,
     transcript: str | None,
     seed: int,
     limits: Limits,
@@ -121,10 +123,12 @@ def conform(  # noqa: PLR0913  an argument an option
                 policies=policies,
                 limits=limits,
                 validate=validate,
+                strict=strict,
                 transcript=transcript,
                 in_process=in_process,
                 replay_arguments=(
                     *_replay_command(one, like, (pick, order), batch=batch, validate=validate),
+                    *(("--strict",) if strict else ()),
                     *(("--in-process",) if in_process else ()),
                     *limits.options,
                 ),
