@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
     from topo_verify.harness.judge import Report, assert_maps, examine
     from topo_verify.harness.run import Exploration, explore
-    from topo_verify.robot.events import Robot
+    from topo_verify.robot.events import Policies, Robot
     from topo_verify.robot.limits import Limits
     from topo_verify.robot.percept import Percept
     from topo_verify.world import families
@@ -37,6 +37,7 @@ __all__ = [
     "InternalError",
     "Limits",
     "Percept",
+    "Policies",
     "Report",
     "Robot",
     "TopoVerifyError",
@@ -55,7 +56,7 @@ _MODULES = {
     "checkers.certificate": ("Certificate", "certify"),
     "errors": ("ClaimFailed", "InputError", "InternalError", "TopoVerifyError"),
     "robot.limits": ("Limits",),
-    "robot.events": ("Robot",),
+    "robot.events": ("Policies", "Robot"),
     "robot.percept": ("Percept",),
     "harness.judge": ("Report", "assert_maps", "examine"),
     "harness.run": ("Exploration", "explore"),

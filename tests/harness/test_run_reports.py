@@ -18,6 +18,7 @@ from topo_verify import (
     ClaimFailed,
     InputError,
     Limits,
+    Robot,
     World,
     assert_maps,
     examine,
@@ -57,7 +58,7 @@ def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
 def test_a_report_is_one_json_object() -> None:
     report = examine(mistaken, WORLD, where="corner.json")
     told = json.loads(report.to_json())
-    assert list(told) == ["world", "target", "ok", "cost", "claims", "findings"]
+    assert list(told) == ["world", "target", "ok", "cost", "claims", "findings", "judgements"]
     assert set(told["findings"][0]) >= {
         "claim", "world", "event", "expected", "seen", "message", "replay",
     }  # fmt: skip
@@ -141,7 +142,7 @@ def test_assert_maps_fails_like_an_assertion_with_the_report_as_its_text() -> No
 def test_assert_maps_shows_the_mappers_own_exception_as_the_cause() -> None:
     mine = KeyError("dart 7")
 
-    def fail(_robot: SimulatedRobot) -> object:
+    def fail(_robot: Robot) -> object:
         raise mine
 
     with pytest.raises(ClaimFailed) as failed:
@@ -157,7 +158,7 @@ def test_assert_maps_refuses_what_is_no_mapper() -> None:
 def test_the_witness_is_run_with_the_limits_of_the_run() -> None:
     runs = iter([FAULTS["confirms-what-is-alone"]])
 
-    def mapper(robot: SimulatedRobot) -> object:
+    def mapper(robot: Robot) -> object:
         lucky = next(runs, None)
         if lucky is not None:
             return lucky(robot)

@@ -7,7 +7,9 @@ from typing import Any
 
 import pytest
 from hypothesis import given
+from hypothesis.vendor.pretty import pretty
 
+import topo_verify
 from tests.helpers import any_world, trace_of
 from topo_verify import InputError, World
 from topo_verify.robot.events import (
@@ -180,3 +182,9 @@ def test_a_newer_version_is_refused_with_what_to_do() -> None:
     newer = write_trace([START]).replace(b'"version":1', b'"version":2')
     with pytest.raises(InputError, match=r"version 2 is newer than 1, .* update it"):
         read_trace(newer)
+
+
+def test_policies_print_as_code_that_makes_them_again() -> None:
+    chosen = Policies("last", "random(3)")
+    assert eval(repr(chosen), {"tv": topo_verify}) == chosen  # noqa: S307  as pasted
+    assert pretty(chosen) == repr(chosen) == "tv.Policies(pick='last', order='random(3)')"

@@ -33,6 +33,21 @@ print(find(st.builds(edges), lambda number: number > 2))
     assert printed(code) == "3"
 
 
+def test_a_mapper_is_drawn_wherever_an_algorithm_is_annotated() -> None:
+    code = """
+from hypothesis import find, strategies as st
+from topo_verify import Algorithm, Policies, assert_maps, World
+
+def runs(mapper: Algorithm, policies: Policies) -> tuple[str, str]:
+    assert_maps(mapper, World.from_id("m2/8"))
+    assert_maps("basic", World.from_id("m2/8"), pick=policies.pick, order=policies.order)
+    return mapper.name, policies.pick
+
+print(find(st.builds(runs), lambda names: names[1] != "nearest"))
+"""
+    assert printed(code) == "('basic', 'last')"
+
+
 def test_the_profiles_are_there_as_soon_as_hypothesis_is_imported() -> None:
     code = """
 from hypothesis import settings

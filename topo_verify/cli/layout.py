@@ -105,6 +105,7 @@ def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
                     for item in items:
                         console.print(Padding(Line(_clean(item)), (0, 0, 0, 2)))
                 case Raw(text):
+                    # Not by Rich, which would wrap it.
                     out.write(text + "\n")
                 case TextTable():
                     if block.title:
@@ -124,6 +125,7 @@ def _grid(block: TextTable) -> RichTable:
             _clean(title.removeprefix(">")),
             justify="right" if title.startswith(">") else "left",
             overflow="fold",
+            # Rich takes None, not 0, for the rest of the line.
             width=block.widths[place] or None if block.widths else None,
         )
     for row in block.rows:

@@ -12,7 +12,7 @@ from topo_verify.cli.failures import version
 from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import finding_blocks, undeclared
+from topo_verify.cli.runs import finding_blocks, unjudged
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.parts import Part
@@ -27,6 +27,7 @@ from topo_verify.text import plural
 )
 @click.argument("target", required=False, metavar="[TARGET]")
 @options.program
+@options.in_process
 @click.option("--quick", is_flag=True, help="Check smaller worlds, in a few seconds.")
 @click.option(
     "--seed",
@@ -43,6 +44,7 @@ def verify(
     *,
     target: str | None,
     command: str | None,
+    in_process: bool,
     quick: bool,
     seed: int,
     limits: Limits,
@@ -53,7 +55,7 @@ def verify(
     path/file.py:attribute. A mapper takes a robot and returns a map.
     """
     text = target_text(target, command, "all")
-    mappers = targets(text)
+    mappers = targets(text, in_process=in_process)
 
     def parts() -> Iterator[Result[Part]]:
         tell = output.progress
@@ -70,6 +72,7 @@ def verify(
         target=text,
         quick=quick,
         seed=seed,
+        in_process=in_process,
     )
 
 
@@ -117,22 +120,20 @@ def _end(entries: Sequence[Part]) -> Iterator[Block]:
             yield _costs(entry)
     yield Text("")
     yield Text(_conclusion(entries))
+    if not any(entry.verdict == "REFUTED" for entry in entries):
+        yield from dict.fromkeys(
+            sentence
+            for entry in entries
+            for sentence in unjudged("the mapper", f"part {entry.part}", entry.judgements)
+        )
 
 
 def _conclusion(entries: Sequence[Part]) -> str:
-    silent = {
-        claim
-        for entry in entries
-        for claim, seen in entry.claims.items()
-        if seen["not-declared"] and not seen["ok"] and not seen["failed"]
-    }
     if any(entry.verdict == "REFUTED" for entry in entries):
         return "A claim fails: the commands after 'again' show where."
     words = "No claim failed in the worlds and theorems counted above; nothing else was checked."
     if not all(entry.ok for entry in entries):
         words = "No claim failed, but not everything was checked."
-    if silent:
-        words += " " + undeclared("the mapper", [claim for claim in CLAIMS if claim in silent])
     return words
 
 

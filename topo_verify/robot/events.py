@@ -13,7 +13,7 @@ Source: docs/semantics.md, sections 3 and 13.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated, Literal, Protocol
+from typing import Annotated, Any, Literal, Protocol
 
 import msgspec
 
@@ -80,6 +80,12 @@ class Policies(msgspec.Struct, frozen=True):
 
     pick: str = "nearest"
     order: str = "shortest"
+
+    def __repr__(self) -> str:
+        return f"tv.Policies(pick={self.pick!r}, order={self.order!r})"
+
+    def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
+        printer.text(repr(self))
 
 
 class Start(_Event, frozen=True, kw_only=True):
