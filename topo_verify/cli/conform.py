@@ -46,7 +46,7 @@ class _ConformOptions:
         "conform --cmd ./simulator --batch --worlds generated:10000",
     ),
 )
-@click.argument("target", required=False, metavar="[TARGET]")
+@options.target
 @options.program
 @options.in_process
 @click.option(
