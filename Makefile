@@ -2,6 +2,7 @@
 #
 #   make verify                     the main job: one report, under a minute
 #   make test                       the suite and the branch coverage of the trusted rooms
+#   make slow                       the tests that make test leaves out because they take long
 #   make nightly                    every test, the slow ones too, with new examples each time
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
 #   make mutants                    the checkers with one thing changed: each must fail a test
@@ -34,10 +35,10 @@ CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help verify test nightly coq lint types bench mutants constraints oldest clean
+.PHONY: help verify test slow nightly coq lint types bench mutants constraints oldest clean
 
 help:
-	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 12
+	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 13
 
 verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
@@ -47,6 +48,10 @@ test: $(VENV)/.dev
 	$(PYTEST) $(PARALLEL) -m 'not (traced or coq or slow)' $(call report,test)
 	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
 	$(BIN)/coverage report --fail-under=100
+
+# What tests/slow.py names; those that need Coq run in make coq.
+slow: $(VENV)/.dev
+	$(PYTEST) $(PARALLEL) -m 'slow and not coq' $(call report,slow)
 
 nightly: $(VENV)/.dev
 	HYPOTHESIS_PROFILE=nightly $(PYTEST) $(PARALLEL) $(EVERY)

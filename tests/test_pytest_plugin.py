@@ -441,3 +441,24 @@ def test_the_lines_of_the_mapper_are_covered_beside_pytest_cov(
     result = session("--cov=mine", "--cov-report=term", test=MARKED.format(target="mine:explore"))
     result.assert_outcomes(passed=len(CLAIMS))
     result.stdout.re_match_lines(r"mine\.py +3 +0 +100%")
+
+
+# ---------------------------------------------------------------- text of unknown origin
+
+
+def test_no_text_of_a_mapper_or_its_file_controls_a_terminal(
+    session: Session, pytester: pytest.Pytester
+) -> None:
+    (pytester.path / "a\x1b[31m.py").write_text(
+        "def explore(robot):\n    raise ValueError('\\x1b[31m')\n"
+    )
+    target = "a\x1b[31m.py:explore"
+    for arguments, test in [
+        (("--topo-target", target), ""),
+        (("--topo-target", f"{target}r"), ""),
+        ((), MARKED.format(target=target.replace("\x1b", "\\x1b"))),
+    ]:
+        result = session("-v", "--color=no", *arguments, test=test)
+        assert "failed" in (outcomes := result.parseoutcomes()) or "errors" in outcomes
+        assert "a\\x1b[31m.py:explore" in said(result)
+        assert "\x1b" not in result.stdout.str() + result.stderr.str()

@@ -201,20 +201,26 @@ def pytest_make_collect_report(
     report = yield
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
-        made = MapperCollector.from_parent(collector, name=text, nodeid=text)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
+        from topo_verify.text import shown
+
+        name = shown(text)
+        made = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
         report.result.append(made)
     return report
 
 
 class MapperCollector(pytest.Collector):
-    """The tests of --topo-target; its name is the option's text."""
+    """The tests of --topo-target; its name is the option's text, made printable."""
 
     def collect(self) -> Iterable[ClaimItem]:
         """One test for each mapper and claim."""
-        cases = list(_of_targets(self.config, self.name, self.config.option.topo_edges))
+        from topo_verify.text import shown
+
+        options = self.config.option
+        cases = list(_of_targets(self.config, options.topo_target, options.topo_edges))
         several = len({case.target.text for case in cases}) > 1
         for case in cases:
-            name = f"{case.target.text}::{case.claim}" if several else case.claim
+            name = f"{shown(case.target.text)}::{case.claim}" if several else case.claim
             yield ClaimItem.from_parent(self, name=name, case=case)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
 
 
@@ -336,16 +342,22 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if by_mapper:
         terminalreporter.write_sep("=", "topo-verify")
     for facts in by_mapper.values():
-        terminalreporter.write_line(_line(facts))
+        for line in _lines(facts):
+            terminalreporter.write_line(line)
 
 
-def _line(facts: dict[str, Any]) -> str:
+def _lines(facts: dict[str, Any]) -> Iterator[str]:
+    from topo_verify.text import LINE, shown
+
     checked, total, failing = (facts[f"topo_{name}"] for name in ("checked", "total", "failing"))
     line = f"{facts['topo_target']}: {checked:,} of {total:,} worlds of 1 to {facts['topo_edges']}"
     line += f" edges, {failing:,} counterexample{'' if failing == 1 else 's'}"
     if "topo_replay" in facts:
-        return f"{line}, first {facts['topo_world']}\n  again: {facts['topo_replay']}"
-    return line + (f"; not decided: {facts['topo_why']}" if "topo_why" in facts else "")
+        yield shown(f"{line}, first {facts['topo_world']}", limit=LINE)
+        yield shown(f"  again: {facts['topo_replay']}", limit=LINE)
+    else:
+        why = f"; not decided: {facts['topo_why']}" if "topo_why" in facts else ""
+        yield shown(line + why, limit=LINE)
 
 
 # ---------------------------------------------------------------- fixtures

@@ -62,10 +62,10 @@ class Mute:
 
 
 class Tactful(Mute):
-    """A robot that is not told what was rejected."""
+    """A robot that is told how the map grows, and nothing else."""
 
     def declare(self, event: Decision) -> None:
-        if not isinstance(event, Reject):
+        if isinstance(event, Augment):
             self.robot.declare(event)
 
 
@@ -76,8 +76,8 @@ GUESSERS = {
 
 
 def lucky(report: Report) -> bool:
-    """Do claims 1-8 hold?"""
-    return all(s == "ok" for claim, s in report.claims.items() if "entailed" not in claim)
+    """Does none of claims 1-8 fail?"""
+    return all(s != "failed" for claim, s in report.claims.items() if "entailed" not in claim)
 
 
 @pytest.mark.no_cover

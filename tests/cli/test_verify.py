@@ -27,7 +27,9 @@ def test_quick_checks_the_catalogue_in_six_parts(results: Call) -> None:
         assert part["checked"] == part["total"]
     assert [part["verdict"] for part in parts] == ["EXHAUSTED"] * 2 + ["PROVED"] + ["SAMPLED"] * 3
     assert [part["total"] for part in parts] == [8954, 86, 62, 40, 40, 1]
-    assert parts[1]["summary"] == "86 of 86 worlds of 1 to 3 edges × 9 mappers: 10 claims hold"
+    assert (
+        parts[1]["summary"] == "86 of 86 worlds of 1 to 3 edges × 9 mappers: 10 of 10 claims hold"
+    )
     assert [cost["algorithm"] for cost in parts[-1]["costs"]] == list(CATALOGUE)[:9]
     assert parts[-1]["costs"][0]["ratio"] == 1
 
@@ -68,7 +70,9 @@ def test_the_word_verified_is_never_printed(call: Call, target: str, style: str)
 
 def test_a_silent_mapper_passes_with_four_claims_not_declared(results: Call, call: Call) -> None:
     parts = results("verify mappers.py:silent --quick")["results"]
-    assert parts[0]["summary"] == ("86 of 86 worlds of 1 to 3 edges: 5 claims hold, 5 not declared")
+    assert parts[0]["summary"] == (
+        "86 of 86 worlds of 1 to 3 edges: 5 of 10 claims hold, 5 not declared"
+    )
     assert parts[0]["claims"]["no-false-confirm"]["not-declared"] == 86
     rows = parts[-1]["costs"]
     assert [row["reference"] for row in rows] == [False] + [True] * len(CATALOGUE)
@@ -117,5 +121,5 @@ def test_time_outs_leave_a_part_undecided(results: Call, call: Call) -> None:
     parts = results(line, code=3)["results"]
     assert (parts[0]["verdict"], parts[0]["findings"]) == ("UNKNOWN", [])
     assert parts[0]["checked"] < parts[0]["total"]
-    assert parts[0]["summary"].endswith("5 runs out of time; stopped after 5 time-outs")
+    assert parts[0]["summary"].endswith("5 runs not decided; stopped after 5 time-outs")
     assert "No claim failed, but not everything was checked." in call(line).stdout

@@ -41,9 +41,22 @@ def hold_the_interpreter() -> None:
         sleep(1000)
 
 
+def once(deed: Callable[[], object]) -> Callable[[], object]:
+    """Does it the first time only, whichever process it is in."""
+
+    def did() -> None:
+        if not Path("done").exists():
+            Path("done").touch()
+            deed()
+
+    return did
+
+
 right = in_some_worlds(lambda: None)
 exits = in_some_worlds(lambda: os._exit(3))
 kills_itself = in_some_worlds(lambda: os.kill(os.getpid(), signal.SIGKILL))
+segfaults_once = in_some_worlds(once(lambda: ctypes.string_at(0)))
+killed_once = in_some_worlds(once(lambda: os.kill(os.getpid(), signal.SIGKILL)))
 segfaults = in_some_worlds(lambda: ctypes.string_at(0))
 loops = in_some_worlds(forever)
 holds = in_some_worlds(hold_the_interpreter)
@@ -59,6 +72,11 @@ def forgets(robot: Robot) -> Any:
     """Right in worlds with less than three edges; then one is missing from the map."""
     survey = CATALOGUE["basic"](robot)
     return survey if len(survey.edges) < 3 else survey._replace(edges=survey.edges[1:])
+
+
+def moody(robot: Robot) -> Any:
+    """Right, unless a variable of the environment says otherwise."""
+    return guesses(robot) if os.environ.get("MOOD") else CATALOGUE["basic"](robot)
 
 
 def noisy(robot: Robot) -> Any:

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from tests.helpers import SURE
-from topo_verify import CATALOGUE, InputError, World
+from topo_verify import CATALOGUE, InputError, Robot, World
 from topo_verify.algorithms import Policies
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.harness.targets import one_target, targets
@@ -18,7 +18,7 @@ from topo_verify.programs.loader import Target
 from topo_verify.robot.simulator import SimulatedRobot
 
 
-def mine(_robot: SimulatedRobot) -> object:
+def mine(_robot: Robot) -> object:
     """A mapper of one's own."""
     return None
 
@@ -30,10 +30,10 @@ class Mappers:
     number = 7
 
     @staticmethod
-    def inner(_robot: SimulatedRobot) -> object:
+    def inner(_robot: Robot) -> object:
         return None
 
-    def __call__(self, _robot: SimulatedRobot) -> object:
+    def __call__(self, _robot: Robot) -> object:
         return None
 
 
@@ -197,7 +197,7 @@ def test_what_cannot_be_called_is_no_mapper(mapper: Any) -> None:
     ],
 )
 def test_a_callable_is_called_by_the_text_that_finds_it(
-    mapper: Callable[[SimulatedRobot], object], text: str
+    mapper: Callable[[Robot], object], text: str
 ) -> None:
     assert one_target(mapper).text == text
 
@@ -205,7 +205,7 @@ def test_a_callable_is_called_by_the_text_that_finds_it(
 def test_a_callable_of_the_main_module_is_called_by_its_file(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def script(_robot: SimulatedRobot) -> object:
+    def script(_robot: Robot) -> object:
         return None
 
     monkeypatch.setattr(script, "__module__", "__main__")

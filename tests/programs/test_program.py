@@ -20,7 +20,8 @@ from topo_verify import World, examine, explore
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
 from topo_verify.harness.targets import fingerprint, target_arguments, target_text, targets
-from topo_verify.programs.program import Misbehaved, Program
+from topo_verify.programs.misbehaviour import Misbehaved
+from topo_verify.programs.program import Program
 from topo_verify.robot.events import Move
 from topo_verify.robot.limits import Limits
 
@@ -182,7 +183,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc here")
 def test_a_harness_that_is_killed_leaves_no_program_behind(tells: str) -> None:
     deaf = "import time\n" + TELLS.replace("for line in sys.stdin", "for line in [input()]")
-    command = shlex.join([sys.executable, "-c", deaf + "time.sleep(60)\n"])
+    command = shlex.join([sys.executable, "-c", deaf + "sys.stdin.readline()\ntime.sleep(60)\n"])
     assert command not in tells
     done = subprocess.run(
         [sys.executable, "-c", KILLED, command], capture_output=True, text=True, check=False

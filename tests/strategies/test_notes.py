@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -31,6 +32,11 @@ def test_a_world_without_an_id_is_described_by_its_json() -> None:
     line = describe(explore(path, "basic"))
     text = line.removeprefix("basic (pick nearest, order shortest) in ").rpartition(":")[0]
     assert World.from_json(text).code == path.code
+
+
+def test_no_name_of_a_mapper_controls_a_terminal() -> None:
+    run = replace(explore(World.from_id("m1/0"), "basic"), algorithm="a\x1b[31m.py:explore")
+    assert describe(run).startswith("a\\x1b[31m.py:explore (pick ")
 
 
 def test_the_failing_example_prints_its_world_and_the_run() -> None:

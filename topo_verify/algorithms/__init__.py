@@ -63,6 +63,7 @@ class Algorithm:
         """Explore the robot's world. Deterministic: the same world gives the same run."""
         return explore(
             robot,
+            # A rule remembers its run, so each run gets one of its own.
             rule=self.rule(),
             motion=self.motion,
             pick=choices.pick_policy(self.policies.pick),

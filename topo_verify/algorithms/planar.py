@@ -6,7 +6,7 @@ dart counts as a dead end when the face is walked. The rule is sound in every pl
 other worlds it rejects true hypotheses, and the checkers must find that. It may stand before any
 other rule.
 
-Source: docs/semantics.md, section 11.
+Source: docs/semantics.md, section 8.
 """
 
 from __future__ import annotations
@@ -63,6 +63,7 @@ def face(chart: Chart, e: MapDart) -> list[MapDart]:
     darts = [e]
     while True:
         across = chart.alpha[darts[-1]]  # None: an unexplored dart is a dead end, so turn back
+        # The next dart of the face is sigma∘alpha, where alpha of an open dart is the dart itself.
         following = chart.turn(darts[-1] if across is None else across, 1)
         if following == e:
             return darts

@@ -12,10 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
+from topo_verify.checkers.coverage import coverage
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.entailment import delivered_code, map_conclusion
 from topo_verify.checkers.excursions import Word
-from topo_verify.checkers.findings import Finding, Judgement
+from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
 from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
@@ -58,29 +59,32 @@ def check(
         InputError: the trace does not begin with its only `start`, or goes on after `finish`.
     """
     run = ReplayedTrace(world, trace, stopped)
-    declared = {type(event) for event in trace}
+    declared, shares = {type(event) for event in trace}, coverage(run)
     judgements: list[Judgement] = []
     for name, (claim, speaks_of) in CLAIMS.items():
+        judged, of = shares[name]
         if speaks_of and world.alpha and not declared.intersection(speaks_of):
-            judgements.append(Judgement(name, "not-declared"))
+            judgements.append(Judgement(name, "not-declared", 0, of))
         elif claim is decisions_entailed and len(world.edges) > LARGE and not strict:
-            judgements.append(Judgement(name, "not-asked"))
+            judgements.append(Judgement(name, "not-asked", 0, of))
         elif claim in (map_entailed, decisions_entailed) and not run.is_history:
             # It is not folded: a percept that is not true may claim any number of doors.
             message = "the percepts are not true and prove nothing"
-            judgements.append(_judgement(name, [Wrong(None, "true percepts", None, message)]))
+            wrong = Wrong(None, "true percepts", None, message)
+            judgements.append(_judgement(name, 0, of, [wrong]))
         else:
-            judgements.append(_judgement(name, claim(run)))
+            judgements.append(_judgement(name, judged, of, claim(run)))
     return judgements
 
 
-def _judgement(claim: str, wrong: Iterable[Wrong]) -> Judgement:
+def _judgement(claim: str, judged: int, of: int, wrong: Iterable[Wrong]) -> Judgement:
     """The judgement of a claim, with a finding for each thing that is wrong."""
     findings = tuple(
         Finding(claim, when, expected, seen, message, None if witness is None else witness.text)
         for when, expected, seen, message, witness in wrong
     )
-    return Judgement(claim, "failed" if findings else "ok", findings)
+    status: Status = "ok" if judged == of else "partial" if judged else "not-declared"
+    return Judgement(claim, "failed" if findings else status, judged, of, findings)
 
 
 # ---------------------------------------------------------------- the claims
@@ -124,7 +128,12 @@ def _wrongly_posed(run: ReplayedTrace, when: int, pose: ev.Pose) -> Iterator[Wro
 
 
 def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Wrong]:
-    """3. No rule and no motion rejects the true hypothesis; it is not dropped in silence either."""
+    """3. No rule and no motion rejects the true hypothesis, and none is dropped in silence."""
+    dropped = {
+        fate.when: sorted(fate.left)
+        for fate in run.fates.values()
+        if fate.left and isinstance(fate.event, ev.Augment)
+    }
     for when, event, _, _, _ in run.rounds:
         truth = run.map.truth(event.edge, when)
         match event:
@@ -134,6 +143,9 @@ def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Wrong]:
             case ev.Augment(edge, "new") if truth is not None:
                 message = f"edge {edge} leads to dart {truth}, but S grows by a new vertex"
                 yield Wrong(when, truth, "new", message)
+            case ev.Augment(edge, "new") if when in dropped:
+                message = f"S grows by a new vertex behind edge {edge}, but hypotheses are left"
+                yield Wrong(when, "each rejected", dropped[when], message)
             case _:
                 pass
 

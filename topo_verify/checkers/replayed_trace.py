@@ -32,6 +32,19 @@ class Round(NamedTuple):
     sequences: tuple[Word, ...]
 
 
+class Fate(NamedTuple):
+    """What became of an edge that was posed.
+
+    Attributes:
+        when, event: its last pose; or the augmentation, once S grew along it.
+        left: hypotheses neither rejected nor confirmed since they were posed; none after a loop.
+    """
+
+    when: int
+    event: ev.Pose | ev.Augment
+    left: frozenset[int]
+
+
 def require_order(trace: Sequence[ev.Event]) -> None:
     """Raise InputError unless the trace begins with its only `start` and ends with any `finish`."""
     for when, event in enumerate(trace or (None,)):
@@ -134,6 +147,37 @@ class ReplayedTrace:
         if pose is not None and pose.edge == event.edge and when != self.spoiled:
             for sequence in seen.sequences:  # the augmentation is true, so S has its dart
                 self.records.add(when, KnownDart(event.dart), sequence)
+
+    @cached_property
+    def crossings(self) -> frozenset[int]:
+        """The edges of the world that the robot crossed."""
+        ends = zip(self._followed, self.positions, strict=True)
+        return frozenset(self.crossing(at) for event, at in ends if isinstance(event, ev.Move))
+
+    def crossing(self, dart: WorldDart) -> int:
+        """The edge of the world that has this dart, by the lesser of its two."""
+        return min(dart, self.world.alpha[dart])
+
+    @cached_property
+    def fates(self) -> dict[int, Fate]:
+        """What became of each edge of the world that was posed, in the order of the poses."""
+        fates: dict[int, Fate] = {}
+        for when, event, pose, _, _ in self.rounds:
+            if not self.map.is_open(event.edge, when):
+                continue
+            edge = self.crossing(self.map.end(event.edge))
+            left = fates[edge].left if edge in fates else frozenset[int]()
+            match event:
+                case ev.Pose(_, hypotheses):
+                    fates[edge] = Fate(when, event, left.union(hypotheses))
+                case ev.Augment(dart, kind):
+                    if pose is not None and pose.edge == dart and when != self.spoiled:
+                        open_ones = (h for h in left if kind == "new" and self.map.is_open(h, when))
+                        fates[edge] = Fate(when, event, frozenset(open_ones))
+                case _:
+                    if edge in fates:
+                        fates[edge] = fates[edge]._replace(left=left - {event.hypothesis})
+        return fates
 
     @cached_property
     def conclusions(self) -> dict[int, Conclusion]:

@@ -33,6 +33,7 @@ from topo_verify.cli.replay import replay
 from topo_verify.cli.search import search
 from topo_verify.cli.verify import verify
 from topo_verify.cli.world import world
+from topo_verify.programs.isolation import own_arguments
 
 __all__ = ["main"]
 
@@ -56,6 +57,8 @@ class CommandLine(click.Group):
     ) -> NoReturn:
         """Run the command line, by default the program's own, and exit."""
         name = prog_name or "topo-verify"
+        if args is None:
+            own_arguments()  # hidden before a mapper in another process can read them
         if instruction := os.environ.get(_COMPLETE):
             sys.exit(shell_complete(self, extra, name, _COMPLETE, instruction))
         sys.exit(self._code(list(sys.argv[1:] if args is None else args), name, extra))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import click
 
@@ -11,13 +12,14 @@ from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import undeclared
+from topo_verify.cli.runs import unjudged
 from topo_verify.harness.conform.conform import ConformTally, LevelResult
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
 from topo_verify.harness.corpus import Corpus, corpus_from
 from topo_verify.harness.pool import processors
 from topo_verify.harness.targets import target_arguments, target_text, targets
+from topo_verify.programs.program import PREFIX
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -46,6 +48,7 @@ class _ConformOptions:
 )
 @options.target
 @options.program
+@options.in_process
 @click.option(
     "--worlds",
     "texts",
@@ -82,6 +85,7 @@ def conform(  # noqa: PLR0913  an argument an option
     *,
     target: str | None,
     command: str | None,
+    in_process: bool,
     texts: tuple[str, ...],
     like: str | None,
     pick: str | None,
@@ -110,8 +114,7 @@ def conform(  # noqa: PLR0913  an argument an option
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
         output.note(f"seed {seed}")
-        # Commas separate names of the catalogue, but a command line may contain them.
-        for one in [text] if command else [found.text for found in targets(text)]:
+        for one in _texts(text):
             job = ConformJob(
                 target=one,
                 like=like,
@@ -119,13 +122,29 @@ def conform(  # noqa: PLR0913  an argument an option
                 limits=limits,
                 validate=validate,
                 transcript=transcript,
-                replay_arguments=_replay_command(
-                    one, like, pick, order, limits, batch=batch, validate=validate
+                in_process=in_process,
+                replay_arguments=(
+                    *_replay_command(one, like, (pick, order), batch=batch, validate=validate),
+                    *(("--in-process",) if in_process else ()),
+                    *limits.options,
                 ),
             )
             yield from _tried(output, job, asked)
 
-    return output.run("conform", standings, _show, seed=seed, corpus=list(texts) or ["corpus"])
+    more: dict[str, Any] = {
+        "seed": seed,
+        "corpus": list(texts) or ["corpus"],
+        "in_process": in_process,
+    }
+    return output.run("conform", standings, _show, **more)
+
+
+def _texts(text: str) -> list[str]:
+    """Each TARGET of a text. A mapper of the user's is loaded by the process that runs it."""
+    # Commas separate names of the catalogue, but a command line may contain them.
+    if text.startswith(PREFIX) or ":" in text:
+        return [text]
+    return [found.text for found in targets(text)]
 
 
 def _tried(
@@ -157,20 +176,19 @@ def _result(standing: LevelResult) -> Result[LevelResult]:
 def _replay_command(
     target: str,
     like: str | None,
-    pick: str | None,
-    order: str | None,
-    limits: Limits,
+    policies: tuple[str | None, str | None],
     *,
     batch: bool,
     validate: bool,
 ) -> tuple[str, ...]:
     """The command that repeats the run, in words; the world is appended to it."""
     words = ["topo-verify", "conform", *target_arguments(target)]
+    pick, order = policies
     for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
         words += [name, value] if value is not None else []
     words += ["--batch"] if batch else []
     words += ["--validate"] if validate else []
-    return (*words, *limits.options)
+    return tuple(words)
 
 
 # ---------------------------------------------------------------- for people
@@ -202,15 +220,10 @@ def _shown(levels: Sequence[LevelResult]) -> Iterator[Block]:
     for level in levels:
         yield from _findings(level)
     yield from _costs(levels[-1])
-    silent = [
-        claim
-        for level in levels
-        for claim, seen in level.claims.items()
-        if seen.get("not-declared") and not seen.get("ok") and not seen.get("failed")
-    ]
-    if silent and first.passed:
+    judgements = [one for level in levels for one in level.judgements]
+    for sentence in unjudged(first.target, "these worlds", judgements) if first.passed else ():
         yield Text("")
-        yield Text(undeclared(first.target, silent))
+        yield sentence
 
 
 def _numbers(one: LevelResult) -> tuple[str, ...]:

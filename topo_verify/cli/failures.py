@@ -23,7 +23,7 @@ from importlib import metadata
 import click
 
 from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.text import LINE, shown
 
 TRACEBACK = "TOPO_VERIFY_TRACEBACK"
 """If this environment variable is 1, a bug is reported with its whole traceback."""
@@ -58,7 +58,7 @@ def version() -> str:
 
 def say(sentence: str) -> None:
     """Print a sentence as one line on stderr, its control characters escaped."""
-    line = shown(sentence, limit=4000)
+    line = shown(sentence, limit=LINE)
     # A file's name may hold bytes that are not UTF-8, which cannot be printed as they are.
     click.echo(line.encode(errors="backslashreplace").decode(), err=True)
 

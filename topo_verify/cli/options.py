@@ -12,17 +12,13 @@ import click
 
 from topo_verify.cli.failures import SUMMARY
 from topo_verify.errors import InputError
-from topo_verify.robot.limits import Limits
+from topo_verify.robot.limits import MOST_SECONDS, Limits
 
 
 def epilog(*examples: str) -> str:
     """The end of a --help: examples, then the exit codes."""
     lines = "\n".join(f"  topo-verify {example}" for example in examples)
     return f"\b\nExamples:\n{lines}\n\n{SUMMARY}"
-
-
-MOST_SECONDS = 10**6
-"""The longest time limit, in seconds: about eleven days."""
 
 
 def _seconds(_context: click.Context, _option: click.Parameter, value: str) -> float:
@@ -139,6 +135,13 @@ def one_of(target: str | None, named: str | None) -> str | None:
     if target is not None and named is not None:
         raise InputError(f"expected one TARGET, got {target!r} and --target {named}; leave one out")
     return named if target is None else target
+
+
+in_process = click.option(
+    "--in-process",
+    is_flag=True,
+    help="Run a mapper of your own in this process: faster, and it is trusted not to look around.",
+)
 
 
 program = click.option(

@@ -11,14 +11,14 @@ from typing import cast
 import click
 import msgspec
 
-from topo_verify.checkers import Finding, Status
+from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import NamedWorld, finding_line, held, judged, named_world, silent
+from topo_verify.cli.runs import NamedWorld, finding_line, judged, named_world, unjudged
 from topo_verify.errors import InputError
-from topo_verify.harness.judge import Report, judge_trace
+from topo_verify.harness.judge import Report, in_words, judge_trace
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import one_target, target_text
 from topo_verify.robot.events import Start, read_trace
@@ -34,6 +34,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     Attributes:
         trace: the file of the trace; None if the target was run.
         claims: the status of each claim.
+        judgements: the same, with how much of the run each status rests on.
         stopped: why the mapper delivered no map, or None.
     """
 
@@ -44,6 +45,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     findings: tuple[Finding, ...]
     trace: str | None
     claims: dict[str, Status]
+    judgements: tuple[Judgement, ...]
     stopped: str | None
 
 
@@ -58,6 +60,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 @click.argument("what", metavar="FILE|WORLD")
 @click.option("--target", metavar="TARGET", help="The mapper to run in WORLD.  [default: basic]")
 @options.program
+@options.in_process
 @options.policies
 @options.marker
 @click.option(
@@ -71,6 +74,7 @@ def replay(  # noqa: PLR0913  an argument an option
     what: str,
     target: str | None,
     command: str | None,
+    in_process: bool,
     pick: str | None,
     order: str | None,
     marker: int | None,
@@ -98,13 +102,13 @@ def replay(  # noqa: PLR0913  an argument an option
             )
         at = named_world(what, marker, data)
         text = target_text(target, command, "basic")
-        mapper = one_target(text, pick=pick, order=order)
+        mapper = one_target(text, pick=pick, order=order, in_process=in_process)
         output.progress(f"{mapper.text} in {at.name}", 0, 1)
         run = run_mapper(at.world, mapper, limits=limits)
         report, incomplete = judged(run, at, limits)
         yield _result(report, at, None, run.stopped, incomplete=incomplete)
 
-    return output.run("replay", replayed, _show)
+    return output.run("replay", replayed, _show, in_process=in_process)
 
 
 def _require_none(given: Sequence[str], what: str) -> None:
@@ -195,6 +199,7 @@ def _result(
         findings=report.findings,
         trace=trace,
         claims=report.claims,
+        judgements=report.judgements,
         stopped=stopped,
     )
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
@@ -202,13 +207,10 @@ def _result(
 
 def _show(entries: Sequence[ReplayEntry]) -> Iterator[Block]:
     for entry in entries:
-        failed = [claim for claim, status in entry.claims.items() if status == "failed"]
         words = f"{entry.target} in {entry.world}, {plural(entry.cost, 'edge traversal')}: "
-        if not entry.ok and not entry.findings:
-            words += f"not decided, {entry.stopped}"
-        else:
-            words += f"{held(entry.claims)} of {plural(len(entry.claims), 'claim')} hold"
-            words += f", {len(failed)} fail" if failed else ""
-            words += f", {len(silent(entry.claims))} not declared" if silent(entry.claims) else ""
-        yield Text(words)
+        if entry.stopped is not None and not entry.ok and not entry.findings:
+            yield Text(f"{words}not decided, {entry.stopped}")
+            continue
+        yield Text(words + in_words(entry.claims, "claims hold"))
+        yield from unjudged(entry.target, entry.world, entry.judgements)
         yield Bullets(tuple(map(finding_line, entry.findings)))

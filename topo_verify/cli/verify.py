@@ -12,7 +12,7 @@ from topo_verify.cli.failures import version
 from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import finding_blocks, undeclared
+from topo_verify.cli.runs import finding_blocks, unjudged
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.parts import Part
@@ -27,6 +27,7 @@ from topo_verify.text import plural
 )
 @options.target
 @options.program
+@options.in_process
 @click.option("--quick", is_flag=True, help="Check smaller worlds, in a few seconds.")
 @click.option(
     "--seed",
@@ -43,6 +44,7 @@ def verify(
     *,
     target: str | None,
     command: str | None,
+    in_process: bool,
     quick: bool,
     seed: int,
     limits: Limits,
@@ -54,7 +56,7 @@ def verify(
     parts counts and proofs are left out: they do not depend on it.
     """
     text = target_text(target, command, "all")
-    mappers = targets(text)
+    mappers = targets(text, in_process=in_process)
 
     def parts() -> Iterator[Result[Part]]:
         tell = output.progress
@@ -73,6 +75,7 @@ def verify(
         quick=quick,
         seed=seed,
         left_out=others,
+        in_process=in_process,
     )
 
 
@@ -125,15 +128,15 @@ def _end(entries: Sequence[Part]) -> Iterator[Block]:
             yield _costs(entry)
     yield Text("")
     yield Text(_conclusion(entries))
+    if not any(entry.verdict == "REFUTED" for entry in entries):
+        yield from dict.fromkeys(
+            sentence
+            for entry in entries
+            for sentence in unjudged("the mapper", f"part {entry.part}", entry.judgements)
+        )
 
 
 def _conclusion(entries: Sequence[Part]) -> str:
-    silent = {
-        claim
-        for entry in entries
-        for claim, seen in entry.claims.items()
-        if seen["not-declared"] and not seen["ok"] and not seen["failed"]
-    }
     if any(entry.verdict == "REFUTED" for entry in entries):
         return "A claim fails: the commands after 'again' show where."
     proved = any(entry.part == "proofs" for entry in entries)
@@ -141,8 +144,6 @@ def _conclusion(entries: Sequence[Part]) -> str:
     words = f"No claim failed in the {what} counted above; nothing else was checked."
     if not all(entry.ok for entry in entries):
         words = "No claim failed, but not everything was checked."
-    if silent:
-        words += " " + undeclared("the mapper", [claim for claim in CLAIMS if claim in silent])
     return words
 
 

@@ -102,6 +102,7 @@ class Shape:
         # As in the table above: the closings that must come, and the most leaves besides them.
         missing = max(0, self.min_genus - genus)
         cycles = edges - left - vertices + 1
+        # A cross takes a face away and one must be left: faces - 1 of them need no split.
         closings = max(missing + max(0, missing - faces + 1), self.min_cycles - cycles)
         leaves = min(left - closings, self.max_vertices - vertices)
         return (

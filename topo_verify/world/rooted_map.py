@@ -46,7 +46,7 @@ class _Formats(Protocol):
     def save(self, world: World, path: str | PathLike[str]) -> None: ...
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)  # no slots: cached_property needs `__dict__`
 class World:
     """An immutable, validated, hashable world. Two worlds are equal iff alpha, sigma, root are.
 

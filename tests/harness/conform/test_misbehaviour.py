@@ -14,7 +14,7 @@ import pytest
 
 from tests.programs.misbehaving import WAYS
 from tests.programs.programs import kinds, messages, misbehaving, outcomes
-from topo_verify.programs.program import MISBEHAVIOURS
+from topo_verify.programs.misbehaviour import MISBEHAVIOURS
 from topo_verify.robot.limits import Limits
 
 LIMITS = Limits(move_timeout=0.9, world_timeout=30)

@@ -192,7 +192,7 @@ def test_a_claim_that_is_declared_now_and_then_is_told_as_such() -> None:
 
     part = done(lambda robot: basic(Sometimes(robot)))
     assert part.ok
-    assert part.summary.endswith("5 claims hold, 5 declared in some runs only, and hold there")
+    assert part.summary.endswith("5 of 10 claims hold, 5 partial")
 
 
 def test_the_summary_names_which_of_several_mappers_fails() -> None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from topo_verify.checkers import CLAIMS
+from topo_verify.checkers import CLAIMS, Judgement
 from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.conform.batch import BatchExaminer
 from topo_verify.harness.conform.examiner import Examiner
@@ -28,6 +28,7 @@ from topo_verify.harness.conform.outcome import (
 from topo_verify.harness.conform.parallel import outcomes
 from topo_verify.harness.corpus import Corpus
 from topo_verify.harness.progress import Progress
+from topo_verify.harness.tally import joint_judgements
 
 MAX_TIMEOUTS = 20
 """After so many time-outs the rest of the corpus is not tried."""
@@ -76,6 +77,7 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
         not_tried: the work ended before, after too many time-outs or by an interrupt.
         kinds: in how many worlds each kind of finding is met.
         claims: for each claim of this level, in how many runs it has which status.
+        judgements: of each claim of this level: how much was judged in all runs, of how much.
         findings: of the first failing worlds of each kind.
         cost: over all worlds; priced: on level `cost`, world by world.
         why: of the first worlds that are not decided, why.
@@ -95,6 +97,7 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
     verdict: Verdict
     kinds: dict[str, int]
     claims: dict[str, dict[str, int]]
+    judgements: tuple[Judgement, ...]
     findings: tuple[WorldFinding, ...]
     cost: CostRatio
     priced: tuple[WorldCost, ...] = ()
@@ -136,6 +139,7 @@ class ConformTally:
             if job.like is not None or level != "decisions"
         }
         self.claims = {claim: Counter[str]() for claim in CLAIMS}
+        self.shares = dict.fromkeys(CLAIMS, (0, 0))
         self.priced: list[WorldCost] = []
         self.timeouts = self.tried = 0
 
@@ -145,8 +149,10 @@ class ConformTally:
         self.timeouts += made.timeout
         for level, counts in self.levels.items():
             counts.enter(made, level)
-        for claim, status in made.claims.items():
-            self.claims[claim][status] += 1
+        for one in made.judgements:
+            self.claims[one.claim][one.status] += 1
+            judged, of = self.shares[one.claim]
+            self.shares[one.claim] = judged + one.judged, of + one.of
         if made.states["cost"] == "passed":
             ratio = _ratio(made.cost, made.reference)
             self.priced.append(WorldCost(made.world, made.cost, made.reference, ratio))
@@ -168,6 +174,7 @@ class ConformTally:
                 for claim, seen in self.claims.items()
                 if level in ("result", "claims") and (claim in RESULT) == (level == "result")
             }
+            judgements = joint_judgements(claims, self.shares, ())
             yield LevelResult(
                 target=self.job.target,
                 like=self.job.reference,
@@ -178,6 +185,7 @@ class ConformTally:
                 verdict=self._verdict(numbers),
                 kinds=dict(counts.kinds),
                 claims=claims,
+                judgements=judgements,
                 findings=tuple(counts.findings),
                 cost=total,
                 priced=tuple(self.priced) if level == "cost" else (),

@@ -41,8 +41,8 @@ STRATEGIES = (
     "worlds(max_edges=30)",
     "worlds(min_edges=16,max_edges=24,max_degree=4,simple=True)",
 )
-"""What the property tests draw from: any worlds, most of them small; and street networks, large
-enough for ways home on which a second look at a place seen before makes a difference."""
+"""What the property tests draw from: any worlds, most of them small; and street networks, so
+large that a way home leads through places seen before, where a wrong second look shows."""
 
 A_SECOND = Limits(move_timeout=1, world_timeout=1)
 """The time limits of a run: a second, moves or not; a few milliseconds are usual.
@@ -134,6 +134,8 @@ def smallest(
     while True:
         edges += 1
         counted = thorough or edges <= COUNTED
+        # Each search begins with one edge again. The smaller sizes cost little, and so `undecided`
+        # speaks of all of them.
         found = search(
             target,
             edges=edges if counted else largest,
@@ -254,8 +256,8 @@ def fails(fault: Fault, world: World) -> bool | None:
 
     It judges one claim after the other, up to the first that fails. A mapper that declares more
     edges than there are has failed and is stopped: a map S that is wrong may grow without end. A
-    harmless mapper may make the moves of claim 7. One with a mistake may make 4m², twice what any
-    of the catalogue is known to need: to use up the bound of claim 7 takes seconds.
+    harmless mapper may make the moves of claim 7, which takes seconds. One with a mistake may make
+    4m², twice what any of the catalogue is known to need.
     """
     edges = len(world.edges)
     bound = world.cost_bound
@@ -263,6 +265,7 @@ def fails(fault: Fault, world: World) -> bool | None:
     limits = replace(A_SECOND, budget=budget)
     target = Target(fault.target, lambda robot: fault(_Counting(robot, edges)))
     run = explore(world, target, limits=limits)
+    # Only the bound of claim 7 counts against a mapper: any other limit is ours, proving nothing.
     if run.limit is not None and (run.limit != "budget" or budget < bound):
         return None
     replayed = ReplayedTrace(world, run.trace, run.stopped)

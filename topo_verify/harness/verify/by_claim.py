@@ -7,8 +7,8 @@ the first failing world is kept, which is one of the smallest.
 | --- | --- |
 | `holds` | the claim holds in every world |
 | `fails` | it fails in at least one world |
-| `undecided` | it fails in none, but a world was not tried, or a run exceeded its time |
-| `not-declared` | in some world the mapper did not declare the decisions that the claim is about |
+| `undecided` | it fails in none, but a world was not tried, or a run or a claim was not decided |
+| `not-declared` | in some world the mapper did not declare all decisions that the claim is about |
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import Trials
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
-from topo_verify.text import shown
+from topo_verify.text import LINE, shown
 
 ClaimVerdict = Literal["holds", "fails", "undecided", "not-declared"]
 
@@ -52,7 +52,8 @@ class ClaimResults:
         if seen["failed"]:
             return "fails"
         # The numbers of one claim add up to fewer runs than worlds if a run was undecided.
-        if self.part.checked < self.part.total or sum(seen.values()) < self.part.checked:
+        cut = self.part.checked < self.part.total or sum(seen.values()) < self.part.checked
+        if cut or seen["undecided"]:
             return "undecided"
         return "holds" if seen["ok"] == self.part.checked else "not-declared"
 
@@ -63,12 +64,12 @@ class ClaimResults:
             case "fails":
                 return self._failure(claim, seen["failed"])
             case "undecided":
-                return f"{claim} is undecided: {self.part.summary}"
-            case "not-declared" if not seen["ok"]:
+                return shown(f"{claim} is undecided: {self.part.summary}", limit=LINE)
+            case "not-declared" if not seen["ok"] + seen["partial"]:
                 return f"{claim}: not judged, since the mapper declares none of its decisions"
             case "not-declared":
                 some = f"in {seen['ok']:,} of {checked:,} worlds, where it holds"
-                return f"{claim}: the mapper declares its decisions {some}, and not in the others"
+                return f"{claim}: the mapper declares its decisions {some}, and not all in others"
             case "holds":
                 return f"{claim} holds in {checked:,} worlds of 1 to {self.edges} edges"
 
@@ -81,7 +82,7 @@ class ClaimResults:
         if finding.world in self.raised:
             lines.append(f"  raised at: {self.raised[finding.world]}")
         lines += [f"  world: {finding.world}", f"  again: {finding.replay}"]
-        return "\n".join(lines)
+        return "\n".join(shown(line, limit=LINE) for line in lines)
 
 
 def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
