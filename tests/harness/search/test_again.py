@@ -15,7 +15,7 @@ from topo_verify.programs.foreign import Foreign
 
 
 @pytest.fixture(autouse=True)
-def as_many_as_usual(few_worlds_run_again: None, monkeypatch: pytest.MonkeyPatch) -> None:
+def as_many_as_usual(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(again, "MOST", 50)
 
 
