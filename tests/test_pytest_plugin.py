@@ -308,6 +308,76 @@ def test_the_fixtures_give_a_robot_and_a_report(session: Session) -> None:
     assert "topo-verify =" not in result.stdout.str()  # nothing to sum up
 
 
+# ---------------------------------------------------------------- tracebacks
+
+
+def test_tracebacks_show_the_users_code_and_none_of_ours(session: Session) -> None:
+    result = session(
+        "--tb=short",
+        test="""
+        import topo_verify as tv
+        from hypothesis import given, settings
+
+        WORLD = tv.World.from_id("m2/4")
+
+        def raises(robot):
+            raise ValueError("boom")  # the mapper's line
+
+
+        def test_claim() -> None:
+            tv.assert_maps(lambda robot: 7, WORLD)  # line of claim
+
+        def test_raises() -> None:
+            tv.assert_maps(raises, WORLD)  # line of raises
+
+        def test_door(topo_robot) -> None:
+            topo_robot("m2/4").move(99)  # line of door
+
+        @settings(max_examples=1, deadline=None)
+        @given(tv.strategies.worlds(max_edges=5))
+        def test_drawn(world) -> None:
+            tv.assert_maps(raises, world)  # line of drawn
+
+        def test_name() -> None:
+            tv.explore(WORLD, "bassic")  # line of name
+
+        def test_bounds() -> None:
+            tv.strategies.worlds(max_edges=-1)  # line of bounds
+
+        def test_world() -> None:
+            tv.World.from_id("m2")  # line of world
+        """,
+    )
+    result.assert_outcomes(failed=7)
+    text = result.stdout.str()
+    for test in ("claim", "raises", "door", "drawn", "name", "bounds", "world"):
+        assert f"# line of {test}" in text
+    assert "# the mapper's line" in text
+    assert not re.findall(r"topo_verify/\S+\.py:\d+: ", text)
+
+
+def test_the_traceback_of_a_bug_of_ours_is_shown_whole(session: Session) -> None:
+    result = session(
+        "--tb=short",
+        test="""
+        import topo_verify as tv
+        from topo_verify.harness import judge
+
+        def test_bug(monkeypatch) -> None:
+            monkeypatch.setattr(judge, "check", None)
+            tv.assert_maps("basic", tv.World.from_id("m2/4"))
+
+        def test_contradiction(monkeypatch) -> None:
+            def contradict(*_, **__):
+                raise tv.InternalError("two parts differ")
+            monkeypatch.setattr(judge, "check", contradict)
+            tv.assert_maps("basic", tv.World.from_id("m2/4"))
+        """,
+    )
+    result.assert_outcomes(failed=2)
+    assert len(re.findall(r"harness/judge\.py:\d+: in judge_trace", result.stdout.str())) == 2
+
+
 # ---------------------------------------------------------------- beside others
 
 

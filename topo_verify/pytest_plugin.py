@@ -25,6 +25,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import sys
 from collections.abc import Callable, Generator, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -290,6 +291,27 @@ def _judge(item: pytest.Item, case: ClaimTest) -> None:
 
 
 # ---------------------------------------------------------------- what is reported
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_makereport(call: pytest.CallInfo[None]) -> None:
+    """Let the tracebacks of a failed test end at the user's code; --full-trace shows all."""
+    if call.excinfo is not None:
+        # pytest looks this name up in the globals of each frame. Only now are all modules loaded.
+        for name, module in sys.modules.copy().items():
+            if name.startswith("topo_verify."):
+                vars(module).setdefault("__tracebackhide__", _is_no_bug_of_ours)
+
+
+def _is_no_bug_of_ours(excinfo: pytest.ExceptionInfo[BaseException]) -> bool:
+    """Whether an exception is one that we raise on purpose, or was raised by other code."""
+    from topo_verify.errors import InternalError, TopoVerifyError
+    from topo_verify.robot.limits import MapperStopped
+
+    if isinstance(excinfo.value, TopoVerifyError | MapperStopped):
+        return not isinstance(excinfo.value, InternalError)
+    module = excinfo.traceback[-1].frame.f_globals.get("__name__", "")
+    return not module.startswith("topo_verify.")
 
 
 def _properties(case: ClaimTest, results: ClaimResults) -> list[tuple[str, object]]:

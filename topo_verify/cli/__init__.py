@@ -84,6 +84,7 @@ class CommandLine(click.Group):
 @click.group(
     "topo-verify",
     cls=CommandLine,
+    context_settings={"help_option_names": ["-h", "--help"]},
     epilog=options.epilog("verify", "verify my_mapper.py:explore", "explore nyc"),
 )
 @click.version_option(version(), message="%(prog)s %(version)s")

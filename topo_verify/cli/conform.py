@@ -59,7 +59,7 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
         "conform --cmd ./simulator --batch --worlds generated:10000",
     ),
 )
-@click.argument("target", required=False, metavar="[TARGET]")
+@options.target
 @options.program
 @options.in_process
 @click.option(
@@ -82,6 +82,7 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
     help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
 @click.option("--validate", is_flag=True, help="Refuse fields that no schema lists.")
+@options.strict
 @click.option("--transcript", metavar="DIR", help="Write the messages of failing worlds to DIR.")
 @click.option(
     "--seed",
@@ -106,6 +107,7 @@ def conform(  # noqa: PLR0913  an argument an option
     batch: bool,
     workers: int | None,
     validate: bool,
+    strict: bool,
     transcript: str | None,
     seeds: tuple[int, int],
     limits: Limits,
@@ -136,10 +138,12 @@ def conform(  # noqa: PLR0913  an argument an option
                 policies=policies,
                 limits=limits,
                 validate=validate,
+                strict=strict,
                 transcript=transcript,
                 in_process=in_process,
                 replay_arguments=(
                     *_replay_command(one, like, (pick, order), batch=batch, validate=validate),
+                    *(("--strict",) if strict else ()),
                     *(("--in-process",) if in_process else ()),
                     *limits.options,
                 ),

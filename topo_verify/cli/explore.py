@@ -115,12 +115,13 @@ class _ExploreOptions:
     metavar="TARGET",
     help="Names of the catalogue; module:attribute or file.py:attribute.  [default: all]",
 )
+@click.option("--target", metavar="TARGET", help="The same as --algorithm.")
 @options.program
 @options.in_process
 @options.policies
 @options.marker
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
-@click.option("--strict", is_flag=True, help="Judge every claim in worlds over 100 edges, too.")
+@options.strict
 @click.option(
     "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
 )
@@ -131,6 +132,7 @@ def explore(  # noqa: PLR0913  an argument an option
     *,
     worlds: tuple[str, ...],
     algorithm: str | None,
+    target: str | None,
     command: str | None,
     in_process: bool,
     pick: str | None,
@@ -148,7 +150,7 @@ def explore(  # noqa: PLR0913  an argument an option
     """
 
     def runs() -> Iterator[Result[ExploreEntry]]:
-        text = target_text(algorithm, command, "all")
+        text = target_text(options.one_of(algorithm, target), command, "all")
         found = targets(text, pick=pick, order=order, in_process=in_process)
         starts = named_worlds(worlds, marker)
         if trace is not None:

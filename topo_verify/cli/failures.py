@@ -68,6 +68,9 @@ def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
     if isinstance(error, InputError):
         say(f"topo-verify: {error}")
         return ExitCode.BAD_INPUT
+    if isinstance(error, click.exceptions.NoArgsIsHelpError):
+        click.echo(error.message, err=True)  # the help, of several lines
+        return ExitCode.BAD_INPUT
     if isinstance(error, click.ClickException):
         say(_usage(error))
         return ExitCode.BAD_INPUT
@@ -78,8 +81,6 @@ def _usage(error: click.ClickException) -> str:
     """Click's error as one sentence, with the command that shows the usage."""
     context = error.ctx if isinstance(error, click.UsageError) else None
     path = context.command_path if context else "topo-verify"
-    if isinstance(error, click.exceptions.NoArgsIsHelpError):
-        return f"{path}: name a command; {path} --help lists them"
     # Click ends with a full stop or asks a question; here more of the sentence follows.
     objection = " ".join(error.format_message().split()).removesuffix(".")
     objection = objection.replace("'. Did you", "', did you").removesuffix("?")

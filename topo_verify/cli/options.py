@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from topo_verify.checkers import LARGE
 from topo_verify.cli.failures import SUMMARY
 from topo_verify.errors import InputError
 from topo_verify.robot.limits import MOST_SECONDS, Limits
@@ -120,9 +121,38 @@ in_process = click.option(
     help="Run a mapper of your own in this process: faster, and it is trusted not to look around.",
 )
 
+
+def target(command: Callable[..., int]) -> Callable[..., int]:
+    """Add TARGET, as an argument or as --target; the command gets it as `target`."""
+
+    @click.argument("target", required=False, metavar="[TARGET]")
+    @click.option("--target", "named", metavar="TARGET", help="The same as the argument TARGET.")
+    @wraps(command)
+    def wrapper(*args: Any, target: str | None, named: str | None, **kwargs: Any) -> int:
+        return command(*args, target=one_of(target, named), **kwargs)
+
+    return wrapper
+
+
+def one_of(target: str | None, named: str | None) -> str | None:
+    """The TARGET that is given in one of two ways, the second being --target.
+
+    Raises:
+        InputError: it is given in both.
+    """
+    if target is not None and named is not None:
+        raise InputError(f"expected one TARGET, got {target!r} and --target {named}; leave one out")
+    return named if target is None else target
+
+
 program = click.option(
     "--cmd",
     "command",
     metavar="'PROGRAM ARGS'",
     help="Run this program as the TARGET, without a shell; see docs/oracle.md.",
+)
+
+
+strict = click.option(
+    "--strict", is_flag=True, help=f"Ask every claim in worlds over {LARGE} edges, too."
 )

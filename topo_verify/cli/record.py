@@ -70,7 +70,7 @@ def mapper_options(run: Callable[..., int]) -> Callable[..., int]:
     Its argument, if given, replaces the default policies of an algorithm of the catalogue.
     """
 
-    @click.argument("target", required=False, metavar="[TARGET]")
+    @options.target
     @options.program
     @options.in_process
     @options.policies

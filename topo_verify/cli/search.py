@@ -57,7 +57,7 @@ class _SearchOptions:
         "search --compare enhancement-ii,enhancement-i --edges 5",
     ),
 )
-@click.argument("target", required=False, metavar="[TARGET]")
+@options.target
 @options.program
 @options.in_process
 @click.option(

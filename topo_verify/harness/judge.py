@@ -12,12 +12,12 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from topo_verify.checkers import Finding, Judgement, Status, check
+from topo_verify.checkers import LARGE, Finding, Judgement, Status, check
 from topo_verify.errors import ClaimFailed
 from topo_verify.harness.run import Exploration, explore
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import PREFIX
-from topo_verify.robot.events import Event, Policies
+from topo_verify.robot.events import Event, Move, Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import LINE, shown
 from topo_verify.world.enumeration import rank_order
@@ -43,6 +43,11 @@ class Report(msgspec.Struct, frozen=True):
     claims: dict[str, Status]
     findings: tuple[Finding, ...]
     judgements: tuple[Judgement, ...]
+
+    @property
+    def undecided(self) -> bool:
+        """Whether a claim was neither proved nor refuted."""
+        return "undecided" in self.claims.values()
 
     def with_findings(self, findings: Sequence[Finding]) -> Report:
         """The report with other findings for those that it has."""
@@ -111,7 +116,7 @@ def examine(
 
     Args:
         where: the world as the command line names it, for the findings; default: its id.
-        strict: judge claim 10 also in worlds with more than 100 edges.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         InputError: there is no such mapper or policy.
     """
@@ -131,7 +136,7 @@ def assert_maps(
     """Assert that every claim holds of a mapper in a world: the one line of a property test.
 
     Args:
-        strict: judge claim 10 also in worlds with more than 100 edges.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         ClaimFailed: a claim fails. It is an AssertionError whose text is the report; its cause is
             the exception that the mapper raised, if it did.
@@ -159,7 +164,8 @@ def judge(
         options: the options that the replay command needs besides world and target.
     """
     where = where or world_argument(run.world)
-    replay_command = replay_line(where, run.algorithm, run.policies, options)
+    words = (*options, *strict_option(run.world, strict=strict))
+    replay_command = replay_line(where, run.algorithm, run.policies, words)
     report = judge_trace(
         run.world,
         run.trace,
@@ -169,6 +175,7 @@ def judge(
         replay_command=replay_command,
         strict=strict,
     )
+    report = _with_count(report, run.cost, replay_command)
     return report.with_findings([_with_run_in_witness(finding, run) for finding in report.findings])
 
 
@@ -205,10 +212,33 @@ def judge_trace(
         for judgement in judgements
         for finding in judgement.findings
     )
-    cost = sum(event.__class__.__name__ == "Move" for event in trace)
+    cost = sum(isinstance(event, Move) for event in trace)
     statuses: dict[str, Status] = {judgement.claim: judgement.status for judgement in judgements}
     report = Report(where, target, not findings, cost, statuses, (), tuple(judgements))
     return report.with_findings(findings)
+
+
+def _with_count(report: Report, made: int, replay_command: str) -> Report:
+    """The report; `cost-honest` fails unless the trace holds as many moves as the robot made."""
+    if report.cost == made:
+        return report
+    claim = "cost-honest"
+    message = (
+        f"the robot made {made} moves and the trace holds {report.cost}: somebody changed the"
+        " trace, as a mapper in the same process can"
+    )
+    wrong = Finding(
+        claim, None, made, report.cost, message, world=report.world, replay=replay_command
+    )
+    judgements = tuple(
+        msgspec.structs.replace(one, status="failed") if one.claim == claim else one
+        for one in report.judgements
+    )
+    claims: dict[str, Status] = {**report.claims, claim: "failed"}
+    changed = msgspec.structs.replace(
+        report, ok=False, cost=made, claims=claims, judgements=judgements
+    )
+    return changed.with_findings([wrong, *report.findings])
 
 
 def undecided(run: Exploration, report: Report) -> bool:
@@ -218,7 +248,7 @@ def undecided(run: Exploration, report: Report) -> bool:
     the world.
     """
     if not report.findings:
-        return "undecided" in report.claims.values()
+        return report.undecided
     lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
     return (run.limit == "world-timeout" or run.declined) and lost
 
@@ -246,6 +276,11 @@ def world_argument(world: World) -> str:
     return (
         world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else f"{world.name or 'world'}.json"
     )
+
+
+def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:
+    """The option that asks every claim, where a claim is not asked without it."""
+    return ("--strict",) if strict and len(world.edges) > LARGE else ()
 
 
 def replay_line(

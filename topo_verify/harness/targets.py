@@ -19,6 +19,7 @@ import sys
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.errors import InputError
 from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.hints import close_name, missing_attribute
 from topo_verify.programs.loader import Mapper, Target, load
 from topo_verify.programs.program import PREFIX, Program, split
 
@@ -80,10 +81,12 @@ def _targets(text: str, *, in_process: bool) -> tuple[Target, ...]:
     names = general if text == "all" else [name.strip() for name in text.split(",")]
     for name in names:
         if name not in CATALOGUE:
+            if (hint := missing_attribute(name)) is not None:
+                raise InputError(f"target {name!r}: {hint}")
             raise InputError(
-                f"no algorithm {name!r}: there are {', '.join(CATALOGUE)} and all; a mapper of"
-                " your own is package.module:attribute, path/file.py:attribute or --cmd 'program"
-                " args'"
+                f"no algorithm {name!r}{close_name(name, CATALOGUE) or ':'} there are"
+                f" {', '.join(CATALOGUE)} and all; a mapper of your own is"
+                " package.module:attribute, path/file.py:attribute or --cmd 'program args'"
             )
     return tuple(Target(name, CATALOGUE[name]) for name in names)
 

@@ -16,6 +16,7 @@ from types import CodeType
 from typing import cast
 
 from topo_verify.errors import InputError
+from topo_verify.programs.hints import close_attribute
 from topo_verify.robot.events import Robot
 
 Mapper = Callable[[Robot], object]
@@ -44,7 +45,10 @@ def load(text: str) -> Mapper:
         try:
             found = _attribute(found, name)
         except AttributeError:
-            raise InputError(f"target {text!r}: {place} has no attribute {attribute!r}") from None
+            raise InputError(
+                f"target {text!r}: {place} has no attribute {attribute!r}"
+                f"{close_attribute(found, name)}"
+            ) from None
     if not callable(found):
         raise InputError(
             f"target {text!r}: expected a callable that takes a robot, got {type(found).__name__}"

@@ -147,12 +147,7 @@ def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
         return ms.UndeliveredMessage(kind, _words(str(misuse)))
     if isinstance(found, Undelivered):
         return ms.UndeliveredMessage("no-map", _words(found.why))
-    done = ms.DoneMessage(found.map, found.cost)
-    try:
-        _encode(done)
-    except (msgspec.MsgspecError, OverflowError) as error:
-        return ms.UndeliveredMessage("no-map", f"the map holds what no map can: {error}")
-    return done
+    return ms.DoneMessage(found.map, found.cost)
 
 
 def play_once(mapper: Mapper, start: ms.StartMessage, reader: BinaryIO, writer: BinaryIO) -> None:
