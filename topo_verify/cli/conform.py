@@ -124,12 +124,8 @@ def conform(  # noqa: PLR0913  an argument an option
     def standings() -> Iterator[Result[LevelResult]]:
         text = target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
-        asked = _ConformOptions(
-            corpus_from(texts, seed=seed),
-            processors() if workers is None else workers,
-            batch,
-            order_seed,
-        )
+        number = processors() if workers is None else workers
+        asked = _ConformOptions(corpus_from(texts, seed=seed), number, batch, order_seed)
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
         # The order is no part of the results; so they are the same whatever it is.
@@ -154,11 +150,8 @@ def conform(  # noqa: PLR0913  an argument an option
             )
             yield from _tried(output, job, asked)
 
-    more: dict[str, Any] = {
-        "seed": seed,
-        "corpus": list(texts) or ["corpus"],
-        "in_process": in_process,
-    }
+    corpus = list(texts) or ["corpus"]
+    more: dict[str, Any] = {"seed": seed, "corpus": corpus, "in_process": in_process}
     return output.run("conform", standings, _show, **more)
 
 
