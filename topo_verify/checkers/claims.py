@@ -109,25 +109,19 @@ def _wrongly_posed(run: ReplayedTrace, when: int, pose: ev.Pose) -> Iterator[Fin
 
 def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
     """3. No rule and no motion rejects the true hypothesis, and none is dropped in silence."""
-    dropped = {
-        fate.when: sorted(fate.left)
-        for fate in run.fates.values()
-        if fate.left and isinstance(fate.event, ev.Augment)
-    }
     for when, event, _, _, _ in run.rounds:
         truth = run.map.truth(event.edge, when)
-        match event:
-            case ev.Reject(edge, hypothesis, rule) if truth == hypothesis:
-                message = f"edge {edge} does lead to dart {truth}, which rule {rule!r} rejects"
-                yield Wrong(when, "kept", "rejected", message)
-            case ev.Augment(edge, "new") if truth is not None:
-                message = f"edge {edge} leads to dart {truth}, but S grows by a new vertex"
-                yield Wrong(when, truth, "new", message)
-            case ev.Augment(edge, "new") if when in dropped:
-                message = f"S grows by a new vertex behind edge {edge}, but hypotheses are left"
-                yield Wrong(when, "each rejected", dropped[when], message)
-            case _:
-                pass
+        if isinstance(event, ev.Reject) and truth == event.hypothesis:
+            does = f"edge {event.edge} does lead to dart {truth}"
+            message = f"{does}, which rule {event.rule!r} rejects"
+            yield Wrong(when, "kept", "rejected", message)
+        elif isinstance(event, ev.Augment) and event.kind == "new" and truth is not None:
+            message = f"edge {event.edge} leads to dart {truth}, but S grows by a new vertex"
+            yield Wrong(when, truth, "new", message)
+    for when, event, left in run.fates.values():
+        if isinstance(event, ev.Augment) and left:
+            message = f"S grows by a new vertex behind edge {event.edge}, but hypotheses are left"
+            yield Wrong(when, "each rejected", sorted(left), message)
 
 
 def no_false_confirm(run: ReplayedTrace) -> Iterator[Finding]:
