@@ -14,6 +14,7 @@ import msgspec
 
 from topo_verify.checkers import LARGE, Finding, Judgement, Status, check
 from topo_verify.errors import ClaimFailed
+from topo_verify.harness.mapper_names import is_found_again
 from topo_verify.harness.run import Exploration, explore
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import PREFIX
@@ -70,7 +71,7 @@ class Report(msgspec.Struct, frozen=True):
         for finding in self.findings:
             place = "" if finding.event is None else f" (event {finding.event})"
             lines.append(f"  {finding.claim}{place}: {finding.message}")
-        if self.findings:
+        if self.findings and self.findings[0].replay:
             lines.append(f"  again: {self.findings[0].replay}")
         return "\n".join(shown(line, limit=LINE) for line in lines)
 
@@ -286,7 +287,9 @@ def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:
 def replay_line(
     where: str, target: str, policies: Policies | None = None, options: Sequence[str] = ()
 ) -> str:
-    """The command line that shows a run again."""
+    """The command line that shows a run again; empty if no command line finds the mapper."""
+    if not (target.startswith(PREFIX) or is_found_again(target)):
+        return ""
     words = ["topo-verify", "replay", where]
     program = target.startswith(PREFIX)
     words += ["--cmd", target.removeprefix(PREFIX)] if program else ["--target", target]
