@@ -18,7 +18,7 @@ from topo_verify.checkers.coverage import coverage
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.entailment import Conclusion, delivered_code, map_conclusion
 from topo_verify.checkers.excursions import Word
-from topo_verify.checkers.findings import Finding, Judgement
+from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
 from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
@@ -53,18 +53,21 @@ def check(
 def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: bool) -> Judgement:
     """The judgement of one claim."""
     claim, speaks_of = CLAIMS[name]
-    if speaks_of and run.world.alpha and not any(isinstance(e, speaks_of) for e in run.trace):
+    if speaks_of and run.world.alpha and not {*speaks_of}.intersection(map(type, run.trace)):
         return Judgement(name, "not-declared", 0, of)
     if claim is decisions_entailed and len(run.world.edges) > LARGE and not strict:
         return Judgement(name, "not-asked", 0, of)
     if findings := tuple(msgspec.structs.replace(wrong, claim=name) for wrong in claim(run)):
         return Judgement(name, "failed", judged, of, findings)
-    left = claim is decisions_entailed and sum(one.undecided for one in run.conclusions.values())
-    if left:
+    if claim is decisions_entailed and (left := _undecided(run)):
         return Judgement(name, "undecided", judged - left, of)
-    return Judgement(
-        name, "ok" if judged == of else "partial" if judged else "not-declared", judged, of
-    )
+    status: Status = "ok" if judged == of else "partial" if judged else "not-declared"
+    return Judgement(name, status, judged, of)
+
+
+def _undecided(run: ReplayedTrace) -> int:
+    """The number of decisions that claim 10 leaves undecided."""
+    return sum(conclusion.undecided for conclusion in run.conclusions.values())
 
 
 # ---------------------------------------------------------------- the claims

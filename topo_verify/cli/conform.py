@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import secrets
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -135,6 +135,12 @@ def conform(  # noqa: PLR0913  an argument an option
         # The order is no part of the results; so they are the same whatever it is.
         output.timing["seed"] = f"{seed}:{order_seed}"
         output.note(f"seed {seed}:{order_seed}")
+        flags = {
+            "--batch": batch,
+            "--validate": validate,
+            "--strict": strict,
+            "--in-process": in_process,
+        }
         for one in _texts(text):
             job = ConformJob(
                 target=one,
@@ -146,9 +152,7 @@ def conform(  # noqa: PLR0913  an argument an option
                 transcript=transcript,
                 in_process=in_process,
                 replay_arguments=(
-                    *_replay_command(one, like, (pick, order), batch=batch, validate=validate),
-                    *(("--strict",) if strict else ()),
-                    *(("--in-process",) if in_process else ()),
+                    *_replay_command(one, like, (pick, order), flags),
                     *limits.options,
                 ),
             )
@@ -201,18 +205,14 @@ def _replay_command(
     target: str,
     like: str | None,
     policies: tuple[str | None, str | None],
-    *,
-    batch: bool,
-    validate: bool,
+    flags: Mapping[str, bool],
 ) -> tuple[str, ...]:
     """The command that repeats the run, in words; the world is appended to it."""
     words = ["topo-verify", "conform", *target_arguments(target)]
     pick, order = policies
     for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
         words += [name, value] if value is not None else []
-    words += ["--batch"] if batch else []
-    words += ["--validate"] if validate else []
-    return tuple(words)
+    return (*words, *(flag for flag, given in flags.items() if given))
 
 
 # ---------------------------------------------------------------- for people
