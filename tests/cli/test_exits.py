@@ -309,7 +309,7 @@ def test_ctrl_c_in_explore_keeps_the_runs_that_are_done(folder: Path) -> None:
 
 def test_ctrl_c_before_any_work_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
 
-    def interrupt(_text: str) -> object:
+    def interrupt(_text: str, *, in_process: bool) -> object:  # noqa: ARG001
         raise KeyboardInterrupt
 
     monkeypatch.setattr(sys.modules["topo_verify.cli.verify"], "targets", interrupt)

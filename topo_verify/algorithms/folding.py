@@ -16,8 +16,12 @@ hypothesis is left then, it is concluded without motion.
     e, h, vu     as in exploration.py
     NodeDart     (node, door): a dart of a node; different pairs may be the same dart
 
-One test costs time nearly linear in the number of identifications (union-find with offsets, by
-size, undone by rollback). The code is written apart from `checkers/folding.py`; tests compare them.
+**What a test costs.** A test folds in a layer above what was seen; with the contradiction the layer
+is dropped. If there is none the layer is kept: behind the same e the hypothesis is tested again
+after each mismatch, and then only the places seen since are folded in. (Folding anew each time is
+quadratic in the places behind open edges.) One test takes time nearly linear in its identifications
+(union-find with offsets, by size). The code is written apart from `checkers/folding.py`; tests
+compare them.
 
 Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite graphs", Invent. Math.
 71 (1983).
@@ -38,50 +42,73 @@ NodeDart = tuple[int, Door]
 
 
 class PartialFold:
-    """Nodes, their identifications so far, and what lies behind their doors; it can roll back.
+    """Nodes, their identifications so far, and what lies behind their doors.
 
-    Every method that identifies returns "" or the contradiction it met. After a contradiction only
-    `roll_back` may be called.
+    A fold may be a **layer** above another one: it reads through to the fold below and leaves it as
+    it is. So to undo is to drop the layer.
+
+    Every method that identifies returns "" or the contradiction it met. After a contradiction the
+    fold is of no more use.
     """
 
-    def __init__(self) -> None:
-        self.percepts: list[Percept] = []  # as seen with door 0 as the reference dart
-        self.known: list[bool] = []  # is it (has it been folded into) a vertex of S?
-        self.leader: list[int] = []
-        self.turned: list[Door] = []  # door k of a node is door k + turned of its leader
-        self.weight: list[int] = []
-        self.behind: list[dict[Door, NodeDart]] = []
-        self.done: list[tuple[int, Door | None, bool]] = []  # what `roll_back` takes back
+    def __init__(self, below: PartialFold | None = None) -> None:
+        # As seen at each node with door 0 as the reference dart; a layer adds no nodes.
+        self.percepts: list[Percept] = [] if below is None else below.percepts
+        # Of an identified node: the leader, and by how many doors it is turned against it.
+        self.leader: dict[int, tuple[int, Door]] = {}
+        self.weight: dict[int, int] = {}  # how many nodes a leader stands for, if more than one
+        self.behind: dict[int, dict[Door, NodeDart]] = {}
+        self.known: set[int] = set()  # is it (has it been folded into) a vertex of S?
+        self.joined: list[tuple[NodeDart, NodeDart]] = []  # every edge, in the order of `join`
+        self.below = below
+        self._leader, self._weight, self._behind, self._known = (
+            ({}, {}, {}, set())
+            if below is None
+            else (below.leader, below.weight, below.behind, below.known)
+        )
+        self._merges, self._followed = len(self._leader), 0 if below is None else len(below.joined)
+
+    def layer(self) -> PartialFold:
+        """An empty layer above this fold."""
+        return type(self)(self)
 
     def add(self, percept: Percept, *, known: bool = False) -> int:
         """Add a node with this percept at its door 0. Returns the node."""
         self.percepts.append(percept)
-        self.known.append(known)
-        self.leader.append(len(self.leader))
-        self.turned.append(0)
-        self.weight.append(1)
-        self.behind.append({})
-        return len(self.leader) - 1
+        if known:
+            self.known.add(len(self.percepts) - 1)
+        return len(self.percepts) - 1
 
     def resolve(self, place: NodeDart) -> NodeDart:
         """The pair that stands for all pairs that are the same dart."""
         node, door = place
-        while (leader := self.leader[node]) != node:  # no path compression: it could not roll back
-            door += self.turned[node]
-            node = leader
+        while (up := self.leader.get(node) or self._leader.get(node)) is not None:
+            node, turned = up
+            door += turned
         return node, door % self.percepts[node].degree
+
+    def is_known(self, node: int) -> bool:
+        """Whether a leader is a vertex of S."""
+        return node in self.known or node in self._known
 
     def across(self, place: NodeDart) -> NodeDart | None:
         """The other end of a dart's edge; None if nothing was seen behind it."""
-        node, door = self.resolve(place)
-        return self.behind[node].get(door)
+        return self._across(*self.resolve(place))
+
+    def _across(self, node: int, door: Door) -> NodeDart | None:
+        """The other end of the edge of a leader's dart."""
+        for behind in (self.behind, self._behind):
+            if node in behind and (other := behind[node].get(door)) is not None:
+                return other
+        return None
 
     def join(self, one: NodeDart, other: NodeDart) -> str:
         """Join two darts to one edge, and fold."""
+        self.joined.append((one, other))
         one, other = self.resolve(one), self.resolve(other)
         if one == other:
             return "a dart would be its own other end"
-        had, has = self.across(one), self.across(other)
+        had, has = self._across(*one), self._across(*other)
         if had is None:
             self._put(one, other)
         if has is None:
@@ -92,19 +119,21 @@ class PartialFold:
         """Make two darts one, and fold."""
         waiting = [(one, other)]
         while waiting:
-            (small, k), (large, n) = (self.resolve(place) for place in waiting.pop())
+            one, other = waiting.pop()
+            (small, k), (large, n) = self.resolve(one), self.resolve(other)
             if small == large:
                 if k != n:
                     return "a vertex would be itself, turned"
                 continue
-            if self.weight[small] > self.weight[large]:  # keeps every chain of leaders short
-                (small, k), (large, n) = (large, n), (small, k)
+            if self._size(small) > self._size(large):  # keeps every chain of leaders short
+                small, k, large, n = large, n, small, k
             if wrong := self._clash(small, large):
                 return wrong
             self._merge(small, large, n - k)
-            for door, place in self.behind[small].items():
-                moved = self.resolve((small, door))
-                beyond = self.across(moved)
+            turned, degree = self.leader[small][1], self.percepts[small].degree
+            for door, place in self._edges(small):
+                moved = large, (door + turned) % degree
+                beyond = self._across(*moved)
                 if self.resolve(place) == moved:
                     return "a dart would be its own other end"
                 if beyond is None:
@@ -115,33 +144,43 @@ class PartialFold:
 
     def _clash(self, small: int, large: int) -> str:
         """Why two nodes cannot be one vertex, judged by what was seen at them; "" if they can."""
-        if self.percepts[small].signature != self.percepts[large].signature:
+        one, other = self.percepts[small], self.percepts[large]
+        if one.degree != other.degree or (one.marker is None) != (other.marker is None):
             return "two degrees, or the marker and its absence, at one place"
-        return "two vertices of S would be one" if self.known[small] and self.known[large] else ""
+        both = self.is_known(small) and self.is_known(large)
+        return "two vertices of S would be one" if both else ""
+
+    def _edges(self, node: int) -> list[tuple[Door, NodeDart]]:
+        """The doors of a node with something behind them, and the other ends."""
+        edges = [*self._behind[node].items()] if node in self._behind else []
+        return [*edges, *self.behind[node].items()] if node in self.behind else edges
+
+    def _size(self, node: int) -> int:
+        """How many nodes a leader stands for."""
+        return self.weight.get(node) or self._weight.get(node, 1)
 
     def _merge(self, small: int, large: int, turned: Door) -> None:
         """Make `large` the leader of `small`, whose door k is door k + turned of `large`."""
-        self.done.append((small, None, self.known[large]))
-        self.leader[small], self.turned[small] = large, turned
-        self.weight[large] += self.weight[small]
-        self.known[large] |= self.known[small]
+        self.weight[large] = self._size(small) + self._size(large)
+        self.leader[small] = large, turned
+        if self.is_known(small):
+            self.known.add(large)
 
     def _put(self, place: NodeDart, beyond: NodeDart) -> None:
-        """Note one end of an edge behind the other, such that it can be taken back."""
-        self.behind[place[0]][place[1]] = beyond
-        self.done.append((*place, False))
+        """Note one end of an edge behind the other."""
+        self.behind.setdefault(place[0], {})[place[1]] = beyond
 
-    def roll_back(self, mark: int) -> None:
-        """Undo all identifications and edges made since `done` had this length."""
-        while len(self.done) > mark:
-            node, door, was_known = self.done.pop()
-            if door is not None:
-                del self.behind[node][door]
-                continue
-            large = self.leader[node]
-            self.leader[node], self.turned[node] = node, 0
-            self.weight[large] -= self.weight[node]
-            self.known[large] = was_known
+    def follow(self) -> bool:
+        """Fold in what was joined below since this layer was made or last followed.
+
+        Returns:
+            Whether the layer still stands. It does not if it meets a contradiction now, or if
+            places were identified below, which a layer made before cannot be told.
+        """
+        assert self.below is not None
+        new = self.below.joined[self._followed :]
+        self._followed += len(new)
+        return len(self._leader) == self._merges and not any(self.join(*edge) for edge in new)
 
 
 class FoldingRule(NoRule):
@@ -150,9 +189,9 @@ class FoldingRule(NoRule):
     def __init__(self) -> None:
         self.fold = PartialFold()
         self.entries: list[NodeDart] = []  # of each vertex of S: its first dart
-        self.percept = Percept(0, None)  # vu's
         self.e: NodeDart = (0, 0)
         self.vu: NodeDart = (0, 0)
+        self.assumed: dict[MapDart, PartialFold] = {}  # of each hypothesis kept: its layer
 
     def node_dart(self, chart: Chart, dart: MapDart) -> NodeDart:
         """The node and door of a dart of S."""
@@ -164,9 +203,9 @@ class FoldingRule(NoRule):
         """Take note of vu, which is a place seen before, or a new ghost."""
         if not self.entries:
             self.entries.append((self.fold.add(chart.percepts[0], known=True), 0))
-        self.percept = percept
         self.e = self.node_dart(chart, e)
         self.vu = self._cross(self.e, percept)
+        self.assumed.clear()
 
     def _cross(self, exit_place: NodeDart, percept: Percept) -> NodeDart:
         """The dart by which the robot comes in behind an exit; adds a ghost if it is new there."""
@@ -188,18 +227,22 @@ class FoldingRule(NoRule):
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
         """Why no world allows the hypothesis, if none does."""
-        mark = len(self.fold.done)
-        wrong = self.fold.join(self.e, self.node_dart(chart, hypothesis.dart))
-        self.fold.roll_back(mark)
+        layer = self.assumed.pop(hypothesis.dart, None)
+        if layer is None or not layer.follow():
+            layer = self.fold.layer()
+            # Folded anew, so that the contradiction does not depend on what had been kept.
+            wrong = layer.join(self.e, self.node_dart(chart, hypothesis.dart))
+        else:
+            wrong = ""
         if not wrong:
+            self.assumed[hypothesis.dart] = layer
             return None
-        percept = chart.percepts[hypothesis.dart]
-        return Refutation("folding", Evidence(0, percept, self.percept, contradiction=wrong))
+        return Refutation("folding", Evidence(0, contradiction=wrong))
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The last hypothesis, once vu is known to be a vertex of S."""
         node, _ = self.fold.resolve(self.vu)
-        return remaining[0] if len(remaining) == 1 and self.fold.known[node] else None
+        return remaining[0] if len(remaining) == 1 and self.fold.is_known(node) else None
 
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
@@ -207,6 +250,6 @@ class FoldingRule(NoRule):
         """Note which vertex of S vu is: a new one, or that of `entry`."""
         if len(self.entries) < len(chart.first):
             self.entries.append(self.vu)
-            self.fold.known[self.fold.resolve(self.vu)[0]] = True
+            self.fold.known.add(self.fold.resolve(self.vu)[0])
         else:
             self.fold.join(self.e, self.node_dart(chart, entry))

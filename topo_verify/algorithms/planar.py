@@ -25,12 +25,10 @@ class PlanarRule:
 
     def __init__(self, rule: Rule) -> None:
         self.rule = rule
-        self.percept = Percept(0, None)  # vu's
         self.face: frozenset[MapDart] = frozenset()
 
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         """Find the darts on the face of e."""
-        self.percept = percept
         self.face = frozenset(face(chart, e))
         self.rule.arrive(chart, e, percept)
 
@@ -44,8 +42,8 @@ class PlanarRule:
         """Why the hypothesis is false in every planar world, if it is."""
         if hypothesis.dart in self.face:
             return self.rule.refute(chart, hypothesis, sequences)
-        seen, message = chart.percepts[hypothesis.dart], "it lies on another face than e"
-        return Refutation("planar", Evidence(0, seen, self.percept, contradiction=message))
+        message = "it lies on another face than e"
+        return Refutation("planar", Evidence(0, contradiction=message))
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The conclusion of the other rule."""

@@ -12,7 +12,8 @@ that shows this history; so the result maps into all of them, dart by dart.
   with this same history. Nothing is proved; these are its **witness worlds**.
 - A **contradiction** (two degrees at one place, the marker seen at one and not at the other, a
   vertex turned against itself, a dart its own partner, a door that is not there) says that no world
-  shows this history; and under an assumption, that it is false in every world that does.
+  shows this history; and under an assumption, that it is false in every world that does. The first
+  one refutes; `contradictions` folds on past it and lists every kind that is met.
 
 What this does not show: that the percepts are true (claim 1 does), or anything for a mapper that
 may assume more than "some connected embedded graph", as that it is planar.
@@ -23,8 +24,9 @@ Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite grap
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import combinations
 
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.world.rooted_map import World
@@ -47,6 +49,7 @@ class Fold:
         self._size: list[int] = []
         self._partner: list[dict[int, Place]] = []
         self._undo: list[tuple[int, int | None]] = []
+        self._met: set[str] | None = None  # the contradictions so far, while they are listed
         self._visit(percept)
 
     def _visit(self, percept: Percept) -> int:
@@ -89,11 +92,16 @@ class Fold:
         for place, end in ((one, other), (other, one)):
             node, dart = self.find(place)
             if (node, dart) == self.find(end):
-                raise Contradiction("a dart would be its own partner")
-            if dart in self._partner[node]:
+                self._meet("a dart would be its own other end")
+            elif dart in self._partner[node]:
                 self._identify(self._partner[node][dart], end)
             else:
                 self._set(node, dart, end)
+
+    def _meet(self, contradiction: str) -> None:
+        if self._met is None:
+            raise Contradiction(contradiction)
+        self._met.add(contradiction.partition(":")[0])
 
     def _identify(self, one: Place, other: Place) -> None:
         """Make the two one dart, and draw what follows. Raises Contradiction."""
@@ -102,15 +110,15 @@ class Fold:
             (a, i), (b, j) = map(self.find, pairs.pop())
             if a == b:
                 if i != j:
-                    raise Contradiction("a vertex would be itself, turned")
+                    self._meet("a vertex would be itself, turned")
                 continue
             if self._size[a] > self._size[b]:
                 (a, i), (b, j) = (b, j), (a, i)
             lost, kept = self._seen[a], self._seen[b]
-            if lost.degree != kept.degree:
-                raise Contradiction(f"degree {kept.degree} and degree {lost.degree} at one place")
-            if (lost.marker is None) != (kept.marker is None):
-                raise Contradiction("the marker seen and not seen at one place")
+            if lost.signature != kept.signature:
+                clash = "two degrees, or the marker and its absence, at one place"
+                self._meet(f"{clash}: {kept} and {lost}")
+                continue
             # Paths are never shortened: to undo a union is to cut one link, and unions by size keep
             # the paths logarithmic.
             self._parent[a], self._offset[a] = b, j - i
@@ -119,8 +127,8 @@ class Fold:
             for dart, end in self._partner[a].items():
                 moved = (dart + j - i) % kept.degree
                 if self.find(end) == (b, moved):
-                    raise Contradiction("a dart would be its own partner")
-                if moved in self._partner[b]:
+                    self._meet("a dart would be its own other end")
+                elif moved in self._partner[b]:
                     pairs.append((self._partner[b][moved], end))
                 else:
                     self._set(b, moved, end)
@@ -130,14 +138,16 @@ class Fold:
         self._undo.append((node, dart))
 
     @contextmanager
-    def assuming(self, one: Place, other: Place) -> Generator[None]:
+    def assuming(self, one: Place, other: Place, *, same: bool = False) -> Generator[None]:
         """Inside the block the two are ends of one edge; after it the fold is as before.
 
+        Args:
+            same: they are one dart, instead.
         Raises Contradiction at the head of the block, if there is one; nothing remains of it.
         """
         mark = len(self._undo)
         try:
-            self.join(one, other)
+            (self._identify if same else self.join)(one, other)
             yield
         finally:
             while len(self._undo) > mark:
@@ -148,13 +158,20 @@ class Fold:
                     self._size[self._parent[node]] -= self._size[node]
                     self._parent[node], self._offset[node] = node, 0
 
-    def possible(self, one: Place, other: Place) -> bool:
-        """Whether some world with this history has the two as the ends of one edge."""
-        try:
-            with self.assuming(one, other):
-                return True
-        except Contradiction:
-            return False
+    def contradictions(self, one: Place, other: Place, apart: Sequence[Place] = ()) -> set[str]:
+        """The contradictions if the two are ends of one edge, and no two of `apart` one vertex."""
+        self._met = met = set[str]()
+        with self.assuming(one, other):
+            self._met = None
+            if len({self.find(place)[0] for place in apart}) < len(apart):
+                met.add("two vertices of S would be one")
+        return met
+
+    def alike(self) -> Iterator[tuple[Place, Place]]:
+        """The pairs of places that may be one dart: each two vertices once in every turn."""
+        for one, other in combinations(self._roots(), 2):
+            if self._seen[one].signature == self._seen[other].signature:
+                yield from (((one, 0), (other, door)) for door in range(self.degree(one)))
 
     def degree(self, node: int) -> int:
         """The degree of a node."""

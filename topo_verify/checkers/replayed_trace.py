@@ -181,5 +181,9 @@ class ReplayedTrace:
 
     @cached_property
     def conclusions(self) -> dict[int, Conclusion]:
-        """By event, whether each declared reject, confirm and augmentation follows; in order."""
-        return {conclusion.when: conclusion for conclusion in decision_conclusions(self.trace)}
+        """By event, whether each declared reject, confirm and augmentation follows; in order.
+
+        Of a history that the world does not show, none: it proves nothing.
+        """
+        found = decision_conclusions(self.trace) if self.is_history else ()
+        return {conclusion.when: conclusion for conclusion in found}

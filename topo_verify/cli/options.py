@@ -114,6 +114,13 @@ def make_folder(name: str, option: str) -> Path:
     return Path(name)
 
 
+in_process = click.option(
+    "--in-process",
+    is_flag=True,
+    help="Run a mapper of your own in this process: faster, and it is trusted not to look around.",
+)
+
+
 def target(command: Callable[..., int]) -> Callable[..., int]:
     """Add TARGET, as an argument or as --target; the command gets it as `target`."""
 
@@ -135,13 +142,6 @@ def one_of(target: str | None, named: str | None) -> str | None:
     if target is not None and named is not None:
         raise InputError(f"expected one TARGET, got {target!r} and --target {named}; leave one out")
     return named if target is None else target
-
-
-in_process = click.option(
-    "--in-process",
-    is_flag=True,
-    help="Run a mapper of your own in this process: faster, and it is trusted not to look around.",
-)
 
 
 program = click.option(

@@ -74,8 +74,8 @@ def verify(
         target=text,
         quick=quick,
         seed=seed,
-        left_out=others,
         in_process=in_process,
+        left_out=others,
     )
 
 

@@ -1,4 +1,4 @@
-"""Mistakes in the complete rule: what it identifies, and what it takes back."""
+"""Mistakes in the complete rule: what it identifies, and what it keeps."""
 
 from __future__ import annotations
 
@@ -24,20 +24,16 @@ def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
 
 
 class _StaysKnown(PartialFold):
-    def roll_back(self, mark: int) -> None:
-        # The identifications in `done` may have made their leaders vertices of S. The reference
-        # restores what was known before, and the lines after it set it again.
-        known = {self.leader[node] for node, door, _ in self.done[mark:] if door is None}
-        still = {node for node in known if self.known[node]}
-        super().roll_back(mark)
-        for node in still:
-            self.known[node] = True
+    def layer(self) -> PartialFold:
+        layer = super().layer()
+        layer.known = self.known  # the reference notes apart what is known under a hypothesis
+        return layer
 
 
 keeps_an_assumption_for_good = Fault(
     name="keeps-an-assumption-for-good",
     part="folding",
-    why="a place that became a vertex of S under a hypothesis stays one when that is rolled back",
+    why="a place that became a vertex of S under a hypothesis stays one when that is dropped",
     claim="true-hypothesis-kept",
     mapper=mapper("folding", rule=_folding(_StaysKnown)),
 )
