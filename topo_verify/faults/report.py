@@ -8,8 +8,8 @@ from topo_verify.algorithms import CATALOGUE
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.motion import Executed, Pilot
-from topo_verify.faults.fault import Fault, mapper
-from topo_verify.robot.events import MapDart, Robot
+from topo_verify.faults.fault import Fault, ForwardingRobot, mapper
+from topo_verify.robot.events import Decision, Evidence, MapDart, Reject, Robot
 
 basic = CATALOGUE["basic"]
 
@@ -116,6 +116,48 @@ counts_the_start_as_a_move = Fault(
 )
 
 
+def _two_for_nothing(robot: Robot) -> Survey:
+    if robot.percept.degree:
+        robot.move(0)
+        robot.move(0)
+    hidden = robot
+    while isinstance(hidden, ForwardingRobot):
+        hidden = hidden.robot
+    # The trace, if it is in this process, where everything can be found by who looks for it.
+    trace = getattr(getattr(hidden.move, "__self__", None), "events", [])
+    del trace[:2]
+    return basic(robot)
+
+
+takes_back_two_moves = Fault(
+    name="takes-back-two-moves",
+    part="report",
+    why="the robot goes out and back, and removes both moves from the trace if it can reach it",
+    claim="cost-honest",
+    mapper=_two_for_nothing,
+)
+
+
+class _GivesUp(BaseException):
+    """Not an `Exception`, as `asyncio.CancelledError` is none."""
+
+
+def _cancelled(robot: Robot) -> Survey:
+    survey = basic(robot)
+    if any(len(row) > 2 for row in survey.vertices):
+        raise _GivesUp("a crossing")
+    return survey
+
+
+raises_past_exception = Fault(
+    name="raises-past-exception",
+    part="report",
+    why="at the end a vertex with three exits or more raises what is no Exception",
+    claim="map-isomorphic",
+    mapper=_cancelled,
+)
+
+
 class _TwoDartsLeft(NoRule):
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
@@ -131,4 +173,35 @@ joins_the_last_two_unseen = Fault(
     why="when two darts are left, they are joined to one edge unseen, and the robot stops",
     claim="map-entailed",
     mapper=mapper("basic", rule=_TwoDartsLeft),
+)
+
+
+class _Discreet(ForwardingRobot):
+    def declare(self, event: Decision) -> None:
+        if not isinstance(event, Reject):
+            super().declare(event)
+
+
+leaves_out_rejections = Fault(
+    name="leaves-out-rejections",
+    part="report",
+    why="rejections are not declared, so hypotheses are dropped in silence",
+    claim="true-hypothesis-kept",
+    mapper=lambda robot: basic(_Discreet(robot)),
+)
+
+
+class _Labelling(ForwardingRobot):
+    def declare(self, event: Decision) -> None:
+        if isinstance(event, Reject):
+            event = Reject(event.edge, event.hypothesis, "folding", Evidence(999))
+        super().declare(event)
+
+
+rejects_under_another_label = Fault(
+    name="rejects-under-another-label",
+    part="report",
+    why="rejections by motion are declared under the label `folding`, with evidence of nothing",
+    claim="rejection-justified",
+    mapper=lambda robot: basic(_Labelling(robot)),
 )

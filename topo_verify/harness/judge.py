@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from topo_verify.checkers import Finding, Judgement, Status, check
+from topo_verify.checkers import LARGE, Finding, Judgement, Status, check
 from topo_verify.errors import ClaimFailed
 from topo_verify.harness.mapper_names import is_found_again
 from topo_verify.harness.run import Exploration, explore
@@ -44,6 +44,11 @@ class Report(msgspec.Struct, frozen=True):
     claims: dict[str, Status]
     findings: tuple[Finding, ...]
     judgements: tuple[Judgement, ...]
+
+    @property
+    def undecided(self) -> bool:
+        """Whether a claim was neither proved nor refuted."""
+        return "undecided" in self.claims.values()
 
     def with_findings(self, findings: Sequence[Finding]) -> Report:
         """The report with other findings for those that it has."""
@@ -112,7 +117,7 @@ def examine(
 
     Args:
         where: the world as the command line names it, for the findings; default: its id.
-        strict: judge claim 10 also in worlds with more than 100 edges.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         InputError: there is no such mapper or policy.
     """
@@ -132,7 +137,7 @@ def assert_maps(
     """Assert that every claim holds of a mapper in a world: the one line of a property test.
 
     Args:
-        strict: judge claim 10 also in worlds with more than 100 edges.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         ClaimFailed: a claim fails. It is an AssertionError whose text is the report; its cause is
             the exception that the mapper raised, if it did.
@@ -160,7 +165,8 @@ def judge(
         options: the options that the replay command needs besides world and target.
     """
     where = where or world_argument(run.world)
-    replay_command = replay_line(where, run.algorithm, run.policies, options)
+    words = (*options, *strict_option(run.world, strict=strict))
+    replay_command = replay_line(where, run.algorithm, run.policies, words)
     report = judge_trace(
         run.world,
         run.trace,
@@ -243,7 +249,7 @@ def undecided(run: Exploration, report: Report) -> bool:
     the world.
     """
     if not report.findings:
-        return "undecided" in report.claims.values()
+        return report.undecided
     lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
     return (run.limit == "world-timeout" or run.declined) and lost
 
@@ -271,6 +277,11 @@ def world_argument(world: World) -> str:
     return (
         world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else f"{world.name or 'world'}.json"
     )
+
+
+def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:
+    """The option that asks every claim, where a claim is not asked without it."""
+    return ("--strict",) if strict and len(world.edges) > LARGE else ()
 
 
 def replay_line(

@@ -23,7 +23,7 @@ from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import explore
 from topo_verify.harness.search.exhaustive import Size, search
 from topo_verify.programs.loader import Target
-from topo_verify.robot.events import Augment, Decision, Robot
+from topo_verify.robot.events import Augment, Decision, Move, Robot
 from topo_verify.robot.limits import Limits
 from topo_verify.world.rooted_map import World
 
@@ -268,8 +268,10 @@ def fails(fault: Fault, world: World) -> bool | None:
     # Only the bound of claim 7 counts against a mapper: any other limit is ours, proving nothing.
     if run.limit is not None and (run.limit != "budget" or budget < bound):
         return None
+    if run.map is None or run.cost != sum(isinstance(event, Move) for event in run.trace):
+        return True
     replayed = ReplayedTrace(world, run.trace, run.stopped)
-    return run.map is None or any(True for claim, _ in CLAIMS.values() for _ in claim(replayed))
+    return any(True for claim, _ in CLAIMS.values() for _ in claim(replayed))
 
 
 class _Counting(ForwardingRobot):
