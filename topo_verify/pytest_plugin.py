@@ -15,8 +15,8 @@ not declare the decisions that the claim is about, since the claim was then not 
 The results travel in the `user_properties` of the test reports, so the summary at the end is the
 same with pytest-xdist, and JUnit files hold them.
 
-Pytest loads this file in every session of its environment. So the file imports nothing of
-topo_verify and no library before there is a mapper to test.
+Pytest loads this file in every session of its environment. So the file imports no
+room of topo_verify and no library before there is a mapper to test.
 
 What this does not show: anything about worlds with more edges than N.
 """
@@ -31,6 +31,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import pytest
+
+from topo_verify.text import LINE, shown
 
 if TYPE_CHECKING:
     from topo_verify.harness.judge import Report
@@ -201,8 +203,6 @@ def pytest_make_collect_report(
     report = yield
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
-        from topo_verify.text import shown
-
         name = shown(text)
         made = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
         report.result.append(made)
@@ -214,8 +214,6 @@ class MapperCollector(pytest.Collector):
 
     def collect(self) -> Iterable[ClaimItem]:
         """One test for each mapper and claim."""
-        from topo_verify.text import shown
-
         options = self.config.option
         cases = list(_of_targets(self.config, options.topo_target, options.topo_edges))
         several = len({case.target.text for case in cases}) > 1
@@ -342,22 +340,17 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if by_mapper:
         terminalreporter.write_sep("=", "topo-verify")
     for facts in by_mapper.values():
-        for line in _lines(facts):
-            terminalreporter.write_line(line)
+        for line in _text(facts).split("\n"):
+            terminalreporter.write_line(shown(line, limit=LINE))
 
 
-def _lines(facts: dict[str, Any]) -> Iterator[str]:
-    from topo_verify.text import LINE, shown
-
+def _text(facts: dict[str, Any]) -> str:
     checked, total, failing = (facts[f"topo_{name}"] for name in ("checked", "total", "failing"))
     line = f"{facts['topo_target']}: {checked:,} of {total:,} worlds of 1 to {facts['topo_edges']}"
     line += f" edges, {failing:,} counterexample{'' if failing == 1 else 's'}"
     if "topo_replay" in facts:
-        yield shown(f"{line}, first {facts['topo_world']}", limit=LINE)
-        yield shown(f"  again: {facts['topo_replay']}", limit=LINE)
-    else:
-        why = f"; not decided: {facts['topo_why']}" if "topo_why" in facts else ""
-        yield shown(line + why, limit=LINE)
+        return f"{line}, first {facts['topo_world']}\n  again: {facts['topo_replay']}"
+    return line + (f"; not decided: {facts['topo_why']}" if "topo_why" in facts else "")
 
 
 # ---------------------------------------------------------------- fixtures
