@@ -308,6 +308,32 @@ def test_the_fixtures_give_a_robot_and_a_report(session: Session) -> None:
     assert "topo-verify =" not in result.stdout.str()  # nothing to sum up
 
 
+@pytest.mark.parametrize(
+    ("takes", "loaded"),
+    [
+        ("from topo_verify.strategies import worlds", True),
+        ("from hypothesis.strategies import none as worlds", False),
+    ],
+)
+def test_the_first_example_of_a_property_test_imports_nothing(
+    takes: str, loaded: bool, session: Session
+) -> None:
+    """Hypothesis bounds the time of an example. Other people's tests load nothing of ours."""
+    result = session(
+        test=f"""
+        import sys
+        from hypothesis import given, settings
+        {takes}
+
+        @settings(max_examples=1)
+        @given(world=worlds())
+        def test_it(world) -> None:
+            assert ("topo_verify.harness.judge" in sys.modules) is {loaded}
+        """
+    )
+    result.assert_outcomes(passed=1)
+
+
 # ---------------------------------------------------------------- tracebacks
 
 

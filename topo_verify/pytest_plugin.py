@@ -24,15 +24,17 @@ What this does not show: anything about worlds with more edges than N.
 from __future__ import annotations
 
 import argparse
+import inspect
 import itertools
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from topo_verify.text import LINE, shown
+from topo_verify.text import shown
 
 if TYPE_CHECKING:
     from topo_verify.harness.judge import Report
@@ -130,6 +132,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Make one test for each claim from a marked function."""
+    _import_for(metafunc)
     mark = metafunc.definition.get_closest_marker("topo")
     if mark is not None:
         cases = _cases(metafunc.config, mark)
@@ -137,6 +140,19 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         names = [f"{case.target.text}-{case.claim}" if several else case.claim for case in cases]
         metafunc.fixturenames.append(_CASE)
         metafunc.parametrize(_CASE, cases, ids=names)
+
+
+def _import_for(metafunc: pytest.Metafunc) -> None:
+    """Import what runs and judges a mapper, before a property test that may ask for it.
+
+    Hypothesis bounds the time of an example; the first one would take as long as the import.
+    """
+    if getattr(metafunc.function, "is_hypothesis_test", False):
+        for one in vars(metafunc.module).values():
+            home = getattr(one, "__name__" if inspect.ismodule(one) else "__module__", None)
+            if str(home).startswith("topo_verify"):
+                import_module("topo_verify.harness.judge")
+                break
 
 
 def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
@@ -278,7 +294,7 @@ def _judge(item: pytest.Item, case: ClaimTest) -> None:
         options: argparse.Namespace = item.config.option
         limits = Limits(None, options.topo_move_timeout, options.topo_world_timeout)
         known[key] = by_claim(case.target, case.edges, limits)
-    item.user_properties += _properties(case, known[key])
+    item.user_properties += known[key].properties(case.target.text)
     match known[key].verdict(case.claim):
         case "fails" | "undecided":
             pytest.fail(known[key].text(case.claim), pytrace=False)
@@ -312,24 +328,6 @@ def _is_no_bug_of_ours(excinfo: pytest.ExceptionInfo[BaseException]) -> bool:
     return not module.startswith("topo_verify.")
 
 
-def _properties(case: ClaimTest, results: ClaimResults) -> list[tuple[str, object]]:
-    """The results that the report of a test carries to another process and to a JUnit file."""
-    part = results.part
-    facts: dict[str, object] = {
-        "target": case.target.text,
-        "edges": case.edges,
-        "verdict": part.verdict,
-        "checked": part.checked,
-        "total": part.total,
-        "failing": part.failing,
-    }
-    if part.findings:
-        facts |= {"world": part.findings[0].world, "replay": part.findings[0].replay}
-    elif not part.ok:
-        facts["why"] = part.summary
-    return [(f"topo_{name}", fact) for name, fact in facts.items()]
-
-
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Write a line for each mapper: the worlds tried, and the counterexamples."""
     by_mapper: dict[tuple[object, ...], dict[str, Any]] = {}
@@ -340,17 +338,10 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if by_mapper:
         terminalreporter.write_sep("=", "topo-verify")
     for facts in by_mapper.values():
-        for line in _text(facts).split("\n"):
-            terminalreporter.write_line(shown(line, limit=LINE))
+        from topo_verify.harness.verify.by_claim import summary
 
-
-def _text(facts: dict[str, Any]) -> str:
-    checked, total, failing = (facts[f"topo_{name}"] for name in ("checked", "total", "failing"))
-    line = f"{facts['topo_target']}: {checked:,} of {total:,} worlds of 1 to {facts['topo_edges']}"
-    line += f" edges, {failing:,} counterexample{'' if failing == 1 else 's'}"
-    if "topo_replay" in facts:
-        return f"{line}, first {facts['topo_world']}\n  again: {facts['topo_replay']}"
-    return line + (f"; not decided: {facts['topo_why']}" if "topo_why" in facts else "")
+        for line in summary(facts):
+            terminalreporter.write_line(line)
 
 
 # ---------------------------------------------------------------- fixtures

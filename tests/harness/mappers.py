@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import random
 import signal
 import sys
 import time
@@ -72,6 +73,25 @@ def forgets(robot: Robot) -> Any:
     """Right in worlds with less than three edges; then one is missing from the map."""
     survey = CATALOGUE["basic"](robot)
     return survey if len(survey.edges) < 3 else survey._replace(edges=survey.edges[1:])
+
+
+def remembers(robot: Robot, worlds: list[int] = []) -> Any:  # noqa: B006  that is its fault
+    """Right in the first worlds of its process."""
+    worlds.append(1)
+    return guesses(robot) if len(worlds) > 20 else CATALOGUE["basic"](robot)
+
+
+def learns(robot: Robot, worlds: list[int] = []) -> Any:  # noqa: B006  that is its fault
+    """Wrong in the first world of its process, unless that has one edge."""
+    worlds.append(1)
+    survey = CATALOGUE["basic"](robot)
+    wrong = len(worlds) == 1 and len(survey.edges) > 1
+    return survey._replace(edges=survey.edges[1:]) if wrong else survey
+
+
+def draws(robot: Robot) -> Any:
+    """Right, but which edge comes next is drawn by lot."""
+    return CATALOGUE["basic"].with_policies(pick=f"random({random.randrange(10**6)})")(robot)
 
 
 def moody(robot: Robot) -> Any:

@@ -92,6 +92,27 @@ def test_the_replay_line_of_a_script_names_its_file(tmp_path: Path) -> None:
     assert found.mapper(SimulatedRobot(WORLD, 0)) == 7
 
 
+SESSION = """
+import topo_verify as tv
+def mapper(robot): return 7
+report = tv.examine(mapper, tv.World.from_id('m1/0'))
+print([finding.replay for finding in report.findings], 'again' in str(report))
+"""
+
+
+@pytest.mark.parametrize("words", [["-"], ["script.py"]], ids=["a notebook", "a script"])
+def test_where_no_command_finds_the_mapper_again_none_is_shown(
+    words: list[str], tmp_path: Path
+) -> None:
+    """A notebook has no file. A script with no guard would do its work again when it is loaded."""
+    (tmp_path / "script.py").write_text(SESSION)
+    done = subprocess.run(
+        [sys.executable, *words], input=SESSION, capture_output=True, text=True, check=True,
+        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+    )  # fmt: skip
+    assert done.stdout == "[''] False\n"
+
+
 def test_the_replay_line_carries_policies_limits_and_odd_names() -> None:
     assert replay_line("a b.json", "basic", Policies("last", "random(3)")) == (
         "topo-verify replay 'a b.json' --target basic --pick last --order 'random(3)'"

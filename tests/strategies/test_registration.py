@@ -74,6 +74,26 @@ def test_it_works_from_either_end() -> None:
     assert printed(code) == "True"
 
 
+def test_a_property_test_imports_what_its_first_run_needs_when_it_is_defined() -> None:
+    """Hypothesis bounds the time of an example: the first one shall not import half the package."""
+    code = """
+import sys
+import topo_verify as tv
+from hypothesis import given, settings
+
+@settings(max_examples=1, database=None)
+@given(world=tv.strategies.worlds(min_edges=3, max_edges=3))
+def first(world: tv.World) -> None:
+    before = set(sys.modules)
+    tv.explore(world, "folding")
+    tv.assert_maps(lambda robot: tv.CATALOGUE["basic"](robot), world)
+    print(sorted(name for name in set(sys.modules) - before if "topo_verify" in name))
+
+first()
+"""
+    assert printed(code) == "[]"
+
+
 def test_registering_twice_does_no_harm() -> None:
     registration.register()
     registration.register()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import secrets
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -35,6 +37,17 @@ class _ConformOptions:
     corpus: Corpus
     workers: int
     batch: bool
+    order_seed: int
+
+
+def _seeds(_context: click.Context, _option: click.Parameter, value: str | None) -> tuple[int, int]:
+    """The seeds of the generated worlds and of the order."""
+    if value is None:
+        return 0, secrets.randbelow(2**32)
+    found = re.fullmatch(r"([0-9]{1,18})(?::([0-9]{1,18}))?", value)
+    if found is None:
+        raise click.BadParameter(f"expected N or N:ORDER, two numbers from 0, got {value!r}")
+    return int(found[1]), int(found[2] or found[1])
 
 
 @click.command(
@@ -69,14 +82,15 @@ class _ConformOptions:
     help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
 @click.option("--validate", is_flag=True, help="Refuse fields that no schema lists.")
+@options.strict
 @click.option("--transcript", metavar="DIR", help="Write the messages of failing worlds to DIR.")
 @click.option(
     "--seed",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    metavar="N",
-    help="Seed of the generated worlds.",
+    "seeds",
+    callback=_seeds,
+    metavar="N[:ORDER]",
+    help="Seed of the generated worlds, and of the order in which the worlds are met."
+    "  [default: 0, and an order drawn anew]",
 )
 @options.limits
 @output_options
@@ -93,8 +107,9 @@ def conform(  # noqa: PLR0913  an argument an option
     batch: bool,
     workers: int | None,
     validate: bool,
+    strict: bool,
     transcript: str | None,
-    seed: int,
+    seeds: tuple[int, int],
     limits: Limits,
 ) -> int:
     """Try an implementation in many worlds and judge it on four levels, each by itself.
@@ -104,16 +119,22 @@ def conform(  # noqa: PLR0913  an argument an option
     (or basic). TARGET is a catalogue name, module:attribute or file.py:attribute; --cmd names a
     program that speaks protocol 1.
     """
+    seed, order_seed = seeds
 
     def standings() -> Iterator[Result[LevelResult]]:
         text = target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
         asked = _ConformOptions(
-            corpus_from(texts, seed=seed), processors() if workers is None else workers, batch
+            corpus_from(texts, seed=seed),
+            processors() if workers is None else workers,
+            batch,
+            order_seed,
         )
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
-        output.note(f"seed {seed}")
+        # The order is no part of the results; so they are the same whatever it is.
+        output.timing["seed"] = f"{seed}:{order_seed}"
+        output.note(f"seed {seed}:{order_seed}")
         for one in _texts(text):
             job = ConformJob(
                 target=one,
@@ -121,10 +142,12 @@ def conform(  # noqa: PLR0913  an argument an option
                 policies=policies,
                 limits=limits,
                 validate=validate,
+                strict=strict,
                 transcript=transcript,
                 in_process=in_process,
                 replay_arguments=(
                     *_replay_command(one, like, (pick, order), batch=batch, validate=validate),
+                    *(("--strict",) if strict else ()),
                     *(("--in-process",) if in_process else ()),
                     *limits.options,
                 ),
@@ -159,6 +182,7 @@ def _tried(
             tally,
             workers=asked.workers,
             batch=asked.batch,
+            seed=asked.order_seed,
             tell=output.progress,
         )
     except KeyboardInterrupt:

@@ -121,7 +121,7 @@ class _ExploreOptions:
 @options.policies
 @options.marker
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
-@click.option("--strict", is_flag=True, help="Judge every claim in worlds over 100 edges, too.")
+@options.strict
 @click.option(
     "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
 )

@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from topo_verify.checkers import LARGE
 from topo_verify.cli.failures import SUMMARY
 from topo_verify.errors import InputError
 from topo_verify.robot.limits import MOST_SECONDS, Limits
@@ -149,4 +150,9 @@ program = click.option(
     "command",
     metavar="'PROGRAM ARGS'",
     help="Run this program as the TARGET, without a shell; see docs/oracle.md.",
+)
+
+
+strict = click.option(
+    "--strict", is_flag=True, help=f"Ask every claim in worlds over {LARGE} edges, too."
 )

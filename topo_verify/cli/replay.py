@@ -18,7 +18,7 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import NamedWorld, finding_line, judged, named_world, unjudged
 from topo_verify.errors import InputError
-from topo_verify.harness.judge import Report, in_words, judge_trace
+from topo_verify.harness.judge import Report, in_words, judge_trace, strict_option
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import one_target, target_text
 from topo_verify.robot.events import Start, read_trace
@@ -66,6 +66,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 @click.option(
     "--world", "world_text", metavar="WORLD", help="The world in which the trace was recorded."
 )
+@options.strict
 @options.limits
 @output_options
 def replay(  # noqa: PLR0913  an argument an option
@@ -79,6 +80,7 @@ def replay(  # noqa: PLR0913  an argument an option
     order: str | None,
     marker: int | None,
     world_text: str | None,
+    strict: bool,
     limits: Limits,
 ) -> int:
     """Judge a trace again, or run a mapper again in one world.
@@ -94,7 +96,7 @@ def replay(  # noqa: PLR0913  an argument an option
             given = {"--target": target, "--cmd": command, "--pick": pick, "--order": order}
             words = [name for name, value in given.items() if value is not None]
             _require_none((*words, *limits.options), what)
-            yield _judged(output, what, data, world_text, marker)
+            yield _judged(output, what, data, world_text, marker, strict=strict)
             return
         if world_text is not None:
             raise InputError(
@@ -105,7 +107,7 @@ def replay(  # noqa: PLR0913  an argument an option
         mapper = one_target(text, pick=pick, order=order, in_process=in_process)
         output.progress(f"{mapper.text} in {at.name}", 0, 1)
         run = run_mapper(at.world, mapper, limits=limits)
-        report, incomplete = judged(run, at, limits)
+        report, incomplete = judged(run, at, limits, strict=strict)
         yield _result(report, at, None, run.stopped, incomplete=incomplete)
 
     return output.run("replay", replayed, _show, in_process=in_process)
@@ -141,7 +143,13 @@ def _is_trace(data: bytes) -> bool:
 
 
 def _judged(
-    output: Output, what: str, data: bytes, world_text: str | None, marker: int | None
+    output: Output,
+    what: str,
+    data: bytes,
+    world_text: str | None,
+    marker: int | None,
+    *,
+    strict: bool,
 ) -> Result[ReplayEntry]:
     """The judgement of a trace in its world."""
     name = "standard input" if what == "-" else what
@@ -154,19 +162,23 @@ def _judged(
         else _own_world(name, start, marker)
     )
     output.progress(f"judging {name}", 0, 1)
-    replay_command = shlex.join(
-        ["topo-verify", "replay", what, "--world", at.argument, *at.options]
-    )
+    words = ("--world", at.argument, *at.options, *strict_option(at.world, strict=strict))
+    replay_command = shlex.join(["topo-verify", "replay", what, *words])
     target = start.algorithm or "unknown"
     report = judge_trace(
-        at.world, trace, target=target, where=at.argument, replay_command=replay_command
+        at.world,
+        trace,
+        target=target,
+        where=at.argument,
+        replay_command=replay_command,
+        strict=strict,
     )
     if report.claims["percepts-true"] == "failed":
         output.note(
             f"{name} diverges from {at.argument}: it was recorded in another world (name it with"
             " --world) or by another version, or it was edited"
         )
-    return _result(report, at, what, None)
+    return _result(report, at, what, None, incomplete=report.ok and report.undecided)
 
 
 def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:

@@ -15,7 +15,7 @@ import msgspec
 from topo_verify.checkers import LARGE, Finding, Judgement, Status
 from topo_verify.cli.layout import Block, Bullets, Command, Text
 from topo_verify.errors import InputError
-from topo_verify.harness.judge import Report, in_words, judge, replay_line, undecided
+from topo_verify.harness.judge import Report, in_words, judge, replay_line, strict_option, undecided
 from topo_verify.harness.run import Exploration
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -136,7 +136,7 @@ def judged(
         return report.with_findings(()), True
     if not report.findings:
         return report, False
-    words = (*at.options, *limits.options)
+    words = (*at.options, *limits.options, *strict_option(at.world, strict=strict))
     replay_command = replay_line(at.argument, run.algorithm, run.policies, words)
     findings = tuple(
         msgspec.structs.replace(finding, world=at.argument, replay=replay_command)

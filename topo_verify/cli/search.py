@@ -203,6 +203,7 @@ def _searched(
         work = Search(plan, mappers, workers=asked.workers, ledger=ledger, identity=identity)
         try:
             work.work(output.progress)
+            work.run_again(output.progress)
         except KeyboardInterrupt:
             # Yield before raising: `Output` prints what it has and then exits 3.
             yield _result(work.found(), asked)
@@ -247,6 +248,7 @@ def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
         verdict=found.verdict,
         from_ledger=found.from_ledger,
         lost=tuple(Lost(one.world, one.how) for one in found.lost),
+        run_again=found.again,
         counterexample=None if first is None else _counterexample(first),
         by_edges=tuple(_by_edges(size, found.plan, asked) for size in found.by_edges),
         claims=tuple(

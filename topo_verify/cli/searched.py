@@ -9,6 +9,7 @@ import msgspec
 from topo_verify.checkers import Judgement
 from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.runs import unjudged
+from topo_verify.harness.search.again import RunAgain
 from topo_verify.harness.tally import CostComparison
 from topo_verify.text import plural
 
@@ -72,6 +73,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     Attributes:
         from_ledger: in how many of the checked worlds mappers ran before; in the others, now.
         lost: worlds in which a worker was lost that a stranger may have killed.
+        run_again: what came of the worlds that were run again, each in a fresh process.
     """
 
     target: str
@@ -88,6 +90,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     judgements: tuple[Judgement, ...]
     from_ledger: int
     lost: tuple[Lost, ...]
+    run_again: RunAgain | None
 
 
 # ---------------------------------------------------------------- for people
@@ -117,6 +120,13 @@ def show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
             "A worker was lost, which a stranger may have killed; tried again, nothing failed:"
         )
         yield Bullets(tuple(f"{one.world}: {one.how}" for one in entry.lost[:SHOWN]))
+    if entry.run_again is not None and entry.run_again.others:
+        others = entry.run_again.others
+        yield Text(
+            f"Alone in a fresh process it takes other doors in {_some(others, len(others))}: it"
+            " draws lots, or keeps something from world to world. Seed it anew in each world, and"
+            " the verdict can stand."
+        )
     yield from _counterexamples(entry)
     if entry.verdict != "REFUTED":
         yield from unjudged(entry.target, "these worlds", entry.judgements)

@@ -12,8 +12,9 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from topo_verify.checkers import Finding, Judgement, Status, check
+from topo_verify.checkers import LARGE, Finding, Judgement, Status, check
 from topo_verify.errors import ClaimFailed
+from topo_verify.harness.mapper_names import is_found_again
 from topo_verify.harness.run import Exploration, explore
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import PREFIX
@@ -44,6 +45,11 @@ class Report(msgspec.Struct, frozen=True):
     findings: tuple[Finding, ...]
     judgements: tuple[Judgement, ...]
 
+    @property
+    def undecided(self) -> bool:
+        """Whether a claim was neither proved nor refuted."""
+        return "undecided" in self.claims.values()
+
     def with_findings(self, findings: Sequence[Finding]) -> Report:
         """The report with other findings for those that it has."""
         judgements = tuple(
@@ -65,7 +71,7 @@ class Report(msgspec.Struct, frozen=True):
         for finding in self.findings:
             place = "" if finding.event is None else f" (event {finding.event})"
             lines.append(f"  {finding.claim}{place}: {finding.message}")
-        if self.findings:
+        if self.findings and self.findings[0].replay:
             lines.append(f"  again: {self.findings[0].replay}")
         return "\n".join(shown(line, limit=LINE) for line in lines)
 
@@ -111,7 +117,7 @@ def examine(
 
     Args:
         where: the world as the command line names it, for the findings; default: its id.
-        strict: judge claim 10 also in worlds with more than 100 edges.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         InputError: there is no such mapper or policy.
     """
@@ -131,7 +137,7 @@ def assert_maps(
     """Assert that every claim holds of a mapper in a world: the one line of a property test.
 
     Args:
-        strict: judge claim 10 also in worlds with more than 100 edges.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         ClaimFailed: a claim fails. It is an AssertionError whose text is the report; its cause is
             the exception that the mapper raised, if it did.
@@ -159,7 +165,8 @@ def judge(
         options: the options that the replay command needs besides world and target.
     """
     where = where or world_argument(run.world)
-    replay_command = replay_line(where, run.algorithm, run.policies, options)
+    words = (*options, *strict_option(run.world, strict=strict))
+    replay_command = replay_line(where, run.algorithm, run.policies, words)
     report = judge_trace(
         run.world,
         run.trace,
@@ -242,7 +249,7 @@ def undecided(run: Exploration, report: Report) -> bool:
     the world.
     """
     if not report.findings:
-        return "undecided" in report.claims.values()
+        return report.undecided
     lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
     return (run.limit == "world-timeout" or run.declined) and lost
 
@@ -272,10 +279,17 @@ def world_argument(world: World) -> str:
     )
 
 
+def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:
+    """The option that asks every claim, where a claim is not asked without it."""
+    return ("--strict",) if strict and len(world.edges) > LARGE else ()
+
+
 def replay_line(
     where: str, target: str, policies: Policies | None = None, options: Sequence[str] = ()
 ) -> str:
-    """The command line that shows a run again."""
+    """The command line that shows a run again; empty if no command line finds the mapper."""
+    if not (target.startswith(PREFIX) or is_found_again(target)):
+        return ""
     words = ["topo-verify", "replay", where]
     program = target.startswith(PREFIX)
     words += ["--cmd", target.removeprefix(PREFIX)] if program else ["--target", target]

@@ -16,6 +16,7 @@ it finds world and trace; a mapper in a process of its own does not.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 from topo_verify.algorithms import Algorithm
 from topo_verify.harness.targets import one_target
@@ -27,6 +28,7 @@ from topo_verify.robot.events import (
     Confirm,
     Finish,
     MapData,
+    Move,
     Policies,
     Reject,
     Start,
@@ -77,13 +79,19 @@ class Exploration:
 
     @property
     def rejected_free(self) -> int:
-        """How many hypotheses were rejected without motion."""
-        return sum(isinstance(e, Reject) and e.rule != "motion" for e in self.trace)
+        """How many hypotheses were rejected where the robot had not moved since it decided."""
+        return sum(isinstance(e, Reject) for e in self.trace) - self.rejected_moving
 
     @property
     def rejected_moving(self) -> int:
-        """How many hypotheses were rejected by motion."""
-        return sum(isinstance(e, Reject) and e.rule == "motion" for e in self.trace)
+        """How many hypotheses were rejected after moves that no other decision came after.
+
+        Counted from the moves: what rule a rejection names changes nothing.
+        """
+        return sum(
+            isinstance(before, Move) and isinstance(event, Reject)
+            for before, event in pairwise(self.trace)
+        )
 
     @property
     def confirmed(self) -> int:

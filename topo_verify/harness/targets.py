@@ -15,12 +15,12 @@ from __future__ import annotations
 
 import shlex
 import shutil
-import sys
 from hashlib import sha256
 from pathlib import Path
 
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.errors import InputError
+from topo_verify.harness.mapper_names import text_of
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.hints import close_name, missing_attribute
 from topo_verify.programs.loader import Mapper, Target, load
@@ -63,7 +63,7 @@ def one_target(
     if not isinstance(mapper, str):
         if not callable(mapper):
             raise InputError(f"expected a callable that takes a robot, got {mapper!r}")
-        return _with_policies(Target(_name(mapper), mapper), pick, order)
+        return _with_policies(Target(text_of(mapper), mapper), pick, order)
     found = targets(mapper, pick=pick, order=order, in_process=in_process)
     if len(found) != 1:
         raise InputError(f"{mapper!r} names {len(found)} mappers: name one")
@@ -106,17 +106,6 @@ def _with_policies(target: Target, pick: str | None, order: str | None) -> Targe
         return Target(target.text, target.mapper.with_policies(pick=pick, order=order))
     except ValueError as error:
         raise InputError(str(error)) from None
-
-
-def _name(mapper: Mapper) -> str:
-    """The text that finds a callable again, as far as there is one."""
-    if isinstance(mapper, Algorithm):
-        return mapper.name
-    name = getattr(mapper, "__qualname__", type(mapper).__qualname__)
-    module = getattr(mapper, "__module__", "__main__")
-    if module == "__main__":  # another process cannot import a script by that name, but by its file
-        module = getattr(sys.modules[module], "__file__", None) or module
-    return f"{module}:{name}"
 
 
 # ---------------------------------------------------------------- on the command line

@@ -12,5 +12,7 @@ loader.py           a mapper by module:attribute or file.py:attribute
 delivery.py         calls a mapper and reads what it returns
 serve.py            a Python mapper behind protocol 1
 foreign.py          a Python mapper that is not ours, in a process of its own
+values.py           a hash of what a mapper was made with
+serve_fresh.py      serves it, each world in a fork of its own
 loaded.py           the files and distributions that a mapper's process has loaded
 """

@@ -57,14 +57,16 @@ class Foreign(Program):
 
     Args:
         text: the TARGET, `package.module:attribute` or `path/file.py:attribute`.
+        fresh: it plays each world in a process that has played none.
     Raises (by `start` and by a call):
         InputError: there is no such module, file or attribute; or it cannot be called.
     """
 
     longest: ClassVar[int] = LONGEST
 
-    def __init__(self, text: str) -> None:
-        super().__init__(python_command("topo_verify.programs.serve:child", text))
+    def __init__(self, text: str, *, fresh: bool = False) -> None:
+        served = "serve_fresh:fresh" if fresh else "serve:child"
+        super().__init__(python_command(f"topo_verify.programs.{served}", text))
         self.text = text
         self._decode = _decoded
 

@@ -46,7 +46,7 @@ from topo_verify.text import shown
 IN_A_ROW = 100_000
 """The most decisions that a program may declare without a move between them."""
 
-DECLARED, DECLARED_EACH = 2**22, 2**8
+DECLARED, DECLARED_EACH = 2**24, 2**8
 """The most bytes that a program may declare in a world: so many, and so many for each two darts.
 
 Every pair of darts of the world may be a hypothesis that is rejected.

@@ -150,6 +150,13 @@ def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
     return ms.DoneMessage(found.map, found.cost)
 
 
+def play_once(mapper: Mapper, start: ms.StartMessage, reader: BinaryIO, writer: BinaryIO) -> None:
+    """Play one world for `Foreign`, whose start has been read."""
+    answer = _as_child(mapper, RemoteRobot(start.percept, reader, writer))
+    writer.write(_encode(answer) + b"\n")
+    writer.flush()
+
+
 def _words(text: str) -> str:
     """The text as it can be sent: cut, and without half characters."""
     return text[:WORDS].encode(errors="backslashreplace").decode()

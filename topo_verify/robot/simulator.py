@@ -63,6 +63,8 @@ def door_number(door: object, degree: int) -> Door:
     Raises:
         Misuse: there is no such door.
     """
+    if type(door) is int and 0 <= door < degree:
+        return door
     try:
         number = -1 if isinstance(door, bool) else index(cast("SupportsIndex", door))
     except TypeError:
@@ -163,13 +165,11 @@ class SimulatedRobot:
         """Leave by a door and return the percept behind it. Costs 1. See `Robot.move`."""
         if self._stopped is not None or self._cost >= self.budget:
             self._stop(BudgetExceeded(f"the mapper asked for more than {self.budget} moves"))
-        number = door
-        if type(door) is not int or not 0 <= door < self._percept.degree or purpose is not None:
-            try:
-                number = door_number(door, self._percept.degree)
-                require_purpose(purpose)
-            except Misuse as why:
-                self._stop(why)
+        try:
+            number = door_number(door, self._percept.degree)
+            require_purpose(purpose)
+        except Misuse as why:
+            self._stop(why)
         self._at = self._world.alpha[exit_dart(self._world, self._at, number)]
         self._cost += 1
         self._percept = self._percepts[self._at]

@@ -207,7 +207,7 @@ class BatchExaminer:
         run = explore(at.world, Target(self.job.target, player), limits=self.job.limits)
         made = world_result(
             run,
-            judge(run, where=at.name),
+            judge(run, where=at.name, strict=self.job.strict),
             at,
             self.job,
             reference=explore(at.world, self._reference),

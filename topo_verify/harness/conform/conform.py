@@ -7,8 +7,8 @@ Outcomes are tallied in corpus order, so the tally does not depend on the number
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, closing
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
 
 import msgspec
@@ -17,6 +17,7 @@ from topo_verify.checkers import CLAIMS, Judgement
 from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.conform.batch import BatchExaminer
 from topo_verify.harness.conform.examiner import Examiner
+from topo_verify.harness.conform.order import DrawnOrder, Examine, Placed
 from topo_verify.harness.conform.outcome import (
     LEVELS,
     RESULT,
@@ -25,7 +26,7 @@ from topo_verify.harness.conform.outcome import (
     WorldFinding,
     WorldResult,
 )
-from topo_verify.harness.conform.parallel import outcomes
+from topo_verify.harness.conform.parallel import parallel_examine
 from topo_verify.harness.corpus import Corpus
 from topo_verify.harness.progress import Progress
 from topo_verify.harness.tally import joint_judgements
@@ -210,6 +211,7 @@ def conform(
     *,
     workers: int = 0,
     batch: bool = False,
+    seed: int = 0,
     tell: Progress | None = None,
 ) -> None:
     """Try an implementation in every world of a corpus, and enter each outcome into a tally.
@@ -218,6 +220,8 @@ def conform(
         tally: what each outcome is entered into; it is complete up to where an interrupt came.
         workers: so many processes; 0: this one alone.
         batch: the program reads worlds and writes runs; one process of it at a time.
+        seed: of the order in which the implementation meets the worlds; in batch mode it is given
+            them in the order of the corpus.
         tell: the progress callback.
     Raises:
         InputError: there is no such mapper, program, algorithm or policy.
@@ -226,15 +230,38 @@ def conform(
         found: Iterable[WorldResult]
         if batch:
             found = stack.enter_context(BatchExaminer(job)).examine(corpus)
-        elif workers:
-            parallel = outcomes(job, corpus, min(workers, corpus.total))
-            found = stack.enter_context(closing(parallel))
         else:
-            examiner = stack.enter_context(Examiner(job))
-            found = map(examiner.examine, corpus)
+            examine = stack.enter_context(_examining(job, corpus, workers))
+            drawn = DrawnOrder(corpus, seed, _telling(examine, job, corpus, tell), MAX_TIMEOUTS)
+            found = stack.enter_context(closing(drawn.results()))
         for made in found:
             tally.enter(made)
-            if tell is not None:
+            if batch and tell is not None:
                 tell(job.target, tally.tried, corpus.total)
             if tally.timed_out:
                 break
+
+
+@contextmanager
+def _examining(job: ConformJob, corpus: Corpus, workers: int) -> Generator[Examine]:
+    """Examines worlds here or in other processes."""
+    if workers:
+        with parallel_examine(job, min(workers, corpus.total)) as examine:
+            yield examine
+        return
+    with Examiner(job) as examiner:
+        yield lambda worlds, _room: ((place, examiner.examine(at)) for place, at in worlds)
+
+
+def _telling(examine: Examine, job: ConformJob, corpus: Corpus, tell: Progress | None) -> Examine:
+    """The same, telling of each world that is finished."""
+
+    def told(
+        worlds: Iterator[Placed], room: Callable[[], bool]
+    ) -> Iterator[tuple[int, WorldResult]]:
+        for number, result in enumerate(examine(worlds, room), 1):
+            if tell is not None:
+                tell(job.target, number, corpus.total)
+            yield result
+
+    return told

@@ -60,7 +60,7 @@ class Examiner:
             nonlocal lines
             if program is not None and program.record and lines is None:
                 lines = program.lines  # of the first run; the next line may make another
-            report = judge(run, where=at.name)
+            report = judge(run, where=at.name, strict=job.strict)
             if program is not None:
                 program.settle()  # it may have been run in a witness world, too
             return report

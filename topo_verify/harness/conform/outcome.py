@@ -96,6 +96,7 @@ class ConformJob(msgspec.Struct, frozen=True, kw_only=True):
         like: the algorithm whose decisions it should make; None: decisions are not compared.
         policies: of the reference.
         limits: of each run.
+        strict: ask claim 10 also in worlds with more than 2,000 edges.
         validate: refuse unknown and doubled fields in a program's messages.
         transcript: the folder for the transcripts of failing worlds.
         replay_arguments: the command line that asks for this again, without the world.
@@ -106,6 +107,7 @@ class ConformJob(msgspec.Struct, frozen=True, kw_only=True):
     like: str | None = None
     policies: Policies = Policies()
     limits: Limits = Limits()
+    strict: bool = False
     validate: bool = False
     transcript: str | None = None
     replay_arguments: tuple[str, ...] = ()
@@ -146,13 +148,14 @@ def world_result(
             found for found in claims if found.event is not None and found.claim != "map-entailed"
         ]
     open_ended = _open_ended(run, misbehaved)
+    neither: LevelState = "undecided" if lost or report.undecided else "passed"
     kept: dict[str, tuple[WorldFinding, ...]] = {
         "result": () if open_ended else tuple(result[:KEPT]),
         "claims": tuple(claims[:KEPT]),
     }
     states: dict[str, LevelState] = {
         "result": open_ended or ("failed" if result else "passed"),
-        "claims": "failed" if claims else (open_ended or "undecided") if lost else "passed",
+        "claims": "failed" if claims else open_ended or neither,
     }
     if job.like is not None:
         found, states["decisions"] = _likeness(run, reference, at, job.like, replay)

@@ -12,13 +12,14 @@ from __future__ import annotations
 import shlex
 import signal
 import sys
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
 
 import msgspec
 
 from topo_verify.harness.conform.examiner import Examiner, reference
+from topo_verify.harness.conform.order import Examine, Placed
 from topo_verify.harness.conform.outcome import (
     LEVELS,
     ConformJob,
@@ -29,7 +30,7 @@ from topo_verify.harness.conform.outcome import (
     undecided_by_a_stranger,
 )
 from topo_verify.harness.corpus import Named
-from topo_verify.harness.pool import Loss, Pool, Work, in_order
+from topo_verify.harness.pool import Loss, Pool, Work
 from topo_verify.harness.run import explore
 from topo_verify.harness.worker import Beat, Handler
 from topo_verify.robot.limits import Limits
@@ -38,13 +39,11 @@ from topo_verify.world.rooted_map import World
 GRACE = 10.0
 """Seconds beyond all limits of a run until a worker is given up."""
 
-AHEAD = 4
-"""So many worlds for each worker are taken before the first of them is finished."""
-
 
 class ConformTask(msgspec.Struct, frozen=True):
-    """A world of the corpus as data: a `Named`."""
+    """A world of the corpus as data: a `Placed`."""
 
+    place: int
     name: str
     code: tuple[tuple[int, ...], tuple[int, ...]]
     group: str
@@ -56,8 +55,9 @@ class ConformTask(msgspec.Struct, frozen=True):
         return Named(self.name, World.from_code(self.code), self.group, self.replay_arguments)
 
 
-def outcomes(job: ConformJob, worlds: Iterable[Named], workers: int) -> Generator[WorldResult]:
-    """What became of each world, in the order of the worlds, whatever the number of workers.
+@contextmanager
+def parallel_examine(job: ConformJob, workers: int) -> Generator[Examine]:
+    """Examines worlds in so many processes.
 
     Raises:
         InputError: the job names no mapper, or its mapper cannot be loaded.
@@ -65,10 +65,18 @@ def outcomes(job: ConformJob, worlds: Iterable[Named], workers: int) -> Generato
     with Examiner(job):  # before any worker is started: the message is then the first
         pass
     with Pool(_work(job), workers) as pool:
-        tasks = (
-            ConformTask(at.name, at.world.code, at.group, at.replay_arguments) for at in worlds
-        )
-        yield from in_order(pool, tasks, ahead=AHEAD * workers)
+
+        def examine(
+            worlds: Iterator[Placed], room: Callable[[], bool]
+        ) -> Iterator[tuple[int, WorldResult]]:
+            tasks = (
+                ConformTask(place, at.name, at.world.code, at.group, at.replay_arguments)
+                for place, at in worlds
+            )
+            for task, made in pool.run(tasks, room=room):
+                yield task.place, made
+
+        yield examine
 
 
 def _work(job: ConformJob) -> Work[ConformTask, WorldResult]:

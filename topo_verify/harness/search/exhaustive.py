@@ -23,6 +23,13 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress, ProgressRate
+from topo_verify.harness.search.again import (
+    MOST,
+    RunAgain,
+    can_run_again,
+    run_again,
+    with_run_again,
+)
 from topo_verify.harness.search.choices import require_choices
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.parallel import shard_work
@@ -68,6 +75,7 @@ class SearchResult(msgspec.Struct, frozen=True):
         claims: of each claim that fails, in how many worlds, and the smallest.
         from_ledger: in how many worlds mappers ran before, as a ledger says; in the rest, now.
         lost: workers that a stranger may have killed.
+        again: what came of the worlds that were run again; None: none were.
     """
 
     plan: Plan
@@ -79,6 +87,7 @@ class SearchResult(msgspec.Struct, frozen=True):
     claims: dict[str, Failing]
     from_ledger: int = 0
     lost: tuple[LostWorker, ...] = ()
+    again: RunAgain | None = None
 
     @property
     def tally(self) -> Tally:
@@ -129,6 +138,8 @@ def search(  # noqa: PLR0913  an argument an option
     )
     work = Search(plan, mappers, workers=workers)
     work.work(tell)
+    if isinstance(target, str):
+        work.run_again(tell)
     return work.found()
 
 
@@ -183,6 +194,16 @@ class Search:
         self.totals = plan.totals()
         self.tallies = dict.fromkeys(self.totals, Tally())
         self.from_ledger = 0
+        self.again: RunAgain | None = None
+
+    def run_again(self, tell: Progress | None = None) -> None:
+        """Run some worlds again, each in a fresh process, if there is a TARGET to start it from."""
+        if can_run_again(self.mappers):
+            rate = ProgressRate(f"{self.plan.targets[0]}, again", 2 * MOST + 1, tell)
+            self.again = run_again(self.plan, self._tally(), rate.in_flight)
+
+    def _tally(self) -> Tally:
+        return sum(self.tallies.values(), Tally())
 
     def work(self, tell: Progress | None = None) -> None:
         """Examine the shards until the end, or as far as the plan says.
@@ -308,10 +329,13 @@ class Search:
             )
             for edges, total in self.totals.items()
         )
-        tally = sum((size.tally for size in sizes), Tally())
+        tally = self._tally()
+        if self.again is not None:
+            tally = with_run_again(tally, self.again)
         checked, total = sum(size.checked for size in sizes), sum(self.totals.values())
         verdict: Verdict = "REFUTED" if tally.failures else "UNKNOWN"
-        if checked == total and not tally.failures and not tally.lost:
+        others = self.again is not None and self.again.others
+        if checked == total and not (tally.failures or tally.lost or others):
             verdict = "EXHAUSTED"
         return SearchResult(
             plan=self.plan,
@@ -323,4 +347,5 @@ class Search:
             claims=tally.claims,
             from_ledger=self.from_ledger,
             lost=tally.lost,
+            again=self.again,
         )

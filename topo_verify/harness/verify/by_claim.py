@@ -14,8 +14,9 @@ the first failing world is kept, which is one of the smallest.
 from __future__ import annotations
 
 import traceback
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from topo_verify.checkers import Finding
 from topo_verify.harness.corpus import corpus_from
@@ -73,6 +74,23 @@ class ClaimResults:
             case "holds":
                 return f"{claim} holds in {checked:,} worlds of 1 to {self.edges} edges"
 
+    def properties(self, target: str) -> list[tuple[str, object]]:
+        """The results that the report of a test carries to another process and to a JUnit file."""
+        part = self.part
+        facts: dict[str, object] = {
+            "target": target,
+            "edges": self.edges,
+            "verdict": part.verdict,
+            "checked": part.checked,
+            "total": part.total,
+            "failing": part.failing,
+        }
+        if part.findings:
+            facts |= {"world": part.findings[0].world, "replay": part.findings[0].replay}
+        elif not part.ok:
+            facts["why"] = part.summary
+        return [(f"topo_{name}", fact) for name, fact in facts.items()]
+
     def _failure(self, claim: str, failed: int) -> str:
         finding = self.first[claim]
         event = "" if finding.event is None else f" (event {finding.event})"
@@ -81,8 +99,23 @@ class ClaimResults:
         lines = [f"{claim} fails in {worlds}, first in {finding.world}{event}: {message}"]
         if finding.world in self.raised:
             lines.append(f"  raised at: {self.raised[finding.world]}")
-        lines += [f"  world: {finding.world}", f"  again: {finding.replay}"]
+        lines.append(f"  world: {finding.world}")
+        lines += [f"  again: {finding.replay}"] * bool(finding.replay)
         return "\n".join(shown(line, limit=LINE) for line in lines)
+
+
+def summary(facts: Mapping[str, Any]) -> Iterator[str]:
+    """The lines that sum up the tests of one mapper, from the properties of their reports."""
+    checked, total, failing = (facts[f"topo_{name}"] for name in ("checked", "total", "failing"))
+    line = f"{facts['topo_target']}: {checked:,} of {total:,} worlds of 1 to {facts['topo_edges']}"
+    line += f" edges, {failing:,} counterexample{'' if failing == 1 else 's'}"
+    if "topo_world" in facts:
+        yield shown(f"{line}, first {facts['topo_world']}", limit=LINE)
+        if facts["topo_replay"]:  # empty if no command line finds the mapper again
+            yield shown(f"  again: {facts['topo_replay']}", limit=LINE)
+    else:
+        why = f"; not decided: {facts['topo_why']}" if "topo_why" in facts else ""
+        yield shown(line + why, limit=LINE)
 
 
 def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
