@@ -15,8 +15,8 @@ not declare the decisions that the claim is about, since the claim was then not 
 The results travel in the `user_properties` of the test reports, so the summary at the end is the
 same with pytest-xdist, and JUnit files hold them.
 
-Pytest loads this file in every session of its environment. So the file imports nothing of
-topo_verify and no library before there is a mapper to test.
+Pytest loads this file in every session of its environment. So the file imports no
+room of topo_verify and no library before there is a mapper to test.
 
 What this does not show: anything about worlds with more edges than N.
 """
@@ -33,6 +33,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, cast
 
 import pytest
+
+from topo_verify.text import shown
 
 if TYPE_CHECKING:
     from topo_verify.harness.judge import Report
@@ -218,8 +220,6 @@ def pytest_make_collect_report(
     report = yield
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
-        from topo_verify.text import shown
-
         name = shown(text)
         made = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
         report.result.append(made)
@@ -231,8 +231,6 @@ class MapperCollector(pytest.Collector):
 
     def collect(self) -> Iterable[ClaimItem]:
         """One test for each mapper and claim."""
-        from topo_verify.text import shown
-
         options = self.config.option
         cases = list(_of_targets(self.config, options.topo_target, options.topo_edges))
         several = len({case.target.text for case in cases}) > 1

@@ -13,6 +13,7 @@ failures.py   exit codes, and the sentences that go with them
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
@@ -67,6 +68,8 @@ class CommandLine(click.Group):
         name = prog_name or "topo-verify"
         if args is None:
             own_arguments()  # hidden before a mapper in another process can read them
+            # As Ctrl-C: what is done is kept and printed, and the exit code is 3.
+            signal.signal(signal.SIGTERM, signal.default_int_handler)
         if instruction := os.environ.get(_COMPLETE):
             sys.exit(shell_complete(self, extra, name, _COMPLETE, instruction))
         sys.exit(self._code(list(sys.argv[1:] if args is None else args), name, extra))
