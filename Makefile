@@ -2,9 +2,11 @@
 #
 #   make verify                     the main job: one report, under a minute
 #   make test                       the suite and the branch coverage of the trusted rooms
+#   make slow                       the tests that make test leaves out because they take long
 #   make nightly                    every test, the slow ones too, with new examples each time
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
 #   make mutants                    the checkers with one thing changed: each must fail a test
+#   make torture                    hostile input, programs and signals: minutes, seeded
 #   make lint types                 ruff; mypy and pyright, both strict
 #   make bench                      the speeds that the README quotes
 #
@@ -15,6 +17,7 @@ PYTHON ?= python3
 VENV ?= .venv
 INSTALLER ?= pip
 JUNIT ?=
+SEED ?= 0
 
 BIN := $(VENV)/bin
 PYTEST := $(BIN)/python -m pytest
@@ -34,10 +37,10 @@ CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help verify test nightly coq lint types bench mutants constraints oldest clean
+.PHONY: help verify test slow nightly coq lint types bench mutants torture constraints oldest clean
 
 help:
-	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 12
+	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 14
 
 verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
@@ -47,6 +50,10 @@ test: $(VENV)/.dev
 	$(PYTEST) $(PARALLEL) -m 'not (traced or coq or slow)' $(call report,test)
 	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
 	$(BIN)/coverage report --fail-under=100
+
+# What tests/slow.py names; those that need Coq run in make coq.
+slow: $(VENV)/.dev
+	$(PYTEST) $(PARALLEL) -m 'slow and not coq' $(call report,slow)
 
 nightly: $(VENV)/.dev
 	HYPOTHESIS_PROFILE=nightly $(PYTEST) $(PARALLEL) $(EVERY)
@@ -70,6 +77,10 @@ bench: $(VENV)/.bench
 # Every change that the operators know, in every file of checkers/; some minutes.
 mutants: $(VENV)/.dev
 	$(BIN)/python benchmarks/mutants.py
+
+# Another seed, other trials: make torture SEED=7
+torture: $(VENV)/.dev
+	$(BIN)/python benchmarks/torture --seed $(SEED)
 
 # --- set-up: an environment, then what is pinned, then this tree in editable form --------------
 
@@ -114,5 +125,5 @@ oldest: $(VENV)/.created
 	.venv-oldest/bin/python -m pytest -W default $(PARALLEL)
 
 clean:
-	rm -rf $(VENV) .venv-oldest .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage build dist
+	rm -rf $(VENV) .venv-oldest .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage torture-failures build dist
 	find topo_verify tests benchmarks -name __pycache__ -prune -exec rm -rf {} +

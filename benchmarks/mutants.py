@@ -174,12 +174,13 @@ def run_tests(mutant: Mutant | None, tests: Tests, pipe: Connection) -> None:
     if mutant is not None:
         sys.meta_path.insert(0, Planted(mutant))
     try:
-        checkers = importlib.import_module("topo_verify.checkers")
+        for path in sorted(MUTATED.glob("[!_]*.py")):  # the package does not import every one
+            importlib.import_module(f"topo_verify.checkers.{path.stem}")
     except Exception:  # noqa: BLE001  whatever a mutant raises
         pipe.send((pytest.ExitCode.TESTS_FAILED, "the import", {}))
         return
     if mutant is not None:
-        module = sys.modules[f"{checkers.__name__}.{Path(mutant.file).stem}"]
+        module = sys.modules[f"topo_verify.checkers.{Path(mutant.file).stem}"]
         assert isinstance(module.__loader__, Planted), "the mutant was not imported"
     with Path(os.devnull).open("w") as sink, redirect_stdout(sink), redirect_stderr(sink):
         code = pytest.main([*OPTIONS, *TESTS], [watch])

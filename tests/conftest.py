@@ -11,7 +11,6 @@ took 2.6 times as long: coverage that is paused for a test still slows it down u
 """
 
 import os
-import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -20,6 +19,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from tests.slow import is_slow
 
 if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Theorem
@@ -30,19 +31,6 @@ TRACED = ("world", "robot", "checkers", "algorithms")
 
 TRACING = tuple(ROOT / folder / room for folder in ("tests", "topo_verify") for room in TRACED)
 """Where their tests are, doctests included."""
-
-NIGHTLY = re.compile(
-    r"test_growth\.py::test_every_world_within_the_bounds_grows_and_no_other\[.*-4\]"
-    r"|test_model_count\.py::test_the_models_are_exactly_the_canonical_codes\[4-706\]"
-    r"|test_encoding\.py::test_the_maps_are_exactly_those_that_an_exploration_can_draw\[3\]"
-    r"|test_check\.py::test_no_claim_fails_for_any_algorithm_on_any_world\[4\]"
-    r"|test_least_cost\.py::test_it_is_what_brute_force_finds\[3\]"
-    r"|test_findings\.py::test_a_stronger_algorithm_may_cost_more\[.*-m5/177-.*\]"
-    r"|harness/verify/test_verify\.py::test_the_whole_campaign_exhausts_what_it_says"
-    r"|harness/verify/test_proofs\.py::test_all_that_is_quick_comes_out_as_it_must"
-)
-"""The largest sizes of statements whose smaller sizes are always run, and whole campaigns whose
-parts are always run one by one (the theorems in tests/proofs): `slow`."""
 
 settings.register_profile(
     "ci",
@@ -63,12 +51,12 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests that measure coverage `traced`, and those that compile proofs `coq`."""
+    """Mark the tests `traced` that measure coverage, `slow` ones, and `coq` those that compile."""
     for item in items:
         inside = any(folder in item.path.parents for folder in TRACING)
         if inside and item.get_closest_marker("no_cover") is None:
             item.add_marker("traced")
-        if NIGHTLY.search(item.nodeid):
+        if is_slow(item.path, item.name):
             item.add_marker("slow")
         if "library" in getattr(item, "fixturenames", ()):  # tests/proofs/mechanised/conftest.py
             item.add_marker("coq")

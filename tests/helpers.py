@@ -16,7 +16,8 @@ from topo_verify.algorithms.motion import Motion, retrace
 from topo_verify.checkers import Status, check
 from topo_verify.harness.run import explore
 from topo_verify.programs.loader import Mapper
-from topo_verify.robot.events import Event, Move, Trace
+from topo_verify.robot.events import Event, Move, Reject, Trace
+from topo_verify.robot.percept import Percept
 from topo_verify.world.enumeration import rank_order
 
 E = TypeVar("E", bound=Event)
@@ -113,6 +114,14 @@ def sketch(trace: Iterable[Event]) -> list[str]:
         f"{event.purpose} {event.door}" if isinstance(event, Move) else type(event).__name__.lower()
         for event in trace
     ]
+
+
+def cited(reject: Reject) -> tuple[Percept, Percept]:
+    """The two percepts that a rejection rests on: the expected one, and the observed one."""
+    expected, observed = reject.evidence.expected, reject.evidence.observed
+    assert expected is not None
+    assert observed is not None
+    return expected, observed
 
 
 # ---------------------------------------------------------------- verdicts

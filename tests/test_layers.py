@@ -22,8 +22,8 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "topo_verify"
 
 FLOORS = {
+    "text": -2,
     "errors": -1,
-    "text": -1,
     "world": 0,
     "robot": 1,
     "checkers": 2,

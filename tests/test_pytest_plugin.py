@@ -308,6 +308,102 @@ def test_the_fixtures_give_a_robot_and_a_report(session: Session) -> None:
     assert "topo-verify =" not in result.stdout.str()  # nothing to sum up
 
 
+@pytest.mark.parametrize(
+    ("takes", "loaded"),
+    [
+        ("from topo_verify.strategies import worlds", True),
+        ("from hypothesis.strategies import none as worlds", False),
+    ],
+)
+def test_the_first_example_of_a_property_test_imports_nothing(
+    takes: str, loaded: bool, session: Session
+) -> None:
+    """Hypothesis bounds the time of an example. Other people's tests load nothing of ours."""
+    result = session(
+        test=f"""
+        import sys
+        from hypothesis import given, settings
+        {takes}
+
+        @settings(max_examples=1)
+        @given(world=worlds())
+        def test_it(world) -> None:
+            assert ("topo_verify.harness.judge" in sys.modules) is {loaded}
+        """
+    )
+    result.assert_outcomes(passed=1)
+
+
+# ---------------------------------------------------------------- tracebacks
+
+
+def test_tracebacks_show_the_users_code_and_none_of_ours(session: Session) -> None:
+    result = session(
+        "--tb=short",
+        test="""
+        import topo_verify as tv
+        from hypothesis import given, settings
+
+        WORLD = tv.World.from_id("m2/4")
+
+        def raises(robot):
+            raise ValueError("boom")  # the mapper's line
+
+
+        def test_claim() -> None:
+            tv.assert_maps(lambda robot: 7, WORLD)  # line of claim
+
+        def test_raises() -> None:
+            tv.assert_maps(raises, WORLD)  # line of raises
+
+        def test_door(topo_robot) -> None:
+            topo_robot("m2/4").move(99)  # line of door
+
+        @settings(max_examples=1, deadline=None)
+        @given(tv.strategies.worlds(max_edges=5))
+        def test_drawn(world) -> None:
+            tv.assert_maps(raises, world)  # line of drawn
+
+        def test_name() -> None:
+            tv.explore(WORLD, "bassic")  # line of name
+
+        def test_bounds() -> None:
+            tv.strategies.worlds(max_edges=-1)  # line of bounds
+
+        def test_world() -> None:
+            tv.World.from_id("m2")  # line of world
+        """,
+    )
+    result.assert_outcomes(failed=7)
+    text = result.stdout.str()
+    for test in ("claim", "raises", "door", "drawn", "name", "bounds", "world"):
+        assert f"# line of {test}" in text
+    assert "# the mapper's line" in text
+    assert not re.findall(r"topo_verify/\S+\.py:\d+: ", text)
+
+
+def test_the_traceback_of_a_bug_of_ours_is_shown_whole(session: Session) -> None:
+    result = session(
+        "--tb=short",
+        test="""
+        import topo_verify as tv
+        from topo_verify.harness import judge
+
+        def test_bug(monkeypatch) -> None:
+            monkeypatch.setattr(judge, "check", None)
+            tv.assert_maps("basic", tv.World.from_id("m2/4"))
+
+        def test_contradiction(monkeypatch) -> None:
+            def contradict(*_, **__):
+                raise tv.InternalError("two parts differ")
+            monkeypatch.setattr(judge, "check", contradict)
+            tv.assert_maps("basic", tv.World.from_id("m2/4"))
+        """,
+    )
+    result.assert_outcomes(failed=2)
+    assert len(re.findall(r"harness/judge\.py:\d+: in judge_trace", result.stdout.str())) == 2
+
+
 # ---------------------------------------------------------------- beside others
 
 
@@ -371,3 +467,24 @@ def test_the_lines_of_the_mapper_are_covered_beside_pytest_cov(
     result = session("--cov=mine", "--cov-report=term", test=MARKED.format(target="mine:explore"))
     result.assert_outcomes(passed=len(CLAIMS))
     result.stdout.re_match_lines(r"mine\.py +3 +0 +100%")
+
+
+# ---------------------------------------------------------------- text of unknown origin
+
+
+def test_no_text_of_a_mapper_or_its_file_controls_a_terminal(
+    session: Session, pytester: pytest.Pytester
+) -> None:
+    (pytester.path / "a\x1b[31m.py").write_text(
+        "def explore(robot):\n    raise ValueError('\\x1b[31m')\n"
+    )
+    target = "a\x1b[31m.py:explore"
+    for arguments, test in [
+        (("--topo-target", target), ""),
+        (("--topo-target", f"{target}r"), ""),
+        ((), MARKED.format(target=target.replace("\x1b", "\\x1b"))),
+    ]:
+        result = session("-v", "--color=no", *arguments, test=test)
+        assert "failed" in (outcomes := result.parseoutcomes()) or "errors" in outcomes
+        assert "a\\x1b[31m.py:explore" in said(result)
+        assert "\x1b" not in result.stdout.str() + result.stderr.str()

@@ -4,13 +4,23 @@ They are `InputError`, `ClaimFailed` and `InternalError`; the command line turns
 codes 2, 1 and 70.
 """
 
+from __future__ import annotations
+
+from topo_verify.text import LINE, shown
+
 
 class TopoVerifyError(Exception):
     """Base of every exception that topo_verify raises on purpose."""
 
 
 class InputError(TopoVerifyError, ValueError):
-    """The input cannot be used; the text is one sentence: the input, the place and the mend."""
+    """The input cannot be used; the text is one sentence: the input, the place and the mend.
+
+    The sentence may quote a file's name or content, so its control characters are escaped.
+    """
+
+    def __init__(self, sentence: str) -> None:
+        super().__init__(shown(sentence, limit=LINE))
 
 
 class ClaimFailed(TopoVerifyError, AssertionError):

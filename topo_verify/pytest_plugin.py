@@ -15,8 +15,8 @@ not declare the decisions that the claim is about, since the claim was then not 
 The results travel in the `user_properties` of the test reports, so the summary at the end is the
 same with pytest-xdist, and JUnit files hold them.
 
-Pytest loads this file in every session of its environment. So the file imports nothing of
-topo_verify and no library before there is a mapper to test.
+Pytest loads this file in every session of its environment. So the file imports no
+room of topo_verify and no library before there is a mapper to test.
 
 What this does not show: anything about worlds with more edges than N.
 """
@@ -24,12 +24,17 @@ What this does not show: anything about worlds with more edges than N.
 from __future__ import annotations
 
 import argparse
+import inspect
 import itertools
+import sys
 from collections.abc import Callable, Generator, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
+
+from topo_verify.text import shown
 
 if TYPE_CHECKING:
     from topo_verify.harness.judge import Report
@@ -127,6 +132,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Make one test for each claim from a marked function."""
+    _import_for(metafunc)
     mark = metafunc.definition.get_closest_marker("topo")
     if mark is not None:
         cases = _cases(metafunc.config, mark)
@@ -134,6 +140,20 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         names = [f"{case.target.text}-{case.claim}" if several else case.claim for case in cases]
         metafunc.fixturenames.append(_CASE)
         metafunc.parametrize(_CASE, cases, ids=names)
+
+
+def _import_for(metafunc: pytest.Metafunc) -> None:
+    """Import what runs and judges a mapper, before a property test that may ask for it.
+
+    Hypothesis bounds the time of an example; the first one would take as long as the import.
+    """
+    if getattr(metafunc.function, "is_hypothesis_test", False):
+        module = cast("object", metafunc.module)  # pyright: ignore[reportUnknownMemberType]  pytest leaves it untyped
+        for one in vars(module).values():
+            home = getattr(one, "__name__" if inspect.ismodule(one) else "__module__", None)
+            if str(home).startswith("topo_verify"):
+                import_module("topo_verify.harness.judge")
+                break
 
 
 def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
@@ -200,20 +220,22 @@ def pytest_make_collect_report(
     report = yield
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
-        made = MapperCollector.from_parent(collector, name=text, nodeid=text)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
+        name = shown(text)
+        made = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
         report.result.append(made)
     return report
 
 
 class MapperCollector(pytest.Collector):
-    """The tests of --topo-target; its name is the option's text."""
+    """The tests of --topo-target; its name is the option's text, made printable."""
 
     def collect(self) -> Iterable[ClaimItem]:
         """One test for each mapper and claim."""
-        cases = list(_of_targets(self.config, self.name, self.config.option.topo_edges))
+        options = self.config.option
+        cases = list(_of_targets(self.config, options.topo_target, options.topo_edges))
         several = len({case.target.text for case in cases}) > 1
         for case in cases:
-            name = f"{case.target.text}::{case.claim}" if several else case.claim
+            name = f"{shown(case.target.text)}::{case.claim}" if several else case.claim
             yield ClaimItem.from_parent(self, name=name, case=case)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
 
 
@@ -273,7 +295,7 @@ def _judge(item: pytest.Item, case: ClaimTest) -> None:
         options: argparse.Namespace = item.config.option
         limits = Limits(None, options.topo_move_timeout, options.topo_world_timeout)
         known[key] = by_claim(case.target, case.edges, limits)
-    item.user_properties += _properties(case, known[key])
+    item.user_properties += known[key].properties(case.target.text)
     match known[key].verdict(case.claim):
         case "fails" | "undecided":
             pytest.fail(known[key].text(case.claim), pytrace=False)
@@ -286,22 +308,25 @@ def _judge(item: pytest.Item, case: ClaimTest) -> None:
 # ---------------------------------------------------------------- what is reported
 
 
-def _properties(case: ClaimTest, results: ClaimResults) -> list[tuple[str, object]]:
-    """The results that the report of a test carries to another process and to a JUnit file."""
-    part = results.part
-    facts: dict[str, object] = {
-        "target": case.target.text,
-        "edges": case.edges,
-        "verdict": part.verdict,
-        "checked": part.checked,
-        "total": part.total,
-        "failing": part.failing,
-    }
-    if part.findings:
-        facts |= {"world": part.findings[0].world, "replay": part.findings[0].replay}
-    elif not part.ok:
-        facts["why"] = part.summary
-    return [(f"topo_{name}", fact) for name, fact in facts.items()]
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_makereport(call: pytest.CallInfo[None]) -> None:
+    """Let the tracebacks of a failed test end at the user's code; --full-trace shows all."""
+    if call.excinfo is not None:
+        # pytest looks this name up in the globals of each frame. Only now are all modules loaded.
+        for name, module in sys.modules.copy().items():
+            if name.startswith("topo_verify."):
+                vars(module).setdefault("__tracebackhide__", _is_no_bug_of_ours)
+
+
+def _is_no_bug_of_ours(excinfo: pytest.ExceptionInfo[BaseException]) -> bool:
+    """Whether an exception is one that we raise on purpose, or was raised by other code."""
+    from topo_verify.errors import InternalError, TopoVerifyError
+    from topo_verify.robot.limits import MapperStopped
+
+    if isinstance(excinfo.value, TopoVerifyError | MapperStopped):
+        return not isinstance(excinfo.value, InternalError)
+    module = excinfo.traceback[-1].frame.f_globals.get("__name__", "")
+    return not module.startswith("topo_verify.")
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
@@ -314,16 +339,10 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if by_mapper:
         terminalreporter.write_sep("=", "topo-verify")
     for facts in by_mapper.values():
-        terminalreporter.write_line(_line(facts))
+        from topo_verify.harness.verify.by_claim import summary
 
-
-def _line(facts: dict[str, Any]) -> str:
-    checked, total, failing = (facts[f"topo_{name}"] for name in ("checked", "total", "failing"))
-    line = f"{facts['topo_target']}: {checked:,} of {total:,} worlds of 1 to {facts['topo_edges']}"
-    line += f" edges, {failing:,} counterexample{'' if failing == 1 else 's'}"
-    if "topo_replay" in facts:
-        return f"{line}, first {facts['topo_world']}\n  again: {facts['topo_replay']}"
-    return line + (f"; not decided: {facts['topo_why']}" if "topo_why" in facts else "")
+        for line in summary(facts):
+            terminalreporter.write_line(line)
 
 
 # ---------------------------------------------------------------- fixtures

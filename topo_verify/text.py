@@ -5,6 +5,9 @@ from __future__ import annotations
 import os
 from os import PathLike
 
+LINE = 4000
+"""The most characters of a line in a report; what is quoted within a line is cut sooner."""
+
 
 def shown(text: str | PathLike[str], *, limit: int = 200) -> str:
     """The text on one line of a message: control characters escaped, cut after `limit`."""

@@ -5,13 +5,17 @@ from __future__ import annotations
 import runpy
 import subprocess
 import sys
+from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import pytest
+from hypothesis.vendor.pretty import pretty
 
+import topo_verify
 import topo_verify.algorithms
 from tests.helpers import PAPER, trace_of
-from topo_verify import CATALOGUE
+from topo_verify import CATALOGUE, Algorithm
 from topo_verify.algorithms import REFERENCE, Policies, algorithm
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
@@ -50,6 +54,21 @@ def test_an_unknown_name_is_refused_with_the_list_of_those_there_are() -> None:
 def test_the_reference_policies_are_nearest_and_shortest() -> None:
     assert Policies("nearest", "shortest") == REFERENCE
     assert all(entry.policies == REFERENCE for entry in CATALOGUE.values())
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_an_algorithm_prints_as_code_that_makes_it_again(name: str) -> None:
+    mapper = CATALOGUE[name]
+    for pick, order in product([None, "last", "random(7)"], [None, "oldest"]):
+        chosen = mapper.with_policies(pick=pick, order=order)
+        assert eval(repr(chosen), {"tv": topo_verify}) == chosen  # noqa: S307  as pasted
+    assert repr(mapper) == f"tv.CATALOGUE[{name!r}]"
+    assert pretty(mapper.with_policies(order="oldest")).endswith(".with_policies(order='oldest')")
+
+
+def test_an_algorithm_that_is_not_of_the_catalogue_does_not_pass_for_one() -> None:
+    assert repr(Algorithm("mine", NoRule, retrace)) == "<Algorithm 'mine'>"
+    assert repr(replace(CATALOGUE["basic"], motion=overlap)) == "<Algorithm 'basic'>"
 
 
 def test_other_policies_leave_the_catalogue_as_it_is() -> None:

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.helpers import any_world, of_type, sketch, trace_of, variant, worlds
+from tests.helpers import any_world, cited, of_type, sketch, trace_of, variant, worlds
 from topo_verify import World, examine
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
@@ -96,9 +96,9 @@ def test_what_is_executed_already_is_confirmed_without_motion() -> None:
     ]  # fmt: skip
     reject, confirm = trace[18:20]
     assert isinstance(reject, Reject)
-    assert (reject.hypothesis, reject.evidence.expected.marker) == (5, 0)
+    assert (reject.hypothesis, cited(reject)[0].marker) == (5, 0)
     assert isinstance(confirm, Confirm)
-    assert (confirm.hypothesis, reject.evidence.observed.marker) == (9, 1)
+    assert (confirm.hypothesis, cited(reject)[1].marker) == (9, 1)
 
 
 @pytest.mark.no_cover

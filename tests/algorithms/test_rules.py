@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import pytest
 
-from tests.helpers import PAPER, doors, of_type, sketch, trace_of, variant
+from tests.helpers import PAPER, cited, doors, of_type, sketch, trace_of, variant
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.exploration import Refutation
@@ -51,7 +51,7 @@ def test_prefix_compares_percepts_on_the_common_doors_marker_direction_included(
         7, 9, "prefix", Evidence(1, Percept(2, 1), Percept(4, None), sequence=0, at=1)
     )
     rejects = free("m6/20146", "enhancement-i")
-    assert [(r.evidence.expected.marker, r.evidence.observed.marker) for r in rejects] == [(1, 2)]
+    assert [tuple(percept.marker for percept in cited(r)) for r in rejects] == [(1, 2)]
 
 
 def test_prefix_does_not_look_beyond_the_common_doors() -> None:
@@ -67,7 +67,8 @@ def test_history_traces_every_sequence_of_this_edge() -> None:
 
 def test_history_compares_the_direction_of_the_marker() -> None:
     (reject,) = free("m5/2103", "enhancement-ii")
-    assert reject.evidence.expected.signature == reject.evidence.observed.signature
+    expected, observed = cited(reject)
+    assert expected.signature == observed.signature
 
 
 def test_history_ends_at_unexplored_darts_e_and_h_included() -> None:

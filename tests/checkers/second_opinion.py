@@ -80,6 +80,7 @@ class Play:
     records: dict[tuple[int, Doors], Percept] = field(
         default_factory=dict[tuple[int, Doors], Percept]
     )
+    waiting: dict[int, list[int]] = field(default_factory=dict[int, list[int]])
     wrong: set[str] = field(default_factory=set[str])
 
     def take(self, event: Event) -> None:
@@ -95,13 +96,17 @@ class Play:
             case Pose():
                 self.say("true-hypothesis-posed", self.fair(event))
                 self.pose, self.stack, self.sequences = event, [self.at], []
+                if self.unexplored(event.edge):
+                    self.waiting.setdefault(event.edge, []).extend(event.hypotheses)
             case Reject():
                 self.say("true-hypothesis-kept", self.truth(event.edge) != event.hypothesis)
                 self.say("rejection-justified", self.justified(event))
+                self.account(event)
                 if event.rule == "motion" and len(self.stack) > 1:
                     self.sequences.append(list(self.stack))
             case Confirm():
                 self.say("no-false-confirm", self.truth(event.edge) == event.hypothesis)
+                self.account(event)
             case Augment():
                 self.grow(event)
             case Finish():
@@ -183,12 +188,20 @@ class Play:
             self.wrong.add("map-isomorphic")
             self.spoiled = True
             return
+        if posed and truth is None:
+            left = [h for h in self.waiting[e] if self.unexplored(h)]
+            self.say("true-hypothesis-kept", not left)
         if truth is None:
             self.phi += self.rotation(end)
         self.joined[e], self.joined[event.dart] = event.dart, e
         for sequence in self.sequences if posed else []:
             self.record(event.dart, sequence)
         self.pose, self.sequences = None, []
+
+    def account(self, event: Reject | Confirm) -> None:
+        """Take a hypothesis off the list of those that wait for a decision."""
+        waiting = self.waiting.get(event.edge, [])
+        waiting[:] = [h for h in waiting if h != event.hypothesis]
 
     # ------------------------------------------------------------ evidence
 

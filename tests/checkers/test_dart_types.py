@@ -23,9 +23,9 @@ OF_S, OF_WORLD = KnownDart(0), IN_WORLD.phi[KnownDart(0)]
 def a_dart_of_the_world_is_not_a_dart_of_s() -> None:
     IN_WORLD.end(OF_WORLD)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     IN_WORLD.turn(OF_WORLD, 1)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
-    IN_WORLD.face(OF_WORLD, 1)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     IN_WORLD.phi[OF_WORLD]  # type: ignore[index]  # pyright: ignore[reportArgumentType]
     IN_WORLD.alpha[OF_WORLD] = OF_S  # type: ignore[index]  # pyright: ignore[reportArgumentType]
+    ON_FOLD.face(OF_WORLD)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     ON_FOLD.place(OF_WORLD)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     Records(IN_WORLD).behind(OF_WORLD, (), 1)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
 

@@ -15,7 +15,7 @@ from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.checkers import check, decision_conclusions, map_conclusion
+from topo_verify.checkers import check, claims, decision_conclusions, map_conclusion
 from topo_verify.faults import FAULTS
 from topo_verify.harness.judge import Report
 from topo_verify.robot.events import (
@@ -62,10 +62,10 @@ class Mute:
 
 
 class Tactful(Mute):
-    """A robot that is not told what was rejected."""
+    """A robot that is told how the map grows, and nothing else."""
 
     def declare(self, event: Decision) -> None:
-        if not isinstance(event, Reject):
+        if isinstance(event, Augment):
             self.robot.declare(event)
 
 
@@ -76,8 +76,8 @@ GUESSERS = {
 
 
 def lucky(report: Report) -> bool:
-    """Do claims 1-8 hold?"""
-    return all(s == "ok" for claim, s in report.claims.items() if "entailed" not in claim)
+    """Does none of claims 1-8 fail?"""
+    return all(s != "failed" for claim, s in report.claims.items() if "entailed" not in claim)
 
 
 @pytest.mark.no_cover
@@ -213,7 +213,8 @@ def test_without_a_map_nothing_is_proved() -> None:
     assert "no map" in map_conclusion(trace_of("m2/0")[:-1]).why
 
 
-def test_large_worlds_are_asked_claim_10_only_if_strict() -> None:
+def test_large_worlds_are_asked_claim_10_only_if_strict(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(claims, "LARGE", 100)
     world = World.from_rotations(
         [range(101), *([d] for d in range(101, 202))],
         zip(range(101), range(101, 202), strict=True),

@@ -10,7 +10,7 @@ from tests.checkers.example import inserted
 from tests.checkers.test_folding import shows
 from tests.helpers import edited, of_type, place, statuses, trace_of, worlds
 from topo_verify import World, certify
-from topo_verify.checkers import check, decision_conclusions, fold_history, map_conclusion
+from topo_verify.checkers import check, claims, decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.entailment import Conclusion
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.robot.events import (
@@ -52,7 +52,7 @@ def test_while_a_dart_is_open_neither_of_the_two_worlds_is_proved() -> None:
             history = trace[:length]
             fold, _ = fold_history(history)
             for hang in (1, 2):
-                when, why, witness = map_conclusion(delivering(history, fold.world(hang)))
+                when, why, witness, _ = map_conclusion(delivering(history, fold.world(hang)))
                 assert (when, why) == (length, f"darts never crossed: {fold.open_darts()}")
                 assert witness is not None
                 assert witness.code == fold.world(3 - hang).code
@@ -62,20 +62,20 @@ def test_while_a_dart_is_open_neither_of_the_two_worlds_is_proved() -> None:
 def test_the_witness_against_another_map_than_the_proved_one_is_the_proved_one() -> None:
     world, other = World.from_id("m3/14"), World.from_id("m3/15")
     history = trace_of(world)[:-1]
-    when, why, witness = map_conclusion(delivering(history, other))
+    when, why, witness, _ = map_conclusion(delivering(history, other))
     assert (when, why) == (len(history), "the history proves another map")
     assert witness is not None
     assert witness.is_isomorphic(world)
-    assert map_conclusion(delivering(history, world)) == (len(history), "", None)
+    assert map_conclusion(delivering(history, world)) == Conclusion(len(history), "")
 
 
 def test_what_is_no_map_and_a_history_of_no_world_are_named_at_their_event() -> None:
     trace = trace_of("m3/14")
-    assert map_conclusion(trace[:-1]) == (0, "no map was delivered", None)
-    when, why, _ = map_conclusion(edited(trace, -1, map=MapData((), (), None)))
+    assert map_conclusion(trace[:-1]) == Conclusion(0, "no map was delivered")
+    when, why, *_ = map_conclusion(edited(trace, -1, map=MapData((), (), None)))
     assert (when, why[:32]) == (len(trace) - 1, "the delivered value is not a map")
     third = place(trace, Move, 2)
-    when, why, _ = map_conclusion(edited(trace, third, door=99))
+    when, why, *_ = map_conclusion(edited(trace, third, door=99))
     assert (when, why[:28]) == (third, "no world shows this history:")
 
 
@@ -107,7 +107,7 @@ def test_the_witness_against_a_rejection_is_a_world_where_it_rejects_the_truth()
     told = 0
     for world in worlds([3]):
         trace = trace_of(world)
-        for when, _, witness in unproved(rejecting_at_once(trace, "motion")):
+        for when, _, witness, _ in unproved(rejecting_at_once(trace, "motion")):
             assert witness is not None
             assert_wrong_in(witness, rejecting_at_once(trace, "motion"), when)
             told += 1
@@ -126,6 +126,8 @@ def rejecting_at_once(trace: Trace, rule: RuleName) -> Trace:
 
 def rejections(pose: Pose, rule: RuleName) -> Iterator[Reject]:
     nothing = Evidence(0, Percept(1, None), Percept(1, None))
+    if rule == "planar":
+        nothing = Evidence(0, contradiction="it lies on another face than e")
     for hypothesis in pose.hypotheses:
         yield Reject(pose.edge, hypothesis, rule, nothing)
 
@@ -156,7 +158,7 @@ def test_what_only_planarity_rejects_follows_only_if_planarity_was_declared() ->
             trace = trace_of(world, "folding+planar")
             assert not unproved(trace)
             silent = renamed(trace, "planar", "folding")
-            for when, _, witness in unproved(silent):
+            for when, _, witness, _ in unproved(silent):
                 assert witness is not None
                 assert not witness.is_planar
                 assert_wrong_in(witness, silent, when)
@@ -168,7 +170,7 @@ def test_the_declared_planarity_of_the_world_excuses_no_other_guess() -> None:
     told = 0
     for world in worlds([3]):
         lie = rejecting_at_once(trace_of(world), "planar")
-        for when, _, witness in unproved(lie):
+        for when, _, witness, _ in unproved(lie):
             assert witness is not None
             assert witness.is_planar
             assert_wrong_in(witness, lie, when)
@@ -222,7 +224,7 @@ def test_a_loop_of_s_is_no_new_vertex_in_any_world(rule: RuleName | None) -> Non
     lie = edited(trace, loop, kind="new", dart=4)
     if rule is not None:
         lie = inserted(lie, loop + 1, *rejections(Pose(1, (3,)), rule))
-    (*_, (when, why, witness)) = decision_conclusions(lie)
+    (*_, (when, why, witness, _)) = decision_conclusions(lie)
     assert (when, why) == (loop, "the edge leads to another vertex")
     assert witness is not None
     assert witness.is_isomorphic(World.from_id("m2/8")) or shows(witness, lie[:loop])
@@ -284,7 +286,11 @@ def star(leaves: int) -> World:
 
 
 @pytest.mark.parametrize("edges", [100, 101])
-def test_beyond_100_edges_claim_10_and_no_other_is_not_asked(edges: int) -> None:
+def test_beyond_a_size_claim_10_and_no_other_is_not_asked(
+    edges: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert claims.LARGE == 2000  # too long for a test
+    monkeypatch.setattr(claims, "LARGE", 100)
     world = star(edges)
     verdict = statuses(world, trace_of(world))
     assert verdict.pop("decisions-entailed") == ("ok" if edges == 100 else "not-asked")

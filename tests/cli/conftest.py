@@ -22,6 +22,12 @@ Results = Callable[..., dict[str, Any]]
 Program = Callable[..., "subprocess.CompletedProcess[str]"]
 
 
+@pytest.fixture(autouse=True)
+def few_worlds_run_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search runs many worlds again; tests/harness/search/test_again.py tries that."""
+    monkeypatch.setattr("topo_verify.harness.search.again.MOST", 2)
+
+
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The current folder of the test; it holds mappers.py."""

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from topo_verify import CATALOGUE, Percept, Robot
-from topo_verify.robot.events import Decision
+from topo_verify.robot.events import Decision, Evidence, Pose, Reject
 from topo_verify.robot.percept import Door, Purpose
 
 
@@ -36,6 +36,22 @@ class Mute(Wrapped):
         pass
 
 
+class Curt(Wrapped):
+    told = False
+
+    def declare(self, event: Decision) -> None:  # noqa: ARG002  it says what it likes
+        degree = self.home.degree
+        if not self.told and degree > 1 and self.percept.marker is None:
+            evidence = Evidence(0, Percept(degree, degree - 1), self.percept)
+            self.robot.declare(Pose(0, (1,)))
+            self.robot.declare(Reject(0, 1, "motion", evidence))
+        self.told = True
+
+    def __init__(self, robot: Robot) -> None:
+        super().__init__(robot)
+        self.home = robot.percept
+
+
 class Undirected(Wrapped):
     def seen(self, percept: Percept) -> Percept:
         return Percept(percept.degree, None if percept.marker is None else 0)
@@ -43,6 +59,11 @@ class Undirected(Wrapped):
 
 def right(robot: Robot) -> object:
     return CATALOGUE["enhancement-i"](robot)
+
+
+def curt(robot: Robot) -> object:
+    """Declares one pose, and one rejection that is trivially right."""
+    return CATALOGUE["basic"](Curt(robot))
 
 
 def silent(robot: Robot) -> object:

@@ -77,6 +77,7 @@ def test_each_of_several_mappers_has_its_own_entries(results: Results) -> None:
         ("conform basic --like best", "no algorithm 'best'"),
         ("conform basic --batch --worlds m1/0", "expected a program, got basic"),
         ("conform nothing --worlds m1/0", "no algorithm 'nothing'"),
+        ("conform basic --seed 1:x", "expected N or N:ORDER, two numbers from 0, got '1:x'"),
     ],
 )
 def test_bad_input_exits_2_with_one_sentence(call: Call, line: str, words: str) -> None:
@@ -116,6 +117,38 @@ def test_markdown_has_the_same_table(call: Call) -> None:
 def test_transcripts_are_kept(call: Call, folder: Path) -> None:
     call("conform mappers.py:guesses --worlds m2/0 --workers 0 --transcript said/here")
     assert (folder / "said" / "here" / "m2-0.jsonl").is_file()
+
+
+LISTENER = """
+from topo_verify import CATALOGUE
+
+def explore(robot):
+    with open("met", "a") as file:
+        file.write(f"{robot.percept.degree} ")
+    return CATALOGUE["basic"](robot)
+"""
+
+
+def test_a_program_meets_the_worlds_in_an_order_that_is_drawn_anew(
+    results: Results, folder: Path
+) -> None:
+    (folder / "listener.py").write_text(LISTENER)
+    met: list[str] = []
+    found: list[dict[str, object]] = []
+    seeds: list[str] = []
+    for option in ("", "", "--seed 0:7", "--seed 0:7"):
+        line = f"conform listener.py:explore --worlds edges<=3 --workers 0 {option}"
+        envelope = results(line)
+        seeds.append(envelope.pop("timing")["seed"])
+        found.append(envelope)
+        met.append((folder / "met").read_text())
+        (folder / "met").unlink()
+    assert found[0] == found[1] == found[2]
+    assert len(set(met[:3])) == 3
+    assert met[2] == met[3]
+    assert seeds[2:] == ["0:7", "0:7"]
+    results(f"conform listener.py:explore --worlds edges<=3 --workers 0 --seed {seeds[0]}")
+    assert (folder / "met").read_text() == met[0]
 
 
 def test_two_runs_differ_in_timing_alone(program: Program) -> None:

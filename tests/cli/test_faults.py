@@ -30,6 +30,18 @@ def test_only_what_is_asked_for_is_tried(results: Call) -> None:
     assert entry["properties"] is not None
 
 
+def test_a_fault_that_no_check_was_put_to_is_not_counted_as_caught(
+    call: Call, results: Call
+) -> None:
+    line = f"faults {NAME} assumes-a-plane-world --by proofs"
+    (unasked, asked) = results(line)["results"]
+    assert (unasked["asked"], asked["asked"]) == (0, 1)
+    text = " ".join(call(line).stdout.split())
+    assert "1 of 1 fault caught" in text
+    assert "1 was not asked for: no theorem has its mistake" in text
+    assert f"{NAME} map-isomorphic - - -" in text
+
+
 def test_the_table_says_how_many_of_how_many(call: Call) -> None:
     done = call(f"faults {NAME} counts-no-ways-back --by search --workers 0")
     lines = done.stdout.splitlines()

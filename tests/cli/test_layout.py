@@ -67,6 +67,43 @@ def test_markdown_keeps_special_characters_from_doing_anything() -> None:
     assert markdown([Command("a `b` c", "again: ")]) == "again: `` a `b` c ``\n"
 
 
+@pytest.mark.parametrize(
+    ("text", "written"),
+    [
+        ("by @someone, see", "by `@someone,` see"),
+        ("a@b.c", "`a@b.c`"),
+        ("at https://evil.example/x_y", "at `https://evil.example/x_y`"),
+        ("www.evil.example", "`www.evil.example`"),
+        ("fixes #12", "fixes `#12`"),
+        ("GH-12", "`GH-12`"),
+        ("`@x", "`` `@x ``"),
+        ("[a](b) ![c](d)", "\\[a\\](b) !\\[c\\](d)"),
+        ("*a* _b_ __c__ ~~d~~ e_f", "\\*a\\* \\_b\\_ \\_\\_c\\_\\_ \\~\\~d\\~\\~ e_f"),
+        ("<img src=x> &#64;x $x$", "\\<img src=x> `&#64;x` \\$x\\$"),
+        ("&lt;", "\\&lt;"),
+        ("# a", "\\# a"),
+        ("- a", "\\- a"),
+        ("    a", "a"),
+        ("1. a", "1\\. a"),
+        ("> a", "\\> a"),
+        ("---", "\\---"),
+        ("a\n# b", "a\\\\n# b"),
+    ],
+)
+def test_markdown_of_unknown_origin_is_plain_text(text: str, written: str) -> None:
+    assert markdown([Text(text)]) == written + "\n"
+    assert markdown([Bullets((text,))]) == f"- {written}\n"
+
+
+def test_markdown_keeps_each_row_of_a_table_in_its_cells() -> None:
+    table = markdown([TextTable(("@a|b",), [("- @c|`d` e|f",)])])
+    assert table == "| `@a\\|b` |\n| --- |\n| - `` @c\\|`d` `` e\\|f |\n"
+
+
+def test_a_block_for_another_program_cannot_end_itself() -> None:
+    assert markdown([Raw("a\n```\n@x")]) == "````\na\n```\n@x\n````\n"
+
+
 def test_markdown_joins_blocks_with_blank_lines() -> None:
     blocks: list[Block] = [
         Text("one"),

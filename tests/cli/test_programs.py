@@ -48,6 +48,26 @@ def test_a_changed_program_does_not_go_on_with_a_ledger(call: Call, folder: Path
     assert "has changed since" in done.stderr
 
 
+SKIPPER = Path(__file__).parents[1] / "programs" / "misbehaving.py"
+SKIPS = f"{shlex.quote(sys.executable)} {SKIPPER} skips"
+
+
+@pytest.mark.parametrize("command", ["explore", "replay"])
+def test_a_world_that_a_program_skips_is_not_decided(
+    results: Call, call: Call, command: str
+) -> None:
+    (entry,) = results(f'{command} m1/1 --cmd "{SKIPS}"', code=3)["results"]
+    assert (entry["ok"], entry["findings"]) == (False, [])
+    assert entry["stopped"] == "the program skips this world: no loops, please"
+    assert "not decided" in call(f'{command} m1/1 --cmd "{SKIPS}"').stdout
+
+
+def test_a_search_in_which_a_program_skips_worlds_is_open(results: Call) -> None:
+    line = f'search --cmd "{SKIPS}" --edges 1 --workers 0'
+    (entry,) = results(line, code=3)["results"]
+    assert (entry["verdict"], entry["checked"], entry["counterexample"]) == ("UNKNOWN", 1, None)
+
+
 def test_verify_and_explore_run_programs(results: Call) -> None:
     parts = results(f'verify --cmd "{RIGHT}" --quick')["results"]
     assert {part["ok"] for part in parts} == {True}

@@ -49,7 +49,7 @@ def test_it_fails_with_the_world_that_the_page_says(
         check=False,
     )
     assert done.returncode == 1
-    assert f"world=World.from_id('{world}')" in done.stdout
+    assert f"world=tv.World.from_id('{world}')" in done.stdout
     assert f"again: topo-verify replay {world} --target my_mapper:explore" in done.stdout
     assert f"World.from_id('{world}')" in done.stdout
     assert f"`{world}`" in PAGE

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import random
 import signal
 import sys
 import time
@@ -41,9 +42,22 @@ def hold_the_interpreter() -> None:
         sleep(1000)
 
 
+def once(deed: Callable[[], object]) -> Callable[[], object]:
+    """Does it the first time only, whichever process it is in."""
+
+    def did() -> None:
+        if not Path("done").exists():
+            Path("done").touch()
+            deed()
+
+    return did
+
+
 right = in_some_worlds(lambda: None)
 exits = in_some_worlds(lambda: os._exit(3))
 kills_itself = in_some_worlds(lambda: os.kill(os.getpid(), signal.SIGKILL))
+segfaults_once = in_some_worlds(once(lambda: ctypes.string_at(0)))
+killed_once = in_some_worlds(once(lambda: os.kill(os.getpid(), signal.SIGKILL)))
 segfaults = in_some_worlds(lambda: ctypes.string_at(0))
 loops = in_some_worlds(forever)
 holds = in_some_worlds(hold_the_interpreter)
@@ -59,6 +73,30 @@ def forgets(robot: Robot) -> Any:
     """Right in worlds with less than three edges; then one is missing from the map."""
     survey = CATALOGUE["basic"](robot)
     return survey if len(survey.edges) < 3 else survey._replace(edges=survey.edges[1:])
+
+
+def remembers(robot: Robot, worlds: list[int] = []) -> Any:  # noqa: B006  that is its fault
+    """Right in the first worlds of its process."""
+    worlds.append(1)
+    return guesses(robot) if len(worlds) > 20 else CATALOGUE["basic"](robot)
+
+
+def learns(robot: Robot, worlds: list[int] = []) -> Any:  # noqa: B006  that is its fault
+    """Wrong in the first world of its process, unless that has one edge."""
+    worlds.append(1)
+    survey = CATALOGUE["basic"](robot)
+    wrong = len(worlds) == 1 and len(survey.edges) > 1
+    return survey._replace(edges=survey.edges[1:]) if wrong else survey
+
+
+def draws(robot: Robot) -> Any:
+    """Right, but which edge comes next is drawn by lot."""
+    return CATALOGUE["basic"].with_policies(pick=f"random({random.randrange(10**6)})")(robot)
+
+
+def moody(robot: Robot) -> Any:
+    """Right, unless a variable of the environment says otherwise."""
+    return guesses(robot) if os.environ.get("MOOD") else CATALOGUE["basic"](robot)
 
 
 def noisy(robot: Robot) -> Any:

@@ -18,11 +18,13 @@ import msgspec
 import pytest
 
 from topo_verify import InputError, InternalError, Limits
+from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import Division, Loss, Pool, Work, in_order
 from topo_verify.harness.search import parallel
-from topo_verify.harness.search.exhaustive import SearchResult, search
-from topo_verify.harness.search.plan import SHARD, Shard
+from topo_verify.harness.search.exhaustive import Search, SearchResult, search
+from topo_verify.harness.search.plan import SHARD, Plan, Shard
 from topo_verify.harness.tally import Tally
+from topo_verify.harness.targets import targets
 from topo_verify.harness.worker import WorkerProcess
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -128,8 +130,51 @@ def test_a_shard_that_a_stranger_kills_once_is_tried_again(monkeypatch: pytest.M
             hears(pool, worker)
 
     monkeypatch.setattr(Pool, "_hear", hear)
-    assert json(search("basic", edges=3, workers=2)) == json(search("basic", edges=3))
+    assert undisturbed(search("basic", edges=3, workers=2)) == json(search("basic", edges=3))
     assert len(kills) == 1
+
+
+def undisturbed(found: SearchResult) -> bytes:
+    """The result, had no worker been lost."""
+    assert found.verdict == "UNKNOWN"
+    assert {one.how for one in found.lost} == {"signal 9"}
+    sizes = tuple(
+        msgspec.structs.replace(size, tally=msgspec.structs.replace(size.tally, lost=()))
+        for size in found.by_edges
+    )
+    return json(msgspec.structs.replace(found, verdict="EXHAUSTED", lost=(), by_edges=sizes))
+
+
+@pytest.mark.parametrize("keep_going", [False, True])
+def test_a_crash_is_a_finding_even_if_the_world_passes_when_tried_again(
+    *, keep_going: bool
+) -> None:
+    found = search("mappers.py:segfaults_once", edges=3, workers=1, keep_going=keep_going)
+    first = found.counterexample
+    assert first is not None
+    assert (found.verdict, first.world) == ("REFUTED", "m3/21")
+    assert found.checked == (86 if keep_going else 12 + 40)
+    assert first.message == (
+        "no map was delivered: it ended its process (signal 11); at the second try it delivered one"
+    )
+    assert [size.failing for size in found.by_edges] == [0, 0, 1]
+    assert found.claims["map-isomorphic"].worlds == 1
+
+
+def test_a_worker_that_is_killed_once_leaves_the_verdict_open() -> None:
+    found = search("mappers.py:killed_once", edges=3, workers=2)
+    assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 86, None)
+    assert [(one.world, one.how) for one in found.lost] == [("m3/21", "signal 9")]
+
+
+def test_a_shard_whose_worker_was_killed_is_not_kept_in_a_ledger(folder: Path) -> None:
+    plan = Plan(targets=("mappers.py:killed_once",), edges=3)
+    for verdict, known in (("UNKNOWN", 0), ("EXHAUSTED", 66)):
+        with Ledger("ledger", plan, targets(plan.targets[0]), "1") as ledger:
+            work = Search(plan, targets(plan.targets[0]), workers=1, ledger=ledger)
+            work.work()
+            assert (work.found().verdict, work.found().from_ledger) == (verdict, known)
+    assert (folder / "done").exists()
 
 
 def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_done(
@@ -148,7 +193,7 @@ def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_d
             hears(pool, worker)
 
     monkeypatch.setattr(Pool, "_hear", hear)
-    assert json(search("basic", edges=2, workers=1)) == json(search("basic", edges=2))
+    assert undisturbed(search("basic", edges=2, workers=1)) == json(search("basic", edges=2))
     assert kills
     assert all(kills.count(shard) <= 2 for shard in kills)
 

@@ -2,35 +2,38 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import sys
 import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
+from pathlib import Path
+from typing import Any, cast
 
 import pytest
 
 from tests.helpers import path
-from topo_verify import CATALOGUE, InputError, Limits, World, examine, explore
+from topo_verify import CATALOGUE, InputError, Limits, Robot, World, examine, explore
 from topo_verify.algorithms import Policies
 from topo_verify.harness.targets import one_target
 from topo_verify.robot.events import Finish, Move, Pose, Start, read_trace, write_trace
-from topo_verify.robot.simulator import SimulatedRobot
+
+HERE = Path(__file__).relative_to(Path.cwd())
 
 WORLD = World.from_id("m2/5")
 SHORT = Limits(move_timeout=0.15, world_timeout=600)
 
-Mapper = Callable[[SimulatedRobot], object]
+Mapper = Callable[[Robot], object]
 
 
-def right(robot: SimulatedRobot) -> object:
+def right(robot: Robot) -> object:
     """A mapper of one's own that is right, and declares its decisions."""
     return CATALOGUE["basic"](robot)
 
 
-def mistaken(_robot: SimulatedRobot) -> object:
+def mistaken(_robot: Robot) -> object:
     """A mapper that is sure that every world is a single edge."""
     return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
 
@@ -38,7 +41,7 @@ def mistaken(_robot: SimulatedRobot) -> object:
 def delivers(result: object) -> Mapper:
     """A mapper that explores and then delivers something else."""
 
-    def mapper(robot: SimulatedRobot) -> object:
+    def mapper(robot: Robot) -> object:
         right(robot)
         return result
 
@@ -116,33 +119,47 @@ def test_what_is_not_one_mapper_is_refused(mapper: Any) -> None:
 
 
 def test_a_mapper_that_raises_is_a_finding_with_its_exception() -> None:
-    def fail(_robot: SimulatedRobot) -> object:
+    def fail(_robot: Robot) -> object:
         raise KeyError("dart 7")
 
-    assert why(fail) == "the mapper raised KeyError: 'dart 7'"
+    line = fail.__code__.co_firstlineno + 1
+    assert why(fail) == f"the mapper raised KeyError: 'dart 7' ({HERE}, line {line})"
     assert isinstance(explore(WORLD, fail).error, KeyError)
 
 
 def test_an_exception_that_cannot_be_put_into_words_is_named() -> None:
-    def fail(_robot: SimulatedRobot) -> object:
+    def fail(_robot: Robot) -> object:
         raise Unspeakable
 
-    assert why(fail) == "the mapper raised Unspeakable"
+    assert why(fail).startswith(f"the mapper raised Unspeakable ({HERE}, line ")
 
 
 def test_a_mapper_that_exits_is_a_finding() -> None:
-    assert why(lambda _robot: sys.exit(3)) == "the mapper raised SystemExit: 3"
+    assert why(lambda _robot: sys.exit(3)).startswith("the mapper raised SystemExit: 3 (")
+
+
+@pytest.mark.parametrize("kind", [asyncio.CancelledError, GeneratorExit, BaseException])
+def test_no_exception_of_a_mapper_passes_for_another_end(kind: type[BaseException]) -> None:
+    def fail(_robot: Robot) -> object:
+        raise kind
+
+    assert why(fail).startswith(f"the mapper raised {kind.__name__} ({HERE}, line ")
+
+
+def test_what_ends_a_test_passes_through_a_mapper() -> None:
+    with pytest.raises(pytest.skip.Exception):
+        explore(WORLD, lambda _robot: pytest.skip("not here"))
 
 
 def test_a_mapper_that_recurses_for_ever_is_a_finding() -> None:
-    def deep(robot: SimulatedRobot) -> object:
+    def deep(robot: Robot) -> object:
         return deep(robot)
 
     assert why(deep).startswith("the mapper raised RecursionError: ")
 
 
 def test_ctrl_c_is_not_the_mappers() -> None:
-    def interrupted(_robot: SimulatedRobot) -> object:
+    def interrupted(_robot: Robot) -> object:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
@@ -150,7 +167,7 @@ def test_ctrl_c_is_not_the_mappers() -> None:
 
 
 def test_a_mapper_that_walks_for_ever_ends_with_its_budget() -> None:
-    def walk(robot: SimulatedRobot) -> object:
+    def walk(robot: Robot) -> object:
         while True:
             robot.move(0)
 
@@ -168,7 +185,7 @@ def test_a_mapper_that_takes_a_door_that_is_not_there_is_a_finding() -> None:
 
 
 def test_a_mapper_that_declares_nonsense_is_a_finding() -> None:
-    assert why(lambda robot: robot.declare({"type": "boast"})).startswith(
+    assert why(lambda robot: robot.declare(cast("Any", {"type": "boast"}))).startswith(
         "expected a decision (pose, reject, confirm, augment): "
     )
 
@@ -180,7 +197,7 @@ def test_a_mapper_that_sleeps_or_loops_without_moving_is_stopped(nap: Callable[[
 
 
 def test_a_mapper_that_keeps_moving_too_slowly_is_stopped() -> None:
-    def slow(robot: SimulatedRobot) -> object:
+    def slow(robot: Robot) -> object:
         while True:
             time.sleep(0.01)
             robot.move(0)
@@ -194,7 +211,7 @@ def test_a_mapper_that_keeps_moving_too_slowly_is_stopped() -> None:
 def test_a_mapper_is_stopped_in_another_thread_too() -> None:
     reasons: list[str] = []
 
-    def loop(_robot: SimulatedRobot) -> object:
+    def loop(_robot: Robot) -> object:
         while True:
             pass
 
@@ -208,7 +225,7 @@ def test_a_mapper_is_stopped_in_another_thread_too() -> None:
 def test_a_mapper_that_swallows_what_stops_it_has_not_delivered(
     caught: type[BaseException],
 ) -> None:
-    def swallow(robot: SimulatedRobot) -> object:
+    def swallow(robot: Robot) -> object:
         with suppress(caught):
             robot.move(9)
         return WORLD
@@ -219,7 +236,7 @@ def test_a_mapper_that_swallows_what_stops_it_has_not_delivered(
 def test_a_mapper_that_swallows_what_stops_it_and_then_raises_is_stopped_for_the_first_reason() -> (
     None
 ):
-    def swallow(robot: SimulatedRobot) -> object:
+    def swallow(robot: Robot) -> object:
         with suppress(BaseException):
             robot.move(9)
         raise ValueError("lost")
@@ -230,7 +247,7 @@ def test_a_mapper_that_swallows_what_stops_it_and_then_raises_is_stopped_for_the
 
 
 def test_a_mapper_that_swallows_its_time_limit_has_not_delivered() -> None:
-    def swallow(_robot: SimulatedRobot) -> object:
+    def swallow(_robot: Robot) -> object:
         with suppress(BaseException):
             time.sleep(30)
         return WORLD
@@ -239,7 +256,7 @@ def test_a_mapper_that_swallows_its_time_limit_has_not_delivered() -> None:
 
 
 def test_what_was_declared_and_moved_before_the_end_is_still_judged() -> None:
-    def fail(robot: SimulatedRobot) -> object:
+    def fail(robot: Robot) -> object:
         robot.move(0)
         robot.declare(Pose(0, ()))
         raise ValueError
@@ -258,7 +275,7 @@ def test_a_wrong_cost_is_a_finding() -> None:
 
 
 def test_the_trace_of_a_mapper_that_failed_can_be_written_and_read() -> None:
-    def fail(robot: SimulatedRobot) -> object:
+    def fail(robot: Robot) -> object:
         robot.move(1)
         return robot.move(9)
 

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from tests.harness.test_run import SHORT, WORLD, Unspeakable, delivers, why
-from topo_verify import CATALOGUE, examine, explore
+from topo_verify import CATALOGUE, Robot, examine, explore
 from topo_verify.harness.judge import judge
-from topo_verify.robot.simulator import SimulatedRobot
 
 VERTICES, EDGES = [[0, 1, 2], [3]], [[0, 2], [1, 3]]
 
@@ -131,7 +130,7 @@ def test_a_map_that_is_no_world_is_delivered_and_refuted(result: object) -> None
 
 
 def test_moves_that_a_map_makes_when_it_is_read_are_counted() -> None:
-    def mapper(robot: SimulatedRobot) -> object:
+    def mapper(robot: Robot) -> object:
         survey = CATALOGUE["basic"](robot)
 
         class Late:

@@ -18,6 +18,7 @@ from topo_verify import (
     ClaimFailed,
     InputError,
     Limits,
+    Robot,
     World,
     assert_maps,
     examine,
@@ -57,7 +58,7 @@ def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
 def test_a_report_is_one_json_object() -> None:
     report = examine(mistaken, WORLD, where="corner.json")
     told = json.loads(report.to_json())
-    assert list(told) == ["world", "target", "ok", "cost", "claims", "findings"]
+    assert list(told) == ["world", "target", "ok", "cost", "claims", "findings", "judgements"]
     assert set(told["findings"][0]) >= {
         "claim", "world", "event", "expected", "seen", "message", "replay",
     }  # fmt: skip
@@ -89,6 +90,27 @@ def test_the_replay_line_of_a_script_names_its_file(tmp_path: Path) -> None:
     assert Path(target.partition(":")[0]).name == "mine.py"
     found = one_target(f"{tmp_path / target.partition(':')[0]}:mapper")
     assert found.mapper(SimulatedRobot(WORLD, 0)) == 7
+
+
+SESSION = """
+import topo_verify as tv
+def mapper(robot): return 7
+report = tv.examine(mapper, tv.World.from_id('m1/0'))
+print([finding.replay for finding in report.findings], 'again' in str(report))
+"""
+
+
+@pytest.mark.parametrize("words", [["-"], ["script.py"]], ids=["a notebook", "a script"])
+def test_where_no_command_finds_the_mapper_again_none_is_shown(
+    words: list[str], tmp_path: Path
+) -> None:
+    """A notebook has no file. A script with no guard would do its work again when it is loaded."""
+    (tmp_path / "script.py").write_text(SESSION)
+    done = subprocess.run(
+        [sys.executable, *words], input=SESSION, capture_output=True, text=True, check=True,
+        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+    )  # fmt: skip
+    assert done.stdout == "[''] False\n"
 
 
 def test_the_replay_line_carries_policies_limits_and_odd_names() -> None:
@@ -141,7 +163,7 @@ def test_assert_maps_fails_like_an_assertion_with_the_report_as_its_text() -> No
 def test_assert_maps_shows_the_mappers_own_exception_as_the_cause() -> None:
     mine = KeyError("dart 7")
 
-    def fail(_robot: SimulatedRobot) -> object:
+    def fail(_robot: Robot) -> object:
         raise mine
 
     with pytest.raises(ClaimFailed) as failed:
@@ -157,7 +179,7 @@ def test_assert_maps_refuses_what_is_no_mapper() -> None:
 def test_the_witness_is_run_with_the_limits_of_the_run() -> None:
     runs = iter([FAULTS["confirms-what-is-alone"]])
 
-    def mapper(robot: SimulatedRobot) -> object:
+    def mapper(robot: Robot) -> object:
         lucky = next(runs, None)
         if lucky is not None:
             return lucky(robot)
@@ -167,3 +189,40 @@ def test_the_witness_is_run_with_the_limits_of_the_run() -> None:
     report = examine(mapper, World.from_id("m2/1"), limits=Limits(budget=7))
     (told,) = [f.message for f in report.findings if f.claim == "map-entailed"]
     assert told.endswith("run there, the mapper asked for more than 7 moves")
+
+
+# ---------------------------------------------------------------- text of unknown origin
+
+HOSTILE = "\x1b[31m\u202eboom\n  again: nothing to see"
+
+
+def test_no_text_that_a_mapper_brings_controls_a_terminal() -> None:
+    def raises(_robot: object) -> None:
+        raise ValueError(HOSTILE)
+
+    run = explore(WORLD, raises)
+    report = judge(run, where=HOSTILE)
+    with pytest.raises(ClaimFailed) as failed:
+        assert_maps(raises, WORLD)
+    texts = [str(run.stopped), *(finding.message for finding in report.findings)]
+    texts += [*str(report).splitlines(), *str(failed.value).splitlines()]
+    assert all(text.isprintable() for text in texts)
+    assert "\\x1b[31m\\u202eboom\\n  again: nothing to see" in str(failed.value)
+
+
+def test_no_name_of_a_file_controls_a_terminal(tmp_path: Path) -> None:
+    file = tmp_path / "a\x1b[31m.py"
+    file.write_text("def explore(robot): return None\n")
+    report = examine(f"{file}:explore", WORLD)
+    assert all(line.isprintable() for line in str(report).splitlines())
+    (replay,) = {finding.replay for finding in report.findings}
+    assert f"{file}:explore" in shlex.split(replay)  # for scripts it is the line itself
+
+
+def test_no_sentence_about_bad_input_controls_a_terminal(tmp_path: Path) -> None:
+    file = tmp_path / "a\x1b[31m.py"
+    file.touch()
+    for bad in (f"{file}:explore", f"{file}x:explore", "a\x1b[31m", "a\x1b[31m:explore"):
+        with pytest.raises(InputError) as refused:
+            examine(bad, WORLD)
+        assert str(refused.value).isprintable()

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 from collections.abc import Callable, Generator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.helpers import SURE
-from topo_verify import CATALOGUE, InputError, World
+from topo_verify import CATALOGUE, Algorithm, InputError, Robot, World
 from topo_verify.algorithms import Policies
 from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.enhancement_i import PrefixRule
+from topo_verify.algorithms.motion import retrace
 from topo_verify.harness.targets import one_target, targets
-from topo_verify.programs.loader import Target
+from topo_verify.programs.loader import Mapper, Target
 from topo_verify.robot.simulator import SimulatedRobot
 
 
-def mine(_robot: SimulatedRobot) -> object:
+def mine(_robot: Robot) -> object:
     """A mapper of one's own."""
     return None
 
@@ -30,11 +34,17 @@ class Mappers:
     number = 7
 
     @staticmethod
-    def inner(_robot: SimulatedRobot) -> object:
+    def inner(_robot: Robot) -> object:
         return None
 
-    def __call__(self, _robot: SimulatedRobot) -> object:
+    def __call__(self, _robot: Robot) -> object:
         return None
+
+
+MADE = Mappers()
+LAMBDAS: list[Mapper] = [lambda _: None]
+PARTIAL = partial(mine)
+PARTIAL.__module__ = __name__
 
 
 @pytest.fixture
@@ -190,27 +200,37 @@ def test_what_cannot_be_called_is_no_mapper(mapper: Any) -> None:
     [
         (mine, "tests.harness.test_targets:mine"),
         (Mappers.inner, "tests.harness.test_targets:Mappers.inner"),
-        (Mappers(), "tests.harness.test_targets:Mappers"),
+        (Mappers(), "tests.harness.test_targets:<Mappers>"),
+        (MADE, "tests.harness.test_targets:MADE"),
+        (PARTIAL, "tests.harness.test_targets:PARTIAL"),
+        (partial(mine), "functools:<partial>"),
+        (Mappers().__call__, "tests.harness.test_targets:<__call__>"),
+        (LAMBDAS[0], "tests.harness.test_targets:<lambda>"),
+        (CATALOGUE["basic"].with_policies(pick="last"), "basic"),
+        (Algorithm("basic", PrefixRule, retrace), "<basic>"),
+        (Algorithm("other", NoRule, retrace), "<other>"),
         (CATALOGUE["basic"], "basic"),
         (Mappers.deep, "basic"),
         (NoRule, "topo_verify.algorithms.basic:NoRule"),
     ],
 )
 def test_a_callable_is_called_by_the_text_that_finds_it(
-    mapper: Callable[[SimulatedRobot], object], text: str
+    mapper: Callable[[Robot], object], text: str
 ) -> None:
     assert one_target(mapper).text == text
 
 
-def test_a_callable_of_the_main_module_is_called_by_its_file(
-    monkeypatch: pytest.MonkeyPatch,
+def test_a_module_that_other_programs_do_not_find_is_called_by_its_file(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def script(_robot: SimulatedRobot) -> object:
-        return None
-
-    monkeypatch.setattr(script, "__module__", "__main__")
-    monkeypatch.setattr(script, "__qualname__", "script")
-    monkeypatch.setattr(sys.modules["__main__"], "__file__", "my/script.py", raising=False)
-    assert one_target(script).text == "my/script.py:script"
-    monkeypatch.delattr(sys.modules["__main__"], "__file__")
-    assert one_target(script).text == "__main__:script"
+    """As pytest finds test files: their folder is on its path and on no other program's."""
+    (folder / "tests").mkdir()
+    (folder / "tests" / "test_mine.py").write_text("def mine(robot): ...")
+    monkeypatch.setattr(sys, "path", [str(folder / "tests"), *sys.path])
+    mapper = importlib.import_module("test_mine").mine
+    assert one_target(mapper).text == "tests/test_mine.py:mine"
+    monkeypatch.setenv("PYTHONPATH", str(folder / "tests"))
+    assert one_target(mapper).text == "test_mine:mine"
+    monkeypatch.delenv("PYTHONPATH")
+    monkeypatch.chdir(folder / "tests")
+    assert one_target(mapper).text == "test_mine:mine"

@@ -50,8 +50,12 @@ def linger() -> object:
 LOOSE = WAY == "leaves a child in a session of its own"
 
 
-def rest() -> object:
-    return time.sleep(60)  # type: ignore[func-returns-value]
+def rest(seconds: float = 60) -> object:
+    return time.sleep(seconds)  # type: ignore[func-returns-value]
+
+
+def crash() -> object:
+    return os.kill(os.getpid(), signal.SIGSEGV)  # type: ignore[func-returns-value]
 
 
 def close(stream: int) -> object:
@@ -61,6 +65,11 @@ def close(stream: int) -> object:
 def forever(data: bytes, stream: int = 1) -> NoReturn:
     while True:
         os.write(stream, data)
+
+
+def deliver() -> object:
+    """Map the loop as it should be."""
+    return say(type="move", door=0), hear(), say(type="done", map=LOOP, cost=1)
 
 
 def ignore_signals() -> None:
@@ -76,7 +85,7 @@ WAYS: dict[str, Callable[[], object]] = {
     "exits with success": lambda: sys.exit(0),
     "raises": lambda: [0][len(WAY)],
     "kills itself": lambda: os.kill(os.getpid(), signal.SIGKILL),
-    "crashes": lambda: os.kill(os.getpid(), signal.SIGSEGV),
+    "crashes": crash,
     "closes its output": lambda: (close(1), rest()),
     "closes its input": lambda: (close(0), say(type="move", door=0), rest()),
     "floods stdout": lambda: forever(b"x" * 65536),
@@ -124,6 +133,16 @@ WAYS: dict[str, Callable[[], object]] = {
         say(type="move", door=0),
         hear(),
         write((json.dumps({"type": "done", "map": LOOP}) + "\n") * 2),
+    ),
+    "goes on later": lambda: (deliver(), rest(0.1), write("and another thing\n")),
+    "goes on in halves": lambda: (deliver(), write("and ano"), rest(0.1), write("ther\n")),
+    "delivers and reads no more": lambda: (deliver(), rest()),
+    "delivers and crashes": lambda: (deliver(), crash()),
+    "delivers and ends": lambda: (deliver(), sys.exit(0)),
+    "floods declarations of 1 MB": lambda: forever(
+        (
+            json.dumps({"type": "declare", "event": {**POSE, "hypotheses": [0] * 330_000}}) + "\n"
+        ).encode()
     ),
     "ignores SIGTERM": ignore_signals,
     "leaves a child": lambda: (linger(), sys.exit(1)),

@@ -19,8 +19,9 @@ from tests.programs.programs import ROOT, misbehaving, python, served
 from topo_verify import World, examine, explore
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
-from topo_verify.harness.targets import fingerprint, target_arguments, target_text, targets
-from topo_verify.programs.program import Misbehaved, Program
+from topo_verify.harness.targets import target_arguments, target_text, targets
+from topo_verify.programs.misbehaviour import Misbehaved
+from topo_verify.programs.program import Program
 from topo_verify.robot.events import Move
 from topo_verify.robot.limits import Limits
 
@@ -182,7 +183,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc here")
 def test_a_harness_that_is_killed_leaves_no_program_behind(tells: str) -> None:
     deaf = "import time\n" + TELLS.replace("for line in sys.stdin", "for line in [input()]")
-    command = shlex.join([sys.executable, "-c", deaf + "time.sleep(60)\n"])
+    command = shlex.join([sys.executable, "-c", deaf + "sys.stdin.readline()\ntime.sleep(60)\n"])
     assert command not in tells
     done = subprocess.run(
         [sys.executable, "-c", KILLED, command], capture_output=True, text=True, check=False
@@ -274,17 +275,6 @@ def test_a_program_that_cannot_be_started_is_bad_input(tmp_path: Path) -> None:
 def test_a_program_has_no_policies_of_ours() -> None:
     with pytest.raises(InputError, match="has no policies"):
         targets("--cmd ./mapper", pick="last")
-
-
-def test_a_fingerprint_is_of_the_command_and_of_its_files(tmp_path: Path) -> None:
-    file = tmp_path / "mapper.py"
-    file.write_text("1")
-    command = f"--cmd {shlex.join([sys.executable, str(file)])}"
-    one = fingerprint(command)
-    assert one == fingerprint(command)
-    assert one != fingerprint(command + " --fast")
-    file.write_text("2")
-    assert one != fingerprint(command)
 
 
 def test_misbehaviour_is_an_exception_that_a_mapper_cannot_swallow() -> None:

@@ -7,7 +7,9 @@ from typing import Any
 
 import pytest
 from hypothesis import given
+from hypothesis.vendor.pretty import pretty
 
+import topo_verify
 from tests.helpers import any_world, trace_of
 from topo_verify import InputError, World
 from topo_verify.robot.events import (
@@ -208,3 +210,9 @@ def test_a_doubled_key_is_refused_by_name(line: bytes, key: str) -> None:
 def test_numbers_of_any_length_in_unknown_fields_are_ignored() -> None:
     start = b'{"type": "start", "x": %s, "percept": {"degree": 1, "marker": 0}}' % (b"7" * 5000)
     assert read_trace(start) == (Start(percept=Percept(1, 0)),)
+
+
+def test_policies_print_as_code_that_makes_them_again() -> None:
+    chosen = Policies("last", "random(3)")
+    assert eval(repr(chosen), {"tv": topo_verify}) == chosen  # noqa: S307  as pasted
+    assert pretty(chosen) == repr(chosen) == "tv.Policies(pick='last', order='random(3)')"

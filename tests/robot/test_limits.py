@@ -10,10 +10,12 @@ import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager, suppress
 from itertools import count
-from typing import Any
+from math import inf, nan
+from typing import Any, cast
 
 import pytest
 
+from topo_verify.errors import InputError
 from topo_verify.robot import limits
 from topo_verify.robot.limits import (
     BudgetExceeded,
@@ -321,3 +323,10 @@ def test_limits_know_their_options_on_the_command_line(
 def test_the_default_limits_are_those_of_the_command_line() -> None:
     assert Limits() == Limits(budget=None, move_timeout=5.0, world_timeout=60.0)
     assert limits.TICK < 0.1
+
+
+@pytest.mark.parametrize("seconds", [inf, nan, 0, -1.0, 10**6 + 1])
+@pytest.mark.parametrize("name", ["move_timeout", "world_timeout"])
+def test_a_time_limit_is_a_number_of_seconds(name: str, seconds: float) -> None:
+    with pytest.raises(InputError, match=rf"{name}: expected seconds in \(0, 1000000\], got "):
+        Limits(None, **cast("Any", {name: seconds}))

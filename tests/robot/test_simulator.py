@@ -27,6 +27,16 @@ def test_every_move_costs_one_and_is_recorded_with_what_was_sensed(robot: Simula
     assert robot.percept == seen[1] == Percept(3, 2)
 
 
+def test_a_mapper_gets_a_handle_with_three_things_and_no_trace(robot: SimulatedRobot) -> None:
+    handle = robot.handle
+    assert [name for name in dir(handle) if name[0] != "_"] == ["declare", "move", "percept"]
+    assert handle.percept == robot.percept
+    assert handle.move(1, "cross") == robot.percept == handle.percept
+    handle.declare(Pose(0, (1, 2)))
+    assert robot.events == [Move(1, robot.percept, "cross"), Pose(0, (1, 2))]
+    assert robot.darts == 4
+
+
 def test_looking_and_declaring_cost_nothing(robot: SimulatedRobot) -> None:
     robot.declare(Pose(0, (1, 2)))
     assert (robot.cost, robot.percept, robot.stopped) == (0, Percept(3, 0), None)

@@ -10,6 +10,7 @@ from hypothesis import find, given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
+import topo_verify
 from topo_verify import InputError, World, strategies
 from topo_verify.strategies import (
     dense_worlds,
@@ -37,18 +38,27 @@ Make = Callable[..., SearchStrategy[Any]]
         (worlds, {"max_edges": True}, "max_edges=True, expected an integer"),
         (worlds, {"max_edges": 2001}, "max_edges=2001 is more than 2000"),
         (worlds, {"marker": "middle"}, "marker='middle', expected one of 'any', 'leaf', 'hub'"),
-        (worlds, {"min_genus": 2, "max_edges": 3}, "genus 2 or more has 0 to 3 edges: it takes 4"),
-        (worlds, {"min_genus": 1, "loopless": True, "max_edges": 2}, "no loops has 0 to 2 edges"),
+        (worlds, {"min_genus": 2, "max_edges": 3}, "genus 2 or more has 1 to 3 edges: it takes 4"),
+        (worlds, {"min_genus": 1, "loopless": True, "max_edges": 2}, "no loops has 1 to 2 edges"),
         (worlds, {"min_genus": 1, "simple": True, "max_edges": 4}, "it takes 5 or more"),
         (worlds, {"min_genus": 2, "simple": True, "max_edges": 7}, "it takes 8 or more"),
         (worlds, {"min_genus": 1, "max_degree": 3, "max_edges": 2}, "it takes 3 or more"),
         (worlds, {"min_genus": 1, "max_degree": 2}, "and none has more or fewer: ask for less"),
         (worlds, {"max_degree": 1, "min_edges": 2}, "it has fewer; lower min_edges"),
-        (worlds, {"marker": "leaf", "max_edges": 0}, "a marker at a dead end has 0 edges"),
+        (
+            worlds,
+            {"marker": "leaf", "min_edges": 0, "max_edges": 0},
+            "a marker at a dead end has 0 edges",
+        ),
+        (
+            tree_worlds,
+            {"max_edges": 0},
+            "min_edges=1 is above max_edges=0: min_edges=0 draws m0/0, too",
+        ),
         (worlds, {"marker": "leaf", "min_genus": 1, "max_edges": 2}, "it takes 3 or more"),
         (planar_worlds, {"max_degree": 0, "min_edges": 1}, "planar_worlds: no world of genus 0"),
         (nonplanar_worlds, {"genus": 0}, "expected genus 1 or more, got 0: planar_worlds"),
-        (nonplanar_worlds, {"genus": 3, "max_edges": 5}, "genus 3 has 0 to 5 edges: it takes 6"),
+        (nonplanar_worlds, {"genus": 3, "max_edges": 5}, "genus 3 has 1 to 5 edges: it takes 6"),
         (tree_worlds, {"max_degree": 1, "min_edges": 2}, "tree_worlds: no world of max_degree 1"),
         (dense_worlds, {"min_genus": 5, "max_edges": 9}, "it takes 10 or more"),
         (lattices, {"min_edges": 9, "max_edges": 8}, "lattices: min_edges=9 is above"),
@@ -104,7 +114,7 @@ def keeps(world: World, asked: dict[str, Any]) -> bool:
     degree = world.degrees[world.marker_vertex]
     genus = asked.get("genus")
     return (
-        asked.get("min_edges", 0) <= len(world.edges) <= asked.get("max_edges", 200)
+        asked.get("min_edges", 1) <= len(world.edges) <= asked.get("max_edges", 200)
         and asked.get("min_genus", 0) <= world.genus
         and (asked.get("max_genus") is None or world.genus <= asked["max_genus"])
         and (genus is None or world.genus == genus)
@@ -137,8 +147,15 @@ def test_the_default_bounds_are_the_widest(make: Make) -> None:
     assert len(world.edges) <= 200
 
 
+@pytest.mark.parametrize("make", [make for make, _ in TAKES if make is not nonplanar_worlds])
+def test_the_world_without_an_edge_is_drawn_on_request_only(make: Make) -> None:
+    """verify, search and the marks of pytest never try m0/0: a property test agrees with them."""
+    assert len(find(make(), lambda _: True).edges) == 1
+    assert find(make(min_edges=0), lambda _: True).id == "m0/0"
+
+
 def test_planar_worlds_are_planar_and_trees_have_no_cycle() -> None:
-    assert find(planar_worlds(), lambda world: not world.edges).is_planar
+    assert find(planar_worlds(min_edges=0), lambda world: not world.edges).is_planar
     trees = tree_worlds(min_edges=5, max_edges=5)
     assert len(find(trees, lambda _: True).vertices) == 6
 
@@ -149,6 +166,27 @@ def test_strategies_compose_as_strategies_do() -> None:
     pairs = st.tuples(worlds(), mappers())
     assert find(pairs, lambda _: True)[1].name == "basic"
     assert find(st.builds(World.mirror, worlds(min_edges=3)), lambda _: True).id == "m3/24"
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "worlds()",
+        "worlds(max_edges=6)",
+        "nonplanar_worlds(genus=2, simple=True, marker='hub')",
+        "tree_worlds(min_edges=0)",
+        "lattices(max_edges=9)",
+        "symmetric_worlds(max_degree=3)",
+        "uniform_worlds(edges=5)",
+        "mappers(algorithms=['basic'])",
+        "mappers(policies=policies(random=False))",
+        "door_words(tv.World.from_id('m1/0'), max_length=2)",
+    ],
+)
+def test_a_strategy_prints_as_the_call_that_made_it(call: str) -> None:
+    names = {**vars(strategies), "tv": topo_verify}
+    strategy: SearchStrategy[Any] = eval(call, names)  # noqa: S307  as typed at a prompt
+    assert repr(strategy) == call
 
 
 def test_what_is_exported_is_pinned() -> None:

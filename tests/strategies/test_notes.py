@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 
-from topo_verify import Algorithm, World, explore, families
-from topo_verify.strategies import mappers, notes, observe, worlds
+import topo_verify
+from topo_verify import Algorithm, Policies, World, explore, families
+from topo_verify.strategies import mappers, notes, observe, policies, worlds
 from topo_verify.strategies.notes import describe, features
 
 
@@ -31,6 +34,11 @@ def test_a_world_without_an_id_is_described_by_its_json() -> None:
     assert World.from_json(text).code == path.code
 
 
+def test_no_name_of_a_mapper_controls_a_terminal() -> None:
+    run = replace(explore(World.from_id("m1/0"), "basic"), algorithm="a\x1b[31m.py:explore")
+    assert describe(run).startswith("a\\x1b[31m.py:explore (pick ")
+
+
 def test_the_failing_example_prints_its_world_and_the_run() -> None:
     @settings(database=None, derandomize=True)
     @given(world=worlds(), mapper=mappers())
@@ -42,8 +50,25 @@ def test_the_failing_example_prints_its_world_and_the_run() -> None:
     with pytest.raises(AssertionError) as failure:
         wrong()
     notes = "\n".join(failure.value.__notes__)
-    assert "world=World.from_id('m2/8')" in notes
+    assert "world=tv.World.from_id('m2/8')" in notes
     assert "basic (pick nearest, order shortest) in m2/8: " in notes
+
+
+def test_the_failing_example_can_be_pasted_as_it_is_printed() -> None:
+    """Below `import topo_verify as tv`, with which every file of tests in docs/ begins."""
+    drawn: dict[str, object] = {}
+
+    @settings(database=None, derandomize=True)
+    @given(world=worlds(), mapper=mappers(), chosen=policies())
+    def example(world: World, mapper: Algorithm, chosen: Policies) -> None:
+        drawn.update(world=world, mapper=mapper, chosen=chosen)
+        assert mapper.policies.pick == chosen.pick == "nearest" or mapper.name == "basic"
+
+    with pytest.raises(AssertionError) as failure:
+        example()
+    shown = re.search(r"example\(.*?\n\)", "\n".join(failure.value.__notes__), re.DOTALL)
+    assert shown is not None
+    assert eval(shown[0], {"example": dict, "tv": topo_verify}) == drawn  # noqa: S307  as pasted
 
 
 def appending(messages: list[object]) -> Callable[[str, int], None]:
@@ -91,7 +116,9 @@ from hypothesis import given, settings
 from topo_verify import World, explore
 from topo_verify.strategies import observe, worlds
 
-@settings(max_examples=10, derandomize=True)
+settings.load_profile("topo-ci")  # in a new folder Hypothesis first parses every module
+
+@settings(max_examples=10)
 @given(world=worlds())
 def test(world: World) -> None:
     observe(explore(world, "basic"))

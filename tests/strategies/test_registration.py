@@ -33,6 +33,21 @@ print(find(st.builds(edges), lambda number: number > 2))
     assert printed(code) == "3"
 
 
+def test_a_mapper_is_drawn_wherever_an_algorithm_is_annotated() -> None:
+    code = """
+from hypothesis import find, strategies as st
+from topo_verify import Algorithm, Policies, assert_maps, World
+
+def runs(mapper: Algorithm, policies: Policies) -> tuple[str, str]:
+    assert_maps(mapper, World.from_id("m2/8"))
+    assert_maps("basic", World.from_id("m2/8"), pick=policies.pick, order=policies.order)
+    return mapper.name, policies.pick
+
+print(find(st.builds(runs), lambda names: names[1] != "nearest"))
+"""
+    assert printed(code) == "('basic', 'last')"
+
+
 def test_the_profiles_are_there_as_soon_as_hypothesis_is_imported() -> None:
     code = """
 from hypothesis import settings
@@ -57,6 +72,26 @@ def test_it_works_from_either_end() -> None:
     assert printed("import topo_verify.strategies as s; print(s.worlds is not None)") == "True"
     code = "import hypothesis, topo_verify as tv; print(tv.strategies.worlds is not None)"
     assert printed(code) == "True"
+
+
+def test_a_property_test_imports_what_its_first_run_needs_when_it_is_defined() -> None:
+    """Hypothesis bounds the time of an example: the first one shall not import half the package."""
+    code = """
+import sys
+import topo_verify as tv
+from hypothesis import given, settings
+
+@settings(max_examples=1, database=None)
+@given(world=tv.strategies.worlds(min_edges=3, max_edges=3))
+def first(world: tv.World) -> None:
+    before = set(sys.modules)
+    tv.explore(world, "folding")
+    tv.assert_maps(lambda robot: tv.CATALOGUE["basic"](robot), world)
+    print(sorted(name for name in set(sys.modules) - before if "topo_verify" in name))
+
+first()
+"""
+    assert printed(code) == "[]"
 
 
 def test_registering_twice_does_no_harm() -> None:

@@ -210,7 +210,7 @@ def test_ids_work_up_to_200_edges_and_are_refused_beyond() -> None:
 
 
 def test_a_world_shows_itself_as_what_makes_it_or_by_its_size() -> None:
-    assert repr(shuffled(PATH, 3)) == "World.from_id('m2/0')"
+    assert repr(shuffled(PATH, 3)) == "tv.World.from_id('m2/0')"
     assert (
         repr(families.torus(15, 15)) == "<World 'torus(15,15)': 225 vertices, 450 edges, genus 1>"
     )

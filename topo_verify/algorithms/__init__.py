@@ -21,7 +21,7 @@ if __name__ != "topo_verify.algorithms":
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 from topo_verify.algorithms import policies as choices
 from topo_verify.algorithms.basic import NoRule
@@ -41,7 +41,7 @@ REFERENCE = Policies("nearest", "shortest")
 """The policies that define the reference costs."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Algorithm:
     """A mapper of the catalogue: called with a robot, it returns its map and its cost.
 
@@ -63,6 +63,7 @@ class Algorithm:
         """Explore the robot's world. Deterministic: the same world gives the same run."""
         return explore(
             robot,
+            # A rule remembers its run, so each run gets one of its own.
             rule=self.rule(),
             motion=self.motion,
             pick=choices.pick_policy(self.policies.pick),
@@ -78,6 +79,18 @@ class Algorithm:
         ours = self.policies
         theirs = Policies(pick or ours.pick, order or ours.order)
         return replace(self, policies=choices.check(theirs))
+
+    def __repr__(self) -> str:
+        """As code below `import topo_verify as tv`; of an algorithm of one's own only the name."""
+        if replace(self, policies=REFERENCE) != CATALOGUE.get(self.name):
+            return f"<Algorithm {self.name!r}>"
+        chosen = (("pick", self.policies.pick), ("order", self.policies.order))
+        others = [f"{k}={v!r}" for k, v in chosen if v != getattr(REFERENCE, k)]
+        made = f".with_policies({', '.join(others)})" if others else ""
+        return f"tv.CATALOGUE[{self.name!r}]{made}"
+
+    def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
+        printer.text(repr(self))
 
 
 def _one_level() -> Rule:

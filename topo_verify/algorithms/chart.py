@@ -78,6 +78,7 @@ class Chart:
 
     def join(self, e: MapDart, other: MapDart) -> None:
         """Put on record that the two darts are the two ends of one edge."""
+        # The loop has taken e out of U already, when it chose it.
         self.alpha[e], self.alpha[other] = other, e
         self.unexplored.pop(e, None)
         self.unexplored.pop(other, None)
@@ -114,6 +115,7 @@ class Chart:
             for dart in self.darts(v):
                 other = self.alpha[dart]
                 if other is not None and self.vertex[other] not in seen:
+                    # `other` is the dart at the far end, so it is the one that leads back.
                     seen.add(self.vertex[other])
                     queue.append((self.vertex[other], distance + 1, other))
 
@@ -123,6 +125,7 @@ class Chart:
         parent: list[MapDart | None] = [None] * len(self.first)
         for v, distance, back in self.outward(root):
             depth[v], parent[v] = distance, back
+            # All vertices on its way to the root were reached before it.
             if v == until:
                 break
         return Tree(depth, parent)

@@ -29,6 +29,7 @@ class PrefixRule(NoRule):
             return None
         last = sequences[-1]  # the earlier ones were compared when they were the last
         shared = common_prefix(hypothesis.doors, last.doors)  # A2.17
+        # At step 0, vu itself, all hypotheses expect the same: vu is not v0 if doors were executed.
         for step in range(1, shared + 1):
             if last.percepts[step] != hypothesis.expected[step]:  # A2.18
                 evidence = Evidence(

@@ -35,6 +35,7 @@ class HistoryRule(NoRule):
         at = hypothesis.dart  # A3.10
         for step, door in enumerate(last.doors, 1):
             exit_dart = chart.turn(at, door)
+            # None also for e and h, which are joined only when h is confirmed.
             arrival = chart.alpha[exit_dart]
             if arrival is None:
                 return self.beyond(exit_dart, last, step, number)  # A3.13

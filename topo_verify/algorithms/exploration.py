@@ -94,6 +94,7 @@ def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Orde
         sequences: list[Executed] = []
         h = validate(pilot, chart, e, remaining, sequences, rule=rule, motion=motion)
         if h is not None:  # A1.16 A2.24 A3.25
+            # Declared where the robot stands: only `localise` walks it back, if at all.
             chart.join(e, h.dart)  # loop augmentation: A1.17 A2.25 A3.26
             robot.declare(Augment(e, "loop", h.dart, percept.degree))
             entry = h.dart
@@ -112,6 +113,7 @@ def hypotheses(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]
     alike = [h for h in chart.unexplored if chart.percepts[h].signature == percept.signature]
     if not alike:
         return []
+    # One tree serves all hypotheses, because S does not change while e is validated.
     tree = chart.tree(0)
     return [Hypothesis(h, chart, tree) for h in order(alike, chart, tree)]
 
@@ -131,6 +133,7 @@ def validate(
     Appends to `sequences` each sequence that was executed and ended in a mismatch.
     """
     declare = pilot.robot.declare
+    # Before any motion: with no sequence yet, only `folding` and `planar` can reject.
     remaining = sift(pilot, chart, e, remaining, sequences, rule=rule)
     while remaining:  # A1.7 A2.10 A2.20 A2.21 A3.8
         concluded = rule.conclude(remaining)
@@ -183,6 +186,7 @@ def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
     if shared < len(h.doors):  # else its whole way is executed already: no motion
         pilot.back(shared)  # A1.15 A2.23 A3.24
     for step, expected in enumerate(h.expected):  # A1.9 A1.10 A2.8 A2.9 A3.18 A3.19
+        # What is shared is not walked again, but compared it is: the robot has seen those percepts.
         if step > len(pilot.doors):
             pilot.forward(h.doors[step - 1])
         if pilot.percepts[step] != expected:  # A1.11 A2.11 A3.20
@@ -198,6 +202,7 @@ def localise(pilot: Pilot, chart: Chart, entry: MapDart) -> MapDart:
     """
     marker = pilot.robot.percept.marker
     if marker is not None:
+        # The marker points at dart 0, `marker` doors clockwise from the reference dart.
         return chart.turn(0, -marker)
     pilot.back(0)
     return chart.turn(entry, pilot.turned)

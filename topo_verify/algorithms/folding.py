@@ -189,7 +189,6 @@ class FoldingRule(NoRule):
     def __init__(self) -> None:
         self.fold = PartialFold()
         self.entries: list[NodeDart] = []  # of each vertex of S: its first dart
-        self.percept = Percept(0, None)  # vu's
         self.e: NodeDart = (0, 0)
         self.vu: NodeDart = (0, 0)
         self.assumed: dict[MapDart, PartialFold] = {}  # of each hypothesis kept: its layer
@@ -204,7 +203,6 @@ class FoldingRule(NoRule):
         """Take note of vu, which is a place seen before, or a new ghost."""
         if not self.entries:
             self.entries.append((self.fold.add(chart.percepts[0], known=True), 0))
-        self.percept = percept
         self.e = self.node_dart(chart, e)
         self.vu = self._cross(self.e, percept)
         self.assumed.clear()
@@ -239,8 +237,7 @@ class FoldingRule(NoRule):
         if not wrong:
             self.assumed[hypothesis.dart] = layer
             return None
-        percept = chart.percepts[hypothesis.dart]
-        return Refutation("folding", Evidence(0, percept, self.percept, contradiction=wrong))
+        return Refutation("folding", Evidence(0, contradiction=wrong))
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The last hypothesis, once vu is known to be a vertex of S."""

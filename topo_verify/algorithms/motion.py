@@ -42,12 +42,14 @@ class Hypothesis:
     """
 
     def __init__(self, dart: MapDart, chart: Chart, tree: Tree) -> None:
+        # What is computed later speaks of the same S: a hypothesis is dropped before S grows.
         self.dart, self._chart, self._tree = dart, chart, tree
 
     @cached_property
     def arrivals(self) -> tuple[MapDart, ...]:
         """The reference darts on the way: h itself, then the dart of arrival behind each door."""
         chart, row = self._chart, [self.dart]
+        # `up` leaves the vertex towards v0; the robot arrives by the other end of its edge.
         while (up := self._tree.parent[chart.vertex[row[-1]]]) is not None:
             row.append(chart.across(up))
         return tuple(row)
@@ -56,6 +58,7 @@ class Hypothesis:
     def doors(self) -> tuple[Door, ...]:
         """The motion sequence to v0, relative to the entry dart h. Empty if h is v0's."""
         chart, row = self._chart, self.arrivals
+        # b is where it arrives, so across(b) is the dart by which it left the vertex of a.
         return tuple(chart.door(a, chart.across(b)) for a, b in pairwise(row))
 
     @cached_property
@@ -80,6 +83,7 @@ class Pilot:
 
     def walk(self, chart: Chart, at: MapDart, v: int) -> MapDart:
         """Walk on S to v along the tree rooted there. Returns the reference dart at the end."""
+        # Rooted at the end of the walk, so that each vertex on it has its dart towards the end.
         towards = chart.tree(v, until=chart.vertex[at]).parent
         while (exit_dart := towards[chart.vertex[at]]) is not None:
             self._move(chart.door(at, exit_dart), "walk")
@@ -105,6 +109,7 @@ class Pilot:
         while len(self.doors) > steps:
             # The dart of entry leads back; the reference dart is turned away from it by `turned`.
             self._move(-self.turned % self.robot.percept.degree, "retrace")
+            # It arrives by the dart that this door left by: so far is it turned from the entry.
             self.turned = self.doors.pop()
             self.percepts.pop()
 
@@ -137,6 +142,7 @@ def overlap(hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
     doors = () if last is None else last.doors
     shared = [common_prefix(h.doors, doors) for h in hypotheses]
     longest = max(shared)
+    # `index` finds the first of those that tie: the order policy decides.
     return Choice(hypotheses[shared.index(longest)], longest)  # A2.7 A2.22
 
 

@@ -6,7 +6,7 @@ dart counts as a dead end when the face is walked. The rule is sound in every pl
 other worlds it rejects true hypotheses, and the checkers must find that. It may stand before any
 other rule.
 
-Source: docs/semantics.md, section 11.
+Source: docs/semantics.md, section 8.
 """
 
 from __future__ import annotations
@@ -25,12 +25,10 @@ class PlanarRule:
 
     def __init__(self, rule: Rule) -> None:
         self.rule = rule
-        self.percept = Percept(0, None)  # vu's
         self.face: frozenset[MapDart] = frozenset()
 
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         """Find the darts on the face of e."""
-        self.percept = percept
         self.face = frozenset(face(chart, e))
         self.rule.arrive(chart, e, percept)
 
@@ -44,8 +42,8 @@ class PlanarRule:
         """Why the hypothesis is false in every planar world, if it is."""
         if hypothesis.dart in self.face:
             return self.rule.refute(chart, hypothesis, sequences)
-        seen, message = chart.percepts[hypothesis.dart], "it lies on another face than e"
-        return Refutation("planar", Evidence(0, seen, self.percept, contradiction=message))
+        message = "it lies on another face than e"
+        return Refutation("planar", Evidence(0, contradiction=message))
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The conclusion of the other rule."""
@@ -63,6 +61,7 @@ def face(chart: Chart, e: MapDart) -> list[MapDart]:
     darts = [e]
     while True:
         across = chart.alpha[darts[-1]]  # None: an unexplored dart is a dead end, so turn back
+        # The next dart of the face is sigma∘alpha, where alpha of an open dart is the dart itself.
         following = chart.turn(darts[-1] if across is None else across, 1)
         if following == e:
             return darts

@@ -9,13 +9,14 @@ darts.py            the two kinds of darts; findings.py: the result of a check
 certificate.py      a log judged by itself, without a world
 """
 
-from topo_verify.checkers.claims import CLAIMS, check
+from topo_verify.checkers.claims import CLAIMS, LARGE, check
 from topo_verify.checkers.entailment import decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.folding import Contradiction, Fold
 
 __all__ = [
     "CLAIMS",
+    "LARGE",
     "Contradiction",
     "Finding",
     "Fold",

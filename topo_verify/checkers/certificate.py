@@ -138,9 +138,11 @@ def _folded(trace: Sequence[Event]) -> tuple[Fold, list[int], tuple[int, str] | 
 def _judged(trace: Sequence[Event]) -> tuple[int, Sequence[Finding]]:
     """How many of the declared decisions follow, and a finding for each that does not."""
     entailed, doubts = 0, list[Finding]()
-    for when, why, witness in decision_conclusions(trace):
+    for conclusion in decision_conclusions(trace):
+        when, why, witness = conclusion[:3]
         if not why:
             entailed += 1
+        if not why or conclusion.undecided:
             continue
         message = f"the decision does not follow: {why}"
         text = None if witness is None else witness.text
@@ -152,7 +154,7 @@ def _unproved(trace: Sequence[Event]) -> tuple[Finding, ...]:
     """What is wrong with the map that an incomplete log delivers, if it delivers one."""
     if not isinstance(trace[-1], Finish):
         return ()
-    when, why, witness = map_conclusion(trace)
+    when, why, witness = map_conclusion(trace)[:3]
     message = f"the history proves no such map: {why}"
     text = None if witness is None else witness.text
     return (Finding("map-entailed", when, "a map that is proved", why, message, text),)

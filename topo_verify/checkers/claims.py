@@ -9,41 +9,29 @@ guesses and is lucky passes them. Claims 9 and 10 ask about every world with the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
+import msgspec
+
+from topo_verify.checkers.coverage import coverage
 from topo_verify.checkers.darts import KnownDart
-from topo_verify.checkers.entailment import delivered_code, map_conclusion
+from topo_verify.checkers.entailment import Conclusion, delivered_code, map_conclusion
 from topo_verify.checkers.excursions import Word
-from topo_verify.checkers.findings import Finding, Judgement
+from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
 from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.world.rooted_map import World
 
+Wrong = partial(Finding, "")
+"""Something that is wrong, as a claim yields it; `check` adds the name of the claim."""
 
-class Wrong(NamedTuple):
-    """Something that is wrong with a run.
+Claim = Callable[[ReplayedTrace], Iterator[Finding]]
 
-    Attributes:
-        when: the event, or None if it is about the run as a whole.
-        expected, seen: what should be there, what is.
-        message: one sentence.
-        witness: a world with the same history in which the mapper is wrong, if there is one.
-    """
-
-    when: int | None
-    expected: Any
-    seen: Any
-    message: str
-    witness: World | None = None
-
-
-Claim = Callable[[ReplayedTrace], Iterator[Wrong]]
-
-LARGE = 100
-"""Beyond this many edges claim 10 is asked only with `strict`: it folds anew at each decision."""
+LARGE = 2000
+"""Beyond this many edges claim 10 is asked only with `strict`: it takes longer than the run."""
 
 
 def check(
@@ -53,40 +41,39 @@ def check(
 
     Args:
         stopped: why the mapper ended without a map, if it did.
-        strict: ask claim 10 also in worlds with more than 100 edges.
+        strict: ask claim 10 also in worlds with more than 2,000 edges.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`.
     """
     run = ReplayedTrace(world, trace, stopped)
-    declared = {type(event) for event in trace}
-    judgements: list[Judgement] = []
-    for name, (claim, speaks_of) in CLAIMS.items():
-        if speaks_of and world.alpha and not declared.intersection(speaks_of):
-            judgements.append(Judgement(name, "not-declared"))
-        elif claim is decisions_entailed and len(world.edges) > LARGE and not strict:
-            judgements.append(Judgement(name, "not-asked"))
-        elif claim in (map_entailed, decisions_entailed) and not run.is_history:
-            # It is not folded: a percept that is not true may claim any number of doors.
-            message = "the percepts are not true and prove nothing"
-            judgements.append(_judgement(name, [Wrong(None, "true percepts", None, message)]))
-        else:
-            judgements.append(_judgement(name, claim(run)))
-    return judgements
+    shares = coverage(run)
+    return [_judgement(run, name, *shares[name], strict=strict) for name in CLAIMS]
 
 
-def _judgement(claim: str, wrong: Iterable[Wrong]) -> Judgement:
-    """The judgement of a claim, with a finding for each thing that is wrong."""
-    findings = tuple(
-        Finding(claim, when, expected, seen, message, None if witness is None else witness.text)
-        for when, expected, seen, message, witness in wrong
-    )
-    return Judgement(claim, "failed" if findings else "ok", findings)
+def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: bool) -> Judgement:
+    """The judgement of one claim."""
+    claim, speaks_of = CLAIMS[name]
+    if speaks_of and run.world.alpha and not {*speaks_of}.intersection(map(type, run.trace)):
+        return Judgement(name, "not-declared", 0, of)
+    if claim is decisions_entailed and len(run.world.edges) > LARGE and not strict:
+        return Judgement(name, "not-asked", 0, of)
+    if findings := tuple(msgspec.structs.replace(wrong, claim=name) for wrong in claim(run)):
+        return Judgement(name, "failed", judged, of, findings)
+    if claim is decisions_entailed and (left := _undecided(run)):
+        return Judgement(name, "undecided", judged - left, of)
+    status: Status = "ok" if judged == of else "partial" if judged else "not-declared"
+    return Judgement(name, status, judged, of)
+
+
+def _undecided(run: ReplayedTrace) -> int:
+    """The number of decisions that claim 10 leaves undecided."""
+    return sum(conclusion.undecided for conclusion in run.conclusions.values())
 
 
 # ---------------------------------------------------------------- the claims
 
 
-def percepts_true(run: ReplayedTrace) -> Iterator[Wrong]:
+def percepts_true(run: ReplayedTrace) -> Iterator[Finding]:
     """1. Every percept in the trace is what the world shows after these doors."""
     for when, seen in run.false_percepts:
         event = run.trace[when]
@@ -100,7 +87,7 @@ def percepts_true(run: ReplayedTrace) -> Iterator[Wrong]:
         yield Wrong(run.illegal, f"a door below {degree}", move.door, message)
 
 
-def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Wrong]:
+def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Finding]:
     """2. If e leads to a known vertex, its dart is in H; H is posed behind e, before S grows."""
     for when, event, pose, _, _ in run.rounds:
         if isinstance(event, ev.Pose):
@@ -110,7 +97,7 @@ def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Wrong]:
             yield Wrong(when, event.edge, None, message)
 
 
-def _wrongly_posed(run: ReplayedTrace, when: int, pose: ev.Pose) -> Iterator[Wrong]:
+def _wrongly_posed(run: ReplayedTrace, when: int, pose: ev.Pose) -> Iterator[Finding]:
     """What is wrong with one set of hypotheses."""
     edge, hypotheses = pose.edge, pose.hypotheses
     if not run.map.is_open(edge, when) or not all(run.map.is_open(h, when) for h in hypotheses):
@@ -123,22 +110,24 @@ def _wrongly_posed(run: ReplayedTrace, when: int, pose: ev.Pose) -> Iterator[Wro
         yield Wrong(when, truth, hypotheses, message)
 
 
-def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Wrong]:
-    """3. No rule and no motion rejects the true hypothesis; it is not dropped in silence either."""
+def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
+    """3. No rule and no motion rejects the true hypothesis, and none is dropped in silence."""
     for when, event, _, _, _ in run.rounds:
         truth = run.map.truth(event.edge, when)
-        match event:
-            case ev.Reject(edge, hypothesis, rule) if truth == hypothesis:
-                message = f"edge {edge} does lead to dart {truth}, which rule {rule!r} rejects"
-                yield Wrong(when, "kept", "rejected", message)
-            case ev.Augment(edge, "new") if truth is not None:
-                message = f"edge {edge} leads to dart {truth}, but S grows by a new vertex"
-                yield Wrong(when, truth, "new", message)
-            case _:
-                pass
+        if isinstance(event, ev.Reject) and truth == event.hypothesis:
+            does = f"edge {event.edge} does lead to dart {truth}"
+            message = f"{does}, which rule {event.rule!r} rejects"
+            yield Wrong(when, "kept", "rejected", message)
+        elif isinstance(event, ev.Augment) and event.kind == "new" and truth is not None:
+            message = f"edge {event.edge} leads to dart {truth}, but S grows by a new vertex"
+            yield Wrong(when, truth, "new", message)
+    for when, event, left in run.fates.values():
+        if isinstance(event, ev.Augment) and left:
+            message = f"S grows by a new vertex behind edge {event.edge}, but hypotheses are left"
+            yield Wrong(when, "each rejected", sorted(left), message)
 
 
-def no_false_confirm(run: ReplayedTrace) -> Iterator[Wrong]:
+def no_false_confirm(run: ReplayedTrace) -> Iterator[Finding]:
     """4. A confirmed hypothesis is the true one."""
     for when, event, _, _, _ in run.rounds:
         if isinstance(event, ev.Confirm) and event.hypothesis != run.map.truth(event.edge, when):
@@ -147,7 +136,7 @@ def no_false_confirm(run: ReplayedTrace) -> Iterator[Wrong]:
             yield Wrong(when, leads, hypothesis, message)
 
 
-def map_isomorphic(run: ReplayedTrace) -> Iterator[Wrong]:
+def map_isomorphic(run: ReplayedTrace) -> Iterator[Finding]:
     """5. The map at the end is the world, and every declared S on the way is a part of it."""
     if run.spoiled is not None:
         event = run.trace[run.spoiled]
@@ -164,7 +153,7 @@ def map_isomorphic(run: ReplayedTrace) -> Iterator[Wrong]:
         yield Wrong(None, "a map", None, f"no map was delivered: {why}")
 
 
-def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Wrong]:
+def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
     """What is wrong with the map that is delivered, and with the moment when it is."""
     last, left = len(run.trace) - 1, len(run.map.phi) - len(run.map.joined)
     if run.spoiled is run.illegal is None and run.map.joined and left:
@@ -181,7 +170,7 @@ def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Wrong]:
         yield Wrong(last, ours, theirs, message)
 
 
-def cost_honest(run: ReplayedTrace) -> Iterator[Wrong]:
+def cost_honest(run: ReplayedTrace) -> Iterator[Finding]:
     """6. The reported cost, if one is reported, is the number of moves."""
     finish = run.trace[-1]
     if isinstance(finish, ev.Finish) and finish.cost not in (None, run.cost):
@@ -189,7 +178,7 @@ def cost_honest(run: ReplayedTrace) -> Iterator[Wrong]:
         yield Wrong(len(run.trace) - 1, run.cost, finish.cost, message)
 
 
-def cost_within_bound(run: ReplayedTrace) -> Iterator[Wrong]:
+def cost_within_bound(run: ReplayedTrace) -> Iterator[Finding]:
     """7. m <= cost <= m·(n + (2m-1)·2(n-1)); the lower half only where a map was delivered."""
     bound, m = run.world.cost_bound, len(run.world.edges)
     least = m if isinstance(run.trace[-1], ev.Finish) else 0
@@ -199,13 +188,13 @@ def cost_within_bound(run: ReplayedTrace) -> Iterator[Wrong]:
         yield Wrong(None, f"{m} … {bound}", run.cost, message)
 
 
-def rejection_justified(run: ReplayedTrace) -> Iterator[Wrong]:
+def rejection_justified(run: ReplayedTrace) -> Iterator[Finding]:
     """8. The evidence that a rejection cites really disagrees, recomputed.
 
     What was observed is taken from the moves, what was expected from S; behind an unexplored dart,
     from the sequences executed for earlier edges, traced from where they are known to have begun.
-    Rule `folding` cites no percepts: the history must contradict the hypothesis. Rule `planar`
-    cites S: the hypothesis must lie on another face than e.
+    Rules `folding` and `planar` cite a contradiction, which must follow from the history; percepts
+    at the two ends may stand beside it.
     """
     for decision in run.rounds:
         event = decision.event
@@ -215,20 +204,30 @@ def rejection_justified(run: ReplayedTrace) -> Iterator[Wrong]:
             yield Wrong(decision.when, "evidence that disagrees", event.evidence, message)
 
 
-def map_entailed(run: ReplayedTrace) -> Iterator[Wrong]:
+UNTRUE = Wrong(None, "true percepts", None, "the percepts are not true and prove nothing")
+"""Such a history is not folded: a percept that is not true may claim any number of doors."""
+
+
+def map_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """9. The history alone proves the map: no other world fits it."""
-    when, why, witness = map_conclusion(run.trace)
-    if why:
-        message = f"the history proves no such map: {why}"
-        yield Wrong(when, "a map that is proved", why, message, witness)
+    if not run.is_history:
+        yield UNTRUE
+    elif (conclusion := map_conclusion(run.trace)).why:
+        yield _unproved("a map that is proved", "the history proves no such map", conclusion)
 
 
-def decisions_entailed(run: ReplayedTrace) -> Iterator[Wrong]:
+def decisions_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """10. The history at that moment alone proves each declared reject, confirm, augmentation."""
-    for when, why, witness in run.conclusions.values():
-        if why:
-            message = f"the decision does not follow: {why}"
-            yield Wrong(when, "a proved decision", why, message, witness)
+    if not run.is_history:
+        yield UNTRUE
+    for conclusion in run.conclusions.values():
+        if conclusion.why and not conclusion.undecided:
+            yield _unproved("a proved decision", "the decision does not follow", conclusion)
+
+
+def _unproved(expected: str, message: str, conclusion: Conclusion) -> Finding:
+    when, why, witness, _ = conclusion
+    return Wrong(when, expected, why, f"{message}: {why}", witness.text if witness else None)
 
 
 # ---------------------------------------------------------------- what justifies a rejection
@@ -242,18 +241,27 @@ def _unjustified(run: ReplayedTrace, decision: Round, event: ev.Reject) -> str:
         return "no such hypothesis was posed"
     if not run.map.is_open(e, when) or not run.map.is_open(h, when):
         return "the two are not unexplored darts of S"
-    if event.rule == "folding":
-        return _unproved(run, when)
-    if event.rule == "planar":
-        return "the two lie on one face of S" if h in run.map.face(e, when) else ""
+    if event.rule in ("folding", "planar"):
+        return _unmet(run, when, event.evidence, (e, h))
+    if event.evidence.contradiction is not None:
+        return f"rule {event.rule!r} rests on two percepts, and cites a contradiction"
     return _percepts_agree(run, decision, event, e, h)
 
 
-def _unproved(run: ReplayedTrace, when: int) -> str:
-    """Why the history up to an event does not contradict the hypothesis rejected there, or ""."""
-    # A history that the world does not show proves nothing, and is not even folded.
-    conclusion = run.conclusions.get(when) if run.is_history else None
-    return "S was not proved so far" if conclusion is None else conclusion.why
+def _unmet(
+    run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[KnownDart, KnownDart]
+) -> str:
+    """Why the contradiction that is cited does not follow, or what else is cited wrongly; or ""."""
+    at_ends = run.map.seen_at(run.map.phi[ends[1]]), run.map.seen_at(run.map.end(ends[0]))
+    for told, seen in zip((cited.expected, cited.observed), at_ends, strict=True):
+        if told not in (None, seen):
+            return f"what is seen there is {seen}, not {told}"
+    if cited.step or (cited.sequence, cited.at, cited.record) != (None, None, None):
+        return "it rests on no step of a sequence, and cites one"
+    conclusion = run.conclusions.get(when)
+    if conclusion is None:
+        return "S was not proved so far"
+    return "" if conclusion.met else f"it does not follow that {cited.contradiction!r}"
 
 
 def _percepts_agree(

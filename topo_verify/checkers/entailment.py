@@ -5,22 +5,26 @@ folded, and each conclusion must hold in EVERY world that shows this history; wh
 answer carries a **witness**: a world with the same history in which the conclusion is false. For a
 mapper that declares the planar prior (it rejects by rule `planar`), only planar witnesses count.
 
-What this does not show: under the planar prior the only witness that is tried is the fold itself,
-leaves hung. Where that is not planar, a planar world that folds it further may still exist, and the
-decision passes. Never the other way: what fails here is refuted by a world that is there to see.
+Under the planar prior, an edge between two faces of S is in no planar world. Otherwise a planar
+world is looked for among the foldings of the fold: two of its vertices are taken for one, then
+two more, and so on. Any planar world with this history folds onto such a one, so if none is planar
+the decision follows. `FURTHER` foldings are tried for one run; after that it is **undecided**.
+
+What this does not show: a confirmation or a loop that follows from the prior alone fails here.
 
 Source: docs/semantics.md, sections 9 and 11.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from contextlib import suppress
 from functools import lru_cache
+from itertools import islice
 from typing import NamedTuple, assert_never
 
 from topo_verify.checkers.darts import KnownDart
-from topo_verify.checkers.folding import Contradiction, Fold
+from topo_verify.checkers.folding import Contradiction, Fold, Place
 from topo_verify.checkers.map_on_fold import MapOnFold
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, MapData, Move, Reject, Start
@@ -29,11 +33,25 @@ from topo_verify.world.rooted_map import Code, World
 
 
 class Conclusion(NamedTuple):
-    """Why what was concluded at event `when` does not follow ("": it does), and a witness."""
+    """Why what was concluded at event `when` does not follow ("": it does), and a witness.
+
+    Attributes:
+        met: of a rejection by rule `folding` or `planar`: the contradiction that it cites follows.
+    """
 
     when: int
     why: str
     witness: World | None = None
+    met: bool = False
+
+    @property
+    def undecided(self) -> bool:
+        """Whether it may follow or not: the search for a witness was given up."""
+        return self.why == UNDECIDED[0]
+
+
+FURTHER = 300
+"""So many foldings are tried in one run, to find planar worlds that refute its decisions."""
 
 
 def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
@@ -95,6 +113,8 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
     fold = Fold(trace[0].percept)
     on_fold = MapOnFold(fold)
     planar = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
+    tries = iter(range(FURTHER)) if planar else None
+    refuted: set[tuple[int, int]] = set()  # for ever: S and the history only grow
     for when, event in enumerate(trace):
         if why := followed(fold, event):
             yield Conclusion(when, f"no world shows this history: {why}")
@@ -104,17 +124,35 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
         if why := _unknown_dart(on_fold, event):
             yield Conclusion(when, why)
             return
-        doubt = _doubt(on_fold, event, planar=planar)
-        why, witness = doubt or ("", None)
-        yield Conclusion(when, why, witness)
+        why, witness = doubt = _doubt(on_fold, event, refuted, tries)
+        yield Conclusion(when, why, witness, _is_met(on_fold, event))
         if isinstance(event, Augment):
-            if doubt is not None:  # from here on S is not proved
+            if why:  # from here on S is not proved
                 return
             on_fold.grow(event)
+        elif doubt == FOLLOWS:
+            refuted.add((event.edge, event.hypothesis))
 
 
-Doubt = tuple[str, World]
+Doubt = tuple[str, World | None]
 """Why a decision does not follow, and a world with the same history in which it is false."""
+
+FOLLOWS: Doubt = ("", None)
+"""There is no such world."""
+
+UNDECIDED: Doubt = ("no planar world was found in which it is false, nor that there is none", None)
+
+
+def _is_met(on_fold: MapOnFold, event: Event) -> bool:
+    """Whether the contradiction that a rejection cites follows from the history."""
+    if not isinstance(event, Reject) or event.rule not in ("folding", "planar"):
+        return False
+    e, h = KnownDart(event.edge), KnownDart(event.hypothesis)
+    if event.rule == "planar":
+        cited = event.evidence.contradiction == "it lies on another face than e"
+        return cited and h not in on_fold.face(e)
+    places = on_fold.place(e), on_fold.place(h)
+    return event.evidence.contradiction in on_fold.fold.contradictions(*places, on_fold.entries)
 
 
 def _unknown_dart(on_fold: MapOnFold, event: Reject | Confirm | Augment) -> str:
@@ -129,55 +167,75 @@ def _unknown_dart(on_fold: MapOnFold, event: Reject | Confirm | Augment) -> str:
     return f"{event.edge} or {other} is not an unexplored dart of S"
 
 
-def _doubt(on_fold: MapOnFold, event: Reject | Confirm | Augment, *, planar: bool) -> Doubt | None:
-    """Why a decision does not follow from the history, or None if it does.
+def _doubt(
+    on_fold: MapOnFold,
+    event: Reject | Confirm | Augment,
+    refuted: Container[tuple[int, int]],
+    tries: Iterator[int] | None,
+) -> Doubt:
+    """Why a decision does not follow from the history; `FOLLOWS` if it does.
 
-    Its darts are unexplored darts of S. `planar`: only a planar world counts as a witness.
+    Its darts are unexplored darts of S. `tries`: only a planar world counts as a witness.
     """
     e = KnownDart(event.edge)
     match event:
         case Reject(_, h):
-            return _may_lead_to(on_fold, e, [KnownDart(h)], planar=planar)
+            return _may_lead_to(on_fold, e, [KnownDart(h)], tries)
         case Confirm(_, h):
             return _may_be_apart(on_fold, e, KnownDart(h))
         case Augment(_, "new", _, degree):
-            return _may_be_known(on_fold, e, degree) or _may_lead_to(
-                on_fold, e, on_fold.others(e), planar=planar
-            )
+            ends = [h for h in on_fold.others(e) if (e, h) not in refuted]
+            return _may_be_known(on_fold, e, degree) or _may_lead_to(on_fold, e, ends, tries)
         case Augment(_, _, h, degree):
-            return _may_be_apart(on_fold, e, KnownDart(h)) or _has_another_degree(
-                on_fold, KnownDart(h), degree
-            )
+            return _may_be_apart(on_fold, e, KnownDart(h), degree)
         case _:
             assert_never(event)
 
 
 def _may_lead_to(
-    on_fold: MapOnFold, e: KnownDart, ends: Sequence[KnownDart], *, planar: bool
-) -> Doubt | None:
+    on_fold: MapOnFold, e: KnownDart, ends: Sequence[KnownDart], tries: Iterator[int] | None
+) -> Doubt:
     """Folding with e joined to each of these must contradict; else the fold shows an end of e."""
-    fold = on_fold.fold
-    for end in ends:
+    fold, doubt = on_fold.fold, FOLLOWS
+    face = ends if tries is None else on_fold.face(e)
+    for end in (end for end in ends if end in face):
         with suppress(Contradiction), fold.assuming(on_fold.place(e), on_fold.place(end)):
-            witness = fold.world()
-            if witness.is_planar or not planar:
+            if tries is None:
+                return "the edge may well lead there", fold.world()
+            witness = _planar_folding(fold, tuple(islice(fold.alike(), FURTHER + 1)), tries)
+            if witness is not None:
                 return "the edge may well lead there", witness
+            if next(tries, None) is None:
+                doubt = UNDECIDED
+    return doubt
+
+
+def _planar_folding(
+    fold: Fold, pairs: Sequence[tuple[Place, Place]], tries: Iterator[int]
+) -> World | None:
+    """The fold, or what it becomes if some of these pairs are each one dart, if it is planar."""
+    world = fold.world()
+    if world.is_planar:
+        return world
+    for number, pair in enumerate(pairs, 1):
+        if next(tries, None) is None:
+            break
+        with suppress(Contradiction), fold.assuming(*pair, same=True):
+            if found := _planar_folding(fold, pairs[number:], tries):
+                return found
     return None
 
 
-def _may_be_apart(on_fold: MapOnFold, e: KnownDart, h: KnownDart) -> Doubt | None:
-    """Folding must make e and h partners; else they belong to different edges of the fold."""
-    if on_fold.are_partners(e, h):
-        return None
-    return f"darts {e} and {h} may well belong to different edges", on_fold.fold.world()
-
-
-def _has_another_degree(on_fold: MapOnFold, h: KnownDart, degree: int) -> Doubt | None:
-    """The degree that is stated must be that of the vertex of h."""
-    node, _ = on_fold.place(h)
-    if on_fold.fold.degree(node) == degree:
-        return None
-    return "the vertex there has another degree", on_fold.fold.world()
+def _may_be_apart(
+    on_fold: MapOnFold, e: KnownDart, h: KnownDart, degree: int | None = None
+) -> Doubt:
+    """Folding must make e and h partners, at a vertex of this degree, if one is stated."""
+    fold = on_fold.fold
+    if not on_fold.are_partners(e, h):
+        return f"darts {e} and {h} may well belong to different edges", fold.world()
+    if degree not in (None, fold.degree(on_fold.place(h)[0])):
+        return "the vertex there has another degree", fold.world()
+    return FOLLOWS
 
 
 def _may_be_known(on_fold: MapOnFold, e: KnownDart, degree: int) -> Doubt | None:

@@ -10,9 +10,11 @@ Verdict = Literal["PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED"]
 """A conclusion about worlds of any size, about every world of a finite class, about some worlds,
 about none, or a counterexample (docs/semantics.md, section 16)."""
 
-Status = Literal["ok", "failed", "not-declared", "not-asked"]
-"""`not-declared`: the mapper declared no decision that the claim speaks of. `not-asked`: the world
-is too large for this claim unless `strict` is asked for. Neither is `ok`."""
+Status = Literal["ok", "failed", "partial", "not-declared", "not-asked", "undecided"]
+"""`ok`: all that there was to judge was judged, and nothing is wrong. `partial`: the mapper
+declared some of the decisions that the claim speaks of; `not-declared`: none. `not-asked`: the
+world is too large for this claim unless `strict` is asked for. `undecided`: a decision was neither
+proved nor refuted. Only `ok` says that the claim holds."""
 
 
 class Finding(msgspec.Struct, frozen=True):
@@ -39,8 +41,14 @@ class Finding(msgspec.Struct, frozen=True):
 
 
 class Judgement(msgspec.Struct, frozen=True):
-    """The status of one claim in one run, and its findings."""
+    """The status of one claim in one run, how much of the run it rests on, and its findings.
+
+    Attributes:
+        judged, of: how many things were judged, of how many (docs/semantics.md, section 9).
+    """
 
     claim: str
     status: Status
+    judged: int
+    of: int
     findings: tuple[Finding, ...] = ()

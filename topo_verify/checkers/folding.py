@@ -14,7 +14,8 @@ that shows this history; so the result maps into all of them, dart by dart.
   with this same history. Nothing is proved; these are its **witness worlds**.
 - A **contradiction** (two degrees at one place, the marker seen at one and not at the other, a
   vertex turned against itself, a dart its own partner, a door that is not there) says that no world
-  shows this history; and under an assumption, that it is false in every world that does.
+  shows this history; and under an assumption, that it is false in every world that does. The first
+  one refutes; `contradictions` folds on past it and lists every kind that is met.
 
 What this does not show: that the percepts are true (claim 1 does), or anything for a mapper that
 may assume more than "some connected embedded graph", as that it is planar.
@@ -25,8 +26,9 @@ Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite grap
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import combinations
 
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.world.rooted_map import World
@@ -53,6 +55,7 @@ class Fold:
         self._size: list[int] = []
         self._partner: list[dict[int, Place]] = []
         self._undo: list[tuple[int, int | None]] = []
+        self._met: set[str] | None = None  # the contradictions so far, while they are listed
         self.at: Place = (self._visit(percept), 0)
 
     def __len__(self) -> int:
@@ -77,7 +80,7 @@ class Fold:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
         known = self.partner((here, dart + door))
         if known is not None:
-            _require_alike(percept, self._seen[known[0]])
+            self._require_alike(self._seen[known[0]], percept)
         self.at = there, entry = known or (self._visit(percept), 0)
         if marker is not None:
             self._identify((there, entry + marker), (0, 0))
@@ -103,11 +106,24 @@ class Fold:
         for place, end in ((one, other), (other, one)):
             node, dart = self.find(place)
             if (node, dart) == self.find(end):
-                raise Contradiction("a dart would be its own partner")
-            if dart in self._partner[node]:
+                self._meet("a dart would be its own other end")
+            elif dart in self._partner[node]:
                 self._identify(self._partner[node][dart], end)
             else:
                 self._set(node, dart, end)
+
+    def _meet(self, contradiction: str) -> None:
+        if self._met is None:
+            raise Contradiction(contradiction)
+        self._met.add(contradiction.partition(":")[0])
+
+    def _require_alike(self, one: Percept, other: Percept) -> bool:
+        """Whether two percepts may be of one place; if not, that is a contradiction."""
+        if one.signature != other.signature:
+            clash = "two degrees, or the marker and its absence, at one place"
+            self._meet(f"{clash}: {other} and {one}")
+            return False
+        return True
 
     def _identify(self, one: Place, other: Place) -> None:
         """Make the two one dart, and draw what follows. Raises Contradiction."""
@@ -116,12 +132,13 @@ class Fold:
             (a, i), (b, j) = map(self.find, pairs.pop())
             if a == b:
                 if i != j:
-                    raise Contradiction("a vertex would be itself, turned")
+                    self._meet("a vertex would be itself, turned")
                 continue
             if self._size[a] > self._size[b]:
                 (a, i), (b, j) = (b, j), (a, i)
-            kept = self._seen[b]
-            _require_alike(self._seen[a], kept)
+            lost, kept = self._seen[a], self._seen[b]
+            if not self._require_alike(lost, kept):
+                continue
             # Paths are never shortened: to undo a union is to cut one link, and unions by size keep
             # the paths logarithmic.
             self._parent[a], self._offset[a] = b, j - i
@@ -130,8 +147,8 @@ class Fold:
             for dart, end in self._partner[a].items():
                 moved = (dart + j - i) % kept.degree
                 if self.find(end) == (b, moved):
-                    raise Contradiction("a dart would be its own partner")
-                if moved in self._partner[b]:
+                    self._meet("a dart would be its own other end")
+                elif moved in self._partner[b]:
                     pairs.append((self._partner[b][moved], end))
                 else:
                     self._set(b, moved, end)
@@ -141,14 +158,16 @@ class Fold:
         self._undo.append((node, dart))
 
     @contextmanager
-    def assuming(self, one: Place, other: Place) -> Generator[None]:
+    def assuming(self, one: Place, other: Place, *, same: bool = False) -> Generator[None]:
         """Inside the block the two are ends of one edge; after it the fold is as before.
 
+        Args:
+            same: they are one dart, instead.
         Raises Contradiction at the head of the block, if there is one; nothing remains of it.
         """
         mark = len(self._undo)
         try:
-            self.join(one, other)
+            (self._identify if same else self.join)(one, other)
             yield
         finally:
             while len(self._undo) > mark:
@@ -159,13 +178,20 @@ class Fold:
                     self._size[self._parent[node]] -= self._size[node]
                     self._parent[node], self._offset[node] = node, 0
 
-    def possible(self, one: Place, other: Place) -> bool:
-        """Whether some world with this history has the two as the ends of one edge."""
-        try:
-            with self.assuming(one, other):
-                return True
-        except Contradiction:
-            return False
+    def contradictions(self, one: Place, other: Place, apart: Sequence[Place] = ()) -> set[str]:
+        """The contradictions if the two are ends of one edge, and no two of `apart` one vertex."""
+        self._met = met = set[str]()
+        with self.assuming(one, other):
+            self._met = None
+            if len({self.find(place)[0] for place in apart}) < len(apart):
+                met.add("two vertices of S would be one")
+        return met
+
+    def alike(self) -> Iterator[tuple[Place, Place]]:
+        """The pairs of places that may be one dart: each two vertices once in every turn."""
+        for one, other in combinations(self._roots(), 2):
+            if self._seen[one].signature == self._seen[other].signature:
+                yield from (((one, 0), (other, door)) for door in range(self.degree(one)))
 
     def degree(self, node: int) -> int:
         """The degree of a node."""
@@ -212,11 +238,3 @@ class Fold:
             return World.from_rotations(vertices, edges, None)
         node, dart = self.find((0, 0))  # the robot starts at v0, its reference dart the marked one
         return World.from_rotations(vertices, edges, first[node] + dart)
-
-
-def _require_alike(one: Percept, other: Percept) -> None:
-    """Raise Contradiction unless two percepts may be of one place."""
-    if one.degree != other.degree:
-        raise Contradiction(f"degree {other.degree} and degree {one.degree} at one place")
-    if (one.marker is None) != (other.marker is None):
-        raise Contradiction("the marker seen and not seen at one place")

@@ -94,13 +94,3 @@ class MapInWorld:
         """The other end of the unexplored dart e of S, if its vertex is known at event `when`."""
         end = self.number.get(self.end(e)) if self.is_open(e, when) else None
         return end if end is not None and self.born[end] < when else None
-
-    def face(self, e: KnownDart, when: int) -> list[KnownDart]:
-        """The darts of S on the face of e; where a dart is open, the boundary turns back."""
-        face = [e]
-        while True:
-            last = face[-1]
-            across = last if self.is_open(last, when) else self.alpha[last]
-            face.append(self.turn(across, 1))
-            if face[-1] == e:
-                return face

@@ -10,6 +10,7 @@ turning; whether two places are one is for the fold to say.
     fold.partner(on_fold.place(e))      # the place at the other end, if e was crossed
     on_fold.is_known(node)              # is this node of the fold a vertex of S?
     on_fold.grow(augment)               # S has a vertex, or an explored edge, more
+    on_fold.face(e)                     # the darts of S on the face of e
 """
 
 from __future__ import annotations
@@ -27,13 +28,15 @@ class MapOnFold:
     Attributes:
         fold: the fold of the history so far; the caller lets it grow.
         size: the number of darts of S; the next new dart has this number.
+        entries: of each vertex of S, the place of its first dart.
     """
 
     def __init__(self, fold: Fold) -> None:
         self.fold = fold
         self.size = 0
-        self._entries: list[Place] = []  # of each vertex of S the place of its first dart
+        self.entries: list[Place] = []
         self._places: dict[KnownDart, Place] = {}
+        self._after: dict[KnownDart, KnownDart] = {}  # on the face; an open dart turns back
         self._open: set[KnownDart] = set()
         self._add_vertex((0, 0))
 
@@ -51,11 +54,18 @@ class MapOnFold:
 
     def is_known(self, node: int) -> bool:
         """Whether this node of the fold is a vertex of S."""
-        return any(self.fold.find(entry)[0] == node for entry in self._entries)
+        return any(self.fold.find(entry)[0] == node for entry in self.entries)
 
     def are_partners(self, e: KnownDart, h: KnownDart) -> bool:
         """Whether the history shows two darts of S to be the ends of one edge."""
         return self.fold.partner(self.place(e)) == self.fold.find(self.place(h))
+
+    def face(self, e: KnownDart) -> list[KnownDart]:
+        """The darts of S on the face of e; where a dart is open, the boundary turns back."""
+        face = [e]
+        while (dart := self._after[face[-1]]) != e:
+            face.append(dart)
+        return face
 
     def grow(self, event: Augment) -> None:
         """Let S grow by a right augmentation, whose edge was crossed."""
@@ -64,12 +74,16 @@ class MapOnFold:
             assert entry is not None, "an edge is crossed before S grows along it"
             self._add_vertex(entry)
         self._open -= {event.edge, event.dart}
+        after, e, other = self._after, KnownDart(event.edge), KnownDart(event.dart)
+        after[e], after[other] = after[other], after[e]  # each goes on beyond the other
 
     def _add_vertex(self, entry: Place) -> None:
         node, first = entry
-        self._entries.append(entry)
-        for door in range(self.fold.degree(node)):
-            dart = KnownDart(self.size)
+        self.entries.append(entry)
+        degree, size = self.fold.degree(node), self.size
+        for door in range(degree):
+            dart = KnownDart(size + door)
             self._places[dart] = node, first + door
+            self._after[dart] = KnownDart(size + (door + 1) % degree)
             self._open.add(dart)
-            self.size += 1
+        self.size += degree

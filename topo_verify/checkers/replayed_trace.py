@@ -32,6 +32,19 @@ class Round(NamedTuple):
     sequences: tuple[Word, ...]
 
 
+class Fate(NamedTuple):
+    """What became of an edge that was posed.
+
+    Attributes:
+        when, event: its last pose; or the augmentation, once S grew along it.
+        left: hypotheses neither rejected nor confirmed since they were posed; none after a loop.
+    """
+
+    when: int
+    event: ev.Pose | ev.Augment
+    left: frozenset[int]
+
+
 def require_order(trace: Sequence[ev.Event]) -> None:
     """Raise InputError unless the trace begins with its only `start` and ends with any `finish`."""
     for when, event in enumerate(trace or (None,)):
@@ -39,6 +52,11 @@ def require_order(trace: Sequence[ev.Event]) -> None:
         if isinstance(event, ev.Start) != (when == 0) or ends:
             rule = "a trace begins with its only 'start' and does not go on after 'finish'"
             raise InputError(f"event {when} of the trace is out of order: {rule}")
+
+
+def _is_of(pose: ev.Pose | None, event: ev.Augment) -> bool:
+    """Whether an augmentation is for the edge that was posed last."""
+    return pose is not None and pose.edge == event.edge
 
 
 class ReplayedTrace:
@@ -131,11 +149,46 @@ class ReplayedTrace:
 
     def _record(self, when: int, event: ev.Augment, pose: ev.Pose | None, seen: Excursion) -> None:
         """Keep what was seen behind an edge, now that it is known where that edge leads."""
-        if pose is not None and pose.edge == event.edge and when != self.spoiled:
+        if _is_of(pose, event) and when != self.spoiled:
             for sequence in seen.sequences:  # the augmentation is true, so S has its dart
                 self.records.add(when, KnownDart(event.dart), sequence)
 
     @cached_property
+    def crossings(self) -> frozenset[int]:
+        """The edges of the world that the robot crossed."""
+        ends = zip(self._followed, self.positions, strict=True)
+        return frozenset(self.crossing(at) for event, at in ends if isinstance(event, ev.Move))
+
+    def crossing(self, dart: WorldDart) -> int:
+        """The edge of the world that has this dart, by the lesser of its two."""
+        return min(dart, self.world.alpha[dart])
+
+    @cached_property
+    def fates(self) -> dict[int, Fate]:
+        """What became of each edge of the world that was posed, in the order of the poses."""
+        fates: dict[int, Fate] = {}
+        for when, event, pose, _, _ in self.rounds:
+            if not self.map.is_open(event.edge, when):
+                continue
+            edge = self.crossing(self.map.end(event.edge))
+            left = fates[edge].left if edge in fates else frozenset[int]()
+            match event:
+                case ev.Pose(_, hypotheses):
+                    fates[edge] = Fate(when, event, left.union(hypotheses))
+                case ev.Augment(_, kind) if _is_of(pose, event) and when != self.spoiled:
+                    open_ones = (h for h in left if kind == "new" and self.map.is_open(h, when))
+                    fates[edge] = Fate(when, event, frozenset(open_ones))
+                case ev.Reject(_, h) | ev.Confirm(_, h) if edge in fates:
+                    fates[edge] = fates[edge]._replace(left=left - {h})
+                case _:
+                    pass
+        return fates
+
+    @cached_property
     def conclusions(self) -> dict[int, Conclusion]:
-        """By event, whether each declared reject, confirm and augmentation follows; in order."""
-        return {conclusion.when: conclusion for conclusion in decision_conclusions(self.trace)}
+        """By event, whether each declared reject, confirm and augmentation follows; in order.
+
+        Of a history that the world does not show, none: it proves nothing.
+        """
+        found = decision_conclusions(self.trace) if self.is_history else ()
+        return {conclusion.when: conclusion for conclusion in found}

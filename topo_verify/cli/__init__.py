@@ -15,19 +15,18 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import threading
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
 import click
 from click.shell_completion import shell_complete
 
-from topo_verify.cli import options, output
+from topo_verify.cli import options
 from topo_verify.cli.certify import certify
 from topo_verify.cli.compare import compare
 from topo_verify.cli.conform import conform
 from topo_verify.cli.explore import explore
-from topo_verify.cli.failures import ExitCode, explain, say, version
+from topo_verify.cli.failures import ExitCode, explain, say, silence, version
 from topo_verify.cli.faults import faults
 from topo_verify.cli.prove import prove
 from topo_verify.cli.record import record
@@ -35,6 +34,7 @@ from topo_verify.cli.replay import replay
 from topo_verify.cli.search import search
 from topo_verify.cli.verify import verify
 from topo_verify.cli.world import world
+from topo_verify.programs.isolation import own_arguments
 
 __all__ = ["main"]
 
@@ -53,15 +53,23 @@ class CommandLine(click.Group):
         """The names of the commands, in the order in which they were added."""
         return list(self.commands)
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that is called; a TARGET in its place is told `verify`."""
+        if args[0] not in self.commands and (":" in args[0] or args[0].endswith(".py")):
+            ctx.fail(f"no such command {args[0]!r}, did you mean verify {args[0]}")
+        return super().resolve_command(ctx, args)
+
     def main(  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]  it always exits
         self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any
     ) -> NoReturn:
         """Run the command line, by default the program's own, and exit."""
         name = prog_name or "topo-verify"
-        # As Ctrl-C: the command says where it stopped, and keeps what is done. A command may run
-        # in another thread than the main one, as in tests, which cannot set a handler.
-        if threading.current_thread() is threading.main_thread():
-            signal.signal(signal.SIGTERM, _interrupt)
+        if args is None:
+            own_arguments()  # hidden before a mapper in another process can read them
+            # As Ctrl-C: what is done is kept and printed, and the exit code is 3.
+            signal.signal(signal.SIGTERM, signal.default_int_handler)
         if instruction := os.environ.get(_COMPLETE):
             sys.exit(shell_complete(self, extra, name, _COMPLETE, instruction))
         sys.exit(self._code(list(sys.argv[1:] if args is None else args), name, extra))
@@ -77,7 +85,7 @@ class CommandLine(click.Group):
             say("topo-verify: interrupted before the first result")
             code = ExitCode.INCOMPLETE
         except BrokenPipeError:  # --help was cut off; `Output` does the same for results
-            output.silence(sys.stdout)
+            silence(sys.stdout)
             code = ExitCode.NOTHING_FOUND
         except Exception as error:  # noqa: BLE001  `explain` reports every exception
             code = explain(error, arguments)
@@ -90,22 +98,18 @@ def _flushed(code: int) -> int:
         if sys.stdout is not None:  # pyright: ignore[reportUnnecessaryComparison]  after >&-
             sys.stdout.flush()
     except BrokenPipeError:
-        output.silence(sys.stdout)
+        silence(sys.stdout)
     except OSError as error:
-        output.silence(sys.stdout)
+        silence(sys.stdout)
         say(f"topo-verify: cannot write to standard output: {error.strerror}")
         return ExitCode.BAD_INPUT
     return code
 
 
-def _interrupt(_signal: int, _frame: object) -> NoReturn:
-    """Let SIGTERM end a command as Ctrl-C does."""
-    raise KeyboardInterrupt
-
-
 @click.group(
     "topo-verify",
     cls=CommandLine,
+    context_settings={"help_option_names": ["-h", "--help"]},
     epilog=options.epilog("verify", "verify my_mapper.py:explore", "explore nyc"),
 )
 @click.version_option(version(), message="%(prog)s %(version)s")

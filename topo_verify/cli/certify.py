@@ -24,6 +24,7 @@ from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.open_doors import OpenDoor, open_doors
 from topo_verify.robot.events import Trace, read_events
+from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
@@ -128,7 +129,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
 @click.option("--kernel", "proving", is_flag=True, help="Write a certificate for Coq and check it.")
 @click.option(
     "--timeout",
-    type=click.IntRange(1, options.MOST_SECONDS),
+    type=click.IntRange(1, MOST_SECONDS),
     default=600,
     show_default=True,
     metavar="SECONDS",

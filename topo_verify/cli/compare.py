@@ -118,7 +118,9 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
     help="How much dearer each world may be; a larger increase is a regression.",
 )
 @output_options
-def compare(output: Output, *, baseline: str, mapper: MapperOpener, tolerance: str) -> int:
+def compare(
+    output: Output, *, baseline: str, mapper: MapperOpener, in_process: bool, tolerance: str
+) -> int:
     """Run a mapper in the worlds of a BASELINE, under its limits, and show what has changed.
 
     Exit 1: in some world a claim fails, or the cost exceeds the tolerance. An algorithm of the
@@ -139,7 +141,7 @@ def compare(output: Output, *, baseline: str, mapper: MapperOpener, tolerance: s
         regressed = found.kinds["wrong"] > 0 or found.beyond > 0
         yield Result(entry, failed=regressed, incomplete=entry.undecided > 0)
 
-    return output.run("compare", compared, _show)
+    return output.run("compare", compared, _show, in_process=in_process)
 
 
 def _entry(
@@ -149,6 +151,7 @@ def _entry(
     return CompareEntry(
         target=target.text,
         worlds=sum(kinds.values()),
+        # Each kind is a field of the entry under its own name.
         **kinds,
         tolerance=tolerance,
         beyond=found.beyond,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+import secrets
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import click
@@ -11,13 +13,14 @@ from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import undeclared
+from topo_verify.cli.runs import unjudged
 from topo_verify.harness.conform.conform import ConformTally, LevelResult
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
 from topo_verify.harness.corpus import Corpus, corpus_from
 from topo_verify.harness.pool import processors
 from topo_verify.harness.targets import target_arguments, target_text, targets
+from topo_verify.programs.program import PREFIX
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -33,6 +36,17 @@ class _ConformOptions:
     corpus: Corpus
     workers: int
     batch: bool
+    order_seed: int
+
+
+def _seeds(_context: click.Context, _option: click.Parameter, value: str | None) -> tuple[int, int]:
+    """The seeds of the generated worlds and of the order."""
+    if value is None:
+        return 0, secrets.randbelow(2**32)
+    found = re.fullmatch(r"([0-9]{1,18})(?::([0-9]{1,18}))?", value)
+    if found is None:
+        raise click.BadParameter(f"expected N or N:ORDER, two numbers from 0, got {value!r}")
+    return int(found[1]), int(found[2] or found[1])
 
 
 @click.command(
@@ -44,8 +58,9 @@ class _ConformOptions:
         "conform --cmd ./simulator --batch --worlds generated:10000",
     ),
 )
-@click.argument("target", required=False, metavar="[TARGET]")
+@options.target
 @options.program
+@options.in_process
 @click.option(
     "--worlds",
     "texts",
@@ -66,14 +81,15 @@ class _ConformOptions:
     help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
 @click.option("--validate", is_flag=True, help="Refuse fields that no schema lists.")
+@options.strict
 @click.option("--transcript", metavar="DIR", help="Write the messages of failing worlds to DIR.")
 @click.option(
     "--seed",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    metavar="N",
-    help="Seed of the generated worlds.",
+    "seeds",
+    callback=_seeds,
+    metavar="N[:ORDER]",
+    help="Seed of the generated worlds, and of the order in which the worlds are met."
+    "  [default: 0, and an order drawn anew]",
 )
 @options.limits
 @output_options
@@ -82,6 +98,7 @@ def conform(  # noqa: PLR0913  an argument an option
     *,
     target: str | None,
     command: str | None,
+    in_process: bool,
     texts: tuple[str, ...],
     like: str | None,
     pick: str | None,
@@ -89,8 +106,9 @@ def conform(  # noqa: PLR0913  an argument an option
     batch: bool,
     workers: int | None,
     validate: bool,
+    strict: bool,
     transcript: str | None,
-    seed: int,
+    seeds: tuple[int, int],
     limits: Limits,
 ) -> int:
     """Try an implementation in many worlds and judge it on four levels, each by itself.
@@ -100,32 +118,43 @@ def conform(  # noqa: PLR0913  an argument an option
     (or basic). TARGET is a catalogue name, module:attribute or file.py:attribute; --cmd names a
     program that speaks protocol 1.
     """
+    seed, order_seed = seeds
 
     def standings() -> Iterator[Result[LevelResult]]:
         text = target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
-        asked = _ConformOptions(
-            corpus_from(texts, seed=seed), processors() if workers is None else workers, batch
-        )
+        number = processors() if workers is None else workers
+        asked = _ConformOptions(corpus_from(texts, seed=seed), number, batch, order_seed)
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
-        output.note(f"seed {seed}")
-        # Commas separate names of the catalogue, but a command line may contain them.
-        for one in [text] if command else [found.text for found in targets(text)]:
+        # The order is no part of the results; so they are the same whatever it is.
+        output.timing["seed"] = f"{seed}:{order_seed}"
+        output.note(f"seed {seed}:{order_seed}")
+        flags = dict(batch=batch, validate=validate, strict=strict, in_process=in_process)  # noqa: C408
+        for one in _texts(text):
             job = ConformJob(
                 target=one,
                 like=like,
                 policies=policies,
                 limits=limits,
                 validate=validate,
+                strict=strict,
                 transcript=transcript,
-                replay_arguments=_replay_command(
-                    one, like, pick, order, limits, batch=batch, validate=validate
-                ),
+                in_process=in_process,
+                replay_arguments=_replay_command(one, like, (pick, order), flags, limits),
             )
             yield from _tried(output, job, asked)
 
-    return output.run("conform", standings, _show, seed=seed, corpus=list(texts) or ["corpus"])
+    corpus = list(texts) or ["corpus"]
+    return output.run("conform", standings, _show, seed=seed, corpus=corpus, in_process=in_process)
+
+
+def _texts(text: str) -> list[str]:
+    """Each TARGET of a text. A mapper of the user's is loaded by the process that runs it."""
+    # Commas separate names of the catalogue, but a command line may contain them.
+    if text.startswith(PREFIX) or ":" in text:
+        return [text]
+    return [found.text for found in targets(text)]
 
 
 def _tried(
@@ -140,6 +169,7 @@ def _tried(
             tally,
             workers=asked.workers,
             batch=asked.batch,
+            seed=asked.order_seed,
             tell=output.progress,
         )
     except KeyboardInterrupt:
@@ -157,19 +187,16 @@ def _result(standing: LevelResult) -> Result[LevelResult]:
 def _replay_command(
     target: str,
     like: str | None,
-    pick: str | None,
-    order: str | None,
+    policies: tuple[str | None, str | None],
+    flags: Mapping[str, bool],
     limits: Limits,
-    *,
-    batch: bool,
-    validate: bool,
 ) -> tuple[str, ...]:
     """The command that repeats the run, in words; the world is appended to it."""
     words = ["topo-verify", "conform", *target_arguments(target)]
+    pick, order = policies
     for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
         words += [name, value] if value is not None else []
-    words += ["--batch"] if batch else []
-    words += ["--validate"] if validate else []
+    words += [f"--{name.replace('_', '-')}" for name, given in flags.items() if given]
     return (*words, *limits.options)
 
 
@@ -202,15 +229,10 @@ def _shown(levels: Sequence[LevelResult]) -> Iterator[Block]:
     for level in levels:
         yield from _findings(level)
     yield from _costs(levels[-1])
-    silent = [
-        claim
-        for level in levels
-        for claim, seen in level.claims.items()
-        if seen.get("not-declared") and not seen.get("ok") and not seen.get("failed")
-    ]
-    if silent and first.passed:
+    judgements = [one for level in levels for one in level.judgements]
+    for sentence in unjudged(first.target, "these worlds", judgements) if first.passed else ():
         yield Text("")
-        yield Text(undeclared(first.target, silent))
+        yield sentence
 
 
 def _numbers(one: LevelResult) -> tuple[str, ...]:

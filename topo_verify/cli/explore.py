@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import click
 import msgspec
 
-from topo_verify.checkers import Finding, Status
+from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
@@ -19,8 +19,7 @@ from topo_verify.cli.runs import (
     finding_blocks,
     judged,
     named_worlds,
-    silent,
-    undeclared,
+    unjudged,
 )
 from topo_verify.errors import InputError
 from topo_verify.harness.gap import gap as measure
@@ -66,6 +65,7 @@ class ExploreEntry(msgspec.Struct, frozen=True):
         entailed: the history alone proves the map.
         ok: no claim failed, and the run ended in time.
         claims: the status of each claim.
+        judgements: the same, with how much of the run each status rests on.
         stopped: why the mapper delivered no map, or None.
         gap: with --gap, if the mapper declares every decision; otherwise None.
     """
@@ -86,6 +86,7 @@ class ExploreEntry(msgspec.Struct, frozen=True):
     rejected_moving: int
     confirmed: int
     claims: dict[str, Status]
+    judgements: tuple[Judgement, ...]
     stopped: str | None
     gap: MeasuredGap | None
 
@@ -114,11 +115,13 @@ class _ExploreOptions:
     metavar="TARGET",
     help="Names of the catalogue; module:attribute or file.py:attribute.  [default: all]",
 )
+@click.option("--target", metavar="TARGET", help="The same as --algorithm.")
 @options.program
+@options.in_process
 @options.policies
 @options.marker
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
-@click.option("--strict", is_flag=True, help="Judge every claim in worlds over 100 edges, too.")
+@options.strict
 @click.option(
     "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
 )
@@ -129,7 +132,9 @@ def explore(  # noqa: PLR0913  an argument an option
     *,
     worlds: tuple[str, ...],
     algorithm: str | None,
+    target: str | None,
     command: str | None,
+    in_process: bool,
     pick: str | None,
     order: str | None,
     marker: int | None,
@@ -145,15 +150,15 @@ def explore(  # noqa: PLR0913  an argument an option
     """
 
     def runs() -> Iterator[Result[ExploreEntry]]:
-        text = target_text(algorithm, command, "all")
-        found = targets(text, pick=pick, order=order)
+        text = target_text(options.one_of(algorithm, target), command, "all")
+        found = targets(text, pick=pick, order=order, in_process=in_process)
         starts = named_worlds(worlds, marker)
         if trace is not None:
             _require_one_run(trace, found, starts)
         asked = _ExploreOptions(limits, trace, strict, gap)
         return _results(output, starts, found, asked)
 
-    return output.run("explore", runs, show)
+    return output.run("explore", runs, show, in_process=in_process)
 
 
 def _require_one_run(trace: str, found: Sequence[Target], starts: Sequence[NamedWorld]) -> None:
@@ -186,7 +191,7 @@ def _result(run: Exploration, at: NamedWorld, asked: _ExploreOptions) -> Result[
     report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
     # The gap is a share of all false hypotheses: a mapper that declares only some has none.
     measured = None
-    if asked.gap and report.ok and "not-declared" not in report.claims.values():
+    if asked.gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:
         found = measure(run.trace)
         measured = MeasuredGap(*found, share=found.share)
     policies = run.policies
@@ -209,6 +214,7 @@ def _result(run: Exploration, at: NamedWorld, asked: _ExploreOptions) -> Result[
         rejected_moving=run.rejected_moving,
         confirmed=run.confirmed,
         claims=report.claims,
+        judgements=report.judgements,
         stopped=run.stopped,
         gap=measured,
     )
@@ -235,14 +241,16 @@ def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
         yield from finding_blocks(entry.findings, run)
         if entry.stopped is not None and not entry.findings:
             yield Text(f"{run} is not decided: {entry.stopped}")
-    # Once per algorithm, not per world: what a mapper declares rarely depends on the world.
-    quiet = {e.algorithm: silent(e.claims) for e in entries if e.ok and silent(e.claims)}
-    for algorithm, claims in quiet.items():
+    # Once, not for each world, where the sentence is the same.
+    sentences = dict.fromkeys(
+        sentence
+        for entry in entries
+        if not entry.findings and entry.stopped is None
+        for sentence in unjudged(entry.algorithm, entry.world, entry.judgements)
+    )
+    for sentence in sentences:
         yield Text("")
-        yield Text(undeclared(algorithm, claims))
-    if any("not-asked" in entry.claims.values() for entry in entries):
-        yield Text("")
-        yield Text("Not asked in worlds over 100 edges: decisions-entailed; --strict asks it.")
+        yield sentence
     yield from _gap_table(entries)
 
 

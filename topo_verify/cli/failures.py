@@ -26,7 +26,7 @@ from typing import IO
 import click
 
 from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.text import LINE, shown
 
 TRACEBACK = "TOPO_VERIFY_TRACEBACK"
 """If this environment variable is 1, a bug is reported with its whole traceback."""
@@ -61,7 +61,7 @@ def version() -> str:
 
 def say(sentence: str) -> None:
     """Print a sentence as one line on stderr, its control characters escaped."""
-    line = shown(sentence, limit=4000)
+    line = shown(sentence, limit=LINE)
     try:
         # A file's name may hold bytes that are not UTF-8, which cannot be printed as they are.
         click.echo(line.encode(errors="backslashreplace").decode(), err=True)
@@ -81,21 +81,22 @@ def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
     if isinstance(error, InputError):
         say(f"topo-verify: {error}")
         return ExitCode.BAD_INPUT
+    if isinstance(error, click.exceptions.NoArgsIsHelpError):
+        click.echo(error.message, err=True)  # the help, of several lines
+        return ExitCode.BAD_INPUT
     if isinstance(error, click.ClickException):
         say(_usage(error))
         return ExitCode.BAD_INPUT
-    if isinstance(error, MemoryError):
+    if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
         say(
             "topo-verify: out of memory before the end: give it more (ulimit -v), a smaller input"
             " or fewer --workers"
         )
         return ExitCode.INCOMPLETE
-    if isinstance(error, OSError):
-        if error.errno == errno.ENOMEM:
-            return explain(MemoryError(), arguments)
-        if error.errno in (errno.ENOSPC, errno.EROFS, errno.EDQUOT) or "temporary" in str(error):
-            say(f"topo-verify: the system refuses: {error}; is the disk full, or TMPDIR no folder?")
-            return ExitCode.BAD_INPUT
+    full = getattr(error, "errno", None) in (errno.ENOSPC, errno.EROFS, errno.EDQUOT)
+    if full or (isinstance(error, OSError) and "temporary directory" in str(error)):
+        say(f"topo-verify: the system refuses: {error}; is the disk full, or TMPDIR no folder?")
+        return ExitCode.BAD_INPUT
     return _our_bug(error, arguments)
 
 
@@ -103,8 +104,6 @@ def _usage(error: click.ClickException) -> str:
     """Click's error as one sentence, with the command that shows the usage."""
     context = error.ctx if isinstance(error, click.UsageError) else None
     path = context.command_path if context else "topo-verify"
-    if isinstance(error, click.exceptions.NoArgsIsHelpError):
-        return f"{path}: name a command; {path} --help lists them"
     # Click ends with a full stop or asks a question; here more of the sentence follows.
     objection = " ".join(error.format_message().split()).removesuffix(".")
     objection = objection.replace("'. Did you", "', did you").removesuffix("?")

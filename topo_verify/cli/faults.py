@@ -147,6 +147,8 @@ def _row(entry: Caught) -> tuple[str, ...]:
 
 
 def _ok(entry: Caught) -> str:
+    if not entry.asked:
+        return "-"
     if entry.ok:
         return "ok"
     return "?" if entry.undecided else "no"
@@ -187,8 +189,9 @@ def _end(entries: Sequence[Caught]) -> Iterator[Block]:
         if entry.harmless and entry.search and entry.search.failing:
             yield Bullets((entry.search.message,))
             yield Command(entry.search.replay, "again: ")
-    faults = [entry for entry in entries if not entry.harmless]
-    harmless = [entry for entry in entries if entry.harmless]
+    asked = [entry for entry in entries if entry.asked]
+    faults = [entry for entry in asked if not entry.harmless]
+    harmless = [entry for entry in asked if entry.harmless]
     caught = sum(entry.ok for entry in faults)
     flagged = sum(not (entry.ok or entry.undecided) for entry in harmless)
     alone = sum(entry.search is not None and bool(entry.search.convicting) for entry in faults)
@@ -201,5 +204,8 @@ def _end(entries: Sequence[Caught]) -> Iterator[Block]:
         refuted = sum(proof.verdict == "REFUTED" for proof in proofs)
         words += f". {refuted} of {plural(len(proofs), 'theorem')} with the same mistake refuted"
     yield Text(words + ".")
+    if unasked := len(entries) - len(asked):
+        verb, whose = ("was", "its") if unasked == 1 else ("were", "their")
+        yield Text(f"{unasked} {verb} not asked for: no theorem has {whose} mistake.")
     if any(entry.undecided for entry in entries):
         yield Text("?: not decided, because a time limit ended a run or a proof.")

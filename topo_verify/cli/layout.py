@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import IO, TYPE_CHECKING
 
-from topo_verify.text import shown
+from topo_verify.text import LINE, shown
 
 if TYPE_CHECKING:
     from rich.table import Table as RichTable
@@ -105,6 +105,7 @@ def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
                     for item in items:
                         console.print(Padding(Line(_clean(item)), (0, 0, 0, 2)))
                 case Raw(text):
+                    # Not by Rich, which would wrap it.
                     out.write(text + "\n")
                 case TextTable():
                     if block.title:
@@ -124,6 +125,7 @@ def _grid(block: TextTable) -> RichTable:
             _clean(title.removeprefix(">")),
             justify="right" if title.startswith(">") else "left",
             overflow="fold",
+            # Rich takes None, not 0, for the rest of the line.
             width=block.widths[place] or None if block.widths else None,
         )
     for row in block.rows:
@@ -132,7 +134,7 @@ def _grid(block: TextTable) -> RichTable:
 
 
 def _clean(text: str) -> str:
-    return shown(text, limit=4000)
+    return shown(text, limit=LINE)
 
 
 # ---------------------------------------------------------------- as Markdown
@@ -146,27 +148,58 @@ def markdown(blocks: Iterable[Block]) -> str:
 def _markdown(block: Block) -> str:
     match block:
         case Text(text):
-            return _escaped(text)
+            return _paragraph(text)
         case Command(line, label):
-            return _escaped(label) + _code(line)
+            return _inline(label) + _code(line)
         case Bullets(items):
-            return "\n".join(f"- {_escaped(item)}" for item in items)
+            return "\n".join(f"- {_paragraph(item)}" for item in items)
         case Raw(text):
-            return f"```\n{text}\n```"
+            fence = _fence(text, least=3)
+            return f"{fence}\n{text}\n{fence}"
         case TextTable(columns, rows, title):
-            head = f"**{_escaped(title)}**\n\n" if title else ""
+            head = f"**{_inline(title)}**\n\n" if title else ""
             titles = [column.removeprefix(">") for column in columns]
             rule = ["---:" if column.startswith(">") else "---" for column in columns]
-            lines = [map(_escaped, titles), rule, *(map(_escaped, row) for row in rows)]
+            lines = [map(_cell, titles), rule, *(map(_cell, row) for row in rows)]
             return head + "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-def _escaped(text: str) -> str:
-    return re.sub(r"([\\`*|<\[\]])", r"\\\1", _clean(text))
+_LINKED = re.compile(r"@|://|www\.|#\d|\bGH-\d", re.IGNORECASE)
+"""What GitHub and GitLab make a mention or a link of, whether or not a backslash precedes it."""
+
+_ACTIVE = re.compile(r"[\\`*|<\[\]~&$]|(?<![^\W_])_|_(?![^\W_])")
+"""Characters that mean something within a line of Markdown; `_` does not within a word."""
+
+_OPENING = re.compile(r"(\d*)([-+#>=.)])")
+"""What may open a list, a title, a rule or a quotation at the start of a paragraph."""
+
+
+def _paragraph(text: str) -> str:
+    """The text as a paragraph of its own that begins nothing else."""
+    line = _inline(text.lstrip())
+    return _OPENING.sub(r"\1\\\2", line, count=1) if _OPENING.match(line) else line
+
+
+def _cell(text: str) -> str:
+    """The text as a cell of a table, where a `|` counts even within code."""
+    return re.sub(r"(?<!\\)\|", r"\\|", _inline(text))
+
+
+def _inline(text: str) -> str:
+    """The text so that it appears as it is; a word that would be a link is set as code."""
+    words = re.split(r"(\s+)", _clean(text))
+    return "".join(
+        _code(word) if _LINKED.search(word) else _ACTIVE.sub(r"\\\g<0>", word) for word in words
+    )
 
 
 def _code(text: str) -> str:
     text = _clean(text)
-    longest = max(map(len, re.findall("`+", text)), default=0)
-    fence = "`" * (longest + 1)
-    return f"{fence}{' ' if longest else ''}{text}{' ' if longest else ''}{fence}"
+    fence = _fence(text, least=1)
+    space = " " if "`" in text else ""
+    return f"{fence}{space}{text}{space}{fence}"
+
+
+def _fence(text: str, *, least: int) -> str:
+    """Backticks, more than stand anywhere in the text."""
+    return "`" * max(least, *(len(run) + 1 for run in re.findall("`+", text)), 0)

@@ -10,19 +10,16 @@ from typing import Any
 
 import click
 
+from topo_verify.checkers import LARGE
 from topo_verify.cli.failures import SUMMARY
 from topo_verify.errors import InputError
-from topo_verify.robot.limits import Limits
+from topo_verify.robot.limits import MOST_SECONDS, Limits
 
 
 def epilog(*examples: str) -> str:
     """The end of a --help: examples, then the exit codes."""
     lines = "\n".join(f"  topo-verify {example}" for example in examples)
     return f"\b\nExamples:\n{lines}\n\n{SUMMARY}"
-
-
-MOST_SECONDS = 10**6
-"""The longest time limit, in seconds: about eleven days."""
 
 
 def _seconds(_context: click.Context, _option: click.Parameter, value: str) -> float:
@@ -118,9 +115,44 @@ def make_folder(name: str, option: str) -> Path:
     return Path(name)
 
 
+in_process = click.option(
+    "--in-process",
+    is_flag=True,
+    help="Run a mapper of your own in this process: faster, and it is trusted not to look around.",
+)
+
+
+def target(command: Callable[..., int]) -> Callable[..., int]:
+    """Add TARGET, as an argument or as --target; the command gets it as `target`."""
+
+    @click.argument("target", required=False, metavar="[TARGET]")
+    @click.option("--target", "named", metavar="TARGET", help="The same as the argument TARGET.")
+    @wraps(command)
+    def wrapper(*args: Any, target: str | None, named: str | None, **kwargs: Any) -> int:
+        return command(*args, target=one_of(target, named), **kwargs)
+
+    return wrapper
+
+
+def one_of(target: str | None, named: str | None) -> str | None:
+    """The TARGET that is given in one of two ways, the second being --target.
+
+    Raises:
+        InputError: it is given in both.
+    """
+    if target is not None and named is not None:
+        raise InputError(f"expected one TARGET, got {target!r} and --target {named}; leave one out")
+    return named if target is None else target
+
+
 program = click.option(
     "--cmd",
     "command",
     metavar="'PROGRAM ARGS'",
     help="Run this program as the TARGET, without a shell; see docs/oracle.md.",
+)
+
+
+strict = click.option(
+    "--strict", is_flag=True, help=f"Ask every claim in worlds over {LARGE} edges, too."
 )

@@ -25,7 +25,7 @@ import msgspec
 
 from topo_verify.cli import layout
 from topo_verify.cli.failures import exit_code, say, silence, version
-from topo_verify.cli.layout import Block
+from topo_verify.cli.layout import Block, Text
 from topo_verify.cli.progress import ProgressBar
 from topo_verify.errors import InputError
 from topo_verify.text import plural
@@ -84,9 +84,14 @@ class _ReaderGone(Exception):
 
 
 class Output:
-    """How one command prints, by its --format and --quiet."""
+    """How one command prints, by its --format and --quiet.
+
+    Attributes:
+        timing: what differs from run to run, for `timing` in the JSON; a command may add to it.
+    """
 
     def __init__(self, style: str, *, quiet: bool) -> None:
+        self.timing: dict[str, Any] = {}
         self.style, self.quiet = style, quiet
         self.stdout: IO[str] = sys.stdout or _nowhere()
         self.progress = ProgressBar(quiet=quiet)
@@ -117,12 +122,13 @@ class Output:
         done: _Done[E] = _Done()
         # JSON and Markdown are one document each; only people see entries as they come.
         live = live if self.style == "pretty" else None
+        last = _with_remark(live.end if live else show, in_process=bool(more.get("in_process")))
         begin = perf_counter()
         try:
             if live is not None:
                 self._pretty(live.head)
             self._collect(done, results(), live)
-            self._print(command, done, live.end if live else show, perf_counter() - begin, more)
+            self._print(command, done, last, perf_counter() - begin, more)
         except _ReaderGone:
             return done.code
         if not done.finished:
@@ -172,7 +178,7 @@ class Output:
                     "exit": int(done.code),
                     **more,
                     "results": msgspec.to_builtins(done.entries),
-                    "timing": {"seconds": seconds, "results": done.seconds},
+                    "timing": {"seconds": seconds, "results": done.seconds, **self.timing},
                 }
                 # One object, written at the end: a script never reads half a result.
                 out.write(json.dumps(envelope) + "\n")
@@ -203,6 +209,20 @@ def _reader(out: IO[str]) -> Generator[IO[str]]:
     except OSError as error:
         silence(out)
         raise InputError(f"cannot write to standard output: {error.strerror}") from error
+
+
+def _with_remark(
+    show: Callable[[Sequence[E]], Iterable[Block]], *, in_process: bool
+) -> Callable[[Sequence[E]], Iterable[Block]]:
+    """Show the entries, and behind them what a report must say of `--in-process`."""
+
+    def shown(entries: Sequence[E]) -> Iterator[Block]:
+        yield from show(entries)
+        if in_process:
+            yield Text("")
+            yield Text("In process: a mapper of your own could see what judges it.")
+
+    return shown
 
 
 def _nowhere() -> IO[str]:

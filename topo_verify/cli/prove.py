@@ -16,6 +16,7 @@ from topo_verify.cli.layout import Block, Text
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.errors import InputError, InternalError
+from topo_verify.robot.limits import MOST_SECONDS
 
 if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Budget, Theorem
@@ -55,7 +56,7 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--timeout",
-    type=click.IntRange(1, options.MOST_SECONDS),
+    type=click.IntRange(1, MOST_SECONDS),
     default=60,
     show_default=True,
     metavar="SECONDS",

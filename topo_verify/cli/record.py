@@ -65,27 +65,29 @@ class RecordEntry(msgspec.Struct, frozen=True):
 
 
 def mapper_options(run: Callable[..., int]) -> Callable[..., int]:
-    """Add TARGET, --cmd, --pick and --order; the command gets `mapper`, which opens the mapper.
+    """Add TARGET, --cmd and so on; the command gets `mapper`, which opens it, and `in_process`.
 
     Its argument, if given, replaces the default policies of an algorithm of the catalogue.
     """
 
-    @click.argument("target", required=False, metavar="[TARGET]")
+    @options.target
     @options.program
+    @options.in_process
     @options.policies
     @wraps(run)
     def wrapper(
         *args: Any,
         target: str | None,
         command: str | None,
+        in_process: bool,
         pick: str | None,
         order: str | None,
         **kwargs: Any,
     ) -> int:
         def mapper(usual: Policies | None = None) -> AbstractContextManager[Target]:
-            return _opened(target, command, (pick, order), usual)
+            return _opened(target, command, (pick, order), usual, in_process=in_process)
 
-        return run(*args, mapper=mapper, **kwargs)
+        return run(*args, mapper=mapper, in_process=in_process, **kwargs)
 
     return wrapper
 
@@ -96,11 +98,15 @@ def _opened(
     cmd: str | None,
     asked: tuple[str | None, str | None],
     usual: Policies | None,
+    *,
+    in_process: bool,
 ) -> Generator[Target]:
     """The mapper that the options name; a program runs until the block ends."""
     pick, order = asked
-    target = one_target(target_text(name, cmd), pick=pick, order=order)
+    text = target_text(name, cmd)
+    target = one_target(text, pick=pick, order=order, in_process=in_process)
     if usual is not None and isinstance(target.mapper, Algorithm):
+        # Policies on the command line go before those of the baseline.
         target = one_target(target, pick=pick or usual.pick, order=order or usual.order)
     try:
         yield target
@@ -138,6 +144,7 @@ def record(
     output: Output,
     *,
     mapper: MapperOpener,
+    in_process: bool,
     out: str,
     worlds: tuple[str, ...],
     seed: int,
@@ -174,7 +181,7 @@ def record(
         kept = _entry(made, corpus, out if whole else None, failing)
         yield Result(kept, failed=kept.wrong > 0, incomplete=kept.undecided > 0)
 
-    return output.run("record", recorded, _show, seed=seed)
+    return output.run("record", recorded, _show, seed=seed, in_process=in_process)
 
 
 def _entry(

@@ -10,14 +10,14 @@ from typing import cast
 import click
 import msgspec
 
-from topo_verify.checkers import Finding, Status
+from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Bullets, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import NamedWorld, finding_line, held, judged, named_world, silent
+from topo_verify.cli.runs import NamedWorld, finding_line, judged, named_world, unjudged
 from topo_verify.errors import InputError
-from topo_verify.harness.judge import Report, judge_trace
+from topo_verify.harness.judge import Report, in_words, judge_trace, strict_option
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import one_target, target_text
 from topo_verify.robot.events import Start, read_trace
@@ -33,6 +33,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     Attributes:
         trace: the file of the trace; None if the target was run.
         claims: the status of each claim.
+        judgements: the same, with how much of the run each status rests on.
         stopped: why the mapper delivered no map, or None.
     """
 
@@ -43,6 +44,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     findings: tuple[Finding, ...]
     trace: str | None
     claims: dict[str, Status]
+    judgements: tuple[Judgement, ...]
     stopped: str | None
 
 
@@ -57,11 +59,13 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 @click.argument("what", metavar="FILE|WORLD")
 @click.option("--target", metavar="TARGET", help="The mapper to run in WORLD.  [default: basic]")
 @options.program
+@options.in_process
 @options.policies
 @options.marker
 @click.option(
     "--world", "world_text", metavar="WORLD", help="The world in which the trace was recorded."
 )
+@options.strict
 @options.limits
 @output_options
 def replay(  # noqa: PLR0913  an argument an option
@@ -70,10 +74,12 @@ def replay(  # noqa: PLR0913  an argument an option
     what: str,
     target: str | None,
     command: str | None,
+    in_process: bool,
     pick: str | None,
     order: str | None,
     marker: int | None,
     world_text: str | None,
+    strict: bool,
     limits: Limits,
 ) -> int:
     """Judge a trace again, or run a mapper again in one world.
@@ -89,7 +95,7 @@ def replay(  # noqa: PLR0913  an argument an option
             given = {"--target": target, "--cmd": command, "--pick": pick, "--order": order}
             words = [name for name, value in given.items() if value is not None]
             _require_none((*words, *limits.options), what)
-            yield _judged(output, what, data, world_text, marker)
+            yield _judged(output, what, data, world_text, marker, strict=strict)
             return
         if world_text is not None:
             raise InputError(
@@ -97,13 +103,13 @@ def replay(  # noqa: PLR0913  an argument an option
             )
         at = named_world(what, marker, data)
         text = target_text(target, command, "basic")
-        mapper = one_target(text, pick=pick, order=order)
+        mapper = one_target(text, pick=pick, order=order, in_process=in_process)
         output.progress(f"{mapper.text} in {at.name}", 0, 1)
         run = run_mapper(at.world, mapper, limits=limits)
-        report, incomplete = judged(run, at, limits)
+        report, incomplete = judged(run, at, limits, strict=strict)
         yield _result(report, at, None, run.stopped, incomplete=incomplete)
 
-    return output.run("replay", replayed, _show)
+    return output.run("replay", replayed, _show, in_process=in_process)
 
 
 def _require_none(given: Sequence[str], what: str) -> None:
@@ -136,7 +142,13 @@ def _is_trace(data: bytes) -> bool:
 
 
 def _judged(
-    output: Output, what: str, data: bytes, world_text: str | None, marker: int | None
+    output: Output,
+    what: str,
+    data: bytes,
+    world_text: str | None,
+    marker: int | None,
+    *,
+    strict: bool,
 ) -> Result[ReplayEntry]:
     """The judgement of a trace in its world."""
     name = "standard input" if what == "-" else what
@@ -149,19 +161,23 @@ def _judged(
         else _own_world(name, start, marker)
     )
     output.progress(f"judging {name}", 0, 1)
-    replay_command = shlex.join(
-        ["topo-verify", "replay", what, "--world", at.argument, *at.options]
-    )
+    words = ("--world", at.argument, *at.options, *strict_option(at.world, strict=strict))
+    replay_command = shlex.join(["topo-verify", "replay", what, *words])
     target = start.algorithm or "unknown"
     report = judge_trace(
-        at.world, trace, target=target, where=at.argument, replay_command=replay_command
+        at.world,
+        trace,
+        target=target,
+        where=at.argument,
+        replay_command=replay_command,
+        strict=strict,
     )
     if report.claims["percepts-true"] == "failed":
         output.note(
             f"{name} diverges from {at.argument}: it was recorded in another world (name it with"
             " --world) or by another version, or it was edited"
         )
-    return _result(report, at, what, None)
+    return _result(report, at, what, None, incomplete=report.ok and report.undecided)
 
 
 def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:
@@ -194,6 +210,7 @@ def _result(
         findings=report.findings,
         trace=trace,
         claims=report.claims,
+        judgements=report.judgements,
         stopped=stopped,
     )
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
@@ -201,13 +218,10 @@ def _result(
 
 def _show(entries: Sequence[ReplayEntry]) -> Iterator[Block]:
     for entry in entries:
-        failed = [claim for claim, status in entry.claims.items() if status == "failed"]
         words = f"{entry.target} in {entry.world}, {plural(entry.cost, 'edge traversal')}: "
-        if not entry.ok and not entry.findings:
-            words += f"not decided, {entry.stopped}"
-        else:
-            words += f"{held(entry.claims)} of {plural(len(entry.claims), 'claim')} hold"
-            words += f", {len(failed)} fail" if failed else ""
-            words += f", {len(silent(entry.claims))} not declared" if silent(entry.claims) else ""
-        yield Text(words)
+        if entry.stopped is not None and not entry.ok and not entry.findings:
+            yield Text(f"{words}not decided, {entry.stopped}")
+            continue
+        yield Text(words + in_words(entry.claims, "claims hold"))
+        yield from unjudged(entry.target, entry.world, entry.judgements)
         yield Bullets(tuple(map(finding_line, entry.findings)))

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import msgspec
 
-from topo_verify.checkers import Finding
+from topo_verify.checkers import LARGE, Finding, Judgement, Status
 from topo_verify.cli.layout import Block, Bullets, Command, Text
 from topo_verify.errors import InputError
-from topo_verify.harness.judge import Report, judge, replay_line, undecided
+from topo_verify.harness.judge import Report, in_words, judge, replay_line, strict_option, undecided
 from topo_verify.harness.run import Exploration
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -129,46 +129,53 @@ def _is_saved(path: Path, text: str) -> bool:
 def judged(
     run: Exploration, at: NamedWorld, limits: Limits, *, strict: bool = False
 ) -> tuple[Report, bool]:
-    """The report on a run, and whether it is undecided because the run was out of time."""
+    """The report on a run, and whether it is undecided: out of time, or declined by the mapper."""
     report = judge(run, where=at.text, strict=strict)
-    # Out of time convicts nobody: the findings of such a run only say that it has no map.
+    # That convicts nobody: the findings of such a run only say that it has no map.
     if undecided(run, report):
-        return msgspec.structs.replace(report, findings=()), True
+        return report.with_findings(()), True
     if not report.findings:
         return report, False
-    words = (*at.options, *limits.options)
+    words = (*at.options, *limits.options, *strict_option(at.world, strict=strict))
     replay_command = replay_line(at.argument, run.algorithm, run.policies, words)
     findings = tuple(
         msgspec.structs.replace(finding, world=at.argument, replay=replay_command)
         for finding in report.findings
     )
-    return msgspec.structs.replace(report, findings=findings), False
+    return report.with_findings(findings), False
 
 
 # ---------------------------------------------------------------- showing
 
 
-def claims_cell(claims: Mapping[str, str], *, incomplete: bool = False) -> str:
-    """A cell that says how many claims hold or fail."""
+def claims_cell(claims: Mapping[str, Status], *, incomplete: bool = False) -> str:
+    """A cell that says how many claims fail; or else how many hold, and what the others are."""
     failed = sum(status == "failed" for status in claims.values())
-    if incomplete:
-        return "out of time"
-    return plural(failed, "fails", "fail") if failed else f"{held(claims)} hold"
+    if incomplete and "undecided" not in claims.values():
+        return "not decided"
+    if failed:
+        return plural(failed, "fails", "fail")
+    return f"{len(claims)} hold" if {*claims.values()} == {"ok"} else in_words(claims, "hold")
 
 
-def held(claims: Mapping[str, str]) -> int:
-    """The number of claims that hold."""
-    return sum(status == "ok" for status in claims.values())
+def unjudged(mapper: str, world: str, judgements: Iterable[Judgement]) -> Iterator[Text]:
+    """Sentences that name the claims that were not fully judged, and say why."""
+    claims = {status: [one for one in judgements if one.status == status] for status in _REASONS}
+    for status, reason in _REASONS.items():
+        if claims[status]:
+            names = [one.claim for one in claims[status]]
+            if status in ("partial", "undecided"):
+                names = [f"{one.claim} {one.judged} of {one.of}" for one in claims[status]]
+            text = reason.format(mapper=mapper, world=world, size=LARGE)
+            yield Text(f"{text}: {', '.join(names)}.")
 
 
-def silent(claims: Mapping[str, str]) -> list[str]:
-    """The claims that were not judged because the mapper declares nothing about them."""
-    return [claim for claim, status in claims.items() if status == "not-declared"]
-
-
-def undeclared(mapper: str, claims: Iterable[str]) -> str:
-    """The sentence that names the claims that were not judged, and says why."""
-    return f"Not judged, because {mapper} declares nothing about it: {', '.join(claims)}."
+_REASONS: dict[Status, str] = {
+    "not-declared": "Not judged, because {mapper} declares nothing about it",
+    "partial": "Judged in part, because {mapper} declares only some of its decisions in {world}",
+    "undecided": "Neither proved nor refuted in {world}",
+    "not-asked": "Not asked in worlds over {size} edges without --strict",
+}
 
 
 def finding_blocks(

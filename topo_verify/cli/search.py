@@ -2,92 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import nullcontext
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
 import click
-import msgspec
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
+from topo_verify.cli.layout import Block
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import undeclared
+from topo_verify.cli.searched import ByEdges, Counterexample, FailingClaim, Lost, SearchEntry
+from topo_verify.cli.searched import show as show_entry
 from topo_verify.errors import InputError
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import processors
 from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
+from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
-from topo_verify.harness.tally import CostComparison, CostTotals, Failure
+from topo_verify.harness.tally import CostTotals, Failure, joint_judgements
 from topo_verify.harness.targets import target_text, targets
+from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
-from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass
-
-SHOWN = 3
-"""The number of worlds shown in one cell; JSON has more."""
-
-
-class Counterexample(msgspec.Struct, frozen=True):
-    """A world in which a claim fails, and the command that shows it again."""
-
-    world: str
-    edges: int
-    claim: str
-    message: str
-    replay: str
-
-
-class FailingClaim(msgspec.Struct, frozen=True):
-    """The number of checked worlds in which a claim fails, and the smallest of them."""
-
-    claim: str
-    failing: int
-    smallest: Counterexample
-
-
-class ByEdges(msgspec.Struct, frozen=True):
-    """The worlds of one size; docs/commands.md.
-
-    Attributes:
-        checked, total, failing, undecided: numbers of worlds.
-        runs: the number of runs in which no claim fails; the costs are theirs.
-        max_cost, total_cost: their highest cost and the sum, in edge traversals.
-        attained: the number of worlds with the highest cost.
-        worst: the first of these worlds.
-        compare: with --compare, where A costs more than B, and where less.
-    """
-
-    edges: int
-    checked: int
-    total: int
-    failing: int
-    undecided: int
-    runs: int
-    max_cost: int
-    total_cost: int
-    attained: int
-    worst: tuple[str, ...]
-    compare: CostComparison | None
-
-
-class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
-    """One search: an entry of `results`; docs/commands.md."""
-
-    target: str
-    kind: str
-    edges: int
-    policies: str
-    checked: int
-    total: int
-    verdict: str
-    counterexample: Counterexample | None
-    by_edges: tuple[ByEdges, ...]
-    claims: tuple[FailingClaim, ...]
-    not_declared: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -98,11 +38,14 @@ class _SearchOptions:
     kind: WorldClass
     workers: int
     ledger: str | None
+    depends: tuple[str, ...]
+    seed: int
     keep_going: bool
     policies: Choices
     worst: bool
     compare: bool
     limits: Limits
+    in_process: bool
 
 
 @click.command(
@@ -114,8 +57,9 @@ class _SearchOptions:
         "search --compare enhancement-ii,enhancement-i --edges 5",
     ),
 )
-@click.argument("target", required=False, metavar="[TARGET]")
+@options.target
 @options.program
+@options.in_process
 @click.option(
     "--edges",
     type=click.IntRange(min=1),
@@ -132,6 +76,12 @@ class _SearchOptions:
     help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
 @click.option("--ledger", metavar="FILE", help="Keep finished work in FILE and resume from it.")
+@click.option(
+    "--depends",
+    multiple=True,
+    metavar="FILE",
+    help="The TARGET depends on FILE: if it changes, the ledger is refused. May be repeated.",
+)
 @click.option("--keep-going", is_flag=True, help="Do not stop at the first counterexample.")
 @click.option(
     "--policies",
@@ -142,6 +92,14 @@ class _SearchOptions:
 )
 @click.option("--worst", is_flag=True, help="Show the highest costs and the worlds that have them.")
 @click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="Seed of the worlds that are run again.",
+)
 @options.limits
 @output_options
 def search(  # noqa: PLR0913  an argument an option
@@ -149,14 +107,17 @@ def search(  # noqa: PLR0913  an argument an option
     *,
     target: str | None,
     command: str | None,
+    in_process: bool,
     edges: int,
     kind: str,
     workers: int | None,
     ledger: str | None,
+    depends: tuple[str, ...],
     keep_going: bool,
     policies: Choices,
     worst: bool,
     compare: str | None,
+    seed: int,
     limits: Limits,
 ) -> int:
     """Examine a mapper in every world of 1 to N edges, smallest first.
@@ -172,24 +133,37 @@ def search(  # noqa: PLR0913  an argument an option
             kind=WorldClass.parse(kind),
             workers=processors() if workers is None else workers,
             ledger=ledger,
+            depends=depends,
+            seed=seed,
             keep_going=keep_going,
             policies=policies,
             worst=worst,
             compare=compare is not None,
             limits=limits,
+            in_process=in_process,
         )
-        for mappers in _mappers(target, command, compare, ledger):
+        for path in depends:
+            if not Path(path).is_file():
+                raise InputError(f"--depends {path}: there is no such file; name one that exists")
+        if ledger is not None:
+            watch()  # before a mapper is loaded
+        for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
             yield from _searched(output, mappers, asked)
 
     def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
         for entry in entries:
-            yield from _show(entry, worst=worst)
+            yield from show_entry(entry, worst=worst)
 
-    return output.run("search", searches, show)
+    return output.run("search", searches, show, in_process=in_process)
 
 
 def _mappers(
-    target: str | None, command: str | None, compare: str | None, ledger: str | None
+    target: str | None,
+    command: str | None,
+    compare: str | None,
+    ledger: str | None,
+    *,
+    in_process: bool,
 ) -> list[tuple[Target, ...]]:
     """The mappers of each search: one, or the two that are compared."""
     if (target is None and command is None) == (compare is None):
@@ -202,7 +176,7 @@ def _mappers(
             )
         return [pair]
     text = target_text(target, command)
-    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(text)]
+    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(text, in_process=in_process)]
     if ledger is not None and len(found) != 1:
         raise InputError(
             f"--ledger {ledger}: expected one TARGET, got {len(found)}; search them one by one"
@@ -221,12 +195,15 @@ def _searched(
         choices=asked.policies,
         keep_going=asked.keep_going,
         limits=asked.limits,
+        seed=asked.seed,
+        in_process=asked.in_process,
     )
-    opened = None if asked.ledger is None else Ledger(asked.ledger, plan, mappers, version())
-    with opened or nullcontext():
-        work = Search(plan, mappers, workers=asked.workers, ledger=opened)
+    identity = None if asked.ledger is None else Identity(mappers, asked.depends)
+    with _opened(output, asked, plan, mappers, identity) as ledger:
+        work = Search(plan, mappers, workers=asked.workers, ledger=ledger, identity=identity)
         try:
             work.work(output.progress)
+            work.run_again(output.progress)
         except KeyboardInterrupt:
             # Yield before raising: `Output` prints what it has and then exits 3.
             yield _result(work.found(), asked)
@@ -234,12 +211,32 @@ def _searched(
         yield _result(work.found(), asked)
 
 
+@contextmanager
+def _opened(
+    output: Output,
+    asked: _SearchOptions,
+    plan: Plan,
+    mappers: tuple[Target, ...],
+    identity: Identity | None,
+) -> Generator[Ledger | None]:
+    """The ledger, if one is asked for."""
+    if asked.ledger is None or identity is None:
+        yield None
+        return
+    with Ledger(asked.ledger, plan, mappers, version(), identity.loaded()) as ledger:
+        if ledger.since is not None:
+            output.timing["ledger"] = dict(zip(("first", "last"), ledger.since, strict=True))
+        yield ledger
+
+
 def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
     first = found.counterexample
     tally = found.tally
     # A claim that some runs were judged on is not listed, even if others declared nothing.
     silent = (
-        c for c, seen in tally.statuses.items() if not seen.keys() & {"ok", "failed"} and seen
+        c
+        for c, seen in tally.statuses.items()
+        if seen and seen.keys() <= {"not-declared", "not-asked"}
     )
     entry = SearchEntry(
         target=",".join(found.plan.targets),
@@ -249,6 +246,9 @@ def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
         checked=found.checked,
         total=found.total,
         verdict=found.verdict,
+        from_ledger=found.from_ledger,
+        lost=tuple(Lost(one.world, one.how) for one in found.lost),
+        run_again=found.again,
         counterexample=None if first is None else _counterexample(first),
         by_edges=tuple(_by_edges(size, found.plan, asked) for size in found.by_edges),
         claims=tuple(
@@ -256,6 +256,7 @@ def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
             for claim, failing in found.claims.items()
         ),
         not_declared=tuple(silent),
+        judgements=joint_judgements(tally.statuses, tally.shares, ()),
     )
     return Result(entry, failed=found.verdict == "REFUTED", incomplete=found.verdict == "UNKNOWN")
 
@@ -281,80 +282,3 @@ def _by_edges(size: Size, plan: Plan, asked: _SearchOptions) -> ByEdges:
         worst=costs.worst,
         compare=size.tally.compared if asked.compare else None,
     )
-
-
-# ---------------------------------------------------------------- for people
-
-
-def _show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
-    kind = "" if entry.kind == "any" else f", class {entry.kind}"
-    policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
-    title = f"{_who(entry)}: worlds of 1 to {plural(entry.edges, 'edge')}{kind}{policies}"
-    rows = [
-        (str(e.edges), str(e.checked), str(e.total), str(e.failing), *(_costs(e) if worst else ()))
-        for e in entry.by_edges
-    ]
-    costs = (">max cost", ">mean", ">in worlds", "which") if worst else ()
-    yield TextTable((">edges", ">checked", ">total", ">failing", *costs), rows, title)
-    pairs = [_compared(e.edges, e.compare) for e in entry.by_edges if e.compare is not None]
-    if pairs:
-        yield Text("")
-        yield TextTable(
-            (">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs
-        )
-    yield Text("")
-    yield Text(f"{entry.verdict}: {_conclusion(entry)}")
-    yield from _counterexamples(entry)
-    if entry.not_declared and entry.verdict != "REFUTED":
-        yield Text(undeclared(entry.target, entry.not_declared))
-
-
-def _who(entry: SearchEntry) -> str:
-    if all(e.compare is None for e in entry.by_edges):
-        return entry.target
-    first, _, second = entry.target.partition(",")
-    return f"A {first}, B {second}"
-
-
-def _costs(entry: ByEdges) -> tuple[str, ...]:
-    mean = f"{entry.total_cost / entry.runs:.2f}" if entry.runs else "-"
-    worst = _some(entry.worst, entry.attained)
-    return str(entry.max_cost), mean, str(entry.attained), worst
-
-
-def _compared(edges: int, pair: CostComparison) -> tuple[str, ...]:
-    first = [f"{world.world} ({world.cost}, {world.other})" for world in pair.first]
-    row = map(str, (edges, pair.dearer, pair.most, pair.cheaper))
-    return (*row, _some(first, pair.dearer))
-
-
-def _some(names: Sequence[str], number: int) -> str:
-    """The first names; an ellipsis if there are more."""
-    shown = ", ".join(names[:SHOWN])
-    return f"{shown} …" if number > SHOWN else shown or "-"
-
-
-def _conclusion(entry: SearchEntry) -> str:
-    worlds = f"{entry.checked} of {plural(entry.total, 'world')}"
-    failing = sum(size.failing for size in entry.by_edges)
-    undecided = sum(size.undecided for size in entry.by_edges)
-    late = f"; in {plural(undecided, 'more', 'more')} a run was out of time" if undecided else ""
-    if entry.verdict == "REFUTED":
-        return f"{worlds} checked, a claim fails in {failing}{late}"
-    if entry.verdict == "UNKNOWN":
-        return f"{worlds} checked, no claim failed there{late}"
-    return f"{worlds} checked, no claim failed{late}"
-
-
-def _counterexamples(entry: SearchEntry) -> Iterator[Block]:
-    """The smallest counterexample, and the smallest for each claim."""
-    first = entry.counterexample
-    if first is None:
-        return
-    yield Text(f"smallest counterexample: {first.world}")
-    yield Bullets((f"{first.claim}: {first.message}",))
-    yield Command(first.replay, "again: ")
-    if sum(size.failing for size in entry.by_edges) > 1:
-        rows = [(c.claim, str(c.failing), c.smallest.world) for c in entry.claims]
-        yield Text("")
-        yield TextTable(("claim that fails", ">in worlds", "smallest"), rows)

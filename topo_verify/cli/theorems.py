@@ -172,6 +172,7 @@ def _evidence(entry: ProveEntry) -> str:
     if entry.total is not None:
         words.append(f"{entry.checked} of {plural(entry.total, 'world')}")
     if entry.kind in ("inductive", "bounded"):
+        # The other kinds are refuted by a model of the premises, or Coq proves that they can hold.
         words += [_VACUITY[entry.premises_satisfiable]] if entry.verdict != "UNKNOWN" else []
     if entry.core and entry.kind == "inductive":
         words.append(f"used {plural(len(entry.core), 'premise')}")

@@ -12,7 +12,7 @@ from topo_verify.cli.failures import version
 from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import finding_blocks, undeclared
+from topo_verify.cli.runs import finding_blocks, unjudged
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.parts import Part
@@ -25,8 +25,9 @@ from topo_verify.text import plural
     short_help="Check the catalogue, or a mapper of your own, in one report.",
     epilog=options.epilog("verify", "verify my_mapper.py:explore", "verify --quick --format json"),
 )
-@click.argument("target", required=False, metavar="[TARGET]")
+@options.target
 @options.program
+@options.in_process
 @click.option("--quick", is_flag=True, help="Check smaller worlds, in a few seconds.")
 @click.option(
     "--seed",
@@ -43,6 +44,7 @@ def verify(
     *,
     target: str | None,
     command: str | None,
+    in_process: bool,
     quick: bool,
     seed: int,
     limits: Limits,
@@ -50,10 +52,11 @@ def verify(
     """Check the algorithms of the catalogue, or a mapper of your own, part by part.
 
     TARGET is `all` (the default), names of the catalogue with commas, package.module:attribute or
-    path/file.py:attribute. A mapper takes a robot and returns a map.
+    path/file.py:attribute. A mapper takes a robot and returns a map. For a mapper of your own the
+    parts counts and proofs are left out: they do not depend on it.
     """
     text = target_text(target, command, "all")
-    mappers = targets(text)
+    mappers = targets(text, in_process=in_process)
 
     def parts() -> Iterator[Result[Part]]:
         tell = output.progress
@@ -61,7 +64,8 @@ def verify(
             incomplete = part.verdict == "UNKNOWN"
             yield Result(part, failed=part.verdict == "REFUTED", incomplete=incomplete)
 
-    head = (Text(_head(mappers, seed)),)
+    others = campaign.left_out(mappers)
+    head = tuple(map(Text, _head(mappers, seed, others)))
     return output.run(
         "verify",
         parts,
@@ -70,15 +74,22 @@ def verify(
         target=text,
         quick=quick,
         seed=seed,
+        in_process=in_process,
+        left_out=others,
     )
 
 
 # ---------------------------------------------------------------- for people
 
 
-def _head(mappers: Sequence[Target], seed: int) -> str:
+def _head(mappers: Sequence[Target], seed: int, others: Sequence[str]) -> Iterator[str]:
     who = mappers[0].text if len(mappers) == 1 else plural(len(mappers), "mapper")
-    return f"topo-verify {version()}: {who}, {len(CLAIMS)} claims, seed {seed}"
+    yield f"topo-verify {version()}: {who}, {len(CLAIMS)} claims, seed {seed}"
+    if others:
+        yield (
+            f"Left out: {' and '.join(others)}, which do not depend on the mapper; without a"
+            " TARGET they are done."
+        )
 
 
 def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
@@ -117,22 +128,22 @@ def _end(entries: Sequence[Part]) -> Iterator[Block]:
             yield _costs(entry)
     yield Text("")
     yield Text(_conclusion(entries))
+    if not any(entry.verdict == "REFUTED" for entry in entries):
+        yield from dict.fromkeys(
+            sentence
+            for entry in entries
+            for sentence in unjudged("the mapper", f"part {entry.part}", entry.judgements)
+        )
 
 
 def _conclusion(entries: Sequence[Part]) -> str:
-    silent = {
-        claim
-        for entry in entries
-        for claim, seen in entry.claims.items()
-        if seen["not-declared"] and not seen["ok"] and not seen["failed"]
-    }
     if any(entry.verdict == "REFUTED" for entry in entries):
         return "A claim fails: the commands after 'again' show where."
-    words = "No claim failed in the worlds and theorems counted above; nothing else was checked."
+    proved = any(entry.part == "proofs" for entry in entries)
+    what = "worlds and theorems" if proved else "worlds"
+    words = f"No claim failed in the {what} counted above; nothing else was checked."
     if not all(entry.ok for entry in entries):
         words = "No claim failed, but not everything was checked."
-    if silent:
-        words += " " + undeclared("the mapper", [claim for claim in CLAIMS if claim in silent])
     return words
 
 

@@ -2,7 +2,8 @@
 
     fault.py       what a fault is, and how a part of a reference algorithm is replaced
     motion.py, marker.py, hypotheses.py, chart.py, prefix.py, history.py, records.py, folding.py,
-    report.py      the mistakes, by the part of the mapper that they are in
+    declarations.py, report.py
+                   the mistakes, by the part of the mapper that they are in
     harmless.py    differences that are no mistakes: no check may report them
 
 Every fault can be named as a TARGET, as `topo_verify.faults.motion:restores_with_the_wrong_sign`.
@@ -13,6 +14,7 @@ from __future__ import annotations
 
 from topo_verify.faults import (
     chart,
+    declarations,
     folding,
     harmless,
     history,
@@ -38,6 +40,7 @@ FAULTS: dict[str, Fault] = {
         history,
         records,
         folding,
+        declarations,
         report,
         harmless,
     )

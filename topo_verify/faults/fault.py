@@ -21,7 +21,16 @@ from topo_verify.robot.events import Decision, MapDart, Robot
 from topo_verify.robot.percept import Door, Percept, Purpose
 
 PartName = Literal[
-    "motion", "marker", "hypotheses", "prefix", "history", "records", "chart", "folding", "report"
+    "motion",
+    "marker",
+    "hypotheses",
+    "prefix",
+    "history",
+    "records",
+    "chart",
+    "folding",
+    "declarations",
+    "report",
 ]
 """The part of a mapper that a mistake is in: also the file in which it stands."""
 

@@ -8,7 +8,7 @@ from topo_verify.algorithms import CATALOGUE
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.motion import Executed, Pilot
-from topo_verify.faults.fault import Fault, mapper
+from topo_verify.faults.fault import Fault, ForwardingRobot, mapper
 from topo_verify.robot.events import MapDart, Robot
 
 basic = CATALOGUE["basic"]
@@ -113,6 +113,48 @@ counts_the_start_as_a_move = Fault(
     why="the cost is the number of percepts, one more than there are moves",
     claim="cost-honest",
     mapper=_over,
+)
+
+
+def _two_for_nothing(robot: Robot) -> Survey:
+    if robot.percept.degree:
+        robot.move(0)
+        robot.move(0)
+    hidden = robot
+    while isinstance(hidden, ForwardingRobot):
+        hidden = hidden.robot
+    # The trace, if it is in this process, where everything can be found by who looks for it.
+    trace = getattr(getattr(hidden.move, "__self__", None), "events", [])
+    del trace[:2]
+    return basic(robot)
+
+
+takes_back_two_moves = Fault(
+    name="takes-back-two-moves",
+    part="report",
+    why="the robot goes out and back, and removes both moves from the trace if it can reach it",
+    claim="cost-honest",
+    mapper=_two_for_nothing,
+)
+
+
+class _GivesUp(BaseException):
+    """Not an `Exception`, as `asyncio.CancelledError` is none."""
+
+
+def _cancelled(robot: Robot) -> Survey:
+    survey = basic(robot)
+    if any(len(row) > 2 for row in survey.vertices):
+        raise _GivesUp("a crossing")
+    return survey
+
+
+raises_past_exception = Fault(
+    name="raises-past-exception",
+    part="report",
+    why="at the end a vertex with three exits or more raises what is no Exception",
+    claim="map-isomorphic",
+    mapper=_cancelled,
 )
 
 

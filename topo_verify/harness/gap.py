@@ -47,7 +47,7 @@ def gap(trace: Sequence[Event]) -> Gap:
             case Move(door, percept):
                 if setting_out:  # the history up to here is what the choice was made with
                     e = on_fold.place(edge)
-                    refuted |= {h for h in alive if not fold.possible(e, on_fold.place(h))}
+                    refuted |= {h for h in alive if fold.contradictions(e, on_fold.place(h))}
                     setting_out = False
                 fold.move(door, percept)
             case Pose(e, hypotheses):

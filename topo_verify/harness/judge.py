@@ -7,17 +7,20 @@ assert_maps(my_mapper, world)                  # raises ClaimFailed with the rep
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from topo_verify.checkers import Finding, Status, check
+from topo_verify.checkers import LARGE, Finding, Judgement, Status, check
 from topo_verify.errors import ClaimFailed
+from topo_verify.harness.mapper_names import is_found_again
 from topo_verify.harness.run import Exploration, explore
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import PREFIX
-from topo_verify.robot.events import Event, Policies
+from topo_verify.robot.events import Event, Move, Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.text import LINE, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
@@ -27,10 +30,11 @@ class Report(msgspec.Struct, frozen=True):
 
     Attributes:
         world, target: the world and the mapper, as the command line names them.
-        ok: no claim failed. (`not-declared` and `not-asked` are neither failures nor successes.)
+        ok: no claim failed. (Only `ok` is a success; the other statuses are neither.)
         cost: edge traversals.
         claims: the status of each claim by name.
         findings: all violations, each with the command line that shows it again.
+        judgements: the status of each claim, and how much of the run it rests on.
     """
 
     world: str
@@ -39,28 +43,64 @@ class Report(msgspec.Struct, frozen=True):
     cost: int
     claims: dict[str, Status]
     findings: tuple[Finding, ...]
+    judgements: tuple[Judgement, ...]
+
+    @property
+    def undecided(self) -> bool:
+        """Whether a claim was neither proved nor refuted."""
+        return "undecided" in self.claims.values()
+
+    def with_findings(self, findings: Sequence[Finding]) -> Report:
+        """The report with other findings for those that it has."""
+        judgements = tuple(
+            msgspec.structs.replace(
+                one, findings=tuple(f for f in findings if f.claim == one.claim)
+            )
+            for one in self.judgements
+        )
+        return msgspec.structs.replace(self, findings=tuple(findings), judgements=judgements)
 
     def to_json(self) -> str:
         """The report as one JSON object."""
         return msgspec.json.encode(self).decode()
 
     def __str__(self) -> str:
-        held = sum(status == "ok" for status in self.claims.values())
-        failed = sum(status == "failed" for status in self.claims.values())
-        unasked = sum(status == "not-asked" for status in self.claims.values())
-        silent = list(self.claims.values()).count("not-declared")
         head = f"{self.target} in {self.world}, {self.cost} edge traversals: "
-        head += f"{held} of {len(self.claims)} claims hold"
-        head += f", {failed} fail" if failed else ""
-        head += f", {silent} not declared" if silent else ""
-        head += f", {unasked} not asked" if unasked else ""
-        lines = [head]
+        lines = [head + in_words(self.claims, "claims hold")]
+        lines += [f"  {line}" for line in shortfalls(self.judgements)]
         for finding in self.findings:
             place = "" if finding.event is None else f" (event {finding.event})"
             lines.append(f"  {finding.claim}{place}: {finding.message}")
-        if self.findings:
+        if self.findings and self.findings[0].replay:
             lines.append(f"  again: {self.findings[0].replay}")
-        return "\n".join(lines)
+        return "\n".join(shown(line, limit=LINE) for line in lines)
+
+
+_WORDS: dict[Status, str] = {
+    "failed": "fail",
+    "partial": "partial",
+    "undecided": "undecided",
+    "not-declared": "not declared",
+    "not-asked": "not asked",
+}
+
+
+def in_words(claims: Mapping[str, Status], hold: str) -> str:
+    """How many of the claims hold, and how many have each other status."""
+    counts = Counter(claims.values())
+    words = [f"{counts['ok']} of {len(claims)} {hold}"]
+    return ", ".join(
+        words + [f"{counts[one]} {word}" for one, word in _WORDS.items() if counts[one]]
+    )
+
+
+def shortfalls(judgements: Sequence[Judgement]) -> list[str]:
+    """A line for each claim that was asked, and judged only in part."""
+    return [
+        f"{one.claim}: {_WORDS[one.status]}, {one.judged} of {one.of}"
+        for one in judgements
+        if one.status in ("partial", "undecided")
+    ]
 
 
 def examine(
@@ -77,7 +117,7 @@ def examine(
 
     Args:
         where: the world as the command line names it, for the findings; default: its id.
-        strict: judge claim 10 also in worlds with more than 100 edges.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         InputError: there is no such mapper or policy.
     """
@@ -97,7 +137,7 @@ def assert_maps(
     """Assert that every claim holds of a mapper in a world: the one line of a property test.
 
     Args:
-        strict: judge claim 10 also in worlds with more than 100 edges.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         ClaimFailed: a claim fails. It is an AssertionError whose text is the report; its cause is
             the exception that the mapper raised, if it did.
@@ -125,7 +165,8 @@ def judge(
         options: the options that the replay command needs besides world and target.
     """
     where = where or world_argument(run.world)
-    replay_command = replay_line(where, run.algorithm, run.policies, options)
+    words = (*options, *strict_option(run.world, strict=strict))
+    replay_command = replay_line(where, run.algorithm, run.policies, words)
     report = judge_trace(
         run.world,
         run.trace,
@@ -135,8 +176,8 @@ def judge(
         replay_command=replay_command,
         strict=strict,
     )
-    findings = tuple(_with_run_in_witness(finding, run) for finding in report.findings)
-    return msgspec.structs.replace(report, findings=findings)
+    report = _with_count(report, run.cost, replay_command)
+    return report.with_findings([_with_run_in_witness(finding, run) for finding in report.findings])
 
 
 def judge_trace(
@@ -163,19 +204,54 @@ def judge_trace(
     replay_command = replay_command or replay_line(where, target)
     judgements = check(world, trace, stopped, strict=strict)
     findings = tuple(
-        msgspec.structs.replace(finding, world=where, replay=replay_command)
+        msgspec.structs.replace(
+            finding,
+            world=where,
+            replay=replay_command,
+            message=shown(finding.message, limit=LINE),  # it may quote what a mapper raised
+        )
         for judgement in judgements
         for finding in judgement.findings
     )
-    cost = sum(event.__class__.__name__ == "Move" for event in trace)
+    cost = sum(isinstance(event, Move) for event in trace)
     statuses: dict[str, Status] = {judgement.claim: judgement.status for judgement in judgements}
-    return Report(where, target, not findings, cost, statuses, findings)
+    report = Report(where, target, not findings, cost, statuses, (), tuple(judgements))
+    return report.with_findings(findings)
+
+
+def _with_count(report: Report, made: int, replay_command: str) -> Report:
+    """The report; `cost-honest` fails unless the trace holds as many moves as the robot made."""
+    if report.cost == made:
+        return report
+    claim = "cost-honest"
+    message = (
+        f"the robot made {made} moves and the trace holds {report.cost}: somebody changed the"
+        " trace, as a mapper in the same process can"
+    )
+    wrong = Finding(
+        claim, None, made, report.cost, message, world=report.world, replay=replay_command
+    )
+    judgements = tuple(
+        msgspec.structs.replace(one, status="failed") if one.claim == claim else one
+        for one in report.judgements
+    )
+    claims: dict[str, Status] = {**report.claims, claim: "failed"}
+    changed = msgspec.structs.replace(
+        report, ok=False, cost=made, claims=claims, judgements=judgements
+    )
+    return changed.with_findings([wrong, *report.findings])
 
 
 def undecided(run: Exploration, report: Report) -> bool:
-    """Whether the run only exceeded its time while it still moved: then no claim is refuted."""
+    """Whether no claim is refuted, but one is undecided, or a map is missing without a fault.
+
+    That is the map of a run that exceeded its time while it still moved, or whose program declined
+    the world.
+    """
+    if not report.findings:
+        return report.undecided
     lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
-    return run.limit == "world-timeout" and lost
+    return (run.limit == "world-timeout" or run.declined) and lost
 
 
 def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:
@@ -203,10 +279,17 @@ def world_argument(world: World) -> str:
     )
 
 
+def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:
+    """The option that asks every claim, where a claim is not asked without it."""
+    return ("--strict",) if strict and len(world.edges) > LARGE else ()
+
+
 def replay_line(
     where: str, target: str, policies: Policies | None = None, options: Sequence[str] = ()
 ) -> str:
-    """The command line that shows a run again."""
+    """The command line that shows a run again; empty if no command line finds the mapper."""
+    if not (target.startswith(PREFIX) or is_found_again(target)):
+        return ""
     words = ["topo-verify", "replay", where]
     program = target.startswith(PREFIX)
     words += ["--cmd", target.removeprefix(PREFIX)] if program else ["--target", target]

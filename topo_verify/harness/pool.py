@@ -9,6 +9,8 @@ workers, and finds out over what:
   killed the worker. After that it is cut around the item where the worker was last seen, and the
   pieces are tried, down to the one item that kills. A task that cannot be cut is given to
   `Work.lost`, which says what its result is.
+- No loss is forgotten: what comes of a task whose worker was lost in an item that was done when it
+  was tried again is given to `Work.survived`, which says what that means for the result.
 - Workers are started afresh, never forked, import from where this process imports, sit in process
   groups of their own, and end with this process, even if that is killed (`worker.py`).
 
@@ -31,6 +33,7 @@ from __future__ import annotations
 
 import os
 import selectors
+import signal
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -70,11 +73,18 @@ class Loss:
         status: its exit status in words, `exit code 3` or `signal 9`.
         silence: after how many seconds without a heartbeat it was killed; None: it ended itself.
         loading: it was not ready for its first task yet.
+        items: so many items of its task were finished.
     """
 
     status: str
     silence: float | None
     loading: bool
+    items: int = 0
+
+    @property
+    def stranger(self) -> bool:
+        """Whether it may have been lost by nothing that its task did, as by a lack of memory."""
+        return self.silence is not None or self.status == f"signal {signal.SIGKILL.value}"
 
     @property
     def cause(self) -> str:
@@ -114,6 +124,9 @@ class Work(Generic[TaskT, ResultT]):
         job: what each worker is handed once, before its first task.
         result: the type of a result, to read it from JSON.
         lost: the result of a task that was lost with its last worker; it may raise.
+        survived: the result of a task that lost workers, given what it came to in the end, how they
+            were lost, each with the piece that it was at, and the pieces that were given up;
+            default: what it came to.
         silence: a worker that writes no heartbeat for so many seconds is lost.
         attempts: so many workers may be lost with a task.
         division: how a task is cut; None: it cannot be.
@@ -123,6 +136,9 @@ class Work(Generic[TaskT, ResultT]):
     job: Any
     result: type[ResultT]
     lost: Callable[[TaskT, Loss], ResultT]
+    survived: Callable[[ResultT, Sequence[tuple[TaskT, Loss]], Sequence[TaskT]], ResultT] = (
+        lambda result, _losses, _given_up: result
+    )
     silence: float
     attempts: int = 2
     division: Division[TaskT, ResultT] | None = None
@@ -171,10 +187,17 @@ def in_order(
 
 @dataclass(eq=False)
 class _Whole(Generic[TaskT, ResultT]):
-    """A task as it was taken, and its pieces in their order; at first, it is its only piece."""
+    """A task as it was taken, and its pieces in their order; at first, it is its only piece.
+
+    Attributes:
+        losses: how workers were lost with it, each with what it was at.
+        given_up: the pieces that were lost with their last worker.
+    """
 
     task: TaskT
     pieces: list[_Piece[TaskT, ResultT]] = field(default_factory=list["_Piece[TaskT, ResultT]"])
+    losses: list[tuple[TaskT, Loss]] = field(default_factory=list[tuple[TaskT, Loss]])
+    given_up: list[TaskT] = field(default_factory=list[TaskT])
 
 
 @dataclass(eq=False)
@@ -308,7 +331,7 @@ class Pool(Generic[TaskT, ResultT]):
         piece.results.append(result)
         whole, division = piece.whole, self._work.division
         if division is None:
-            self._finished.append((whole.task, result))
+            self._finish_whole(whole, result)
             return
         if division.last(result):
             behind = whole.pieces[whole.pieces.index(piece) + 1 :]
@@ -321,7 +344,12 @@ class Pool(Generic[TaskT, ResultT]):
                 results += other.results
                 if division.last(results[-1]):  # a worker may have been at what lies behind
                     break
-            self._finished.append((whole.task, division.join(results)))
+            self._finish_whole(whole, division.join(results))
+
+    def _finish_whole(self, whole: _Whole[TaskT, ResultT], result: ResultT) -> None:
+        if whole.losses:
+            result = self._work.survived(result, whole.losses, whole.given_up)
+        self._finished.append((whole.task, result))
 
     def _lose(self, worker: WorkerProcess, silence: float | None) -> None:
         """The worker died or hung: try its piece again, then cut it, then give it up."""
@@ -330,14 +358,16 @@ class Pool(Generic[TaskT, ResultT]):
         piece = self._at.pop(worker, None)
         if piece is None:  # it was idle: whoever killed it, no task is to blame
             return
+        loss = Loss(status, silence, loading=not worker.ready, items=worker.items)
         if worker.ready:  # one that dies while it loads would do so over any piece
+            piece.whole.losses.append((piece.task, loss))
             piece.deaths += 1
             if piece.deaths < self._work.attempts:
                 self._queue.appendleft(piece)
                 return
             if self._cut(piece, worker.items):
                 return
-        loss = Loss(status, silence, loading=not worker.ready)
+        piece.whole.given_up.append(piece.task)
         self._finish(piece, self._work.lost(piece.task, loss))
 
     def _cut(self, piece: _Piece[TaskT, ResultT], items: int) -> bool:

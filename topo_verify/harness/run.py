@@ -6,24 +6,29 @@ it raises, returns something else, exceeds its budget or loops without moving, t
 
     run = explore(world, "enhancement-ii")         # -> Exploration: map, cost, trace
 
+A TARGET's text runs in this process, or, with `in_process=False`, in one of its own.
+
 What this does not show: a mapper in the same process can be stopped only if it runs Python code and
-does not catch BaseException in a loop; see `topo_verify.robot.limits`.
+does not catch BaseException in a loop; see `topo_verify.robot.limits`. If it is determined to look,
+it finds world and trace; a mapper in a process of its own does not.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from operator import index
+from itertools import pairwise
 
 from topo_verify.algorithms import Algorithm
-from topo_verify.errors import InputError
 from topo_verify.harness.targets import one_target
+from topo_verify.programs.delivery import Undelivered, deliver
 from topo_verify.programs.loader import Mapper, Target
+from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import (
     Confirm,
     Finish,
     MapData,
+    Move,
     Policies,
     Reject,
     Start,
@@ -33,7 +38,6 @@ from topo_verify.robot.limits import Limit, Limits, MapperStopped, within
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
-from topo_verify.world.validation import map_parts, optional_part
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +56,7 @@ class Exploration:
         limit: the limit that stopped it, if one did.
         mapper: the mapper itself; a program's process lives as long as it.
         limits: the moves and the time that it was allowed.
+        misbehaved: what a program, or a mapper in a process of its own, did in place of a map.
     """
 
     world: World
@@ -65,16 +70,28 @@ class Exploration:
     limit: Limit | None = None
     mapper: Mapper | None = field(default=None, repr=False)
     limits: Limits = field(default_factory=Limits)
+    misbehaved: Misbehaved | None = field(default=None, repr=False)
+
+    @property
+    def declined(self) -> bool:
+        """Whether a program skipped the world or gave it up, as the protocol lets it."""
+        return self.misbehaved is not None and self.misbehaved.kind in ("skip", "error")
 
     @property
     def rejected_free(self) -> int:
-        """How many hypotheses were rejected without motion."""
-        return sum(isinstance(e, Reject) and e.rule != "motion" for e in self.trace)
+        """How many hypotheses were rejected where the robot had not moved since it decided."""
+        return sum(isinstance(e, Reject) for e in self.trace) - self.rejected_moving
 
     @property
     def rejected_moving(self) -> int:
-        """How many hypotheses were rejected by motion."""
-        return sum(isinstance(e, Reject) and e.rule == "motion" for e in self.trace)
+        """How many hypotheses were rejected after moves that no other decision came after.
+
+        Counted from the moves: what rule a rejection names changes nothing.
+        """
+        return sum(
+            isinstance(before, Move) and isinstance(event, Reject)
+            for before, event in pairwise(self.trace)
+        )
 
     @property
     def confirmed(self) -> int:
@@ -113,8 +130,12 @@ def explore(
         world=world.id if known else None,
         percept=first_percept(world),
     )
-    finish, stopped, error, limit = _run(target.mapper, robot, limits)
     if isinstance(target.mapper, Program):
+        target.mapper.start()  # here: no limit of a run counts what it takes to load a mapper
+    finish, stopped, error, limit = _run(target.mapper, robot, limits)
+    misbehaved = None
+    if isinstance(target.mapper, Program):
+        misbehaved = target.mapper.misbehaved
         # Here and not in the next run: ending a process takes time that no limit should count.
         target.mapper.settle()
     trace = (start, *robot.events)
@@ -130,6 +151,7 @@ def explore(
         limit,
         target.mapper,
         limits,
+        misbehaved,
     )
 
 
@@ -137,58 +159,20 @@ def _run(
     mapper: Mapper, robot: SimulatedRobot, limits: Limits
 ) -> tuple[Finish | None, str | None, BaseException | None, Limit | None]:
     """The delivered map; or why there is none, what the mapper raised and which limit struck."""
-    finish: Finish | None = None
-    why: str | None = None
-    error: BaseException | None = None
 
-    def survey() -> tuple[Finish | None, str | None, Exception | None]:
-        result = mapper(robot)
-        try:
-            # Read it within the limits: attributes of a foreign object may run code.
-            return _finish(result), None, None
-        except InputError as nonsense:
-            return None, str(nonsense), None
-        except Exception as raised:  # noqa: BLE001  an attribute may raise anything
-            return None, f"what was delivered cannot be read: {_exception_text(raised)}", raised
+    def survey() -> Finish | Undelivered:
+        # What a program is given stays on this side of its pipe.
+        return mapper(robot) if isinstance(mapper, Program) else deliver(mapper, robot.handle)
 
     try:
-        finish, why, error = within(limits, lambda: robot.cost, survey)
+        found = within(limits, lambda: robot.cost, survey)
     except MapperStopped as stop:
         stop = robot.stopped or stop
         return None, str(stop), None, stop.limit
-    except (Exception, SystemExit) as raised:  # noqa: BLE001  any exception is a finding
-        error = raised
+    error = found.error if isinstance(found, Undelivered) else None
     # A mapper that swallows the robot's exception and goes on is still stopped by the first limit.
     if robot.stopped is not None:
         return None, str(robot.stopped), error, robot.stopped.limit
-    if error is not None:
-        return None, why or f"the mapper raised {_exception_text(error)}", error, None
-    return finish, why, None, None
-
-
-def _exception_text(error: BaseException) -> str:
-    """The type and the text of an exception; its type alone if the text raises another one."""
-    try:
-        return f"{type(error).__name__}: {error}"
-    except Exception:  # noqa: BLE001  a mapper's exception may do anything
-        return type(error).__name__
-
-
-def _finish(result: object) -> Finish:
-    """The `finish` event of what a mapper returned.
-
-    Raises:
-        InputError: the result is no map, or its cost is no integer.
-    """
-    vertices, edges, marker = map_parts(result)
-    cost = optional_part(result, "cost")
-    if cost is not None and (isinstance(cost, bool) or not hasattr(cost, "__index__")):
-        raise InputError(
-            f"the mapper reports the cost {cost!r}: expected a number of moves or None"
-        )
-    if cost is not None and index(cost).bit_length() > 64:
-        # msgspec writes 64 bits; no run has so many moves.
-        raise InputError("the mapper reports a cost of more than 64 bits: expected its moves")
-    rotations = tuple(map(tuple, vertices))
-    delivered = MapData(rotations, tuple(map(tuple, edges)), marker)
-    return Finish(None if cost is None else index(cost), delivered)
+    if isinstance(found, Undelivered):
+        return None, found.why, error, None
+    return found, None, None, None

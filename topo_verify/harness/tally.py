@@ -5,8 +5,9 @@ and of expensive worlds a tally keeps the first few, in the order of the worlds,
 rest, so it stays small however many worlds it is about. Tallies travel between processes and lie in
 the ledger as JSON: the names of their fields are part of that format.
 
-A `Tallier` makes the tally of worlds that have a rank. What it counts is counted by `RunCounts`,
-which does without ranks: a drawn world of a hundred edges has none that can be computed.
+`search/tallier.py` makes the tally of worlds that have a rank. What it counts is counted
+by `RunCounts`, which does without ranks: a drawn world of a hundred edges has none that can be
+computed.
 
 Two other counts stand apart, for they are of other things: `conform` counts the states of a world
 on each of its levels, `compare` the kinds of change between two runs.
@@ -15,12 +16,14 @@ on each of its levels, `compare` the kinds of change between two runs.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import msgspec
 
-from topo_verify.checkers import CLAIMS, Finding
+from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
 from topo_verify.harness.judge import Report, undecided
+from topo_verify.harness.observed import Observation, added, sampled
 from topo_verify.harness.run import Exploration
 
 KEPT_RUNS, KEPT_FINDINGS = 3, 5
@@ -131,19 +134,41 @@ class CostComparison(msgspec.Struct, frozen=True):
         )
 
 
+class LostWorker(msgspec.Struct, frozen=True):
+    """A worker that was lost in a world in which nothing went wrong when it was tried again.
+
+    Attributes:
+        edges, rank: of the world.
+        how: what became of the worker, as `signal 9`.
+    """
+
+    edges: int
+    rank: int
+    how: str
+
+    @property
+    def world(self) -> str:
+        """The id of the world."""
+        return f"m{self.edges}/{self.rank}"
+
+
 class Tally(msgspec.Struct, frozen=True):
     """What runs judged in some worlds came to.
 
     Attributes:
         worlds: in how many worlds mappers ran.
-        undecided: in how many of them a run was out of time, and nothing else is wrong.
+        undecided: in how many of them a run was undecided, and nothing else is wrong.
         failing: in how many a claim fails.
         timeouts: how many runs a time limit ended.
         statuses: for each claim, how many runs have which status.
+        shares: for each claim, how much was judged in all runs together, of how much.
         claims: the claims that fail.
         failures: the first failing runs.
         costs: of each mapper.
         compared: the first mapper with the second, where there are two.
+        digest: a hash of what happened in every world; `observed.py`.
+        sample: some of the failing worlds and some of the others, to be run again.
+        lost: workers that a stranger may have killed.
     """
 
     worlds: int = 0
@@ -155,6 +180,10 @@ class Tally(msgspec.Struct, frozen=True):
     failures: tuple[Failure, ...] = ()
     costs: dict[str, CostTotals] = {}
     compared: CostComparison = CostComparison()
+    digest: str = ""
+    sample: tuple[Observation, ...] = ()
+    lost: tuple[LostWorker, ...] = ()
+    shares: dict[str, tuple[int, int]] = {}
 
     def __add__(self, behind: Tally) -> Tally:
         statuses = {claim: dict(seen) for claim, seen in self.statuses.items()}
@@ -177,7 +206,41 @@ class Tally(msgspec.Struct, frozen=True):
             (self.failures + behind.failures)[:KEPT_RUNS],
             costs,
             self.compared + behind.compared,
+            added(self.digest, behind.digest),
+            sampled(self.sample + behind.sample),
+            self.lost + behind.lost,
+            {claim: self._share(claim, behind) for claim in {**self.shares, **behind.shares}},
         )
+
+    def _share(self, claim: str, behind: Tally) -> tuple[int, int]:
+        pairs = zip(self.shares.get(claim, (0, 0)), behind.shares.get(claim, (0, 0)), strict=True)
+        judged, of = (one + other for one, other in pairs)
+        return judged, of
+
+
+def with_failure(tally: Tally, failure: Tally) -> Tally:
+    """A tally with a failure in one of its worlds that was found in another way.
+
+    Args:
+        failure: a tally of nothing but this failure.
+    """
+    both = tally + failure
+
+    def place(one: Failure) -> tuple[int, int]:
+        return one.edges, one.rank
+
+    claims = {
+        claim: Failing(
+            failing.worlds,
+            min(
+                (t.claims[claim].smallest for t in (tally, failure) if claim in t.claims),
+                key=place,
+            ),
+        )
+        for claim, failing in both.claims.items()
+    }
+    failures = tuple(sorted(tally.failures + failure.failures, key=place)[:KEPT_RUNS])
+    return msgspec.structs.replace(both, claims=claims, failures=failures)
 
 
 # ---------------------------------------------------------------- counting
@@ -189,27 +252,33 @@ class RunCounts:
 
     Attributes:
         worlds, failing, undecided, timeouts: as in a `Tally`.
-        undecided_runs: how many runs were out of time and say nothing else.
+        late_runs: how many runs were out of time and say nothing else.
     """
 
     worlds: int = 0
     failing: int = 0
     undecided: int = 0
     timeouts: int = 0
-    undecided_runs: int = 0
+    late_runs: int = 0
     # Counting whole rows of statuses is cheaper than counting ten claims in each run.
     _rows: Counter[tuple[str, ...]] = field(default_factory=Counter[tuple[str, ...]])
+    _judged: Counter[str] = field(default_factory=Counter[str])
+    _of: Counter[str] = field(default_factory=Counter[str])
     _fails: bool = False
     _open: bool = False
 
     def enter(self, run: Exploration, report: Report) -> bool:
-        """Count a run; False: it is undecided, and nothing else of it counts."""
+        """Count a run; False: it was out of time, and nothing else of it counts."""
         self.timeouts += run.limit in ("move-timeout", "world-timeout")
         if undecided(run, report):
-            self.undecided_runs += 1
             self._open = True
-            return False
+            if not report.ok:
+                self.late_runs += 1
+                return False
         self._rows[tuple(report.claims.values())] += 1
+        for judgement in report.judgements:
+            self._judged[judgement.claim] += judgement.judged
+            self._of[judgement.claim] += judgement.of
         self._fails |= not report.ok
         return True
 
@@ -230,109 +299,34 @@ class RunCounts:
                 statuses[claim][status] = statuses[claim].get(status, 0) + runs
         return statuses
 
+    def shares(self) -> dict[str, tuple[int, int]]:
+        """For each claim, how much was judged in all runs together, of how much."""
+        return {claim: (self._judged[claim], self._of[claim]) for claim in CLAIMS}
 
-@dataclass
-class Tallier:
-    """Makes the tally of worlds of one size, which come in the order of their ranks.
 
-    Life cycle: `open` a world, `enter` its runs, `close` it; `tally` at any time.
-
-    Attributes:
-        edges: the size of the worlds.
-        targets: the mappers that run in each world; if they are two, their costs are compared.
-    """
-
-    edges: int
-    targets: tuple[str, ...]
-    counts: RunCounts = field(default_factory=RunCounts)
-    _rank: int = -1
-    _claims: dict[str, Failing] = field(default_factory=dict[str, Failing])
-    _failures: list[Failure] = field(default_factory=list[Failure])
-    _costs: dict[str, _CostCounts] = field(default_factory=dict[str, "_CostCounts"])
-    _compared: CostComparison = field(default_factory=CostComparison)
-    # of the world that is open: the first failure of each claim, and the costs
-    _failed: dict[str, Failure] = field(default_factory=dict[str, Failure])
-    _paid: dict[str, int] = field(default_factory=dict[str, int])
-
-    def open(self, rank: int) -> None:
-        """Go on to the next world."""
-        self._rank, self._failed, self._paid = rank, {}, {}
-
-    def enter(self, run: Exploration, report: Report) -> None:
-        """Count a run in the open world."""
-        if not self.counts.enter(run, report):
-            return
-        if report.ok:
-            self._costs.setdefault(run.algorithm, _CostCounts()).enter(self._rank, run.cost)
-            self._paid[run.algorithm] = run.cost
-            return
-        findings = report.findings
-        for claim in dict.fromkeys(finding.claim for finding in findings):
-            first = tuple(f for f in findings if f.claim == claim)
-            self._failed.setdefault(claim, self._failure(run, first))
-        if len(self._failures) < KEPT_RUNS:
-            self._failures.append(self._failure(run, findings))
-
-    def _failure(self, run: Exploration, findings: tuple[Finding, ...]) -> Failure:
-        return Failure(self.edges, self._rank, run.algorithm, findings[:KEPT_FINDINGS])
-
-    def close(self) -> bool:
-        """Count the open world; does a claim fail in it?"""
-        for claim, failure in self._failed.items():
-            failing = Failing(1, failure)
-            known = self._claims.get(claim)
-            self._claims[claim] = failing if known is None else known + failing
-        if len(self.targets) == 2 and len(self._paid) == 2:
-            self._compare(*(self._paid[target] for target in self.targets))
-        return self.counts.close()
-
-    def _compare(self, cost: int, other: int) -> None:
-        if cost != other:
-            dearer = cost > other
-            pairs = (CostPair(f"m{self.edges}/{self._rank}", cost, other),) if dearer else ()
-            self._compared += CostComparison(dearer, not dearer, max(0, cost - other), pairs)
-
-    def tally(self) -> Tally:
-        """The tally of all closed worlds."""
-        return Tally(
-            worlds=self.counts.worlds,
-            undecided=self.counts.undecided,
-            failing=self.counts.failing,
-            timeouts=self.counts.timeouts,
-            statuses=self.counts.statuses(),
-            claims=self._claims,
-            failures=tuple(self._failures),
-            costs={target: costs.totals(self.edges) for target, costs in self._costs.items()},
-            compared=self._compared,
+def joint_judgements(
+    statuses: Mapping[str, Mapping[str, int]],
+    shares: Mapping[str, tuple[int, int]],
+    findings: Sequence[Finding],
+) -> tuple[Judgement, ...]:
+    """The judgement of each claim on many runs: `ok` only if it is `ok` in each."""
+    return tuple(
+        Judgement(
+            claim,
+            joint_status(statuses[claim]),
+            *shares.get(claim, (0, 0)),
+            tuple(finding for finding in findings if finding.claim == claim),
         )
+        for claim in CLAIMS
+        if any(statuses.get(claim, {}).values())
+    )
 
 
-@dataclass
-class _CostCounts:
-    """Counts what one mapper pays; `worst` holds the first ranks at which it pays the most."""
-
-    runs: int = 0
-    total: int = 0
-    most: int = 0
-    attained: int = 0
-    last: int = -1
-    worst: list[int] = field(default_factory=list[int])
-
-    def enter(self, rank: int, cost: int) -> None:
-        """Count one run of a mapper."""
-        self.runs += 1
-        self.total += cost
-        if cost < self.most:
-            return
-        if cost > self.most or not self.worst:
-            self.most, self.attained, self.last, self.worst = cost, 0, -1, []
-        if rank != self.last:  # several policies may cost the most in one world
-            self.last = rank
-            self.attained += 1
-            if len(self.worst) < KEPT_WORLDS:
-                self.worst.append(rank)
-
-    def totals(self, edges: int) -> CostTotals:
-        """The counts as a value."""
-        worst = tuple(f"m{edges}/{rank}" for rank in self.worst)
-        return CostTotals(self.runs, self.total, self.most, self.attained, worst)
+def joint_status(runs: Mapping[str, int]) -> Status:
+    """The status of a claim in many runs, of which so many have each status."""
+    seen = {status for status, number in runs.items() if number}
+    for status in ("failed", "undecided"):
+        if status in seen:
+            return status
+    alike: tuple[Status, ...] = ("ok", "not-declared", "not-asked")
+    return next((status for status in alike if seen == {status}), "partial")

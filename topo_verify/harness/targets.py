@@ -1,8 +1,8 @@
 """The TARGET of a command: a mapper by its name, its module, its file or its command.
 
     basic, folding              names of the catalogue; `all`: those that are right in every world
-    package.module:attribute    a callable of an importable module
-    path/file.py:attribute      a callable of a file
+    package.module:attribute    a callable of an importable module, in this process or its own
+    path/file.py:attribute      a callable of a file, likewise
     --cmd program args          a program behind protocol 1, started when it plays its first world
 
 A program's text is `--cmd` and its command in one text, so that workers, ledgers and baselines keep
@@ -14,35 +14,43 @@ Source: docs/semantics.md, section 16.
 from __future__ import annotations
 
 import shlex
-import shutil
-import sys
-from hashlib import sha256
-from pathlib import Path
 
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.errors import InputError
+from topo_verify.harness.mapper_names import text_of
+from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.hints import close_name, missing_attribute
 from topo_verify.programs.loader import Mapper, Target, load
 from topo_verify.programs.program import PREFIX, Program, split
 
 
-def targets(text: str, *, pick: str | None = None, order: str | None = None) -> tuple[Target, ...]:
+def targets(
+    text: str, *, pick: str | None = None, order: str | None = None, in_process: bool = True
+) -> tuple[Target, ...]:
     """The mappers that a TARGET names, in its order.
 
-    A program runs from its first world until it is closed or its object is deleted.
+    A program runs from its first world until it is closed or its object is deleted; a mapper in a
+    process of its own from now on.
 
     Args:
         pick, order: policies for algorithms of the catalogue.
+        in_process: a mapper that is not of the catalogue shares this process, or else gets its own.
     Raises:
         InputError: there is no such algorithm, module, file, attribute or policy; what was found
             cannot be called; the command is empty; or policies are given for another mapper.
     """
-    return tuple(_with_policies(target, pick, order) for target in _targets(text))
+    found = _targets(text, in_process=in_process)
+    return tuple(_with_policies(target, pick, order) for target in found)
 
 
 def one_target(
-    mapper: Mapper | str | Target, *, pick: str | None = None, order: str | None = None
+    mapper: Mapper | str | Target,
+    *,
+    pick: str | None = None,
+    order: str | None = None,
+    in_process: bool = True,
 ) -> Target:
-    """The target that a callable or a text names.
+    """The target that a callable or a text names; see `targets`.
 
     Raises:
         InputError: as `targets`; or the text names several mappers, or the object is no callable.
@@ -52,27 +60,33 @@ def one_target(
     if not isinstance(mapper, str):
         if not callable(mapper):
             raise InputError(f"expected a callable that takes a robot, got {mapper!r}")
-        return _with_policies(Target(_name(mapper), mapper), pick, order)
-    found = targets(mapper, pick=pick, order=order)
+        return _with_policies(Target(text_of(mapper), mapper), pick, order)
+    found = targets(mapper, pick=pick, order=order, in_process=in_process)
     if len(found) != 1:
         raise InputError(f"{mapper!r} names {len(found)} mappers: name one")
     return found[0]
 
 
-def _targets(text: str) -> tuple[Target, ...]:
+def _targets(text: str, *, in_process: bool) -> tuple[Target, ...]:
     # The prefix comes first: a command may well hold a colon, a module path never begins with `--`.
     if text.startswith(PREFIX):
         return (Program(text.removeprefix(PREFIX)).target,)
     if ":" in text:
-        return (Target(text, load(text)),)
+        if in_process:
+            return (Target(text, load(text)),)
+        foreign = Foreign(text)
+        foreign.start()  # now, so that a text that names no mapper is refused before all else
+        return (foreign.target,)
     general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
     names = general if text == "all" else [name.strip() for name in text.split(",")]
     for name in names:
         if name not in CATALOGUE:
+            if (hint := missing_attribute(name)) is not None:
+                raise InputError(f"target {name!r}: {hint}")
             raise InputError(
-                f"no algorithm {name!r}: there are {', '.join(CATALOGUE)} and all; a mapper of"
-                " your own is package.module:attribute, path/file.py:attribute or --cmd 'program"
-                " args'"
+                f"no algorithm {name!r}{close_name(name, CATALOGUE) or ':'} there are"
+                f" {', '.join(CATALOGUE)} and all; a mapper of your own is"
+                " package.module:attribute, path/file.py:attribute or --cmd 'program args'"
             )
     return tuple(Target(name, CATALOGUE[name]) for name in names)
 
@@ -89,17 +103,6 @@ def _with_policies(target: Target, pick: str | None, order: str | None) -> Targe
         return Target(target.text, target.mapper.with_policies(pick=pick, order=order))
     except ValueError as error:
         raise InputError(str(error)) from None
-
-
-def _name(mapper: Mapper) -> str:
-    """The text that finds a callable again, as far as there is one."""
-    if isinstance(mapper, Algorithm):
-        return mapper.name
-    name = getattr(mapper, "__qualname__", type(mapper).__qualname__)
-    module = getattr(mapper, "__module__", "__main__")
-    if module == "__main__":  # another process cannot import a script by that name, but by its file
-        module = getattr(sys.modules[module], "__file__", None) or module
-    return f"{module}:{name}"
 
 
 # ---------------------------------------------------------------- on the command line
@@ -127,16 +130,3 @@ def target_text(target: str | None, command: str | None, default: str | None = N
 def target_arguments(text: str) -> tuple[str, ...]:
     """The arguments of a command line that name this TARGET."""
     return ("--cmd", text.removeprefix(PREFIX)) if text.startswith(PREFIX) else (text,)
-
-
-def fingerprint(text: str) -> str:
-    """A hash of a program's TARGET: of its command, and of the files that the command names."""
-    command = split(text.removeprefix(PREFIX))
-    made = sha256(repr(command).encode())
-    for place, word in enumerate(command):
-        path = Path((shutil.which(word) or word) if place == 0 else word)
-        try:
-            made.update(path.read_bytes() if path.is_file() else b"")
-        except (OSError, ValueError):  # an unreadable file, or a word that cannot name one
-            continue
-    return made.hexdigest()

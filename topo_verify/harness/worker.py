@@ -18,13 +18,10 @@ Three things the code here must see to:
 
 from __future__ import annotations
 
-import ctypes
 import importlib
-import json
 import os
 import signal
 import subprocess
-import sys
 import threading
 import traceback
 from collections.abc import Callable
@@ -37,6 +34,7 @@ from typing import IO, Any, BinaryIO
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.programs.isolation import end_with, private_pipes, python_command
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
 Beat = Callable[[int], None]
@@ -53,14 +51,6 @@ END_GRACE = 5.0
 
 TERM_GRACE = 2.0
 """Seconds that a busy worker has to end after SIGTERM."""
-
-_START = (
-    "import sys, json; sys.path[:] = json.loads(sys.argv[1]);"
-    "from topo_verify.harness.worker import main; main(sys.argv[2], *map(int, sys.argv[3:]))"
-)
-"""The program of a worker. It imports from where its parent imports, and nothing by accident."""
-
-_PR_SET_PDEATHSIG = 1
 
 
 class WorkerReady(msgspec.Struct, frozen=True, tag=True):
@@ -125,9 +115,9 @@ class WorkerProcess:
     def __init__(self, serve: str, job: object) -> None:
         self._file = TemporaryFile()  # noqa: SIM115  closed by `kill`
         self.heartbeat = Heartbeat(self._file.fileno())
-        arguments = [json.dumps(sys.path), serve, str(os.getpid()), str(self.heartbeat.file)]
+        arguments = (serve, str(os.getpid()), str(self.heartbeat.file))
         self.process = subprocess.Popen(  # noqa: S603  this very Python
-            [sys.executable, "-P", "-c", _START, *arguments],
+            python_command(f"{__name__}:main", *arguments),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             pass_fds=[self.heartbeat.file],
@@ -213,7 +203,7 @@ class WorkerProcess:
 # ---------------------------------------------------------------- in the worker
 
 
-def main(serve: str, parent: int, heartbeat: int) -> None:
+def main(serve: str, parent: str, heartbeat: str) -> None:
     """Work for a parent until it has no more tasks or is gone.
 
     Args:
@@ -222,14 +212,14 @@ def main(serve: str, parent: int, heartbeat: int) -> None:
         heartbeat: the file descriptor of the heartbeat.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _end_with(parent)
-    commands, out = _pipes()
+    end_with(int(parent))
+    commands, out = private_pipes()
     lines: SimpleQueue[bytes | None] = SimpleQueue()
     threading.Thread(target=_read, args=(commands, lines.put), daemon=True).start()
     try:
         job = lines.get()
         if job is not None:
-            _work(_function(serve)(job), lines, out, Heartbeat(heartbeat).beat)
+            _work(_function(serve)(job), lines, out, Heartbeat(int(heartbeat)).beat)
     except BrokenPipeError:
         pass  # the parent is gone: nobody wants the result
     except InputError as error:
@@ -264,15 +254,6 @@ def _send(out: BinaryIO, message: WorkerMessage) -> None:
     out.flush()
 
 
-def _pipes() -> tuple[BinaryIO, BinaryIO]:
-    """The pipes to and from the parent, moved to where a mapper does not find them."""
-    commands, out = os.dup(0), os.dup(1)
-    nothing = os.open(os.devnull, os.O_RDONLY)
-    os.dup2(nothing, 0)
-    os.dup2(2, 1)
-    return os.fdopen(commands, "rb"), os.fdopen(out, "wb")
-
-
 def _read(commands: BinaryIO, put: Callable[[bytes | None], None]) -> None:
     """Hand on the lines; when they end, have the process end, in the midst of a task or not."""
     for line in commands:
@@ -280,11 +261,3 @@ def _read(commands: BinaryIO, put: Callable[[bytes | None], None]) -> None:
     put(None)  # an idle worker sees this, and leaves its context
     sleep(END_GRACE)
     os._exit(1)  # a busy one does not
-
-
-def _end_with(parent: int) -> None:
-    """Ask the kernel to end this process with its parent; end now if that is gone already."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    if os.getppid() != parent:
-        os._exit(0)

@@ -1,9 +1,18 @@
 """A mapper in another process: the pipe to it, its messages, and its end. Nothing here judges.
 
-protocol.py   protocol 1 and the batch format: every message as a type, and its JSON Schema
-child.py      a program as a child process: its lines in and out, and its end
-reaper.py     kills the programs whose parent was killed
-program.py    a program behind protocol 1 as a mapper, called with a robot
-loader.py     a mapper by module:attribute or file.py:attribute
-serve.py      a Python mapper behind protocol 1
+protocol.py         protocol 1 and the batch format: every message as a type, and its JSON Schema
+child.py            a program as a child process: its lines in and out, and its end
+processor.py        keeps it on the processor of the harness
+standard_error.py   what it writes on standard error
+reaper.py           kills the programs whose parent was killed; reaper_process.py starts it
+isolation.py        keeps worlds from other processes; starts Python processes of our own
+program.py          a program behind protocol 1 as a mapper, called with a robot
+misbehaviour.py     what a program does instead of delivering a map
+loader.py           a mapper by module:attribute or file.py:attribute
+delivery.py         calls a mapper and reads what it returns
+serve.py            a Python mapper behind protocol 1
+foreign.py          a Python mapper that is not ours, in a process of its own
+values.py           a hash of what a mapper was made with
+serve_fresh.py      serves it, each world in a fork of its own
+loaded.py           the files and distributions that a mapper's process has loaded
 """

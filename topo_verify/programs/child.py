@@ -7,27 +7,37 @@ leaves no process behind.
 
     one move     write, poll, read: three system calls
 
+Harness and program take turns, so they are fastest on one processor: the kernel switches from one
+to the other in a few microseconds, while a processor that idles takes tens of them to wake up. A
+program with a single thread is therefore kept on the processor of the harness (processor.py), where
+a poll sleeps at once. Others run where they like, and a poll looks some hundred times before it
+sleeps.
+
 Vocabulary: a *line* is a message without its line end; the *tail* is the end of standard error.
 """
 
 from __future__ import annotations
 
+import fcntl
 import os
 import select
 import signal
 import subprocess
-import sys
+import termios
 from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
 from math import inf
-from pathlib import Path
 from secrets import token_hex
 from time import monotonic, sleep
 
 from topo_verify.errors import InputError
 from topo_verify.programs import reaper
+from topo_verify.programs.isolation import sleep_briefly
+from topo_verify.programs.processor import SharedProcessor
 from topo_verify.programs.protocol import LIMIT
+from topo_verify.programs.reaper_process import ReaperProcess
+from topo_verify.programs.standard_error import StandardError
 from topo_verify.robot.limits import TICK
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
@@ -37,16 +47,21 @@ GRACE = 0.3
 LAST_WORDS = 0.5
 """Seconds between the end of a program's output and its exit status, at most."""
 
-TAIL = 4096
-"""How many bytes of standard error are kept: the last ones."""
-
 CHUNK = 2**16
 
-AHEAD = 4 * LIMIT
-"""The most bytes that a program may write while it does not read."""
+HEAD = b'{"type":"'
+"""The first bytes of every message to a program."""
 
-LOOKS = 30
-"""Polls without waiting before a poll that sleeps: most answers come before a sleeper wakes up."""
+AHEAD = 4
+"""So many times the longest message a program may write while it does not read."""
+
+PAUSE = 2e-5
+"""Seconds by which each pause is longer than the one before, while a program does not read."""
+
+_NO_BYTES = bytes(4)
+
+LOOKS = 200
+"""Polls without waiting before a poll that sleeps, where the program has another processor."""
 
 
 class Ended(Exception):
@@ -58,41 +73,7 @@ class Silent(Exception):
 
 
 class TooLong(Exception):
-    """The program wrote a line of more than `LIMIT` bytes, or more than `AHEAD` without reading."""
-
-
-class ReaperProcess:
-    """The process of reaper.py; one serves any number of programs. Lives until `close`."""
-
-    def __init__(self) -> None:
-        self._process = subprocess.Popen(  # noqa: S603  our own file
-            [sys.executable, "-I", "-S", str(Path(reaper.__file__))],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            start_new_session=True,
-            bufsize=0,
-        )
-
-    def started(self, group: int, mark: str) -> None:
-        """Put a program on the list of those to kill."""
-        self._write(f"+ {group} {mark}\n")
-
-    def ended(self, group: int, mark: str) -> None:
-        """Take a program off the list."""
-        self._write(f"- {group} {mark}\n")
-
-    def _write(self, line: str) -> None:
-        assert self._process.stdin is not None
-        with suppress(OSError):
-            self._process.stdin.write(line.encode())
-
-    def close(self) -> None:
-        """End the reaper, which first kills every program that is still on its list."""
-        assert self._process.stdin is not None
-        with suppress(OSError):
-            self._process.stdin.close()
-        self._process.wait()
+    """The program wrote a line that is too long, or too many lines without reading."""
 
 
 class Child:
@@ -101,12 +82,22 @@ class Child:
     Args:
         command: the program and its arguments; no shell expands them.
         reaper_process: kills the program if this process is killed.
+        longest: the most bytes of a line.
+        echo: what it writes on standard error appears on ours, each line behind this mark.
     Raises:
         InputError: the program cannot be started.
     """
 
-    def __init__(self, command: Sequence[str], reaper_process: ReaperProcess) -> None:
+    def __init__(
+        self,
+        command: Sequence[str],
+        reaper_process: ReaperProcess,
+        *,
+        longest: int = LIMIT,
+        echo: str | None = None,
+    ) -> None:
         self.mark = token_hex(16)
+        self._longest = longest
         try:
             self._process = subprocess.Popen(  # noqa: S603  the user names it, no shell reads it
                 list(command),
@@ -131,11 +122,15 @@ class Child:
             os.set_blocking(stream, False)
         self._poll.register(self._out, select.POLLIN)
         self._poll.register(self._err, select.POLLIN)
+        self._readers = select.poll()  # tells when nobody can read our messages any more
+        self._readers.register(self._in, 0)
+        self._head_sent = False
+        self._processor = SharedProcessor(self._process.pid)
+        sleep_briefly()  # in `read_on`
         self._lines: deque[bytes] = deque()
         self._rest = bytearray()
-        self._tail = bytearray()
+        self._stderr = StandardError(echo)
         self._output_ended = False
-        self._stderr_bytes = 0
         self.input_closed = False  # by the program or by us
         self._ended = False
 
@@ -170,6 +165,9 @@ class Child:
 
     def write(self, data: bytes) -> None:
         """Send data. If the program has closed its input, drop them: its output may say why."""
+        if self._head_sent:
+            assert data.startswith(HEAD), "every message begins in the same way"
+            data, self._head_sent = data[len(HEAD) :], False
         while data and not self.input_closed:
             try:
                 data = data[os.write(self._in, data) :]
@@ -188,7 +186,7 @@ class Child:
     @property
     def flooded_stderr(self) -> bool:
         """Whether it wrote more bytes on standard error than a message may have."""
-        return self._stderr_bytes > LIMIT
+        return self._stderr.bytes > LIMIT
 
     @property
     def in_half_a_line(self) -> bool:
@@ -214,10 +212,14 @@ class Child:
 
     def _listen(self, seconds: float = TICK) -> bool:
         """Read what has come, after waiting a tick at most; whether anything came."""
-        ready, looks = self._poll.poll(0), LOOKS if seconds else 0
+        looks = LOOKS if seconds and not self._processor.shared else 0
+        # On one processor a look without waiting is in vain: the program runs when we sleep.
+        ready = [] if seconds and not looks else self._poll.poll(0)
         while not ready and looks:
+            os.sched_yield()  # it may wait for this very processor
             ready, looks = self._poll.poll(0), looks - 1
-        ready = ready or self._poll.poll(int(1000 * seconds))
+        if seconds and not ready:
+            ready = self._poll.poll(int(1000 * seconds))
         for stream, _ in ready:
             if stream == self._out:
                 self._take()
@@ -239,7 +241,7 @@ class Child:
         first, *more = chunk.split(b"\n")
         if self._rest or not more:
             self._rest += first
-            if len(self._rest) > LIMIT:
+            if len(self._rest) > self._longest:
                 raise TooLong
             if not more:
                 return
@@ -256,9 +258,7 @@ class Child:
             return
         if not chunk:
             self._poll.unregister(self._err)
-        self._stderr_bytes += len(chunk)
-        self._tail += chunk
-        del self._tail[:-TAIL]
+        self._stderr.take(chunk)
 
     def _wait_for_room(self) -> None:
         """Wait until the program reads, and read what it writes meanwhile, against a deadlock."""
@@ -267,8 +267,50 @@ class Child:
             self._listen()
         finally:
             self._poll.unregister(self._in)
-        if len(self._rest) + sum(map(len, self._lines)) > AHEAD:
+        self._require_room()
+
+    def _require_room(self) -> None:
+        if len(self._rest) + sum(map(len, self._lines)) > AHEAD * self._longest:
             raise TooLong
+
+    def beside(self) -> None:
+        """Keep a program with a single thread on the processor of this thread."""
+        self._processor.follow()
+
+    def read_on(self) -> None:
+        """Wait until the program reads our next message, of which it gets the first bytes now.
+
+        A program that reads has written all that it had to write, and pipes keep the order: so
+        what it wrote before has come when this returns. It returns, too, when its output has ended
+        or nobody can read our messages.
+
+        Raises:
+            TooLong: it writes and writes, and does not read.
+        """
+        self.write(HEAD)
+        self._head_sent = True
+        pause = 0.0
+        while not (self.input_closed or self._output_ended or self._is_read()):
+            sleep(pause)  # no event tells when a pipe is read; the program may need this processor
+            pause = min(pause + PAUSE, 50 * PAUSE)
+            if self._readers.poll(0):
+                self.input_closed = True
+            elif not self._listen(0):
+                self._hear_of_end()
+            self._require_room()
+        while self._listen(0) and not self._output_ended:
+            self._require_room()
+
+    def _is_read(self) -> bool:
+        """Whether the program has read all that was written to it."""
+        try:
+            return fcntl.ioctl(self._in, termios.FIONREAD, _NO_BYTES) == _NO_BYTES
+        except OSError:  # a system that does not tell
+            return True
+
+    def _hear_of_end(self) -> None:
+        if self._status() is not None:
+            self._output_ended = True  # though a child of its own may hold the stream open
 
     # ------------------------------------------------------------ its end
 
@@ -283,16 +325,29 @@ class Child:
         code, number = status
         if code == os.CLD_EXITED:
             return f"ended with exit code {number}"
+        return f"was ended by {self.signal() or f'signal {number}'}"
+
+    def signal(self) -> str | None:
+        """The name of the signal that ended the program, as SIGSEGV; None: none did."""
+        code, number = self._status() or (os.CLD_EXITED, 0)
+        if code == os.CLD_EXITED:
+            return None
         with suppress(ValueError):
-            return f"was ended by {signal.Signals(number).name}"
-        return f"was ended by signal {number}"
+            return signal.Signals(number).name
+        return f"signal {number}"
+
+    def ended_by_itself(self) -> bool | None:
+        """Whether it ended in another way than with exit code 0; None: it can still play."""
+        if not (self.input_closed or self._output_ended):
+            return None
+        return self.exit_status() not in (None, "ended with exit code 0")
 
     def stderr(self) -> str:
         """The tail of its standard error."""
         with suppress(OSError, KeyError):  # KeyError: the stream has ended and is no longer polled
             while any(stream == self._err for stream, _ in self._poll.poll(0)):
                 self._drain()
-        return self._tail.decode(errors="backslashreplace")
+        return self._stderr.tail
 
     def _status(self) -> tuple[int, int] | None:
         """Exit status without reaping (WNOWAIT), so that the PID is not reused before `end`."""
@@ -316,6 +371,7 @@ class Child:
         # can have its number.
         reaper.end_all(self._process.pid, self.mark)
         self._process.wait()
+        self.stderr()  # the last of what it printed
         for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
             if stream is not None:
                 with suppress(OSError):

@@ -16,9 +16,10 @@ from types import CodeType
 from typing import cast
 
 from topo_verify.errors import InputError
-from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.programs.hints import close_attribute
+from topo_verify.robot.events import Robot
 
-Mapper = Callable[[SimulatedRobot], object]
+Mapper = Callable[[Robot], object]
 """Takes a robot and returns a map: `vertices`, `edges`, `marker`, and optionally `cost`."""
 
 
@@ -44,7 +45,10 @@ def load(text: str) -> Mapper:
         try:
             found = _attribute(found, name)
         except AttributeError:
-            raise InputError(f"target {text!r}: {place} has no attribute {attribute!r}") from None
+            raise InputError(
+                f"target {text!r}: {place} has no attribute {attribute!r}"
+                f"{close_attribute(found, name)}"
+            ) from None
     if not callable(found):
         raise InputError(
             f"target {text!r}: expected a callable that takes a robot, got {type(found).__name__}"
@@ -65,7 +69,9 @@ def _load_module(name: str, text: str) -> object:
         sys.path.insert(0, str(Path.cwd()))  # a console script lacks the working folder
     try:
         return importlib.import_module(name)
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
+        if isinstance(error, KeyboardInterrupt):
+            raise
         raise InputError(f"target {text!r}: cannot import {name!r}: {_one_line(error)}") from error
 
 
@@ -95,7 +101,9 @@ def _load_file(path: Path, text: str) -> object:
     sys.modules[name] = module  # before it runs: dataclasses look their module up here
     try:
         loader.exec_module(module)
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
+        if isinstance(error, KeyboardInterrupt):
+            raise
         raise InputError(f"target {text!r}: {str(path)!r} fails: {_one_line(error)}") from error
     return module
 

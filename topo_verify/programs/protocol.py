@@ -22,8 +22,9 @@ from typing import Any, Literal, cast
 
 import msgspec
 
+from topo_verify.programs.loaded import Loaded
 from topo_verify.robot.events import Decision, MapData, Number
-from topo_verify.robot.percept import Percept
+from topo_verify.robot.percept import Percept, Purpose
 from topo_verify.world.formats.world_json import WorldFile
 
 PROTOCOL: Literal[1] = 1
@@ -70,11 +71,15 @@ ToProgram = StartMessage | PerceptMessage | StopMessage
 # ---------------------------------------------------------------- from the program
 
 
-class MoveMessage(_Message, frozen=True, gc=False):
-    """The robot leaves by a door, 0 … degree-1. The harness answers with a percept."""
+class MoveMessage(_Message, frozen=True, gc=False, omit_defaults=True):
+    """The robot leaves by a door, 0 … degree-1. The harness answers with a percept.
+
+    `purpose` says what the move is for; it is recorded, and never needed.
+    """
 
     # No upper bound here: a door that does not exist is the robot's finding, not a malformed line.
     door: Number
+    purpose: Purpose | None = None
 
 
 class DeclareMessage(_Message, frozen=True):
@@ -103,6 +108,43 @@ class ErrorMessage(_Message, frozen=True):
 
 
 FromProgram = MoveMessage | DeclareMessage | DoneMessage | SkipMessage | ErrorMessage
+
+
+# ---------------------------------------------------------------- our own child
+
+# A mapper in Python runs in a process of ours (serve.py), which says more than protocol 1 can.
+# Other programs never receive these messages, and may not send them.
+
+
+class ReadyMessage(_Message, frozen=True):
+    """From our child: the mapper is loaded, and waits for a world."""
+
+
+class RefusedMessage(_Message, frozen=True):
+    """From our child: the TARGET names no mapper; then the child ends."""
+
+    why: str
+
+
+class UndeliveredMessage(_Message, frozen=True):
+    """From our child: the mapper raised, returned no map, or misused the robot. Ends the world."""
+
+    kind: Literal["no-map", "bad-door", "bad-declaration"]
+    why: str
+
+
+class StockMessage(_Message, frozen=True):
+    """To our child, between two worlds: say what the mapper has loaded."""
+
+
+class LoadedMessage(_Message, frozen=True):
+    """From our child: what the mapper has loaded."""
+
+    loaded: Loaded
+
+
+ToChild = ToProgram | StockMessage
+FromChild = FromProgram | ReadyMessage | RefusedMessage | UndeliveredMessage | LoadedMessage
 
 
 # ---------------------------------------------------------------- batch

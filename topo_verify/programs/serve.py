@@ -1,54 +1,83 @@
-"""A Python mapper behind protocol 1: `python -m topo_verify.programs.serve TARGET`.
+"""A Python mapper behind protocol 1, in a process of its own.
 
-Use this for a mapper that needs a process of its own, because it blocks in C code, leaks memory,
-prints, or must be stopped by force; and for a program to try the protocol with:
+The command line starts one for each mapper that is not of the catalogue (foreign.py); it says more
+than the protocol can: that the mapper is loaded, what it raised and where, which files it opened.
+As a program like any other it speaks protocol 1 alone, to try the protocol with:
 
     topo-verify conform --cmd 'python -m topo_verify.programs.serve my_mapper.py:explore'
 
-The mapper's prints go to standard error. An exception ends the program.
+The mapper's prints go to standard error. Behind `--cmd` an exception ends the program.
 
 Source: docs/semantics.md, section 15.
 """
 
 from __future__ import annotations
 
-import os
+import faulthandler
 import sys
-from collections.abc import Mapping
-from typing import BinaryIO, cast
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from io import TextIOWrapper
+from operator import index
+from typing import BinaryIO, Literal, cast
 
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.programs import isolation, loaded
 from topo_verify.programs import protocol as ms
+from topo_verify.programs.delivery import Undelivered, deliver, finish_of
 from topo_verify.programs.loader import Mapper, load
-from topo_verify.robot.events import Decision, MapData
+from topo_verify.programs.values import values_hash
+from topo_verify.robot.events import Decision
+from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.percept import Door, Percept, Purpose
-from topo_verify.robot.simulator import SimulatedRobot
-from topo_verify.world.validation import map_parts, optional_part
+from topo_verify.robot.simulator import EXPECTED, Misuse, door_number, require_purpose
 
 CATALOGUE = "topo_verify.algorithms:CATALOGUE.{}"
 """The place of a name without a colon. Loaded by text, since programs/ imports no algorithms."""
 
-_to_program: msgspec.json.Decoder[ms.ToProgram] = msgspec.json.Decoder(ms.ToProgram)
+_to_child: msgspec.json.Decoder[ms.ToChild] = msgspec.json.Decoder(ms.ToChild)
+_encode = msgspec.json.Encoder(enc_hook=index).encode
+
+
+WORDS = 100_000
+"""The most characters of an explanation that are sent."""
 
 
 class RemoteRobot:
-    """The robot at the other end of the pipe. Lives as long as one world."""
+    """The robot at the other end of the pipe. Lives as long as one world.
+
+    Attributes:
+        misuse: how the mapper misused the robot, which then never moves again; None: it did not.
+    """
+
+    __slots__ = ("_percept", "_reader", "_writer", "misuse")
 
     def __init__(self, percept: Percept, reader: BinaryIO, writer: BinaryIO) -> None:
         self._percept, self._reader, self._writer = percept, reader, writer
+        self.misuse: tuple[Literal["bad-door", "bad-declaration"], Misuse] | None = None
 
     @property
     def percept(self) -> Percept:
         """The percept of the robot's vertex."""
         return self._percept
 
-    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:  # noqa: ARG002  not sent
+    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
         """Leave by a door; the percept behind it."""
-        self._write(ms.MoveMessage(door))
+        self._require_sound()
+        try:
+            number = door_number(door, self._percept.degree)
+            require_purpose(purpose)
+        except Misuse as why:
+            self.misuse = ("bad-door", why)
+            raise
+        self._writer.write(_encode(ms.MoveMessage(number, purpose)) + b"\n")
         self._writer.flush()
-        message = _to_program.decode(self._reader.readline())
+        line = self._reader.readline()
+        if not line:
+            raise MapperStopped("the harness is gone")
+        message = _to_child.decode(line)
         if not isinstance(message, ms.PerceptMessage):
             raise InputError(f"expected a percept in answer to a move, got {message!r}")
         self._percept = Percept(message.degree, message.marker)
@@ -56,36 +85,105 @@ class RemoteRobot:
 
     def declare(self, event: Decision | Mapping[str, object]) -> None:
         """Declare a decision; it is sent with the next move."""
-        self._write({"type": "declare", "event": event})
+        self._require_sound()
+        try:
+            # The harness finds out whether it is a decision.
+            line = _encode({"type": "declare", "event": event})
+        except (msgspec.MsgspecError, TypeError, OverflowError) as error:
+            why = Misuse(f"{EXPECTED}: {error}")
+            self.misuse = ("bad-declaration", why)
+            raise why from None
+        self._writer.write(line + b"\n")
 
-    def done(self, result: object) -> None:
-        """Deliver the result of the mapper."""
-        vertices, edges, marker = map_parts(result)
-        delivered = MapData(tuple(map(tuple, vertices)), tuple(map(tuple, edges)), marker)
-        cost = optional_part(result, "cost")
-        self._write({"type": "done", "map": delivered, "cost": cost})
-        self._writer.flush()
-
-    def _write(self, message: object) -> None:
-        self._writer.write(msgspec.json.encode(message) + b"\n")
+    def _require_sound(self) -> None:
+        if self.misuse is not None:
+            raise self.misuse[1]
 
 
-def serve(mapper: Mapper, reader: BinaryIO, writer: BinaryIO) -> None:
-    """Play worlds until a `stop` message or the end of the input."""
+Player = Callable[[Mapper, RemoteRobot], object]
+"""Plays one world: has the mapper steer the robot, and returns the message that ends the world."""
+
+
+def serve(
+    mapper: Mapper, reader: BinaryIO, writer: BinaryIO, play: Player, values: str = ""
+) -> None:
+    """Play worlds until a `stop` message or the end of the input.
+
+    Args:
+        values: the hash of what the mapper was made with.
+    """
     for line in reader:
-        message = _to_program.decode(line)
-        if not isinstance(message, ms.StartMessage):
+        message = _to_child.decode(line)
+        if isinstance(message, ms.StartMessage):
+            answer = play(mapper, RemoteRobot(message.percept, reader, writer))
+        elif isinstance(message, ms.StockMessage):
+            answer = ms.LoadedMessage(loaded.loaded(values))
+        else:
             return
-        robot = RemoteRobot(message.percept, reader, writer)
-        robot.done(mapper(cast("SimulatedRobot", robot)))  # it has all that a mapper may use
+        # First what the mapper printed: it belongs to the world that ends now.
+        with suppress(OSError, ValueError):
+            sys.stdout.flush()
+        writer.write(_encode(answer) + b"\n")
+        writer.flush()
+
+
+def _as_program(mapper: Mapper, robot: RemoteRobot) -> object:
+    """Play as any program does: an exception ends it."""
+    found = mapper(robot)
+    if robot.misuse is not None:
+        raise robot.misuse[1]
+    finish = finish_of(found)
+    return ms.DoneMessage(finish.map, finish.cost)
+
+
+def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
+    """Play for `Foreign`, which is told what kept the mapper from delivering a map."""
+    try:
+        found = deliver(mapper, robot, alone=True)
+    except MapperStopped as stop:
+        found = Undelivered(str(stop))
+    if robot.misuse is not None:
+        kind, misuse = robot.misuse
+        return ms.UndeliveredMessage(kind, _words(str(misuse)))
+    if isinstance(found, Undelivered):
+        return ms.UndeliveredMessage("no-map", _words(found.why))
+    return ms.DoneMessage(found.map, found.cost)
+
+
+def play_once(mapper: Mapper, start: ms.StartMessage, reader: BinaryIO, writer: BinaryIO) -> None:
+    """Play one world for `Foreign`, whose start has been read."""
+    answer = _as_child(mapper, RemoteRobot(start.percept, reader, writer))
+    writer.write(_encode(answer) + b"\n")
+    writer.flush()
+
+
+def _words(text: str) -> str:
+    """The text as it can be sent: cut, and without half characters."""
+    return text[:WORDS].encode(errors="backslashreplace").decode()
 
 
 def main(text: str) -> None:
-    """Serve the mapper of a TARGET on standard input and output."""
-    # Move the pipe away from descriptor 1, where a mapper's prints would mix with the messages.
-    writer = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    serve(load(text if ":" in text else CATALOGUE.format(text)), sys.stdin.buffer, writer)
+    """Serve the mapper of a TARGET over protocol 1 alone."""
+    reader, writer = isolation.private_pipes()
+    serve(load(text if ":" in text else CATALOGUE.format(text)), reader, writer, _as_program)
+
+
+def child(text: str) -> None:
+    """Serve the mapper of a TARGET for `Foreign`; this is what its process runs."""
+    loaded.watch()
+    reader, writer = isolation.private_pipes()
+    cast("TextIOWrapper", sys.stdout).reconfigure(line_buffering=True)
+    faulthandler.enable()  # what kills the process says in which line
+    try:
+        mapper = load(text)
+    except InputError as error:
+        writer.write(_encode(ms.RefusedMessage(_words(str(error)))) + b"\n")
+        writer.flush()
+        return
+    made = values_hash(mapper)  # before it runs: a default may change then
+    writer.write(_encode(ms.ReadyMessage()) + b"\n")
+    writer.flush()
+    serve(mapper, reader, writer, _as_child, made)
 
 
 if __name__ == "__main__":

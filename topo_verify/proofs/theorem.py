@@ -173,8 +173,10 @@ class Theorem:
         certificate = outcome.certificate
         return (
             outcome.verdict == self.expected != "UNKNOWN"
+            # What refutes a theorem is itself a model of the premises.
             and (self.expected == "REFUTED" or outcome.premises_satisfiable is True)
             and (replayed is None or replayed[0] == replayed[1] > 0)
+            # Both are None where no worlds are counted.
             and (outcome.checked == outcome.total)
             and (certificate is None or certificate.checked)
         )

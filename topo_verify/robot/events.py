@@ -16,7 +16,7 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from io import BytesIO
-from typing import Annotated, Literal, Protocol
+from typing import Annotated, Any, Literal, Protocol
 
 import msgspec
 
@@ -52,18 +52,19 @@ class Evidence(msgspec.Struct, frozen=True, omit_defaults=True):
     Attributes:
         step: how many doors behind the entered vertex (0: at that vertex itself).
         expected: what would be sensed there if the hypothesis were true.
-        observed: what was sensed.
+        observed: what was sensed. Rules `folding` and `planar` may leave out both percepts.
         sequence: without motion: the number, from 0, of the sequence executed for this edge that
             showed it. Sequences are numbered by the mismatches met in motion.
         at: without motion: the dart of S where tracing stood. It is the dart of arrival, or,
             where a record gave the expectation, the unexplored dart that was crossed.
         record: the record that gave the expectation, if one did.
-        contradiction: for rules `folding` and `planar`, which need no two percepts: what is wrong.
+        contradiction: for rules `folding` and `planar`, which need no two percepts: what is wrong,
+            in the words of docs/semantics.md, section 13.
     """
 
     step: Number
-    expected: Percept
-    observed: Percept
+    expected: Percept | None = None
+    observed: Percept | None = None
     sequence: Number | None = None
     at: MapDart | None = None
     record: Record | None = None
@@ -83,6 +84,12 @@ class Policies(msgspec.Struct, frozen=True):
 
     pick: str = "nearest"
     order: str = "shortest"
+
+    def __repr__(self) -> str:
+        return f"tv.Policies(pick={self.pick!r}, order={self.order!r})"
+
+    def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
+        printer.text(repr(self))
 
 
 class Start(_Event, frozen=True, kw_only=True):

@@ -29,6 +29,7 @@ from inspect import currentframe
 from types import FrameType
 from typing import Literal, TypeVar
 
+from topo_verify.errors import InputError
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
 T = TypeVar("T")
@@ -65,6 +66,10 @@ class WorldTimeout(TimeLimitExceeded):
     limit = "world-timeout"
 
 
+MOST_SECONDS = 10**6
+"""The longest time limit, in seconds: about eleven days."""
+
+
 @dataclass(frozen=True, slots=True)
 class Limits:
     """What a mapper may use up in one world.
@@ -73,11 +78,21 @@ class Limits:
         budget: moves (edge traversals); None: the bound of claim 7.
         move_timeout: seconds between two moves, without those spent waiting for a processor.
         world_timeout: such seconds in all.
+    Raises:
+        InputError: seconds are not in (0, MOST_SECONDS].
     """
 
     budget: int | None = None
     move_timeout: float = 5.0
     world_timeout: float = 60.0
+
+    def __post_init__(self) -> None:
+        for name in ("move_timeout", "world_timeout"):
+            seconds = getattr(self, name)
+            if not 0 < seconds <= MOST_SECONDS:
+                raise InputError(
+                    f"{name}: expected seconds in (0, {MOST_SECONDS}], got {seconds!r}"
+                )
 
     @property
     def options(self) -> tuple[str, ...]:

@@ -1,8 +1,9 @@
 """The robot in a simulated world: hides the world, meters the cost, records what happens.
 
-Trusted. A mapper holds a `SimulatedRobot` and can ask it for nothing but `percept`, `move` and
-`declare`. (Python hides nothing from a mapper that is determined to look: the claims are about
-mappers that play by the rules, and programs that run behind a pipe cannot do otherwise.)
+Trusted. A mapper holds the `handle` of a `SimulatedRobot`, which has `percept`, `move` and
+`declare`, and nothing else. (Python hides nothing from a mapper in the same process that is
+determined to look: it finds the simulator through a method of its handle. Moves are therefore
+counted apart from the trace; and a mapper in a process of its own finds nothing.)
 
 Source: docs/semantics.md, section 2.
 """
@@ -12,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 from operator import index
-from typing import NoReturn
+from typing import NoReturn, SupportsIndex, cast
 
 import msgspec
 
@@ -24,6 +25,10 @@ from topo_verify.world.rooted_map import Dart, World
 
 _plain = msgspec.msgpack.Encoder(enc_hook=index)
 _decision: msgspec.msgpack.Decoder[Decision] = msgspec.msgpack.Decoder(Decision)
+
+
+EXPECTED = "expected a decision (pose, reject, confirm, augment)"
+"""What is said of a declaration that is none."""
 
 
 class Misuse(MapperStopped):
@@ -53,8 +58,60 @@ def exit_dart(world: World, dart: Dart, door: Door) -> Dart:
     return rotation[(world.place_of[dart] + door) % len(rotation)]
 
 
+def door_number(door: object, degree: int) -> Door:
+    """The door that a mapper asks for at a vertex of this degree.
+
+    Raises:
+        Misuse: there is no such door.
+    """
+    if type(door) is int and 0 <= door < degree:
+        return door
+    try:
+        number = -1 if isinstance(door, bool) else index(cast("SupportsIndex", door))
+    except TypeError:
+        number = -1
+    if not 0 <= number < degree:
+        raise Misuse(f"the mapper asked for door {door!r} at a vertex with {degree} doors")
+    return number
+
+
+def require_purpose(purpose: Purpose | None) -> None:
+    """Raise a Misuse unless this is what a move can be for."""
+    if purpose is not None and purpose not in PURPOSES:
+        raise Misuse(f"expected a purpose of {', '.join(PURPOSES)}, got {purpose!r}")
+
+
+def plain_decision(event: Decision | Mapping[str, object]) -> Decision:
+    """The decision that a mapper declares: a `Pose`, `Reject`, `Confirm` or `Augment`, or its JSON.
+
+    Raises:
+        Misuse: it is none.
+    """
+    try:
+        # Through plain data and back: a struct may have been built with anything inside.
+        return _decision.decode(_plain.encode(event))
+    except (msgspec.MsgspecError, TypeError, OverflowError) as error:
+        raise Misuse(f"{EXPECTED}: {error}") from None
+
+
+class RobotHandle:
+    """What a mapper gets of a robot: `percept`, `move` and `declare`; see `Robot`."""
+
+    __slots__ = ("_percept", "declare", "move")
+
+    def __init__(self, robot: SimulatedRobot) -> None:
+        # The methods themselves: another layer would slow down every move.
+        self.move, self.declare = robot.move, robot.declare
+        self._percept = robot.sense
+
+    @property
+    def percept(self) -> Percept:
+        """The percept where the robot stands now."""
+        return self._percept()
+
+
 class SimulatedRobot:
-    """A robot at the marker of a world. Lives for one run; `trace` grows with every call.
+    """A robot at the marker of a world. Lives for one run; `events` grows with every call.
 
     Args:
         world: where the robot is; never shown to the mapper.
@@ -64,11 +121,11 @@ class SimulatedRobot:
         Misuse: no such door, or no decision. Once stopped the robot never moves again.
     """
 
-    __slots__ = ("_at", "_budget", "_cost", "_percept", "_percepts", "_stopped", "_world", "events")
+    __slots__ = ("_at", "_cost", "_percept", "_percepts", "_stopped", "_world", "budget", "events")
 
     def __init__(self, world: World, budget: int) -> None:
         self._world = world
-        self._budget = budget
+        self.budget = budget
         self._cost = 0
         self._at = world.root or 0
         self._percepts = percepts(world)
@@ -77,7 +134,21 @@ class SimulatedRobot:
         self.events: list[Event] = []
 
     @property
+    def handle(self) -> RobotHandle:
+        """What a mapper is given."""
+        return RobotHandle(self)
+
+    @property
     def percept(self) -> Percept:
+        """The percept where the robot stands now."""
+        return self._percept
+
+    @property
+    def darts(self) -> int:
+        """How many darts the world has; not for mappers."""
+        return len(self._world.alpha)
+
+    def sense(self) -> Percept:
         """The percept where the robot stands now."""
         return self._percept
 
@@ -93,17 +164,13 @@ class SimulatedRobot:
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
         """Leave by a door and return the percept behind it. Costs 1. See `Robot.move`."""
-        if self._stopped is not None or self._cost >= self._budget:
-            self._stop(BudgetExceeded(f"the mapper asked for more than {self._budget} moves"))
+        if self._stopped is not None or self._cost >= self.budget:
+            self._stop(BudgetExceeded(f"the mapper asked for more than {self.budget} moves"))
         try:
-            number = -1 if isinstance(door, bool) else index(door)
-        except TypeError:
-            number = -1
-        if not 0 <= number < self._percept.degree:
-            doors = self._percept.degree
-            self._stop(Misuse(f"the mapper asked for door {door!r} at a vertex with {doors} doors"))
-        if purpose is not None and purpose not in PURPOSES:
-            self._stop(Misuse(f"expected a purpose of {', '.join(PURPOSES)}, got {purpose!r}"))
+            number = door_number(door, self._percept.degree)
+            require_purpose(purpose)
+        except Misuse as why:
+            self._stop(why)
         self._at = self._world.alpha[exit_dart(self._world, self._at, number)]
         self._cost += 1
         self._percept = self._percepts[self._at]
@@ -115,10 +182,13 @@ class SimulatedRobot:
         if self._stopped is not None:
             raise self._stopped
         try:
-            # Through plain data and back: a struct may have been built with anything inside.
-            decision = _decision.decode(_plain.encode(event))
-        except (msgspec.MsgspecError, TypeError, OverflowError) as error:
-            self._stop(Misuse(f"expected a decision (pose, reject, confirm, augment): {error}"))
+            decision = plain_decision(event)
+        except Misuse as why:
+            self._stop(why)
+        self.record(decision)
+
+    def record(self, decision: Decision) -> None:
+        """Put a decision on record that was read as one."""
         self.events.append(decision)
 
     def _stop(self, why: MapperStopped) -> NoReturn:

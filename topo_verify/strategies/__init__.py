@@ -7,6 +7,7 @@
     symmetric.py   symmetric_worlds                           doors.py      door_words
     uniform.py     uniform_worlds                             notes.py      notes and features
     sample.py      worlds outside of any test                 resolve.py    STRATEGY by its name
+    naming.py      prints a strategy as its call
 
 The entry point `hypothesis` calls registration.py. docs/property-tests.md begins with a
 first test and shows the simplest world of each strategy.

@@ -1,8 +1,8 @@
 """Dense worlds: many edges on few vertices, so that many hypotheses are posed for each edge.
 
     strategy       draws                                               its simplest world
-    dense_worlds   every world with at least half as many edges as     m0/0: one vertex,
-                   there are pairs of vertices: 2m >= n(n-1)/2         nothing else
+    dense_worlds   every world with at least half as many edges as     m1/0: a single edge
+                   there are pairs of vertices: 2m >= n(n-1)/2
 
 They grow as all worlds do (`growth.py`), only with fewer leaves.
 """
@@ -15,13 +15,15 @@ from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.draws import worlds_of
 from topo_verify.strategies.growth import CROWDED
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape
 from topo_verify.world.rooted_map import World
 
 
+@shown_as_called
 def dense_worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     min_genus: int = 0,
     max_genus: int | None = None,

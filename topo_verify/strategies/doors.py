@@ -16,10 +16,12 @@ from topo_verify.errors import InputError
 from topo_verify.robot.percept import Door
 from topo_verify.robot.simulator import exit_dart
 from topo_verify.strategies.draws import draw_bytes
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import LARGEST, integer
 from topo_verify.world.rooted_map import World
 
 
+@shown_as_called
 def door_words(
     world: World, *, min_length: int = 0, max_length: int = 100
 ) -> SearchStrategy[tuple[Door, ...]]:

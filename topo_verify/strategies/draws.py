@@ -83,7 +83,7 @@ def at_most(most: int, bound: int) -> int:
 
 
 def one_of(row: list[int]) -> SearchStrategy[int]:
-    """One of these numbers, as a choice even if there is one number.
+    """One of these numbers; a choice is drawn even where there is one number.
 
     Hypothesis takes an example with fewer choices for a simpler one.
     """
@@ -92,6 +92,7 @@ def one_of(row: list[int]) -> SearchStrategy[int]:
 
 def scaled(length: int, *drawn: int) -> int:
     """The number below `length` that these bytes stand for; it grows with them."""
+    # The bytes are a fraction of 256^n: that part of `length`, rounded down.
     return int.from_bytes(drawn) * length >> 8 * len(drawn)
 
 

@@ -1,8 +1,8 @@
 """Worlds of every kind: all rooted maps, or those of given genus, degree, simplicity.
 
     strategy           draws                               its simplest world
-    worlds             every world within the bounds       m0/0: one vertex, nothing else
-    planar_worlds      those of genus 0                    m0/0
+    worlds             every world within the bounds       m1/0: a single edge
+    planar_worlds      those of genus 0                    m1/0
     nonplanar_worlds   those of genus 1 or more            m2/8: two loops that cross
 
 Every world within the bounds can be drawn: `growth.py` says why.
@@ -14,13 +14,15 @@ from hypothesis.strategies import SearchStrategy
 
 from topo_verify.errors import InputError
 from topo_verify.strategies.draws import worlds_of
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape, integer
 from topo_verify.world.rooted_map import World
 
 
+@shown_as_called
 def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     min_genus: int = 0,
     max_genus: int | None = None,
@@ -37,7 +39,7 @@ def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     Example:
         >>> from hypothesis import find
         >>> find(worlds(simple=True), lambda world: len(world.vertices) == 3)
-        World.from_id('m2/2')
+        tv.World.from_id('m2/2')
     """
     shape = grown_shape(
         "worlds",
@@ -51,9 +53,10 @@ def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
     return worlds_of("worlds", shape, min_edges=min_edges, max_edges=max_edges, marker=marker)
 
 
+@shown_as_called
 def planar_worlds(
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     simple: bool = False,
     loopless: bool = False,
@@ -77,10 +80,11 @@ def planar_worlds(
     )
 
 
+@shown_as_called
 def nonplanar_worlds(
     *,
     genus: int | None = None,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     simple: bool = False,
     loopless: bool = False,

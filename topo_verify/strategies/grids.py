@@ -1,7 +1,7 @@
 """Lattices: rectangles of a grid without some nodes, like the paper's street networks.
 
     strategy   draws                                              its simplest world
-    lattices   rectangles of the grid, with holes, connected      m0/0: one vertex, nothing else
+    lattices   rectangles of the grid, with holes, connected      m1/0: a single edge
 
 A rectangle is drawn that may have too many edges. Then nodes are taken out, unless the rest would
 fall apart. If there are still too many edges, single edges are taken out as well (closed streets).
@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.draws import AT_MOST, at_most, draw_dart, marked_darts, one_of, scaled
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import WIDEST, edge_bounds, require_marker
 from topo_verify.world.rooted_map import Dart, World
 
@@ -36,8 +37,9 @@ _HOLES = 4
 """There is at most one hole to so many edges."""
 
 
+@shown_as_called
 def lattices(
-    *, min_edges: int = 0, max_edges: int = WIDEST, marker: LatticeMarker = "any"
+    *, min_edges: int = 1, max_edges: int = WIDEST, marker: LatticeMarker = "any"
 ) -> SearchStrategy[World]:
     """Rectangles of a grid with holes. Shrinks to few edges, then to whole rectangles.
 

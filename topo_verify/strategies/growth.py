@@ -92,6 +92,7 @@ def grow(shape: Shape, kinds: EdgeKinds, steps: bytes, further: bytes = b"\0") -
     """
     shape = shape.at(len(steps))
     shuffle = Random(steps)  # seeded with the bytes, so that the same bytes give the same map
+    # Trial 0 takes the bytes as they are, trial 1 the same with handles first, all others new ones.
     for trial in range(_TRIALS):
         sapling = _Sapling(shape, len(steps), genus_first=trial > 0)
         grown = sapling.grow(kinds, steps, further)
@@ -120,6 +121,7 @@ class _Sapling:
         self._bounded = shape.max_degree < MANY or shape.leaf
         self._genus = 0
         self._faces = 1
+        # The next label of a face. `_faces` is smaller: a cross leaves a label without a face.
         self._labels = 1
 
     def grow(self, kinds: EdgeKinds, steps: bytes, further: bytes) -> Grown | None:
@@ -138,6 +140,7 @@ class _Sapling:
 
     def _add(self, kind: EdgeKind, place: int) -> bool:
         """Add an edge of this kind, unless the map could not be finished then. Was one added?"""
+        # What the edge adds: vertices, faces, genus, room.
         if kind == "leaf":
             possible = self._can_finish(1, 0, 0, self._shape.max_degree - 2)
         elif kind == "split":
@@ -188,11 +191,13 @@ class _Sapling:
             for near in _from_place(free, place):
                 yield near, near
         else:
+            # `^` binds last: so many darts from the newest, and then the other end of that edge.
             near = darts - 1 - nth(place, darts) ^ 1
             yield near, near
 
     def _far_ends(self, near: Dart, *, across: bool) -> list[Dart]:
         """The corners, newest first, to which an edge may lead from this one."""
+        # Corner d lies on the face of dart d ^ 1, which a walk along the face crosses to get there.
         face, vertex, here = self._face, self._vertex, self._face[near ^ 1]
         corners = range(len(face) - 1, -1, -1)
         if across:
@@ -252,6 +257,7 @@ class _Sapling:
         self._face += [face, face]
         self._faces += -1 if across else 1
         self._genus += across
+        # A split gives b's side a new label, and a's side keeps the old one.
         if not across:
             face = self._labels
             self._labels += 1
@@ -280,6 +286,7 @@ class _Sapling:
 
     def _state(self) -> dict[str, Any]:
         """A copy of everything that changes."""
+        # Shallow copies are enough, because the lists and the dict hold nothing that changes.
         return {name: copy(value) for name, value in vars(self).items() if name != "_shape"}
 
     def _restore(self, state: dict[str, Any]) -> None:
@@ -301,4 +308,5 @@ def nth(place: int, corners: int) -> int:
     """
     bits = (corners - 1).bit_length()
     number = place & ((1 << bits) - 1)
+    # Without its top bit the number is below 2^(bits-1), and that is below `corners`.
     return number if number < corners else number - (1 << bits >> 1)

@@ -19,10 +19,12 @@ from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.algorithms.policies import ORDERS, PICKS
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Policies
+from topo_verify.strategies.naming import shown_as_called
 
 _MAX_SEED = 10**6
 
 
+@shown_as_called
 def policies(*, random: bool = True) -> SearchStrategy[Policies]:
     """Pick and order, by name.
 
@@ -32,6 +34,7 @@ def policies(*, random: bool = True) -> SearchStrategy[Policies]:
     return st.builds(Policies, pick=_named(PICKS, random), order=_named(ORDERS, random))
 
 
+@shown_as_called
 def mappers(
     *,
     algorithms: Iterable[str] | None = None,

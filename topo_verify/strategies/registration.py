@@ -1,6 +1,7 @@
-"""Registers the type `World` and two profiles with Hypothesis, as soon as both are installed.
+"""Registers three types and two profiles with Hypothesis, as soon as both are installed.
 
-    st.from_type(World)   draws from `worlds()`, so World may stand in any annotation
+    st.from_type(World)   draws from `worlds()`, so World may stand in any annotation; so may
+                          Algorithm (`mappers()`) and Policies (`policies()`)
     topo-ci               a profile: the same examples everywhere, no deadline
     topo-nightly          a profile: new examples every time, fifty times as many
 
@@ -13,13 +14,18 @@ from __future__ import annotations
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
+from topo_verify.algorithms import Algorithm
+from topo_verify.robot.events import Policies
 from topo_verify.strategies.general import worlds
+from topo_verify.strategies.mappers import mappers, policies
 from topo_verify.world.rooted_map import World
 
 
 def register() -> None:
-    """Register the type and the profiles. A second call changes nothing."""
-    st.register_type_strategy(World, _worlds)
+    """Register the types and the profiles. A second call changes nothing."""
+    st.register_type_strategy(World, lambda _: worlds())
+    st.register_type_strategy(Algorithm, lambda _: mappers())
+    st.register_type_strategy(Policies, lambda _: policies())
     settings.register_profile(
         "topo-ci",
         max_examples=100,
@@ -37,7 +43,3 @@ def register() -> None:
         print_blob=True,
         suppress_health_check=[HealthCheck.too_slow],
     )
-
-
-def _worlds(_: type[World]) -> st.SearchStrategy[World]:
-    return worlds()

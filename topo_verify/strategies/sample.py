@@ -10,7 +10,15 @@ Hypothesis may draw other worlds.
 
 from __future__ import annotations
 
+import os
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
 from hypothesis import HealthCheck, Phase, given, seed, settings
+from hypothesis.configuration import set_hypothesis_home_dir, storage_directory
+from hypothesis.internal.observability import observability_enabled
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.world.rooted_map import World
@@ -25,10 +33,30 @@ def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> l
         hypothesis.errors.Unsatisfiable: the strategy draws nothing at all.
     """
     drawn: list[World] = []
-    while len(drawn) < number:
-        drawn += _one_run(strategy, number - len(drawn), start)
-        start += 1
+    with leaving_no_folder():
+        while len(drawn) < number:
+            drawn += _one_run(strategy, number - len(drawn), start)
+            start += 1
     return drawn
+
+
+@contextmanager
+def leaving_no_folder() -> Generator[None]:
+    """Within the block Hypothesis writes no `.hypothesis` into the current folder.
+
+    Even without a database of examples it keeps the literals of the modules of a source tree there.
+    With its observability switched on, the folder is what the user asks for.
+    """
+    if observability_enabled():
+        yield
+        return
+    place: Any = storage_directory(intent_to_write=False)
+    # No folder can be made in the null device, and Hypothesis goes on where it cannot write.
+    set_hypothesis_home_dir(Path(os.devnull, "hypothesis"))
+    try:
+        yield
+    finally:
+        set_hypothesis_home_dir(getattr(place, "path", place))  # a path in older versions
 
 
 def _one_run(strategy: SearchStrategy[World], number: int, start: int) -> list[World]:

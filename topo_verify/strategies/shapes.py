@@ -2,15 +2,16 @@
 
 These arguments mean the same in every strategy:
 
-    min_edges, max_edges   the number of edges m; default: 0 to 200. A world with 200 edges still
-                           has a one-line id, so every failing example prints one
+    min_edges, max_edges   the number of edges m; default: 1 to 200. A world with 200 edges still
+                           has a one-line id, so every failing example prints one. min_edges=0
+                           also draws m0/0, the world with no edge, which no command ever tries
     min_genus, max_genus   the genus g of the surface; from 0 up
     simple                 neither loops nor parallel edges
     loopless               no loops
     max_degree             no vertex has more exits than this
     marker                 where the marker lies: "any" exit; "leaf", at a dead end, where its
                            direction says nothing; "hub", at a vertex of the greatest degree, where
-                           it says most. The world with no edge has no marker, so "leaf" excludes it
+                           it says most. m0/0 has no marker, so "leaf" excludes it
 
 Worlds are grown edge by edge: a **leaf** is a new vertex on a new edge; a **split** joins two
 corners of one face (one face more); a **cross** joins corners of two faces (one face less, the
@@ -101,6 +102,7 @@ class Shape:
         # As in the table above: the closings that must come, and the most leaves besides them.
         missing = max(0, self.min_genus - genus)
         cycles = edges - left - vertices + 1
+        # A cross takes a face away and one must be left: faces - 1 of them need no split.
         closings = max(missing + max(0, missing - faces + 1), self.min_cycles - cycles)
         leaves = min(left - closings, self.max_vertices - vertices)
         return (
@@ -247,4 +249,6 @@ def require_marker(strategy: str, marker: str, known: tuple[str, ...]) -> None:
 
 def _in_order(strategy: str, what: str, least: int, most: int) -> None:
     if least > most:
-        raise InputError(f"{strategy}: min_{what}={least} is above max_{what}={most}: swap them")
+        # Nobody has to have written the default min_edges=1.
+        mend = "min_edges=0 draws m0/0, too" if (what, most) == ("edges", 0) else "swap them"
+        raise InputError(f"{strategy}: min_{what}={least} is above max_{what}={most}: {mend}")

@@ -1,7 +1,7 @@
 """Worlds in which many places look alike, so that the marker alone tells them apart.
 
     strategy           draws                                     its simplest world
-    symmetric_worlds   covers of small maps, all places of       m0/0: one vertex, nothing else
+    symmetric_worlds   covers of small maps, all places of       m1/0: a single edge
                        which look alike `sheets` times over
 
 A **cover** is made of copies of a small map, its *sheets*, numbered round a circle 0 … n-1. Each
@@ -36,6 +36,7 @@ from hypothesis.strategies import SearchStrategy
 from topo_verify.errors import InputError
 from topo_verify.strategies.draws import AT_MOST, at_most, draw_dart, marked_darts, one_of
 from topo_verify.strategies.growth import BALANCED, Grown, grow
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import (
     MANY,
     WIDEST,
@@ -59,9 +60,9 @@ class _CoverSizes:
     """How large rosettes or necklaces may be.
 
     Attributes:
-        smalls: how many darts a rosette has or edges a bead; ascending, and each as often as there
-            are numbers of sheets that go with it.
-        sheets: these numbers.
+        smalls: how many darts a rosette has, or edges a bead. Ascending; a number stands there once
+            for each number of sheets that it can have.
+        sheets: the number of sheets that goes with each of `smalls`.
     """
 
     smalls: SearchStrategy[int]
@@ -85,9 +86,10 @@ class Small:
     vertex: tuple[int, ...]
 
 
+@shown_as_called
 def symmetric_worlds(
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     simple: bool = False,
     loopless: bool = False,
@@ -116,6 +118,7 @@ def symmetric_worlds(
 
 @st.composite
 def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: MarkerPlace) -> World:
+    # Rosettes at index 0 of `kinds`, necklaces at 1.
     bound, is_necklace = draw(_FIRST)
     kinds = _kinds(shape, least, max(least, at_most(most, bound)))
     if not any(kinds):  # the bound drawn is too tight: use the bounds that were asked for
@@ -140,6 +143,7 @@ def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Mar
 def cover(small: Small, sheets: int, root: Dart) -> World:
     """The world of so many sheets, joined by the shifts, with the marker on sheet 0."""
     darts = len(small.alpha)
+    # Dart d of sheet i has the number i·darts + d.
     alpha = [
         (sheet + small.shift[dart]) % sheets * darts + small.alpha[dart]
         for sheet in range(sheets)
@@ -155,6 +159,7 @@ def cover(small: Small, sheets: int, root: Dart) -> World:
 @lru_cache(maxsize=256)
 def _kinds(shape: Shape, least: int, most: int) -> tuple[_CoverSizes | None, _CoverSizes | None]:
     """The sizes of rosettes and of necklaces within the bounds; None where there are none."""
+    # n sheets make n·darts/2 edges of a rosette, n·edges of a bead; -(-a // b) rounds up.
     rosettes = {0: [1] * (least == 0 and not shape.leaf)}
     for darts in range(1, min(2 * most, shape.max_degree) + 1):
         sheets = range(max(1, -(-2 * least // darts)), 2 * most // darts + 1)
@@ -205,8 +210,10 @@ def rosette(shape: Shape, sheets: int, darts: int, drawn: Iterator[int]) -> Smal
     halves = darts % 2
     # Half edges all shift by sheets/2, so in a simple graph there is one at most.
     if sheets % 2 == 0 and shape.max_parallel > 1:
+        # Above 2 sheets a whole edge must be left: half edges only join opposite sheets.
         spare = darts - halves - 2 * (sheets > 2 and darts > 1)
         halves += 2 * (next(drawn) % (spare // 2 + 1))
+    # s and -s make the same edges, and sheets/2 makes each of them twice.
     pool = list(range(1, (sheets + 1) // 2))  # all shifts of whole edges in a simple graph
     alpha: list[Dart] = []
     shift: list[int] = []
@@ -252,6 +259,7 @@ def necklace(shape: Shape, sheets: int, bead: Grown, drawn: Iterator[int]) -> Sm
             s = _free_shift(shape, sheets, next(drawn))
         else:
             s = next(drawn) % sheets
+        # Counted from the lesser vertex on: only so can shifts between two vertices be compared.
         before.add(s)
         shift += [s, -s] if ends == (u, v) else [-s, s]
     return Small(bead.alpha, bead.sigma, tuple(shift), bead.vertex)

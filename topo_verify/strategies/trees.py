@@ -1,7 +1,7 @@
 """Trees: worlds in which no hypothesis is ever true.
 
     strategy      draws                                        its simplest world
-    tree_worlds   every plane tree within the bounds           m0/0: one vertex, nothing else
+    tree_worlds   every plane tree within the bounds           m1/0: a single edge
 
 So whatever a mapper confirms in a tree is false.
 """
@@ -13,13 +13,15 @@ from dataclasses import replace
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.draws import worlds_of
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape
 from topo_verify.world.rooted_map import World
 
 
+@shown_as_called
 def tree_worlds(
     *,
-    min_edges: int = 0,
+    min_edges: int = 1,
     max_edges: int = WIDEST,
     max_degree: int | None = None,
     marker: MarkerPlace = "any",

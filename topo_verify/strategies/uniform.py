@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.errors import InputError
+from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import WIDEST, integer
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
@@ -25,6 +26,7 @@ _SPARE = 8
 """How many more bytes are drawn than the rank needs."""
 
 
+@shown_as_called
 def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
     """Every world with this many edges, each as likely as any other. Shrinks towards rank 0.
 

@@ -75,6 +75,7 @@ def call(
             f"'{shown(syntax.before + text, limit=60)}': {shown(str(error))};"
             f" the {syntax.kind.split()[0]} is {name}({parameters})"
         ) from error
+    # Not inside the `try`: a TypeError from here is a defect of the function, not of the text.
     return known[name](*bound.args, **bound.kwargs)
 
 
@@ -94,6 +95,7 @@ def _arguments(text: str, syntax: CallSyntax) -> tuple[list[Argument], dict[str,
         raise TypeError("expected one call, with its arguments in brackets")
     named: dict[str, Argument] = {}
     for word in parsed.keywords:
+        # `**x` has no name. Python refuses a name given twice only when it compiles, after parsing.
         if word.arg is None or word.arg in named:
             given = ast.get_source_segment(text, word)
             raise TypeError(f"expected name=value and each name once, got '{given}'")
@@ -107,6 +109,7 @@ def _literal(node: ast.expr, text: str, syntax: CallSyntax) -> Argument:
         value = ast.literal_eval(node)
     except (ValueError, RecursionError):
         value = ...  # an Ellipsis is a literal, too, and never allowed
+    # Not isinstance: True would be an int.
     if type(value) not in allowed:
         expected = "a literal" if syntax.words else "a number"
         raise TypeError(f"expected {expected}, got '{ast.get_source_segment(text, node)}'")

@@ -46,6 +46,7 @@ def least_cost(table: Table) -> int:
         if dart < other and other not in in_tree
     ]
     core = {0}  # the vertices on tree paths from v0 to the ends of loops
+    # The order of this set does not show, because `core` is the union of the ways.
     for v in {end for loop in loops for end in loop}:
         while v not in core:
             core.add(v)
@@ -55,5 +56,6 @@ def least_cost(table: Table) -> int:
         if v not in core:
             attached[v] = attached[parent[v]]
     pendant = [v for v in range(len(degrees)) if v not in core]
+    # (depth of v below a) - d(a), where attached[v] = d(a).
     saved = max((depth[v] - 2 * attached[v] for v in pendant), default=0)
     return sum(depth[u] + 1 + depth[v] for u, v in loops) + 2 * len(pendant) - max(0, saved)

@@ -46,7 +46,7 @@ class _Formats(Protocol):
     def save(self, world: World, path: str | PathLike[str]) -> None: ...
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)  # no slots: cached_property needs `__dict__`
 class World:
     """An immutable, validated, hashable world. Two worlds are equal iff alpha, sigma, root are.
 
@@ -373,7 +373,7 @@ class World:
 
     def __repr__(self) -> str:
         if len(self.edges) <= rank_order.MAX_ID_EDGES:
-            return f"World.from_id({self.id!r})"
+            return f"tv.World.from_id({self.id!r})"
         size = f"{len(self.vertices)} vertices, {len(self.edges)} edges, genus {self.genus}"
         return f"<World {self.name!r}: {size}>"
 

@@ -50,6 +50,7 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
                 f" alpha[{other}] = {alpha[other]}"
             )
     if len(set(sigma)) != darts:  # all images are in range, so one dart is the image of two
+        # Reversed: of two darts with one image, the lower is written last and stays.
         first = {image: dart for dart, image in reversed(list(enumerate(sigma)))}
         second = min(dart for dart, image in enumerate(sigma) if first[image] != dart)
         raise InputError(

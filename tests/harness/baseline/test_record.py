@@ -218,7 +218,7 @@ def test_a_finding_of_a_program_is_shown_again_by_conform() -> None:
 
 
 @pytest.mark.parametrize("policies", [{}, {"pick": "last"}])
-def test_a_finding_of_a_mapper_is_shown_again_by_replay(policies: dict[str, str]) -> None:
+def test_a_finding_of_a_mapper_is_shown_again_by_replay(policies: dict[str, Any]) -> None:
     line = replay_command(one_target("basic", **policies), "m3/13", Limits())
     words = "".join(f" --{name} {value}" for name, value in policies.items())
     assert line == f"topo-verify replay m3/13 --target basic{words}"

@@ -111,6 +111,76 @@ def test_a_python_mapper_that_ends_its_worker_is_a_finding(tmp_path: Path) -> No
     assert "exit code 9" in found["result"].findings[0].message
 
 
+@pytest.mark.parametrize(
+    ("deed", "verdict", "words"),
+    [
+        (
+            "os.kill(os.getpid(), 9)",
+            "UNKNOWN",
+            "its worker was lost (signal 9), perhaps by a stranger; at the second",
+        ),
+        ("os.abort()", "REFUTED", "it ended its process (signal 6); at the second try it deliver"),
+    ],
+)
+def test_a_worker_that_is_lost_once_is_tried_again(
+    tmp_path: Path, deed: str, verdict: str, words: str
+) -> None:
+    found = standings(ConformJob(target=deadly(tmp_path, deed, once=True)), "edges<=1", workers=1)
+    assert verdicts(found)[0] == verdict
+    assert (found["result"].passed, found["claims"].verdict) == (
+        1,
+        "UNKNOWN" if verdict == "UNKNOWN" else "EXHAUSTED",
+    )
+    told = [*found["result"].why, *(one.message for one in found["result"].findings)]
+    assert len(told) == 1
+    assert words in told[0]
+
+
+@pytest.mark.parametrize(
+    ("deed", "verdict", "words"),
+    [
+        (
+            "os.kill(os.getpid(), 9)",
+            "UNKNOWN",
+            "its process was ended by SIGKILL, perhaps by a str",
+        ),
+        ("os.abort()", "REFUTED", "ended by SIGABRT before it delivered a map"),
+    ],
+)
+def test_a_program_that_is_killed_once_is_tried_again(
+    tmp_path: Path, deed: str, verdict: str, words: str
+) -> None:
+    target = served(deadly(tmp_path, deed, once=True))
+    found = standings(ConformJob(target=target), "edges<=1")
+    assert verdicts(found)[0] == verdict
+    told = [*found["result"].why, *(one.message for one in found["result"].findings)]
+    assert len(told) == 1
+    assert words in told[0]
+    assert "at the second try it" in told[0]
+
+
+def test_a_worker_that_is_killed_each_time_convicts_nobody(tmp_path: Path) -> None:
+    target = deadly(tmp_path, "os.kill(os.getpid(), 9)", once=False)
+    found = standings(ConformJob(target=target), "edges<=1", workers=1)
+    assert verdicts(found) == ["UNKNOWN"] * 3
+    assert found["result"].why == ("m1/1: its worker was killed each time (signal 9)",)
+
+
+def deadly(folder: Path, deed: str, *, once: bool) -> str:
+    """A mapper that is right, but does this where the robot sees a loop; once or each time."""
+    done = folder / "done"
+    mapper = folder / "deadly.py"
+    mapper.write_text(
+        "import os\nimport topo_verify as tv\nfrom pathlib import Path\n"
+        "def explore(robot):\n"
+        f"    if robot.percept.degree == 2 and not Path({str(done)!r}).exists():\n"
+        f"        Path({str(done if once else folder)!r}).touch()\n"
+        f"        {deed}\n"
+        "    return tv.CATALOGUE['basic'](robot)\n"
+    )
+    return f"{mapper}:explore"
+
+
 def test_after_many_time_outs_the_rest_is_not_tried() -> None:
     limits = Limits(move_timeout=0.06)
     texts = ["m1/1"] * (MAX_TIMEOUTS + 5)

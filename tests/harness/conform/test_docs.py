@@ -13,7 +13,8 @@ from topo_verify.checkers import CLAIMS
 from topo_verify.harness.conform.conform import MAX_TIMEOUTS
 from topo_verify.harness.corpus import corpus_from
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.program import IN_A_ROW, MISBEHAVIOURS, Program
+from topo_verify.programs.misbehaviour import MISBEHAVIOURS
+from topo_verify.programs.program import IN_A_ROW, Program
 from topo_verify.robot.limits import Limit
 from topo_verify.world.formats import world_json
 

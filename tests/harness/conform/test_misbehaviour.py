@@ -14,21 +14,21 @@ import pytest
 
 from tests.programs.misbehaving import WAYS
 from tests.programs.programs import kinds, messages, misbehaving, outcomes
-from topo_verify.programs.program import MISBEHAVIOURS
+from topo_verify.programs.misbehaviour import MISBEHAVIOURS
 from topo_verify.robot.limits import Limits
 
 LIMITS = Limits(move_timeout=0.9, world_timeout=30)
 PATIENT = Limits(move_timeout=60, world_timeout=600)
 """For programs that end a world by themselves, however long the machine takes for it."""
 
-HANG = {"move-timeout", "half-line", "flooded-stderr", "closed-input"}
+HANG = {"move-timeout", "half-line", "flooded-stderr", "closed-input", "not-reading"}
 """The kinds that are found only when a time limit strikes, or may be."""
 
 EXPECTED = {
     "hangs": ("move-timeout", "did not move for 0.9 s"),
     "exits": ("crashed", "ended with exit code 7"),
     "exits with success": ("crashed", "ended with exit code 0"),
-    "raises": ("crashed", "its last line on standard error: IndexError: list index out of range"),
+    "raises": ("crashed", "/ IndexError: list index out of range"),
     "kills itself": ("crashed", "was ended by SIGKILL"),
     "crashes": ("crashed", "was ended by SIGSEGV"),
     "closes its output": ("closed-output", "closed its output and runs on"),
@@ -67,6 +67,11 @@ EXPECTED = {
     "delivers too early": ("cost-within-bound", "a cost of 0 is outside"),
     "lies about its cost": ("cost-honest", "a cost of 5, but made 1 moves"),
     "goes on after the end": ("out-of-turn", "went on after the world's end"),
+    "goes on later": ("out-of-turn", "went on after the world's end: and another thing"),
+    "goes on in halves": ("out-of-turn", "went on after the world's end: and another"),
+    "delivers and reads no more": ("not-reading", "does not read on"),
+    "delivers and crashes": ("crashed", "was ended by SIGSEGV before it read the next message"),
+    "floods declarations of 1 MB": ("declarations", "more than 16778240 bytes in this world"),
     "ignores SIGTERM": ("move-timeout", "did not move"),
     "leaves a child": ("crashed", "exit code 1"),
     "leaves a child in a session of its own": ("crashed", "exit code 1"),
@@ -74,7 +79,7 @@ EXPECTED = {
 }
 """What is found, and what its sentence says."""
 
-NO_FAULT = {"skips", "gives up", "strolls"}
+NO_FAULT = {"skips", "gives up", "strolls", "delivers and ends"}
 """What is no finding: see the last tests."""
 
 
@@ -86,6 +91,11 @@ def test_every_way_to_misbehave_is_expected_here() -> None:
 @pytest.fixture(autouse=True)
 def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+
+
+def test_a_program_that_ends_after_its_map_is_started_again() -> None:
+    made = outcomes(misbehaving("delivers and ends"), "m1/0", "m1/1", "m1/0", limits=PATIENT)
+    assert [one.states["result"] for one in made] == ["passed"] * 3
 
 
 @pytest.mark.parametrize("way", EXPECTED)

@@ -21,7 +21,7 @@ def runs(name: str, world: str, policies: Choices) -> list[tuple[object, ...]]:
     plan = Plan(targets=(name,), edges=1, choices=policies)
     target = Target(name, CATALOGUE[name])
     found = examinations(target, plan, World.from_id(world), lambda: None)
-    return [run.trace[1:] for run, _ in found]
+    return [run.trace[1:] for run, *_ in found]
 
 
 def test_all_policies_are_every_pick_with_every_order() -> None:
@@ -30,7 +30,7 @@ def test_all_policies_are_every_pick_with_every_order() -> None:
         Target("basic", CATALOGUE["basic"]), plan, World.from_id("m3/14"), lambda: None
     )
     names = [f"random({seed})" for seed in range(SEEDS)]
-    policies = [run.policies for run, _ in found]
+    policies = [run.policies for run, *_ in found]
     pairs = [(p.pick, p.order) for p in policies if p is not None]
     assert pairs == [*product([*PICKS, *names], [*ORDERS, *names])]
 

@@ -1,76 +1,167 @@
-"""The hash of a mapper's sources: it changes with the mapper and what it imports."""
+"""What a mapper rests on: a ledger is refused if any of it changes."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from topo_verify.harness.search.identity import source_hash
+from topo_verify import CATALOGUE, InputError
+from topo_verify.harness.ledger import Ledger
+from topo_verify.harness.search import identity
+from topo_verify.harness.search.exhaustive import Search
+from topo_verify.harness.search.identity import Identity, merged, named_files, source_hash
+from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.targets import targets
-from topo_verify.programs.loader import Target
+from topo_verify.programs.loaded import Loaded, hashes, watch
+
+MAPPER = """
+import os, sys
+sys.path.append(os.path.abspath("elsewhere"))
+from functools import partial
+from topo_verify import CATALOGUE
+import aside
+
+def explore(robot, right=True):
+    with open("data.txt") as data:
+        data.read()
+    return CATALOGUE["basic"](robot)
+
+def partly(robot, right):
+    return explore(robot)
+
+mine = partial(partly, right=aside.right)
+"""
 
 
 @pytest.fixture
-def package(folder: Path) -> Path:
-    """A file that imports neighbours in several ways, and one that nobody imports."""
-    (folder / "mine.py").write_text(
-        "import near\nfrom far import away\nimport json\ndef explore(robot): ...\n"
-    )
-    (folder / "near.py").write_text("def f(): from nested import one\n".replace("def f(): ", ""))
-    (folder / "far").mkdir()
-    (folder / "far" / "__init__.py").write_text("")
-    (folder / "far" / "away.py").write_text("from . import beside\n")
-    (folder / "far" / "beside.py").write_text("")
-    (folder / "nested.py").write_text("one = 1\n")
-    (folder / "stranger.py").write_text("")
+def here(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A mapper that imports a module of another folder and reads a file when it runs."""
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    (folder / "elsewhere").mkdir()
+    (folder / "elsewhere" / "aside.py").write_text("right = True\n")
+    (folder / "data.txt").write_text("some data")
+    (folder / "stranger.txt").write_text("")
+    (folder / "mine.py").write_text(MAPPER)
     return folder
 
 
-def hashed(text: str = "mine.py:explore") -> str:
-    for name in ("near", "far", "far.away", "far.beside", "nested"):
-        sys.modules.pop(name, None)
-    return source_hash(targets(text))
+def searched(text: str = "mine.py:explore", *, workers: int = 0, depends: Any = ()) -> int:
+    """A search with a ledger, as the command line does it; how many worlds the ledger had."""
+    sys.modules.pop("aside", None)
+    watch()
+    mappers = targets(text)
+    plan = Plan(targets=(text,), edges=1)
+    resting = Identity(mappers, depends)
+    with Ledger("search.ledger", plan, mappers, "1", resting.loaded()) as ledger:
+        work = Search(plan, mappers, workers=workers, ledger=ledger, identity=resting)
+        work.work()
+        return work.found().from_ledger
 
 
 @pytest.mark.parametrize(
-    ("file", "counts"),
+    ("file", "words"),
     [
-        ("mine.py", True),
-        ("near.py", True),
-        ("far/__init__.py", True),
-        ("far/away.py", True),
-        ("far/beside.py", True),
-        ("nested.py", True),
-        ("stranger.py", False),
+        ("mine.py", "the source of the mapper, or of topo-verify, has changed since"),
+        ("elsewhere/aside.py", r"elsewhere/aside\.py, which the mapper read, has changed; name an"),
+        ("data.txt", r"data\.txt, which the mapper read, has changed; name another file, or remov"),
     ],
 )
-def test_what_a_mapper_imports_counts_and_nothing_else(
-    package: Path, file: str, *, counts: bool
-) -> None:
-    before = hashed()
-    assert hashed() == before
-    with (package / file).open("a") as opened:
+def test_a_ledger_is_refused_once_a_file_has_changed(here: Path, file: str, words: str) -> None:
+    assert [searched(), searched()] == [0, 2]
+    (here / "stranger.txt").write_text("changed")
+    assert searched() == 2
+    with (here / file).open("a") as opened:
         opened.write("# changed\n")
-    assert (hashed() != before) == counts
+    with pytest.raises(InputError, match=words):
+        searched()
 
 
-def test_a_module_in_a_package_is_hashed_with_its_package(package: Path) -> None:
-    with (package / "far" / "away.py").open("a") as opened:
-        opened.write("def explore(robot): ...\n")
-    before = hashed("far.away:explore")
-    assert before == hashed("far.away:explore")
-    (package / "far" / "beside.py").write_text("# changed\n")
-    assert before != hashed("far.away:explore")
+def test_a_worker_says_what_it_read(here: Path) -> None:
+    searched(workers=1)
+    (here / "data.txt").unlink()
+    with pytest.raises(InputError, match=r"data\.txt, which the mapper read, is gone"):
+        searched()
+
+
+def test_the_arguments_of_a_partial_count(here: Path) -> None:
+    searched("mine.py:mine")
+    file = here / "elsewhere" / "aside.py"
+    file.write_text("import os\nright = not os.environ.get('WRONG')\n")
+    (here / "search.ledger").unlink()
+    searched("mine.py:mine")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("WRONG", "1")
+        with pytest.raises(InputError, match="the mapper was made with other values"):
+            searched("mine.py:mine")
+
+
+def test_the_version_of_a_distribution_counts(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with (here / "mine.py").open("a") as opened:
+        opened.write("import networkx\n")
+    searched()
+
+    def none(_name: str) -> None: ...
+
+    monkeypatch.setattr(identity, "_version", none)
+    with pytest.raises(InputError, match=r"the mapper used \w+ [\d.]+, installed is none; name an"):
+        searched()
+
+
+def test_a_file_that_a_mapper_depends_on_counts(here: Path) -> None:
+    searched("basic", depends=["stranger.txt"])
+    (here / "stranger.txt").write_text("changed")
+    with pytest.raises(InputError, match=r"stranger\.txt, which the mapper read, has changed"):
+        searched("basic", depends=["stranger.txt"])
+
+
+# ---------------------------------------------------------------- what a TARGET names
+
+
+def test_a_mapper_is_named_by_its_file_wherever_it_is(here: Path) -> None:
+    (here / "far").mkdir()
+    (here / "far" / "__init__.py").write_text("raise ZeroDivisionError")
+    (here / "far" / "away.py").write_text("")
+    assert named_files("mine.py:explore") == ["mine.py"]
+    assert named_files("far.away:explore") == [str(here / "far" / "away.py")]
+    assert named_files("far:explore") == [str(here / "far" / "__init__.py")]
+    assert named_files("nowhere:explore") == named_files("nowhere.at:all") == []
+
+
+def test_the_hash_of_a_program_is_that_of_the_files_that_its_command_names(here: Path) -> None:
+    text = "--cmd sh mine.py --fast"
+    assert named_files(text)[1:] == ["mine.py", "--fast"]
+    before = source_hash(targets(text))
+    assert before == source_hash(targets(text)) != source_hash(targets("--cmd sh"))
+    assert Identity(targets(text)).loaded().files.keys() == hashes(named_files(text)).keys()
+    (here / "mine.py").write_text("")
+    assert before != source_hash(targets(text))
 
 
 def test_algorithms_of_the_catalogue_share_the_hash_of_topo_verify() -> None:
     assert source_hash(targets("basic")) == source_hash(targets("folding"))
+    assert Identity(targets("basic,folding")).loaded() == Loaded()
+    assert CATALOGUE
 
 
-def test_a_mapper_without_a_file_has_that_hash_too() -> None:
-    def made(_robot: object) -> None: ...
+# ---------------------------------------------------------------- several processes
 
-    made.__module__ = "nowhere"
-    assert source_hash([Target("made", made)]) == source_hash(targets("basic"))
+
+def test_what_several_processes_loaded_is_put_together() -> None:
+    one, other = Loaded({"a": "1"}, {"d": "1"}, "v"), Loaded({"b": "2"}, {"e": "2"})
+    both = Loaded({"a": "1", "b": "2"}, {"d": "1", "e": "2"}, "v")
+    assert merged(one, other, "here") == merged(other, one, "here") == both
+
+
+@pytest.mark.parametrize(
+    ("other", "words"),
+    [
+        (Loaded({"a": "2"}), "here: the mapper read a, which changed while the search ran: start"),
+        (Loaded(values="w"), "here: the mapper is made with other values each time"),
+    ],
+)
+def test_processes_that_loaded_other_things_are_refused(other: Loaded, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        merged(Loaded({"a": "1"}, {}, "v"), other, "here")

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.harness import mappers
+from tests.programs.programs import served
 from topo_verify import CATALOGUE, InputError, InternalError, Limits, Robot, World, explore
 from topo_verify.harness.search import plan as planning
 from topo_verify.harness.search.exhaustive import Search, search
@@ -125,6 +127,24 @@ def test_a_mapper_that_is_out_of_time_is_neither_right_nor_wrong() -> None:
     found = search(mappers.strolls, edges=2, limits=Limits(world_timeout=0.01))
     assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 0, 12)
     assert found.tally.undecided == 12
+
+
+@pytest.mark.parametrize(
+    ("deed", "verdict"), [("killed_once", "UNKNOWN"), ("segfaults_once", "REFUTED")]
+)
+def test_a_program_that_is_killed_once_is_tried_again(
+    folder: Path, deed: str, verdict: str
+) -> None:
+    found = search(served(f"{folder / 'mappers.py'}:{deed}"), edges=3)
+    assert found.verdict == verdict
+    if verdict == "UNKNOWN":
+        assert [(one.world, one.how) for one in found.lost] == [("m3/21", "SIGKILL")]
+        assert found.checked == 86
+    else:
+        assert found.counterexample is not None
+        assert found.counterexample.world == "m3/21"
+        assert "SIGSEGV before it delivered a map" in found.counterexample.message
+        assert "; at the second try it delivered one" in found.counterexample.message
 
 
 def test_a_search_that_would_take_for_ever_ends_after_its_time_outs() -> None:

@@ -192,7 +192,7 @@ def test_a_claim_that_is_declared_now_and_then_is_told_as_such() -> None:
 
     part = done(lambda robot: basic(Sometimes(robot)))
     assert part.ok
-    assert part.summary.endswith("5 claims hold, 5 declared in some runs only, and hold there")
+    assert part.summary.endswith("5 of 10 claims hold, 5 partial")
 
 
 def test_the_summary_names_which_of_several_mappers_fails() -> None:
@@ -224,7 +224,6 @@ def test_an_interrupted_part_is_yielded_as_far_as_it_came() -> None:
         return basic(robot)
 
     parts = verify([Target("mine", interrupts)], quick=True)
-    assert next(parts).part == "counts"
     part = next(parts)
     assert (part.verdict, part.ok, part.checked, part.total) == ("UNKNOWN", False, 20, 86)
     assert part.summary.endswith("; interrupted")

@@ -70,7 +70,7 @@ def holds(fold: Fold, fact: Fact) -> bool:
     """Does the fold show the fact? The checkers count visits from 0."""
     one, other = ((visit - 1, door) for visit, door in (fact.one, fact.other))
     if isinstance(fact.reason, EdgeRefutation):
-        return not fold.possible(one, other)
+        return bool(fold.contradictions(one, other))
     return fold.partner(one) == fold.find(other)
 
 

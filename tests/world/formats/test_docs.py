@@ -36,4 +36,4 @@ def test_the_python_of_the_page_runs() -> None:
     assert found is not None
     names: dict[str, object] = {}
     exec(found[1], names)  # noqa: S102  the page's own example
-    assert repr(names["world"]) == "World.from_id('m2/3')"
+    assert repr(names["world"]) == "tv.World.from_id('m2/3')"

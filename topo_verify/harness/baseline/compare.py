@@ -1,4 +1,4 @@
-"""Compares a mapper with a baseline: where is it wrong, dearer, cheaper, or decides otherwise?
+"""Compares a mapper with a baseline: where it is wrong, costs more or less, or decides otherwise.
 
 The mapper runs in the baseline's own worlds, under the baseline's own limits, and every claim is
 judged. Each world then falls into one kind, the first of these that fits:
@@ -149,6 +149,7 @@ def compare(
     seen = runs(target, worlds(), len(baseline.entries), limits, tell)
     tally = _ComparisonTally()
     for entry in baseline.entries:
+        # None: the runs ended early, after too many time-outs.
         now = next(seen, None)
         world = World.from_text(entry.world) if now is None else now.world
         replay = replay_command(target, _argument(entry), limits)
@@ -236,9 +237,11 @@ def _change(
     kind = _kind(then, None if now is None else now.entry)
     before = then.cost if then.right else None
     after = now.entry.cost if now is not None and now.entry.right else None
+    # The world without edges costs 0, of which nothing is a percentage.
     percent, beyond = None, False
     if before and after is not None:
         dearer = Fraction(100 * (after - before), before)
+        # The exact fraction is compared, not the rounded number that is shown.
         percent, beyond = float(round(dearer, 1)), dearer > tolerance
     return Change(
         world=then.called,

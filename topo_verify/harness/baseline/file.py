@@ -83,7 +83,8 @@ class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
         map: the id of the delivered map (beyond 200 edges `sha256:` and the hash of its code); None
             if the mapper delivered none, or no valid one.
         failed: the claims that fail.
-        undecided: the run exceeded its time while it still moved, so no claim was judged.
+        undecided: no claim was judged, since the run exceeded its time while it still moved, or the
+            program declined the world.
     """
 
     world: str
@@ -205,6 +206,7 @@ def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
     number, size = 1, 0
     try:
         with gzip.GzipFile(fileobj=BytesIO(data)) as file:
+            # A longer line comes in pieces, and the first piece is refused: it has no valid sum.
             while line := file.readline(files.LIMIT):
                 size += len(line)
                 if size > MOST_BYTES:
@@ -282,8 +284,10 @@ def schema() -> dict[str, Any]:
     """The JSON Schema of a line, as in `schemas/baseline.schema.json`."""
     made, components = msgspec.json.schema_components([Header, BaselineEntry])
     for name in ("Header", "BaselineEntry"):
+        # `_summed` appends it to the struct's own fields.
         components[name]["properties"]["sum"] = {"type": "string", "pattern": "^[0-9a-f]{16}$"}
         components[name]["required"].append("sum")
+    # For msgspec their defaults make them optional, but every file has them.
     components["Header"]["required"] += ["format", "version"]
     title = "a line of a topo-verify baseline: first the header, then an entry a world"
     return dialect({"title": title, "anyOf": list(made), "$defs": components})

@@ -31,7 +31,7 @@ from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import Exploration, explore
 from topo_verify.harness.targets import target_arguments
 from topo_verify.programs.loader import Target
-from topo_verify.programs.program import Program
+from topo_verify.programs.program import PREFIX
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
@@ -112,8 +112,7 @@ def runs(
 
 def _recorded(target: Target, name: str, world: World, limits: Limits) -> Recorded:
     run = explore(world, target, limits=limits)
-    # Asked before the run is judged: that may run the program in a witness world, too.
-    declined = isinstance(target.mapper, Program) and _declined(target.mapper)
+    declined = run.misbehaved is not None and run.misbehaved.kind in ("skip", "error")
     report = judge(run, where=name, options=limits.options)
     replay = replay_command(target, name, limits)
     findings = tuple(msgspec.structs.replace(f, replay=replay) for f in report.findings)
@@ -135,16 +134,11 @@ def _recorded(target: Target, name: str, world: World, limits: Limits) -> Record
 
 def replay_command(target: Target, where: str, limits: Limits) -> str:
     """The command line that shows the mapper in the world `where` again."""
-    if isinstance(target.mapper, Program):
+    if target.text.startswith(PREFIX):
         words = ("conform", *target_arguments(target.text), "--worlds", where, *limits.options)
         return shlex.join(["topo-verify", *words])
     policies = target.mapper.policies if isinstance(target.mapper, Algorithm) else None
     return replay_line(where, target.text, policies, limits.options)
-
-
-def _declined(program: Program) -> bool:
-    """Whether the program skipped its last world or gave it up."""
-    return program.misbehaved is not None and program.misbehaved.kind in ("skip", "error")
 
 
 def _decisions(trace: Iterable[Event]) -> str | None:
@@ -172,6 +166,7 @@ def _map(run: Exploration, report: Report) -> str | None:
     if run.map is None:
         return None
     try:
+        # If no claim fails the map is the world, so there is nothing to build.
         drawn = run.world if report.ok else World.from_map(run.map)
     except InputError:
         return None

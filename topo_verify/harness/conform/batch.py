@@ -21,7 +21,7 @@ import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from types import TracebackType
-from typing import Self
+from typing import NamedTuple, Self
 
 import msgspec
 
@@ -32,19 +32,13 @@ from topo_verify.harness.corpus import Named
 from topo_verify.harness.judge import judge
 from topo_verify.harness.run import explore
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.child import GRACE, Child, Ended, ReaperProcess, Silent, TooLong
+from topo_verify.programs.child import GRACE, Child, Ended, Silent, TooLong
 from topo_verify.programs.loader import Target
-from topo_verify.programs.program import (
-    PREFIX,
-    DeliveredMap,
-    Misbehaved,
-    TranscriptLine,
-    crash_report,
-    decoded,
-    shown_line,
-    split,
-)
-from topo_verify.robot.simulator import Misuse, SimulatedRobot
+from topo_verify.programs.misbehaviour import Misbehaved, crash_report, decoded, shown_line
+from topo_verify.programs.program import PREFIX, TranscriptLine, split
+from topo_verify.programs.reaper_process import ReaperProcess
+from topo_verify.robot.events import Robot
+from topo_verify.robot.simulator import Misuse
 from topo_verify.world.formats import world_json
 
 CHUNK = 2000
@@ -54,6 +48,15 @@ BatchAnswer = ms.BatchRun | Misbehaved
 """The program's answer for a world: a run, or what it did instead."""
 
 _run: msgspec.json.Decoder[ms.BatchRun] = msgspec.json.Decoder(ms.BatchRun)
+
+
+class DeliveredMap(NamedTuple):
+    """The map of a run, as `explore` reads the result of any mapper."""
+
+    vertices: Sequence[Sequence[int]]
+    edges: Sequence[Sequence[int]]
+    marker: int | None
+    cost: int | None
 
 
 class BatchReplay:
@@ -66,7 +69,7 @@ class BatchReplay:
         self.answer = answer
         self.misbehaved: Misbehaved | None = None
 
-    def __call__(self, robot: SimulatedRobot) -> DeliveredMap:
+    def __call__(self, robot: Robot) -> DeliveredMap:
         """Walk the doors of the run, and declare each decision after its number of moves."""
         try:
             if isinstance(self.answer, Misbehaved):
@@ -80,7 +83,7 @@ class BatchReplay:
             raise
 
 
-def _replay(run: ms.BatchRun, robot: SimulatedRobot) -> DeliveredMap:
+def _replay(run: ms.BatchRun, robot: Robot) -> DeliveredMap:
     move, done = robot.move, 0
     for declared in run.declare:
         if not done <= declared.after <= len(run.doors):
@@ -204,7 +207,7 @@ class BatchExaminer:
         run = explore(at.world, Target(self.job.target, player), limits=self.job.limits)
         made = world_result(
             run,
-            judge(run, where=at.name),
+            judge(run, where=at.name, strict=self.job.strict),
             at,
             self.job,
             reference=explore(at.world, self._reference),

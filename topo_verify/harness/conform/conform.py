@@ -7,16 +7,17 @@ Outcomes are tallied in corpus order, so the tally does not depend on the number
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, closing
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
 
 import msgspec
 
-from topo_verify.checkers import CLAIMS
+from topo_verify.checkers import CLAIMS, Judgement
 from topo_verify.checkers.findings import Verdict
 from topo_verify.harness.conform.batch import BatchExaminer
 from topo_verify.harness.conform.examiner import Examiner
+from topo_verify.harness.conform.order import DrawnOrder, Examine, Placed
 from topo_verify.harness.conform.outcome import (
     LEVELS,
     RESULT,
@@ -25,9 +26,10 @@ from topo_verify.harness.conform.outcome import (
     WorldFinding,
     WorldResult,
 )
-from topo_verify.harness.conform.parallel import outcomes
+from topo_verify.harness.conform.parallel import parallel_examine
 from topo_verify.harness.corpus import Corpus
 from topo_verify.harness.progress import Progress
+from topo_verify.harness.tally import joint_judgements
 
 MAX_TIMEOUTS = 20
 """After so many time-outs the rest of the corpus is not tried."""
@@ -76,6 +78,7 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
         not_tried: the work ended before, after too many time-outs or by an interrupt.
         kinds: in how many worlds each kind of finding is met.
         claims: for each claim of this level, in how many runs it has which status.
+        judgements: of each claim of this level: how much was judged in all runs, of how much.
         findings: of the first failing worlds of each kind.
         cost: over all worlds; priced: on level `cost`, world by world.
         why: of the first worlds that are not decided, why.
@@ -95,6 +98,7 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
     verdict: Verdict
     kinds: dict[str, int]
     claims: dict[str, dict[str, int]]
+    judgements: tuple[Judgement, ...]
     findings: tuple[WorldFinding, ...]
     cost: CostRatio
     priced: tuple[WorldCost, ...] = ()
@@ -136,6 +140,7 @@ class ConformTally:
             if job.like is not None or level != "decisions"
         }
         self.claims = {claim: Counter[str]() for claim in CLAIMS}
+        self.shares = dict.fromkeys(CLAIMS, (0, 0))
         self.priced: list[WorldCost] = []
         self.timeouts = self.tried = 0
 
@@ -145,8 +150,10 @@ class ConformTally:
         self.timeouts += made.timeout
         for level, counts in self.levels.items():
             counts.enter(made, level)
-        for claim, status in made.claims.items():
-            self.claims[claim][status] += 1
+        for one in made.judgements:
+            self.claims[one.claim][one.status] += 1
+            judged, of = self.shares[one.claim]
+            self.shares[one.claim] = judged + one.judged, of + one.of
         if made.states["cost"] == "passed":
             ratio = _ratio(made.cost, made.reference)
             self.priced.append(WorldCost(made.world, made.cost, made.reference, ratio))
@@ -168,6 +175,7 @@ class ConformTally:
                 for claim, seen in self.claims.items()
                 if level in ("result", "claims") and (claim in RESULT) == (level == "result")
             }
+            judgements = joint_judgements(claims, self.shares, ())
             yield LevelResult(
                 target=self.job.target,
                 like=self.job.reference,
@@ -178,6 +186,7 @@ class ConformTally:
                 verdict=self._verdict(numbers),
                 kinds=dict(counts.kinds),
                 claims=claims,
+                judgements=judgements,
                 findings=tuple(counts.findings),
                 cost=total,
                 priced=tuple(self.priced) if level == "cost" else (),
@@ -202,6 +211,7 @@ def conform(
     *,
     workers: int = 0,
     batch: bool = False,
+    seed: int = 0,
     tell: Progress | None = None,
 ) -> None:
     """Try an implementation in every world of a corpus, and enter each outcome into a tally.
@@ -210,6 +220,8 @@ def conform(
         tally: what each outcome is entered into; it is complete up to where an interrupt came.
         workers: so many processes; 0: this one alone.
         batch: the program reads worlds and writes runs; one process of it at a time.
+        seed: of the order in which the implementation meets the worlds; in batch mode it is given
+            them in the order of the corpus.
         tell: the progress callback.
     Raises:
         InputError: there is no such mapper, program, algorithm or policy.
@@ -218,15 +230,38 @@ def conform(
         found: Iterable[WorldResult]
         if batch:
             found = stack.enter_context(BatchExaminer(job)).examine(corpus)
-        elif workers:
-            parallel = outcomes(job, corpus, min(workers, corpus.total))
-            found = stack.enter_context(closing(parallel))
         else:
-            examiner = stack.enter_context(Examiner(job))
-            found = map(examiner.examine, corpus)
+            examine = stack.enter_context(_examining(job, corpus, workers))
+            drawn = DrawnOrder(corpus, seed, _telling(examine, job, corpus, tell), MAX_TIMEOUTS)
+            found = stack.enter_context(closing(drawn.results()))
         for made in found:
             tally.enter(made)
-            if tell is not None:
+            if batch and tell is not None:
                 tell(job.target, tally.tried, corpus.total)
             if tally.timed_out:
                 break
+
+
+@contextmanager
+def _examining(job: ConformJob, corpus: Corpus, workers: int) -> Generator[Examine]:
+    """Examines worlds here or in other processes."""
+    if workers:
+        with parallel_examine(job, min(workers, corpus.total)) as examine:
+            yield examine
+        return
+    with Examiner(job) as examiner:
+        yield lambda worlds, _room: ((place, examiner.examine(at)) for place, at in worlds)
+
+
+def _telling(examine: Examine, job: ConformJob, corpus: Corpus, tell: Progress | None) -> Examine:
+    """The same, telling of each world that is finished."""
+
+    def told(
+        worlds: Iterator[Placed], room: Callable[[], bool]
+    ) -> Iterator[tuple[int, WorldResult]]:
+        for number, result in enumerate(examine(worlds, room), 1):
+            if tell is not None:
+                tell(job.target, number, corpus.total)
+            yield result
+
+    return told

@@ -11,11 +11,18 @@ from typing import Self
 
 import msgspec
 
-from topo_verify.harness.conform.outcome import ConformJob, WorldResult, world_result
+from topo_verify.harness.conform.outcome import (
+    ConformJob,
+    WorldResult,
+    undecided_by_a_stranger,
+    world_result,
+)
 from topo_verify.harness.corpus import Named
-from topo_verify.harness.judge import judge
+from topo_verify.harness.judge import Report, judge
 from topo_verify.harness.run import Exploration, explore
+from topo_verify.harness.second_try import tried
 from topo_verify.harness.targets import one_target
+from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program, TranscriptLine
 from topo_verify.robot.events import write_trace
@@ -34,35 +41,44 @@ class Examiner:
 
     def __init__(self, job: ConformJob) -> None:
         self.reference = reference(job)
-        self.job, self.target = job, one_target(job.target)
+        self.job, self.target = job, one_target(job.target, in_process=job.in_process)
         mapper = self.target.mapper
         self.program = mapper if isinstance(mapper, Program) else None
         if self.program is not None:
-            self.program.validate = job.validate
-            self.program.record = job.transcript is not None
+            self.program.validate = job.validate and not isinstance(mapper, Foreign)
+            # The transcript of a mapper in Python is its trace.
+            spoken = not isinstance(mapper, Foreign)
+            self.program.record = spoken and job.transcript is not None
             self.program.start()
 
     def examine(self, at: Named) -> WorldResult:
         """Run the implementation in a world; the outcome on each level."""
         job, program = self.job, self.program
-        run = explore(at.world, self.target, limits=job.limits)
-        misbehaved, lines = (program.misbehaved, program.lines) if program else (None, [])
-        if program is not None:
-            program.settle()
-        report = judge(run, where=at.name)
-        if program is not None:
-            program.settle()  # it may have been run in a witness world, too
+        lines: list[TranscriptLine] | None = None
+
+        def judged(run: Exploration) -> Report:
+            nonlocal lines
+            if program is not None and program.record and lines is None:
+                lines = program.lines  # of the first run; the next line may make another
+            report = judge(run, where=at.name, strict=job.strict)
+            if program is not None:
+                program.settle()  # it may have been run in a witness world, too
+            return report
+
+        run, report, killed = tried(at.world, self.target, job.limits, judged)
         made = world_result(
             run,
             report,
             at,
             job,
             reference=explore(at.world, self.reference),
-            misbehaved=misbehaved,
+            misbehaved=run.misbehaved,
             replay=shlex.join([*job.replay_arguments, *at.replay_arguments]),
         )
         if job.transcript is not None and any(made.findings.values()):
-            keep(job.transcript, at, run, made, lines if program else None)
+            keep(job.transcript, at, run, made, lines)
+        if killed is not None:
+            made = undecided_by_a_stranger(made, f"its process was ended by {killed}")
         return made
 
     def __enter__(self) -> Self:

@@ -1,7 +1,7 @@
 """The first event in which two runs in one world differ.
 
 Compared are the doors and percepts of moves, and every declared decision with its evidence. Not
-compared are the purpose of a move; the sentence of a contradiction, whose words are no promise; the
+compared are the purpose of a move; which contradiction is cited, where several may follow; the
 map at the end, whose darts a mapper may number freely (`map-isomorphic` judges it).
 
 If a mapper declares nothing, its moves are compared with the reference's moves.
@@ -19,6 +19,7 @@ from topo_verify.robot.events import (
     Augment,
     Confirm,
     Event,
+    Evidence,
     Finish,
     Move,
     Pose,
@@ -108,9 +109,9 @@ def _bare(event: Event) -> Event:
     """The event without the fields that are not compared."""
     if isinstance(event, Move):
         return Move(event.door, event.percept)
-    if isinstance(event, Reject) and event.evidence.contradiction is not None:
-        evidence = msgspec.structs.replace(event.evidence, contradiction=None)
-        return msgspec.structs.replace(event, evidence=evidence)
+    if isinstance(event, Reject) and event.rule in ("folding", "planar"):
+        # Several contradictions may follow, and the percepts beside them may be left out.
+        return msgspec.structs.replace(event, evidence=Evidence(event.evidence.step))
     return event
 
 

@@ -18,12 +18,12 @@ from typing import Any, Literal, get_args
 
 import msgspec
 
-from topo_verify.checkers import Finding, Status
+from topo_verify.checkers import Finding, Judgement
 from topo_verify.harness.conform.likeness import Difference, declares, first_difference
 from topo_verify.harness.corpus import Named
 from topo_verify.harness.judge import Report
 from topo_verify.harness.run import Exploration
-from topo_verify.programs.program import Misbehaved
+from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 
@@ -70,7 +70,7 @@ class WorldResult(msgspec.Struct, frozen=True, kw_only=True):
         edges: the number of its edges.
         states: by level; `decisions` only if a reference is to be followed.
         findings: by level, the first ones.
-        claims: the status of each claim.
+        judgements: of each claim; its findings stand under `findings`.
         why: the reason why the world is undecided, if it is.
         timeout: whether a time limit struck.
         cost, reference: edge traversals, the implementation's and the reference's.
@@ -81,7 +81,7 @@ class WorldResult(msgspec.Struct, frozen=True, kw_only=True):
     edges: int
     states: dict[str, LevelState]
     findings: dict[str, tuple[WorldFinding, ...]]
-    claims: dict[str, Status] = {}
+    judgements: tuple[Judgement, ...] = ()
     why: str | None = None
     timeout: bool = False
     cost: int = 0
@@ -96,18 +96,22 @@ class ConformJob(msgspec.Struct, frozen=True, kw_only=True):
         like: the algorithm whose decisions it should make; None: decisions are not compared.
         policies: of the reference.
         limits: of each run.
+        strict: ask claim 10 also in worlds with more than 2,000 edges.
         validate: refuse unknown and doubled fields in a program's messages.
         transcript: the folder for the transcripts of failing worlds.
         replay_arguments: the command line that asks for this again, without the world.
+        in_process: a mapper that is not of the catalogue shares the process of the harness.
     """
 
     target: str
     like: str | None = None
     policies: Policies = Policies()
     limits: Limits = Limits()
+    strict: bool = False
     validate: bool = False
     transcript: str | None = None
     replay_arguments: tuple[str, ...] = ()
+    in_process: bool = True
 
     @property
     def reference(self) -> str:
@@ -144,13 +148,14 @@ def world_result(
             found for found in claims if found.event is not None and found.claim != "map-entailed"
         ]
     open_ended = _open_ended(run, misbehaved)
+    neither: LevelState = "undecided" if lost or report.undecided else "passed"
     kept: dict[str, tuple[WorldFinding, ...]] = {
         "result": () if open_ended else tuple(result[:KEPT]),
         "claims": tuple(claims[:KEPT]),
     }
     states: dict[str, LevelState] = {
         "result": open_ended or ("failed" if result else "passed"),
-        "claims": "failed" if claims else (open_ended or "undecided") if lost else "passed",
+        "claims": "failed" if claims else open_ended or neither,
     }
     if job.like is not None:
         found, states["decisions"] = _likeness(run, reference, at, job.like, replay)
@@ -164,7 +169,7 @@ def world_result(
         edges=len(at.world.edges),
         states=states,
         findings=kept,
-        claims=report.claims,
+        judgements=report.with_findings(()).judgements,
         why=run.stopped if open_ended else None,
         timeout=run.limit in ("move-timeout", "world-timeout"),
         cost=run.cost,
@@ -177,6 +182,18 @@ def world_result(
 def plain(made: WorldResult) -> WorldResult:
     """The same result as data alone, as another process would send it: no object of the mapper."""
     return _decoder.decode(msgspec.json.encode(made, enc_hook=repr))
+
+
+def undecided_by_a_stranger(made: WorldResult, how: str) -> WorldResult:
+    """The result of a world that passed at the second try; the first may have met a stranger.
+
+    Args:
+        how: what became of the first try.
+    """
+    if "failed" in made.states.values():
+        return made
+    why = f"{how}, perhaps by a stranger; at the second try it passed"
+    return msgspec.structs.replace(made, states=dict.fromkeys(made.states, "undecided"), why=why)
 
 
 _decoder = msgspec.json.Decoder(WorldResult)

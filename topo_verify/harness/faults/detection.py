@@ -54,6 +54,7 @@ class Caught(msgspec.Struct, frozen=True):
         name, part, why, claim, harmless, target: of the fault.
         search, properties: None if the check was not asked for.
         proofs: None also if no theorem has this mistake.
+        asked: how many checks spoke of it; none do if `by` is `proofs` and no theorem has it.
         undecided: nothing is wrong, but a run was out of time or a theorem is UNKNOWN.
         ok: a fault is caught by every check that was asked; a harmless difference by none.
     """
@@ -67,6 +68,7 @@ class Caught(msgspec.Struct, frozen=True):
     search: Smallest | None
     properties: Examples | None
     proofs: Proof | None
+    asked: int
     undecided: bool
     ok: bool
 
@@ -89,6 +91,7 @@ def try_faults(
         tell: the progress callback, called in the larger worlds.
     """
     faults = list(faults)
+    # A worker finds a fault by its name alone, so any other is tried in this process.
     known = all(FAULTS.get(fault.name) is fault for fault in faults)
     if workers and known and len(faults) > 1:
         with closing(_in_workers(faults, FaultsJob(tuple(by), thorough), workers)) as entries:
@@ -183,6 +186,8 @@ def entry_of(
         search=found,
         properties=drawn,
         proofs=proved,
+        asked=len(asked),
+        # None, an undecided check, is no pass for `all`.
         undecided=None in asked and False not in asked,
         ok=all(asked),
     )

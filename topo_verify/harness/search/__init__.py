@@ -3,7 +3,9 @@
 exhaustive.py  adds up shards in their order, and gives the verdict
 plan.py        what is searched, as data; the shards
 shard.py       examines one shard
+tallier.py     makes its tally, run by run
 choices.py     the choices that the paper leaves open: policies, and every choice
 parallel.py    shards as tasks of the worker pool
-identity.py    a hash of a mapper's sources
+identity.py    what a mapper rests on: its files, distributions, values
+again.py       runs some worlds again, each in a fresh process
 """

@@ -32,8 +32,9 @@ from topo_verify.algorithms.policies import ORDERS, PICKS
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import Report, judge
-from topo_verify.harness.run import Exploration, explore
+from topo_verify.harness.run import Exploration
 from topo_verify.harness.search.plan import Plan
+from topo_verify.harness.second_try import Tried, tried
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Confirm, MapDart, Pose, Robot, Trace
 from topo_verify.robot.limits import Limits
@@ -45,12 +46,10 @@ SEEDS = 3
 MOST_EDGES = 3
 """The largest worlds in which every choice is tried."""
 
-Examined = tuple[Exploration, Report]
-
 
 def examinations(
     target: Target, plan: Plan, world: World, beat: Callable[[], None]
-) -> Iterator[Examined]:
+) -> Iterator[Tried]:
     """The mapper's runs in a world, one for each way of choosing, each with its report.
 
     Args:
@@ -80,26 +79,32 @@ def require_choices(targets: Iterable[Target], plan: Plan) -> None:
         )
 
 
-def _examined(target: Target, limits: Limits, world: World, beat: Callable[[], None]) -> Examined:
+def _examined(target: Target, limits: Limits, world: World, beat: Callable[[], None]) -> Tried:
+    def judged(run: Exploration) -> Report:
+        beat()
+        return judge(run, options=limits.options)
+
     beat()
-    run = explore(world, target, limits=limits)
-    beat()
-    return run, judge(run, options=limits.options)
+    return tried(world, target, limits, judged)
 
 
 # ---------------------------------------------------------------- named policies
 
 
-@cache
 def _variants(target: Target, *, named: bool) -> tuple[Target, ...]:
     """The mapper with each pair of named policies; without `named`, as it is."""
     if not named or not isinstance(target.mapper, Algorithm):
-        return (target,)
+        return (target,)  # not from a cache, which would keep the process of a program alive
+    return _named(target.text, target.mapper)
+
+
+@cache
+def _named(text: str, mapper: Algorithm) -> tuple[Target, ...]:
+    """An algorithm with each pair of named policies."""
     random = [f"random({seed})" for seed in range(SEEDS)]
     pairs = product([*PICKS, *random], [*ORDERS, *random])
     return tuple(
-        Target(target.text, target.mapper.with_policies(pick=pick, order=order))
-        for pick, order in pairs
+        Target(text, mapper.with_policies(pick=pick, order=order)) for pick, order in pairs
     )
 
 
@@ -184,19 +189,17 @@ class Script:
         return explore
 
 
-def _every(
-    target: Target, plan: Plan, world: World, beat: Callable[[], None]
-) -> Iterator[Examined]:
+def _every(target: Target, plan: Plan, world: World, beat: Callable[[], None]) -> Iterator[Tried]:
     assert isinstance(target.mapper, Algorithm), "require_choices has seen to it"
     script = Script()
     command = f"topo-verify search {target.text} --edges {len(world.edges)} --policies every"
     scripted = Target(target.text, script.mapper(target.mapper))
     more = True
     while more:
-        run, report = _examined(scripted, plan.limits, world, beat)
+        run, report, _ = _examined(scripted, plan.limits, world, beat)
         chosen = f" (choices: {', '.join(script.words)})"
         findings = tuple(_with_choices(finding, chosen, command) for finding in report.findings)
-        yield run, msgspec.structs.replace(report, findings=findings)
+        yield Tried(run, msgspec.structs.replace(report, findings=findings))
         if target.mapper.motion is retrace:
             script.settle(run.trace)
         more = script.advance()

@@ -23,11 +23,19 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress, ProgressRate
+from topo_verify.harness.search.again import (
+    MOST,
+    RunAgain,
+    can_run_again,
+    run_again,
+    with_run_again,
+)
 from topo_verify.harness.search.choices import require_choices
+from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.parallel import shard_work
 from topo_verify.harness.search.plan import Choices, Plan, Shard
-from topo_verify.harness.search.shard import Interrupted, examine_shard
-from topo_verify.harness.tally import CostTotals, Failing, Failure, Tally
+from topo_verify.harness.search.shard import Interrupted, ShardResult, examine_shard
+from topo_verify.harness.tally import CostTotals, Failing, Failure, LostWorker, Tally
 from topo_verify.harness.targets import one_target, targets
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import Program
@@ -65,6 +73,9 @@ class SearchResult(msgspec.Struct, frozen=True):
         counterexample: the smallest, by (edges, rank).
         by_edges: by size of the worlds.
         claims: of each claim that fails, in how many worlds, and the smallest.
+        from_ledger: in how many worlds mappers ran before, as a ledger says; in the rest, now.
+        lost: workers that a stranger may have killed.
+        again: what came of the worlds that were run again; None: none were.
     """
 
     plan: Plan
@@ -74,6 +85,9 @@ class SearchResult(msgspec.Struct, frozen=True):
     counterexample: Failure | None
     by_edges: tuple[Size, ...]
     claims: dict[str, Failing]
+    from_ledger: int = 0
+    lost: tuple[LostWorker, ...] = ()
+    again: RunAgain | None = None
 
     @property
     def tally(self) -> Tally:
@@ -124,6 +138,8 @@ def search(  # noqa: PLR0913  an argument an option
     )
     work = Search(plan, mappers, workers=workers)
     work.work(tell)
+    if isinstance(target, str):
+        work.run_again(tell)
     return work.found()
 
 
@@ -157,6 +173,7 @@ class Search:
         mappers: the targets of the plan, as they run in this process.
         workers: so many processes; 0: this one.
         ledger: has the tallies of finished shards, and is given those of new ones.
+        identity: what the mappers rest on, if there is a ledger.
     Raises:
         InputError: nothing knows how many worlds there are; a mapper has no such policies; workers
             for a mapper that has no text.
@@ -169,11 +186,24 @@ class Search:
         *,
         workers: int = 0,
         ledger: Ledger | None = None,
+        identity: Identity | None = None,
     ) -> None:
         require_choices(mappers, plan)
         self.plan, self.mappers, self.workers, self.ledger = plan, mappers, workers, ledger
+        self.identity = Identity(mappers) if identity is None and ledger is not None else identity
         self.totals = plan.totals()
         self.tallies = dict.fromkeys(self.totals, Tally())
+        self.from_ledger = 0
+        self.again: RunAgain | None = None
+
+    def run_again(self, tell: Progress | None = None) -> None:
+        """Run some worlds again, each in a fresh process, if there is a TARGET to start it from."""
+        if can_run_again(self.mappers):
+            rate = ProgressRate(f"{self.plan.targets[0]}, again", 2 * MOST + 1, tell)
+            self.again = run_again(self.plan, self._tally(), rate.in_flight)
+
+    def _tally(self) -> Tally:
+        return sum(self.tallies.values(), Tally())
 
     def work(self, tell: Progress | None = None) -> None:
         """Examine the shards until the end, or as far as the plan says.
@@ -185,6 +215,8 @@ class Search:
         rate = ProgressRate(", ".join(self.plan.targets), sum(self.totals.values()), tell)
         timeouts = 0
         rate.in_flight(0)
+        if self.ledger is not None:
+            self._examine_again(self.ledger)
         try:
             with closing(self._in_order(rate)) as tallies:
                 for shard, tally in tallies:
@@ -198,6 +230,8 @@ class Search:
             edges = next(m for m, worlds in self.totals.items() if self.tallies[m].worlds < worlds)
             self.tallies[edges] += cut.tally
             raise
+        if self.ledger is not None:
+            self.ledger.require_file()
         self._require_all()
 
     def _in_order(self, rate: ProgressRate) -> Generator[tuple[Shard, Tally]]:
@@ -217,10 +251,13 @@ class Search:
                 tally = ahead.pop(shard, None)
                 if tally is None and (tally := self._known(shard)) is not None:
                     rate.known(tally.worlds)
+                    self.from_ledger += tally.worlds
                 while tally is None:
-                    done, result = next(executed)
-                    if self.ledger is not None:
-                        self.ledger.put(done, result)
+                    done, found = next(executed)
+                    result = found.tally
+                    # A shard in which a stranger may have killed a worker is tried anew next time.
+                    if self.ledger is not None and not result.lost:
+                        self.ledger.put(done, result, found.loaded)
                     enough = enough or (result.failing > 0 and not self.plan.keep_going)
                     rate.finished(result.worlds)
                     ahead[done] = result
@@ -229,19 +266,48 @@ class Search:
 
     def _known(self, shard: Shard) -> Tally | None:
         """The tally of a shard that the ledger has; None if it has none."""
-        return None if self.ledger is None else self.ledger.get(shard)
+        tally = None if self.ledger is None else self.ledger.get(shard)
+        if tally is None:
+            return None
+        # A search of smaller worlds alone kept more of them.
+        sample = tuple(filter(self.plan.sampler.wants, tally.sample))
+        return msgspec.structs.replace(tally, sample=sample)
 
     def _executed(
-        self, todo: Iterator[Shard], rate: ProgressRate
-    ) -> Generator[tuple[Shard, Tally]]:
-        """Shards and their tallies, as they are finished, here or in other processes."""
+        self, todo: Iterator[Shard], rate: ProgressRate | None = None
+    ) -> Generator[tuple[Shard, ShardResult]]:
+        """Shards and their results, as they are finished, here or in other processes."""
+        beat = None if rate is None else rate.in_flight
         if self.workers:
-            work = shard_work(self.plan, self.mappers)
-            with Pool(work, self.workers, in_flight=rate.in_flight) as pool:
+            depends = None if self.identity is None else self.identity.depends
+            work = shard_work(self.plan, self.mappers, depends)
+            with Pool(work, self.workers, in_flight=beat) as pool:
                 yield from pool.run(todo)
         else:
             for shard in todo:
-                yield shard, examine_shard(self.plan, self.mappers, shard, rate.in_flight)
+                tally = examine_shard(self.plan, self.mappers, shard, beat)
+                loaded = None if self.identity is None else self.identity.loaded()
+                yield shard, ShardResult(tally, loaded)
+
+    def _examine_again(self, ledger: Ledger) -> None:
+        """Examine some of the ledger's shards, and compare.
+
+        No list of what a mapper rests on is complete, so the ledger is tried as well.
+
+        Raises:
+            InputError: in a world something else happened than the ledger says.
+        """
+        with closing(self._executed(ledger.to_examine_again())) as executed:
+            for shard, result in executed:
+                known = ledger.get(shard)
+                if known is not None and known.digest != result.tally.digest:
+                    raise InputError(
+                        f"ledger {ledger.path}: examined again, some world of m{shard.edges}/"
+                        f"{shard.start} … {shard.stop - 1} has another verdict, other doors or"
+                        " another cost than recorded. The mapper or something that it depends on"
+                        " has changed, or it does not do the same each time: remove the ledger and"
+                        " search anew"
+                    )
 
     def _require_all(self) -> None:
         """Raise an InternalError if mappers did not run in as many worlds as there are."""
@@ -263,10 +329,13 @@ class Search:
             )
             for edges, total in self.totals.items()
         )
-        tally = sum((size.tally for size in sizes), Tally())
+        tally = self._tally()
+        if self.again is not None:
+            tally = with_run_again(tally, self.again)
         checked, total = sum(size.checked for size in sizes), sum(self.totals.values())
         verdict: Verdict = "REFUTED" if tally.failures else "UNKNOWN"
-        if checked == total and not tally.failures:
+        others = self.again is not None and self.again.others
+        if checked == total and not (tally.failures or tally.lost or others):
             verdict = "EXHAUSTED"
         return SearchResult(
             plan=self.plan,
@@ -276,4 +345,7 @@ class Search:
             counterexample=tally.failures[0] if tally.failures else None,
             by_edges=sizes,
             claims=tally.claims,
+            from_ledger=self.from_ledger,
+            lost=tally.lost,
+            again=self.again,
         )

@@ -1,93 +1,178 @@
-"""A hash of a mapper's sources, so that results of different sources are never added up.
+"""What a mapper rests on, so that results of different mappers are never added up.
 
-For an algorithm of the catalogue these are the parts of topo_verify that decide what a search
-finds. For a user's mapper these, its own file, the neighbours that it imports (files in the same
-folder or package), and theirs. For a program, the files that its command names.
+    source_hash         before a search: a hash of topo_verify and of what the TARGETs name
+    loaded_by           in its course: the files and distributions that a mapper has loaded
+    require_unchanged   before it goes on: these are what they were
 
-What this does not see: imports by a computed name, data that a mapper reads, libraries.
+For an algorithm of the catalogue that is topo_verify alone. For a user's mapper it is every file
+that its process loaded or opened for reading, and what it was made with (programs/loaded.py). For
+a program it is each file that its command names, and each that `--depends` does.
+
+No such list is complete: a ledger also has shards examined again.
 """
 
 from __future__ import annotations
 
-import ast
+import importlib.machinery
+import os
+import shutil
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Sequence
 from functools import cache
 from hashlib import sha256
+from importlib import metadata
 from pathlib import Path
 
 from topo_verify import errors
 from topo_verify.algorithms import Algorithm
-from topo_verify.harness.targets import fingerprint
+from topo_verify.errors import InputError
+from topo_verify.programs import loaded
+from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
-from topo_verify.programs.program import Program
+from topo_verify.programs.program import PREFIX, Program, split
+from topo_verify.programs.values import values_hash
+from topo_verify.text import shown
 
 _PACKAGE = Path(errors.__file__).resolve().parent
 
-DECIDE = ("algorithms", "checkers", "harness", "programs", "robot", "world")
-"""The parts of topo_verify whose change may change what a search finds."""
+
+# ---------------------------------------------------------------- before
 
 
 def source_hash(mappers: Iterable[Target]) -> str:
-    """The hash of these mappers' sources, as they are in the files now, in hexadecimal."""
+    """A hash of topo_verify and of the files that name these mappers, as they are now."""
     digest = sha256(_own().encode())
     for mapper in mappers:
-        if isinstance(mapper.mapper, Program):
-            digest.update(fingerprint(mapper.text).encode())
-        elif not isinstance(mapper.mapper, Algorithm):
-            for name, text in sorted(_sources(mapper).items()):
-                digest.update(f"\0{name}\0".encode() + sha256(text).digest())
+        if not isinstance(mapper.mapper, Algorithm):
+            for path, made in sorted(loaded.hashes(named_files(mapper.text)).items()):
+                digest.update(f"\0{path}\0{made}".encode(errors="surrogateescape"))
     return digest.hexdigest()
 
 
 @cache
 def _own() -> str:
-    """The hash of the parts of topo_verify that decide what a search finds."""
+    """The hash of topo_verify's sources."""
     digest = sha256()
-    for part in DECIDE:
-        place = _PACKAGE / part
-        for path in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
-            digest.update(f"\0{path.relative_to(_PACKAGE)}\0".encode() + path.read_bytes())
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        digest.update(f"\0{path.relative_to(_PACKAGE)}\0".encode() + path.read_bytes())
     return digest.hexdigest()
 
 
-def _sources(mapper: Target) -> dict[str, bytes]:
-    """The mapper's files, by their place in the folder from which they are imported."""
-    name = getattr(mapper.mapper, "__module__", None) or type(mapper.mapper).__module__
-    file = getattr(sys.modules.get(name), "__file__", None)
-    if file is None:
-        return {}
-    home = Path(file).resolve()
-    depth = 0 if name.startswith("_") else name.count(".") + (home.name == "__init__.py")
-    root = home.parents[min(depth, len(home.parents) - 1)]
-    found: dict[Path, bytes] = {}
-    todo = [home]
-    while todo:
-        path = todo.pop()
-        if path not in found and path.is_file() and not path.is_relative_to(_PACKAGE):
-            found[path] = path.read_bytes()
-            todo += _neighbours(path, found[path], root)
-    return {str(path.relative_to(root)): text for path, text in found.items()}
+def named_files(text: str) -> list[str]:
+    """The files that a TARGET names: of a program, or of a Python mapper."""
+    if text.startswith(PREFIX):
+        words = split(text.removeprefix(PREFIX))
+        return [shutil.which(words[0]) or words[0], *words[1:]]
+    place = text.rpartition(":")[0]
+    found = place if place.endswith(".py") else _module_file(place)
+    return [found] if found else []
 
 
-def _neighbours(path: Path, text: bytes, root: Path) -> Iterator[Path]:
-    """The paths at which a file's imports would stand if they were neighbours of it."""
+def _module_file(name: str) -> str | None:
+    """The file of a module, found without running its package."""
+    folders: list[str] | None = [str(Path.cwd()), *sys.path]
+    spec = None
+    for part in name.split("."):
+        spec = importlib.machinery.PathFinder.find_spec(part, folders)
+        if spec is None:
+            return None
+        folders = list(spec.submodule_search_locations or ())
+    return spec.origin if spec is not None else None
+
+
+# ---------------------------------------------------------------- in the course of a search
+
+
+class Identity:
+    """What the mappers of a search rest on, in this process.
+
+    Life cycle: made when they are loaded, before any of them runs; `loaded` at any time.
+
+    Args:
+        depends: further files that they depend on.
+    """
+
+    def __init__(self, mappers: Sequence[Target], depends: Sequence[str] = ()) -> None:
+        self._mappers, self.depends = mappers, tuple(depends)
+        foreign = [m.mapper for m in mappers if not isinstance(m.mapper, Algorithm | Program)]
+        self._values = " ".join(map(values_hash, foreign))
+
+    def loaded(self) -> Loaded:
+        """What they have loaded until now."""
+        found = Loaded(loaded.hashes(self.depends))
+        for target in self._mappers:
+            found = merged(found, self._of(target), f"target {target.text!r}")
+        return found
+
+    def _of(self, target: Target) -> Loaded:
+        mapper = target.mapper
+        if isinstance(mapper, Algorithm):
+            return Loaded()
+        if isinstance(mapper, Foreign):
+            return mapper.loaded()
+        if isinstance(mapper, Program):
+            return Loaded(loaded.hashes(named_files(target.text)))
+        return loaded.loaded(self._values)
+
+
+def merged(one: Loaded, other: Loaded, where: str) -> Loaded:
+    """What either has loaded.
+
+    Args:
+        where: the beginning of the sentence.
+    Raises:
+        InputError: they differ in a file, a distribution or the values.
+    """
+    for path, made in other.files.items():
+        if one.files.get(path, made) != made:
+            raise InputError(
+                f"{where}: the mapper read {shown(path)}, which changed while the search ran: start"
+                " the search again"
+            )
+    if one.values and other.values and one.values != other.values:
+        raise InputError(
+            f"{where}: the mapper is made with other values each time (arguments of a partial, a"
+            " closure, defaults): give it the same ones, or search without a ledger"
+        )
+    return Loaded(
+        {**one.files, **other.files},
+        {**one.distributions, **other.distributions},
+        one.values or other.values,
+    )
+
+
+# ---------------------------------------------------------------- before it goes on
+
+
+def require_unchanged(then: Loaded, now: Loaded, where: str) -> None:
+    """Raise an InputError unless files, distributions and values are what they were.
+
+    Args:
+        now: what the mappers have loaded until now.
+        where: the beginning of the sentence.
+    """
+    again = "name another file, or remove this one to search anew"
+    if then.values and now.values and then.values != now.values:
+        raise InputError(
+            f"{where}: the mapper was made with other values (arguments of a partial, a closure,"
+            f" defaults); {again}"
+        )
+    for path, made in then.files.items():
+        if loaded.file_hash(path) != made:
+            what = "has changed" if os.path.exists(path) else "is gone"  # noqa: PTH110
+            raise InputError(f"{where}: {shown(path)}, which the mapper read, {what}; {again}")
+    for name, version in then.distributions.items():
+        installed = _version(name)
+        if installed != version:
+            raise InputError(
+                f"{where}: the mapper used {name} {version}, installed is {installed or 'none'};"
+                f" {again}"
+            )
+
+
+def _version(name: str) -> str | None:
     try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):  # no Python: then nothing is imported either
-        return
-    for node in ast.walk(tree):
-        names: list[str] = []
-        start = root
-        if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            start = path.parents[node.level - 1] if 0 < node.level <= len(path.parents) else root
-            module = [node.module] if node.module else []
-            names = [".".join([*module, alias.name]) for alias in node.names]
-        for name in names:
-            place = start
-            for part in name.split("."):
-                place /= part
-                yield place.with_suffix(".py")
-                yield place / "__init__.py"
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return None

@@ -2,12 +2,17 @@
 
 A world that kills its worker twice is a finding, for no map was delivered. So is a world in which a
 worker gives no sign of life for longer than any limit allows: its mapper cannot be interrupted.
+
+A world that kills its worker once, and is done when it is tried again, is a finding, too: a right
+mapper does not crash. Unless a stranger may have done it (SIGKILL, as for lack of memory; or no
+sign of life): then the world is named and the verdict open.
 """
 
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
+from functools import reduce
 from itertools import pairwise
 
 import msgspec
@@ -16,12 +21,13 @@ from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import replay_line
 from topo_verify.harness.pool import Division, Loss, Work
-from topo_verify.harness.search.identity import source_hash
+from topo_verify.harness.search.identity import Identity, merged, source_hash
 from topo_verify.harness.search.plan import Plan, Shard
-from topo_verify.harness.search.shard import examine_shard
-from topo_verify.harness.tally import Failing, Failure, Tally
+from topo_verify.harness.search.shard import ShardResult, examine_shard
+from topo_verify.harness.tally import Failing, Failure, LostWorker, Tally, with_failure
 from topo_verify.harness.targets import targets
 from topo_verify.harness.worker import Beat, Handler
+from topo_verify.programs.loaded import Loaded, watch
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.pruned import ranked_tables
@@ -31,42 +37,62 @@ GRACE = 5.0
 
 
 class SearchJob(msgspec.Struct, frozen=True):
-    """What a worker is handed before its first shard; `sources`: the hash of the mappers' files."""
+    """What a worker is handed before its first shard.
+
+    Attributes:
+        sources: the hash of the mappers' files.
+        depends: further files that they depend on; None: what they load is not asked for.
+    """
 
     plan: Plan
     sources: str
+    depends: tuple[str, ...] | None
 
 
-def shard_work(plan: Plan, mappers: Sequence[Target]) -> Work[Shard, Tally]:
+def shard_work(
+    plan: Plan, mappers: Sequence[Target], depends: Sequence[str] | None = None
+) -> Work[Shard, ShardResult]:
     """What a pool is to do for a search.
 
     Args:
         mappers: the targets of the plan, as this process found them.
+        depends: further files that they depend on; None: what they load is not asked for.
     """
 
-    def lost(shard: Shard, loss: Loss) -> Tally:
+    def lost(shard: Shard, loss: Loss) -> ShardResult:
         """The shard has one world, which is to blame; or none, if it was cut behind the last."""
         if loss.loading:
             raise InputError(
                 f"target {plan.targets[0]!r}: a process that loads it ends ({loss.cause})"
             )
         ranks = _ranks(plan, shard)
-        return _convicted(plan, shard.edges, ranks[0], loss) if ranks else Tally()
+        return ShardResult(_convicted(plan, shard.edges, ranks[0], loss) if ranks else Tally())
 
     # A failing mapper is run in a witness world, too, under the usual limits.
     silence = GRACE + max(plan.limits.world_timeout, Limits().world_timeout)
     return Work(
         serve=f"{__name__}:serve_shards",
-        job=SearchJob(plan, source_hash(mappers)),
-        result=Tally,
+        job=SearchJob(plan, source_hash(mappers), None if depends is None else tuple(depends)),
+        result=ShardResult,
         lost=lost,
+        survived=lambda result, losses, given_up: _survived(plan, result, losses, given_up),
         silence=silence,
         division=Division(
             cut=lambda shard, worlds: _cut(plan, shard, worlds),
-            join=lambda tallies: sum(tallies, Tally()),
-            last=lambda tally: tally.failing > 0 and not plan.keep_going,
+            join=_joined,
+            last=lambda result: result.tally.failing > 0 and not plan.keep_going,
         ),
     )
+
+
+def _joined(results: list[ShardResult]) -> ShardResult:
+    tally = sum((result.tally for result in results), Tally())
+    known = [result.loaded for result in results if result.loaded is not None]
+    return ShardResult(tally, reduce(_merged, known) if known else None)
+
+
+def _merged(one: Loaded, other: Loaded) -> Loaded:
+    return merged(one, other, "the search")
 
 
 def _cut(plan: Plan, shard: Shard, worlds: int) -> list[Shard]:
@@ -87,18 +113,43 @@ def _ranks(plan: Plan, shard: Shard) -> list[int]:
 
 def _convicted(plan: Plan, edges: int, rank: int, loss: Loss) -> Tally:
     """The tally of one world, in which the mapper took its process with it."""
+    tally = _crash(plan, edges, rank, f"no map was delivered: {loss}")
+    claim = tally.failures[0].claim
+    return msgspec.structs.replace(tally, worlds=1, statuses={claim: {"failed": 1}})
+
+
+def _crash(plan: Plan, edges: int, rank: int, message: str) -> Tally:
+    """The tally of a failure in a world that is counted elsewhere."""
     target, world, claim = plan.targets[0], f"m{edges}/{rank}", "map-isomorphic"
     replay = replay_line(world, target, None, plan.limits.options)
-    message = f"no map was delivered: {loss}"
     finding = Finding(claim, None, "a map", None, message, None, world, replay)
     failure = Failure(edges, rank, target, (finding,))
-    return Tally(
-        worlds=1,
-        failing=1,
-        statuses={claim: {"failed": 1}},
-        claims={claim: Failing(1, failure)},
-        failures=(failure,),
-    )
+    return Tally(failing=1, claims={claim: Failing(1, failure)}, failures=(failure,))
+
+
+def _survived(
+    plan: Plan,
+    result: ShardResult,
+    losses: Sequence[tuple[Shard, Loss]],
+    given_up: Sequence[Shard],
+) -> ShardResult:
+    """The result of a shard, with the losses in worlds that were done when tried again."""
+    tally = result.tally
+    seen: set[int] = set()
+    for shard, loss in losses:
+        ranks = _ranks(plan, shard)
+        rank = ranks[min(loss.items, len(ranks) - 1)] if ranks else shard.start
+        failing = {failure.rank for failure in tally.failures}
+        if rank in seen | failing or any(one.start <= rank < one.stop for one in given_up):
+            continue
+        seen.add(rank)
+        if loss.stranger:
+            lost = LostWorker(shard.edges, rank, loss.cause)
+            tally = msgspec.structs.replace(tally, lost=(*tally.lost, lost))
+        else:
+            message = f"no map was delivered: {loss}; at the second try it delivered one"
+            tally = with_failure(tally, _crash(plan, shard.edges, rank, message))
+    return msgspec.structs.replace(result, tally=tally)
 
 
 # ---------------------------------------------------------------- in a worker
@@ -113,14 +164,21 @@ def serve_shards(job: bytes) -> Generator[Handler]:
     """
     search = msgspec.json.decode(job, type=SearchJob)
     plan = search.plan
-    mappers = [target for text in plan.targets for target in targets(text)]
+    if search.depends is not None:
+        watch()
+    mappers = [
+        target for text in plan.targets for target in targets(text, in_process=plan.in_process)
+    ]
     if source_hash(mappers) != search.sources:
         raise InputError(
             f"target {plan.targets[0]!r}: its source, or topo-verify's, has changed since the"
             " search began: start it again"
         )
 
-    def examine(shard: bytes, beat: Beat) -> Tally:
-        return examine_shard(plan, mappers, msgspec.json.decode(shard, type=Shard), beat)
+    identity = None if search.depends is None else Identity(mappers, search.depends)
+
+    def examine(shard: bytes, beat: Beat) -> ShardResult:
+        tally = examine_shard(plan, mappers, msgspec.json.decode(shard, type=Shard), beat)
+        return ShardResult(tally, None if identity is None else identity.loaded())
 
     yield examine

@@ -9,6 +9,7 @@ from typing import Literal, get_args
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.harness.observed import Sampler
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
@@ -41,6 +42,8 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
         keep_going: do not stop at the first counterexample.
         max_timeouts: stop after about so many time-outs; None: never.
         limits: of one run.
+        seed: of what is drawn: the worlds that are run again.
+        in_process: mappers that are not of the catalogue share the process of the harness.
     """
 
     targets: tuple[str, ...]
@@ -50,6 +53,8 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
     keep_going: bool = False
     max_timeouts: int | None = None
     limits: Limits = Limits()
+    seed: int = 0
+    in_process: bool = True
 
     def __post_init__(self) -> None:
         if self.edges < 1:
@@ -73,6 +78,11 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
         kind = self.world_class
         _total(kind, self.edges)  # if there is no way, this size says so first
         return {edges: _total(kind, edges) for edges in range(1, self.edges + 1)}
+
+    @property
+    def sampler(self) -> Sampler:
+        """Which worlds are run again."""
+        return Sampler(self.seed, sum(self.totals().values()))
 
     def shards(self) -> Iterator[Shard]:
         """The shards. They depend on the plan alone, so a later search finds them in a ledger."""

@@ -8,11 +8,25 @@ import msgspec
 
 from topo_verify.harness.search.choices import examinations
 from topo_verify.harness.search.plan import Plan, Shard
-from topo_verify.harness.tally import Tallier, Tally
+from topo_verify.harness.search.tallier import Tallier
+from topo_verify.harness.tally import Tally
 from topo_verify.harness.worker import Beat
+from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.world.enumeration.pruned import ranked_tables
 from topo_verify.world.rooted_map import World
+
+
+class ShardResult(msgspec.Struct, frozen=True):
+    """What came of one shard.
+
+    Attributes:
+        tally: of its worlds.
+        loaded: what the mappers had loaded then; None: nobody asked.
+    """
+
+    tally: Tally
+    loaded: Loaded | None = None
 
 
 class Interrupted(KeyboardInterrupt):
@@ -39,7 +53,7 @@ def examine_shard(
     Raises:
         Interrupted: Ctrl-C.
     """
-    tallier = Tallier(shard.edges, tuple(target.text for target in mappers))
+    tallier = Tallier(shard.edges, tuple(target.text for target in mappers), plan.sampler)
     counts = tallier.counts
 
     def beats() -> None:
@@ -51,8 +65,8 @@ def examine_shard(
             world = World.from_code(table)
             tallier.open(rank)
             for target in mappers:
-                for run, report in examinations(target, plan, world, beats):
-                    tallier.enter(run, report)
+                for run, report, killed in examinations(target, plan, world, beats):
+                    tallier.enter(run, report, killed)
             if tallier.close() and not plan.keep_going:
                 break
             if counts.timeouts == plan.max_timeouts:

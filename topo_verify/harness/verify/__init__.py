@@ -1,4 +1,4 @@
-"""The main job: six parts, each with its own verdict, in about a minute.
+"""The main job: six parts, each with its own verdict; for a mapper of the user's, four of them.
 
 verify.py        the parts and their sizes
 parts.py         the result of a part, and the protocol of its job

@@ -7,15 +7,16 @@ the first failing world is kept, which is one of the smallest.
 | --- | --- |
 | `holds` | the claim holds in every world |
 | `fails` | it fails in at least one world |
-| `undecided` | it fails in none, but a world was not tried, or a run exceeded its time |
-| `not-declared` | in some world the mapper did not declare the decisions that the claim is about |
+| `undecided` | it fails in none, but a world was not tried, or a run or a claim was not decided |
+| `not-declared` | in some world the mapper did not declare all decisions that the claim is about |
 """
 
 from __future__ import annotations
 
 import traceback
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from topo_verify.checkers import Finding
 from topo_verify.harness.corpus import corpus_from
@@ -25,7 +26,7 @@ from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import Trials
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
-from topo_verify.text import shown
+from topo_verify.text import LINE, shown
 
 ClaimVerdict = Literal["holds", "fails", "undecided", "not-declared"]
 
@@ -52,7 +53,8 @@ class ClaimResults:
         if seen["failed"]:
             return "fails"
         # The numbers of one claim add up to fewer runs than worlds if a run was undecided.
-        if self.part.checked < self.part.total or sum(seen.values()) < self.part.checked:
+        cut = self.part.checked < self.part.total or sum(seen.values()) < self.part.checked
+        if cut or seen["undecided"]:
             return "undecided"
         return "holds" if seen["ok"] == self.part.checked else "not-declared"
 
@@ -63,14 +65,31 @@ class ClaimResults:
             case "fails":
                 return self._failure(claim, seen["failed"])
             case "undecided":
-                return f"{claim} is undecided: {self.part.summary}"
-            case "not-declared" if not seen["ok"]:
+                return shown(f"{claim} is undecided: {self.part.summary}", limit=LINE)
+            case "not-declared" if not seen["ok"] + seen["partial"]:
                 return f"{claim}: not judged, since the mapper declares none of its decisions"
             case "not-declared":
                 some = f"in {seen['ok']:,} of {checked:,} worlds, where it holds"
-                return f"{claim}: the mapper declares its decisions {some}, and not in the others"
+                return f"{claim}: the mapper declares its decisions {some}, and not all in others"
             case "holds":
                 return f"{claim} holds in {checked:,} worlds of 1 to {self.edges} edges"
+
+    def properties(self, target: str) -> list[tuple[str, object]]:
+        """The results that the report of a test carries to another process and to a JUnit file."""
+        part = self.part
+        facts: dict[str, object] = {
+            "target": target,
+            "edges": self.edges,
+            "verdict": part.verdict,
+            "checked": part.checked,
+            "total": part.total,
+            "failing": part.failing,
+        }
+        if part.findings:
+            facts |= {"world": part.findings[0].world, "replay": part.findings[0].replay}
+        elif not part.ok:
+            facts["why"] = part.summary
+        return [(f"topo_{name}", fact) for name, fact in facts.items()]
 
     def _failure(self, claim: str, failed: int) -> str:
         finding = self.first[claim]
@@ -80,8 +99,23 @@ class ClaimResults:
         lines = [f"{claim} fails in {worlds}, first in {finding.world}{event}: {message}"]
         if finding.world in self.raised:
             lines.append(f"  raised at: {self.raised[finding.world]}")
-        lines += [f"  world: {finding.world}", f"  again: {finding.replay}"]
-        return "\n".join(lines)
+        lines.append(f"  world: {finding.world}")
+        lines += [f"  again: {finding.replay}"] * bool(finding.replay)
+        return "\n".join(shown(line, limit=LINE) for line in lines)
+
+
+def summary(facts: Mapping[str, Any]) -> Iterator[str]:
+    """The lines that sum up the tests of one mapper, from the properties of their reports."""
+    checked, total, failing = (facts[f"topo_{name}"] for name in ("checked", "total", "failing"))
+    line = f"{facts['topo_target']}: {checked:,} of {total:,} worlds of 1 to {facts['topo_edges']}"
+    line += f" edges, {failing:,} counterexample{'' if failing == 1 else 's'}"
+    if "topo_world" in facts:
+        yield shown(f"{line}, first {facts['topo_world']}", limit=LINE)
+        if facts["topo_replay"]:  # empty if no command line finds the mapper again
+            yield shown(f"  again: {facts['topo_replay']}", limit=LINE)
+    else:
+        why = f"; not decided: {facts['topo_why']}" if "topo_why" in facts else ""
+        yield shown(line + why, limit=LINE)
 
 
 def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:

@@ -6,7 +6,7 @@ from typing import Protocol
 
 import msgspec
 
-from topo_verify.checkers.findings import Finding, Verdict
+from topo_verify.checkers.findings import Finding, Judgement, Verdict
 from topo_verify.harness.progress import Progress
 
 
@@ -44,6 +44,7 @@ class Part(msgspec.Struct, frozen=True):
         summary: one sentence.
         failing: in how many of the checked worlds a claim fails.
         claims: for each claim, the number of runs with each status.
+        judgements: for each claim, how much was judged in all runs together, and the findings.
         findings: those of the first failing runs, which are in the smallest worlds.
         costs: the cost of each mapper, for a part of one world.
     """
@@ -56,6 +57,7 @@ class Part(msgspec.Struct, frozen=True):
     summary: str
     failing: int = 0
     claims: dict[str, dict[str, int]] = {}
+    judgements: tuple[Judgement, ...] = ()
     findings: tuple[Finding, ...] = ()
     costs: tuple[MapperCost, ...] = ()
 

@@ -13,6 +13,7 @@ from topo_verify.harness.pool import processors
 from topo_verify.harness.progress import Progress
 from topo_verify.harness.search.exhaustive import Search, SearchResult
 from topo_verify.harness.search.plan import Plan
+from topo_verify.harness.tally import joint_judgements
 from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import MAX_TIMEOUTS, claims_in_words, part_claims
 from topo_verify.programs.loader import Target
@@ -47,6 +48,7 @@ class SmallWorlds:
         found = self.search.found()
         tally = found.tally
         claims = part_claims(tally.statuses)
+        findings = tuple(finding for failure in tally.failures for finding in failure.findings)
         return Part(
             part="small-worlds",
             verdict=found.verdict,
@@ -56,7 +58,8 @@ class SmallWorlds:
             summary=_summary(found, claims, interrupted=interrupted),
             failing=tally.failing,
             claims=claims,
-            findings=tuple(finding for failure in tally.failures for finding in failure.findings),
+            judgements=joint_judgements(tally.statuses, tally.shares, findings),
+            findings=findings,
         )
 
 
@@ -72,7 +75,7 @@ def _summary(found: SearchResult, claims: dict[str, dict[str, int]], *, interrup
     else:
         words += claims_in_words(claims)
     if tally.undecided:
-        words += f"; {plural(tally.undecided, 'run')} out of time"
+        words += f"; {plural(tally.undecided, 'run')} not decided"
     if interrupted:
         return words + "; interrupted"
     if tally.worlds < found.total:

@@ -10,16 +10,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import get_args
 
 import msgspec
 
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.checkers import CLAIMS, Finding
-from topo_verify.checkers.findings import Verdict
-from topo_verify.harness.judge import Report, judge
+from topo_verify.checkers.findings import Status, Verdict
+from topo_verify.harness.judge import Report, in_words, judge
 from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import Exploration, explore
-from topo_verify.harness.tally import KEPT_FINDINGS, KEPT_RUNS, RunCounts
+from topo_verify.harness.tally import (
+    KEPT_FINDINGS,
+    KEPT_RUNS,
+    RunCounts,
+    joint_judgements,
+    joint_status,
+)
 from topo_verify.harness.verify.parts import MapperCost, Part
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
@@ -93,7 +100,7 @@ class Trials:
     def part(self, *, interrupted: bool = False) -> Part:
         """The part's result so far."""
         counts = self.counts
-        whole = counts.worlds == self.total and not counts.undecided_runs and not interrupted
+        whole = counts.worlds == self.total and not counts.undecided and not interrupted
         verdict: Verdict = "UNKNOWN"
         if counts.failing or self.findings:  # a world that was cut off may have failed already
             verdict = "REFUTED"
@@ -109,6 +116,7 @@ class Trials:
             summary=self._summary(claims, interrupted=interrupted),
             failing=counts.failing,
             claims=claims,
+            judgements=joint_judgements(counts.statuses(), counts.shares(), self.findings),
             findings=tuple(self.findings),
         )
 
@@ -117,8 +125,8 @@ class Trials:
         mappers = f" × {len(self.targets)} mappers" if len(self.targets) > 1 else ""
         words = f"{counts.worlds} of {plural(self.total, 'world')}{self.about}{mappers}: "
         words += self._failures(claims) if self.findings else claims_in_words(claims)
-        if counts.undecided_runs:
-            words += f"; {plural(counts.undecided_runs, 'run')} out of time"
+        if counts.late_runs:
+            words += f"; {plural(counts.late_runs, 'run')} out of time"
         if interrupted:
             words += "; interrupted"
         elif self._timed_out and counts.worlds < self.total:
@@ -136,26 +144,16 @@ class Trials:
 
 def part_claims(statuses: dict[str, dict[str, int]]) -> dict[str, dict[str, int]]:
     """For each claim, in how many runs it has which of the statuses that a part reports."""
-    reported = ("ok", "failed", "not-declared", "not-asked")
     return {
-        claim: {status: statuses.get(claim, {}).get(status, 0) for status in reported}
+        claim: {status: statuses.get(claim, {}).get(status, 0) for status in get_args(Status)}
         for claim in CLAIMS
     }
 
 
 def claims_in_words(claims: dict[str, dict[str, int]]) -> str:
-    """How many claims hold in all runs, fail in one, were declared in none or not in all."""
-    hold = fail = silent = partly = 0
-    for seen in claims.values():
-        fail += seen["failed"] > 0
-        hold += not seen["failed"] and seen["ok"] > 0 and not seen["not-declared"]
-        silent += seen["not-declared"] > 0 and not (seen["ok"] or seen["failed"])
-        partly += not seen["failed"] and seen["ok"] > 0 and seen["not-declared"] > 0
-    words = [f"{plural(hold, 'claim holds', 'claims hold')}"]
-    words += [plural(fail, "fails", "fail")] if fail else []
-    words += [f"{partly} declared in some runs only, and hold there"] if partly else []
-    words += [f"{silent} not declared"] if silent else []
-    return ", ".join(words)
+    """How many claims hold in all runs, and how many have each other status."""
+    joint = {claim: joint_status(seen) for claim, seen in claims.items() if any(seen.values())}
+    return in_words(joint, "claims hold") if joint else "no run was judged"
 
 
 # ---------------------------------------------------------------- one world, and what it costs

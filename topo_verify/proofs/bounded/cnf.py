@@ -80,6 +80,7 @@ class Formula:
 
     def define_or(self, group: str, name: str, literals: Sequence[CnfLiteral]) -> CnfLiteral:
         """A new Boolean that holds exactly if at least one of these does."""
+        # De Morgan, so that only `define_and` needs clauses that are right.
         return -self.define_and(group, name, [-literal for literal in literals])
 
     def equate(self, group: str, guard: Sequence[CnfLiteral], one: CnfRow, other: CnfRow) -> None:

@@ -55,6 +55,7 @@ class BoundedCounterexample:
 
 def decode_table(world: Worlds, model: Assignment) -> Table:
     """The degrees and alpha of an assignment, with its numbers of darts."""
+    # (first dart, degree) of each vertex: sorted, they stand in the order of their darts.
     held = sorted(place for place, vertex in world.vertex.items() if model.holds(vertex))
     alpha = [0] * len(world.darts)
     for (a, b), joined in world.joined.items():
@@ -70,6 +71,7 @@ def decode_world(world: Worlds, model: Assignment) -> World:
 
 def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
     """The Booleans that `decode` reads; the others follow from them, or do not matter."""
+    # Their order decides which counterexample comes first, so a new one belongs at the end.
     maps = [encoded.chart] if encoded.earlier is None else [encoded.earlier.chart, encoded.chart]
     rows = [encoded.world.first, tuple(encoded.world.joined.values())]
     rows += [row for chart in maps for row in (chart.known, chart.explored)]
@@ -84,6 +86,8 @@ def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCountere
     world = decode_world(encoded.world, model)
     # The steps that are made are a prefix of the word, so their number says which they are.
     made = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
+    # Only `prefix` tells the two apart. There `made` speaks of the own way, and the executed word
+    # is taken whole.
     own = encoded.own or encoded.executed
     behind = encoded.earlier
     return BoundedCounterexample(

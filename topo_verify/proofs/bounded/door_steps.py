@@ -33,6 +33,7 @@ def door(edges: int) -> Worlds:
     world, chart = _map(edges)
     p = _known(world, chart, "p")
     r = world.position("r", "r")
+    # S is a part of the world with the same numbers, so what corresponds is equal.
     world.equate("corresponding", (), p, r)
     word = doors(world, "door", 1)
     here, there = walk(world, "here", p, word), walk(world, "there", r, word)
@@ -76,6 +77,7 @@ def record(edges: int) -> Worlds:
     world = Worlds(edges)
     earlier, later = world.map("earlier"), world.map("later")
     world.include("grows", earlier, later)
+    # The earlier map is a prefix of the later one, so one numbering serves both.
     world.number_the_rest(later.known)
     q, p = _known(world, earlier, "q"), _known(world, later, "p")
     wrote = walk(world, "wrote", q, doors(world, "wrote.door", 1))

@@ -72,6 +72,7 @@ def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate
         seconds: the longest time, as estimated, that a proof may keep the checker busy.
     """
     largest = round(seconds * PER_SECOND)
+    # The checker has time for `largest` clauses times steps, so a longer proof is of no use.
     refutation = refute(formula, most_steps=largest // _FEWEST_CLAUSES)
     if isinstance(refutation, str):
         return refutation
@@ -149,6 +150,8 @@ def _proof(clauses: list[Clause], name: str) -> tuple[Clause, ...]:
     solvers: Any = import_module("pysat.solvers")
     with solvers.Solver(name=name, bootstrap_with=clauses, with_proof=True) as solver:
         solver.solve()
+        # Deletions may go: what propagation derives from some clauses, it derives from more.
         learned = [line.split() for line in solver.get_proof() if not line.startswith("d")]
+    # A line ends with 0, as in DIMACS.
     steps = [tuple(map(int, line[:-1])) for line in learned]
     return (*(step for step in steps if step), ())

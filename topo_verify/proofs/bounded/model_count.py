@@ -43,6 +43,7 @@ def codes(edges: int, world_class: str = "any", budget: Budget | None = None) ->
         SolverGaveUp: the solver gave up before it had excluded further models.
     """
     world = every_world(edges, world_class)
+    # These determine the world; every other Boolean is defined by them.
     over = (*world.first, *world.joined.values())
     for model in models(world, over, budget or Budget()):
         yield decode_table(world, model)
@@ -69,6 +70,7 @@ def another_world(edges: int) -> Worlds:
     """The clauses of a world that is none of the canonical codes: they must contradict."""
     world = every_world(edges)
     for degrees, alpha in rank_order.tables(edges):
+        # One clause for each code: the world has other vertices, or lacks one of its edges.
         firsts = {0, *accumulate(degrees[:-1])}
         numbers = [-world.first[d] if d in firsts else world.first[d] for d in world.darts]
         joined = [-world.edge(d, other) for d, other in enumerate(alpha) if d < other]

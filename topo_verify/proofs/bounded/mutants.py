@@ -147,6 +147,7 @@ _MUTANTS = (
 def _mutant(case: _FaultyRule) -> Theorem:
     confirms = case.rule == "confirm"
     name = f"words-{case.rule}-{case.fault}"
+    # Words of as many doors as there are edges, as in the theorem that is changed.
     build = partial(case.build, case.edges, case.edges)
     return Theorem(
         name=name,
@@ -182,6 +183,7 @@ def _refute(
     encoded = build()
     result = first_model(encoded.world, decoded_booleans(encoded), budget)
     if result.model is None:
+        # No model: the mutant was not refuted, and EXHAUSTED is not what is expected of it.
         exhausted = result.answer == "unsat"
         return TheoremResult(
             verdict="EXHAUSTED" if exhausted else "UNKNOWN",

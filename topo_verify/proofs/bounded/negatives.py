@@ -65,6 +65,7 @@ SMALLEST = (
 
 def premises(edges: int, world_class: str) -> Formula:
     """Any unexplored dart of any map of any world of the class, without a hypothesis."""
+    # Without h: in the loopless world with one edge there is none, and the theorem counts it.
     return behind_an_edge(edges, world_class=world_class).world
 
 
@@ -99,6 +100,7 @@ def depths(world: Worlds, chart: EncodedMap) -> tuple[CnfRow, ...]:
     depth = tuple(world.booleans(f"depth.{d}", len(levels)) for d in world.darts)
     down = world.booleans("down", len(world.darts))
     for d in world.darts:
+        # Depth 0 is v0 alone. A dart has one depth if S knows it, and none otherwise.
         world.equate(group, (), (world.in_v0[d],), depth[d][:1])
         world.imply(group, [chart.known[d]], *depth[d])
         for t in levels:

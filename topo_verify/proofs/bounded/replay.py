@@ -145,6 +145,7 @@ def _prefix(run: _Replayer, found: BoundedCounterexample, fault: RuleFault) -> P
 def _records(run: _Replayer, found: BoundedCounterexample) -> PerceptPairs:
     """The records behind the unexplored dart where tracing ends, as deep as the doors agree."""
     assert found.earlier is not None
+    # One entry for vu and one for each door on S, so door number `step` is the one that leaves S.
     step = len(_traced(run.chart, found.h, found.word))
     if run.recorded is None or step > len(found.word):
         return

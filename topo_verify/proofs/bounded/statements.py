@@ -102,6 +102,7 @@ ONE_DOOR_STATEMENTS = (
 
 
 def _word(build: Callable[[int, int], word_rules.EncodedCounterexample], edges: int) -> Worlds:
+    # m doors are enough for any way home: it is simple, so it has at most n - 1 <= m.
     return build(edges, edges).world
 
 
@@ -119,6 +120,7 @@ WHOLE_WORD_STATEMENTS = (
         words="On every way over explored edges the true hypothesis meets the percepts it expects.",
         symbols="h = alpha(e), w ≤ m doors on S ⇒ all percepts equal",
         refuted=partial(_word, word_rules.trace_way),
+        # With one edge, which is e, S has explored nothing, so nothing would be compared.
         least=2,
     ),
     BoundedStatement(

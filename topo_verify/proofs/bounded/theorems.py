@@ -68,6 +68,7 @@ def bounded(edges: int = MOST_EDGES) -> tuple[Theorem, ...]:
             if statement.least <= edges
         ),
         *(
+            # Whatever `edges` is: `catalogue.choose` leaves out what is larger than asked for.
             theorem(statement, deep, name=f"{statement.name}-deep", deep=True)
             for statement in WHOLE_WORD_STATEMENTS
             if not statement.name.startswith("words-records")
@@ -186,6 +187,7 @@ def _one_certificate(
 ) -> tuple[RefutationCertificate | None, str]:
     """The certificates of all sizes as one; or, if a size has none, a note that says why."""
     made = [attempt for attempt in attempts if isinstance(attempt, RefutationCertificate)]
+    # A certificate that the checker refused is a bug, so it is shown whatever the others are.
     if not attempts or any(not attempt.checked for attempt in made):
         return (drup.together(made) if made else None), ""
     if len(made) == len(sizes):

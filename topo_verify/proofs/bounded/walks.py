@@ -139,6 +139,7 @@ def walk(
     """The walk along a word in the world, which stays in place once `go` has ended."""
     at, leave, senses = [start], list[CnfRow](), [world.sense(name, start, f"{name}.0")]
     for i, door in enumerate(word):
+        # Where a step is not made, `leave` is any dart, and nothing reads it.
         guard = () if go is None else (go[i],)
         leave.append(world.position(name, f"{name}.leave.{i}"))
         at.append(world.position(name, f"{name}.at.{i + 1}"))

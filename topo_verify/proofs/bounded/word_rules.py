@@ -175,6 +175,7 @@ def records(
         for dart in (before.explored[d], e1[d], entry[d]):
             world.imply("augment", [dart], earlier.explored[d])
         world.imply("augment", [earlier.explored[d]], before.explored[d], e1[d], entry[d])
+    # `past` is where the robot was, `traced` where the rule believes it was: a fault parts them.
     past = walk(world, "past", entry, written)
     traced = trace(world, "retraced", earlier, _root(world, entry, fault), written)
     e, vu = crossed(world, later, "e")

@@ -85,6 +85,7 @@ AXIOMS: dict[str, Term] = {
     "rot-zero": forall(a, eq(rot(a, k0), a)),
     "rot-next": forall((a, k), eq(rot(a, succ(k)), sigma(rot(a, k)))),
     # `tried_at` tells Z3 at which terms to instantiate, where its own choice is not enough.
+    # Tried: without it here, fold-closed-home comes back `unknown`.
     "doors-wrap": forall(
         (a, i, j),
         eq(eq(rot(a, i), rot(a, j)), wraps(deg(a), i, j)),
@@ -101,6 +102,7 @@ AXIOMS: dict[str, Term] = {
     "map-rot-zero": forall(x, eq(mrot(x, k0), x)),
     "map-rot-next": forall((x, k), eq(mrot(x, succ(k)), msigma(mrot(x, k)))),
     # S is finite, so msigma, which is injective, is onto; no other axiom says that S is finite.
+    # Tried: without `tried_at`, new-apart-step comes back `unknown`.
     "map-sigma-onto": forall(x, eq(msigma(mback(x)), x), tried_at=((phi(x),),)),
     "map-doors-wrap": forall(
         (x, i, j),

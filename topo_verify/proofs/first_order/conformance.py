@@ -177,6 +177,7 @@ class TraceReader:
             self.turned = self.doors.pop()
             self.seen.pop()
         else:
+            # Validation: in runs of the catalogue every move has a purpose.
             self.doors.append((move.door + self.turned) % self.seen[-1].degree)
             self.seen.append(move.percept)
             self.turned = 0
@@ -223,6 +224,7 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
                 remaining.remove(dart)
                 # A mismatch after at least one door puts the rule to all remaining hypotheses.
                 if reading.doors:
+                    # Copies, because the next moves change both lists.
                     words.append((reading.doors.copy(), reading.seen.copy()))
                     expected = list(_sifted(described, reading, remaining, tree))
             case Reject(_, dart, rule, evidence):
@@ -233,6 +235,7 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
                 remaining.remove(dart)
             case Confirm(_, dart):
                 h = Hypothesis(dart, reading.chart, tree)
+                # The robot may have gone further than h's way home.
                 seen = reading.seen[: len(h.doors) + 1]
                 if expected or described.moved(reading.chart, h, seen) is not None:
                     yield f"event {when}: {dart} is confirmed, which the rule does not describe"

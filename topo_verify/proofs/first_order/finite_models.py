@@ -76,6 +76,7 @@ def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) ->
     reply = z3_solver.find_values(grounded(formulas, sizes), sorts, budget)
     if reply.answer != "sat":
         return FiniteModel(reply.answer, why=reply.why)
+    # Z3 names its elements as it likes: the value of the constant tells which element is which.
     number = {
         sort: {reply.values[element(sort, n).symbol.name]: n for n in range(size)}
         for sort, size in sizes.items()
@@ -129,6 +130,7 @@ def _entries(formulas: Sequence[Term], sizes: Mapping[str, int]) -> Iterator[Fun
     """Every value of every function that occurs in the formulas, in a fixed order."""
     found = {symbol.name: symbol for formula in formulas for symbol in symbols(formula)}
     named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
+    # The elements occur in formulas as constants, and name themselves.
     for name in sorted(found.keys() - named):
         symbol = found[name]
         for row in product(*(range(sizes[sort]) for sort in symbol.arguments)):

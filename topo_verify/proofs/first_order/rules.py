@@ -84,6 +84,8 @@ def record_alike(r: Term, b: Term) -> Term:
 
 ALIKE = alike(x, b)
 POSED = conj(neg(t.explored(h)), differ(h, e), signature_alike(h, b))
+# MOTION and PREFIX follow the way home, which takes explored edges only: that is a premise where
+# they are used. HISTORY follows any door, so it must ask.
 MOTION = neg(alike(arrival(x, k), b))
 PREFIX = conj(eq(own, k), neg(alike(arrival(x, own), b)))
 HISTORY = conj(t.explored(t.mrot(x, k)), neg(alike(arrival(x, k), b)))

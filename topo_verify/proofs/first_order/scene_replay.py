@@ -95,6 +95,7 @@ class SceneReplay:
 
     def _join(self, x: int, other: MapDart) -> None:
         self.chart.join(self.number[x], other)
+        # The robot came in by `other`, so that is its reference dart.
         self.at = other
 
     # ------------------------------------------------------------ the moves of the mutant

@@ -63,6 +63,7 @@ CONNECTIVES: Mapping[str, Callable[[Iterator[Value]], Value]] = {
     "not": lambda row: not next(row),
     "and": all,
     "or": any,
+    # Two arguments each: terms.py makes no others.
     "=>": lambda row: not next(row) or next(row),
     "=": lambda row: next(row) == next(row),
 }

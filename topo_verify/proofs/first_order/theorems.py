@@ -88,6 +88,7 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
     """The obligation without one premise as a theorem that must be refuted."""
     dropped = obligation.premises()[lost]
     formulas = obligation.premises(without=lost)
+    # Where the premise holds, so does the goal (the theorem), so its negation loses no structure.
     formulas |= {"premise-fails": neg(dropped), "goal-fails": neg(obligation.goal)}
 
     def prove(budget: Budget) -> TheoremResult:

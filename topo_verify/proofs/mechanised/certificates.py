@@ -94,6 +94,7 @@ def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
         )
     fold = fold_log(percepts, doors)
     shown: CertifiedStatement = "map" if fold.closed else "undetermined"
+    # After a conflict the table is empty, and `closed` is true of an empty table.
     statement = "impossible" if fold.conflict else shown
     return CoqCertificate(statement, percepts, doors, fold, evidence_for_decisions(trace))
 
@@ -128,6 +129,7 @@ class _Checker:
         compiler = shutil.which("ocamlfind") is not None
         by_program = compiler and len(certificate.doors) > LONG
         try:
+            # It needs all the others, so it is compiled last.
             if not (self.folder / f"{LIBRARY}.vo").exists():
                 self.progress("compiling the proofs")
                 build(self.folder, timeout=self.timeout)
@@ -138,6 +140,7 @@ class _Checker:
                 found = by_kernel(self.folder, name, coq_file(certificate), timeout=self.timeout)
         except toolchain.TimeOut as error:
             return CertificateCheck(None, toolchain.version(), str(error))
+        # coqc has checked the decisions already if the file states them.
         if by_program or not certificate.writes_decisions:
             return replace(found, decisions=self.decisions(certificate, compiler=compiler))
         return found

@@ -173,6 +173,7 @@ class _LogSoFar:
         conflict = self.fold.extend(percepts, doors)
         assert conflict is None, "decisions are judged only where some world shows the log"
         if self.next == 0:
+            # v0, from the marked dart on, which is the reference dart of the first visit.
             self.draw((1, 0))
         self.next = when
 
@@ -197,6 +198,7 @@ class _LogSoFar:
             other = event.dart if isinstance(event, Augment) else event.hypothesis
             found = [self.joined(edge, self.map_to_fold[other])]
         if isinstance(event, Augment):
+            # For a new vertex, `dart` is its first one, which `draw` has just added.
             self.opened -= {edge, event.dart}
         # All or nothing: half of the facts of an augmentation would state less than it declares.
         facts = tuple(fact for fact in found if fact is not None)

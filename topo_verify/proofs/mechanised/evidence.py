@@ -107,6 +107,7 @@ def fold_log(percepts: Sequence[Percept], doors: Sequence[Door]) -> FoldedLog:
 
 def _legal(percepts: Sequence[Percept], doors: Sequence[Door]) -> bool:
     starts = percepts[0].marker == 0
+    # Degree 0 is refused as well: a place to which the robot came has a dart.
     shown = all(p.degree > (p.marker or 0) >= 0 for p in percepts)
     return (
         starts and shown and all(0 <= k < p.degree for k, p in zip(doors, percepts, strict=False))
@@ -148,6 +149,7 @@ class ProofProducingFold:
         self.offset += [0] * len(visits)
         self.size += [1] * len(visits)
         self.leaving += [{} for _ in visits]
+        # Move v leads from visit v to visit v + 1, and arrives by dart 0 there.
         self.edges += [((v, door), (v + 1, 0)) for v, door in zip(moves, doors, strict=True)]
         # Markers first: these merges follow from the percepts alone, and need no evidence.
         for visit, percept in zip(visits, percepts, strict=True):
@@ -252,6 +254,7 @@ class ProofProducingFold:
         (kept, i), (lost, j) = one, other
         if kept == lost:
             return []
+        # Dart i of `kept` and dart j of `lost` are one dart.
         degree = self.seen[kept].degree
         self.parent[lost], self.offset[lost] = kept, (i - j) % degree
         self.size[kept] += self.size[lost]
@@ -280,6 +283,7 @@ class ProofProducingFold:
         for number, (visit, dart) in enumerate(order):
             arc = self.leaving[visit].get(dart)
             other = None if arc is None else self.number(self.end(arc), first)
+            # The darts of a vertex have consecutive numbers from `low` on.
             low = first[visit][1]
             degree = self.seen[visit].degree
             after, before = ((number - low + step) % degree + low for step in (1, -1))

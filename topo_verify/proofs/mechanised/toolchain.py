@@ -74,6 +74,7 @@ def required(name: str) -> tuple[str, ...]:
     needed, todo = {name}, [name]
     while todo:
         text = (SOURCES / f"{todo.pop()}.v").read_text(encoding="utf-8")
+        # No source has more than one such line.
         found = re.search(r"^From Topo Require Import ([\w\s]+)\.", text, re.MULTILINE)
         new = set(found[1].split() if found else ()) - needed
         needed |= new

@@ -132,6 +132,7 @@ Print Assumptions proved.
 
 def _decisions(decisions: EntailedDecisions) -> str:
     facts = [fact for one in decisions.stated for fact in one.facts]
+    # The file defines a list called `evidence` before this, so the type needs its module's name.
     return f"""
 (* What was decided, and at which visit: an edge leads from a place to another, or none does.
    A place is a visit and a door there. Visits are counted from 1, events of the trace from 0. *)

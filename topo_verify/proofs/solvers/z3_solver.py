@@ -99,6 +99,7 @@ class Z3Question:
         assertions = _z3.parse_smt2_string(smt2, ctx=self._context)
         if not labels:
             self._solver.add(assertions)
+        # Strict: with a label too few, an assertion would be left out.
         for label, assertion in zip(labels, assertions if labels else (), strict=True):
             # Z3 drops the names of a script when it parses it; tracking gives them back.
             self._solver.assert_and_track(assertion, label)
@@ -138,6 +139,7 @@ class Z3Question:
     def true(self) -> frozenset[str]:
         """The names of the Booleans that are true in the model of a `sat` answer."""
         model = self._solver.model()
+        # A Boolean that the model leaves open is not in it, and any value does: it counts as false.
         return frozenset(str(name) for name in model.decls() if _z3.is_true(model[name]))
 
     def values(self, wanted: Mapping[str, str]) -> dict[str, str]:

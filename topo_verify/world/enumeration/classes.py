@@ -12,8 +12,8 @@ the properties. They are properties of the map, so where the marker lies never m
 | `simple` | loopless, and no two edges join the same two vertices |
 | `max-degree:D` | no vertex has more than D exits |
 
-What `sample` does not do: it draws from a class other than `any` by rejection. That is exactly
-uniform, but hopeless where hardly a world is in the class; then an error says so.
+`sample` draws from a class other than `any` by rejection. That is exactly uniform, but hopeless
+where hardly a world is in the class; then an error says so.
 
 Source: docs/semantics.md, section 16.
 """
@@ -25,6 +25,7 @@ from dataclasses import dataclass
 from random import Random
 
 from topo_verify.errors import InputError
+from topo_verify.text import shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.degree_counts import count_graphs
 from topo_verify.world.enumeration.genus_counts import count_genus
@@ -69,16 +70,20 @@ class WorldClass:
         exact = {*bounds["genus:"], *([0] if "planar" in words else [])}
         most = min(bounds["genus<="], default=None)
         degree = min(bounds["max-degree:"], default=None)
+        # Two ways to say planar: equal classes must become equal values, since they print alike.
         if most == 0:
             exact.add(0)
         if len(exact) > 1 or (exact and most is not None and max(exact) > most):
             raise InputError(
-                f"class {text!r} contradicts itself: a world has one genus; name one or one bound"
+                f"class {shown(text, limit=80)!r} contradicts itself: a world has one genus;"
+                " name one or one bound"
             )
         genus = max(exact, default=None)
+        # With degrees 1 and 2 a connected map is a path or a cycle, and those have genus 0.
         if degree == 0 or (genus and degree in (1, 2)):
             raise InputError(
-                f"class {text!r} is empty: with at most {degree} exits a vertex there is no world"
+                f"class {shown(text, limit=80)!r} is empty: with at most {degree} exits a vertex"
+                " there is no world"
                 f" {f'of genus {genus}' if degree else 'with an edge'}; raise max-degree"
             )
         return cls(
@@ -108,10 +113,13 @@ class WorldClass:
 
     def admits(self, table: rank_order.Table) -> bool:
         """Is the world with this table in the class? Makes no `World`: long lists ask this."""
+        # The cheap tests first: long lists ask this of every world, and the genus walks every face.
         if self.most_degree is not None and max(table[0]) > self.most_degree:
             return False
         if self.loopless or self.simple:
             ends = _ends(table)
+            # Each edge is in `ends` as (a, b) and as (b, a). Without loops, a pair comes twice only
+            # if two edges are parallel.
             if any(a == b for a, b in ends) or (self.simple and len(set(ends)) < len(ends)):
                 return False
         if self.genus is not None:
@@ -155,6 +163,7 @@ class WorldClass:
             inside, total = self._count_by_formula(edges), rank_order.count(edges)
             if not inside:
                 raise InputError(f"class {self}: there is no world with {edges} edges in it")
+            # A world in the class takes total / inside draws on average.
             if total > inside * MAX_TRIES:
                 raise InputError(self._too_rare(edges, f"{inside / total:.0e} of all"))
         for _ in range(MAX_TRIES):
@@ -170,6 +179,8 @@ class WorldClass:
     def _count_by_formula(self, edges: int) -> int:
         if self.genus is not None:
             return count_genus(edges, self.genus) if self.genus else rank_order.count_planar(edges)
+        # No map has 2g > m, since n - m + f = 2 - 2g and n, f >= 1. So a higher bound
+        # excludes nothing.
         if self.most_genus is not None and 2 * self.most_genus < edges:
             return sum(count_genus(edges, genus) for genus in range(self.most_genus + 1))
         return rank_order.count(edges)
@@ -189,9 +200,9 @@ def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
         found = _TERM.fullmatch(term.strip())
         if not found:
             raise InputError(
-                f"class {text!r}: expected any, planar, genus:G, genus<=G, simple, loopless or"
-                " max-degree:D, or several of them joined with commas, all of which hold; got"
-                f" {term.strip()!r}"
+                f"class {shown(text, limit=80)!r}: expected any, planar, genus:G, genus<=G,"
+                " simple, loopless or max-degree:D, or several of them joined with commas, all of"
+                f" which hold; got {term.strip()!r}"
             )
         word, bound, number = found.groups()
         if bound:
@@ -211,6 +222,7 @@ def _ends(table: rank_order.Table) -> list[tuple[int, int]]:
 def _genus(table: rank_order.Table) -> int:
     """From Euler's formula, V - E + F = 2 - 2g."""
     degrees, alpha = table
+    # `after` is sigma, as in World.from_code.
     after: list[int] = []
     for degree in degrees:
         first = len(after)

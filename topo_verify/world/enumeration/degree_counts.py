@@ -55,12 +55,14 @@ def count_graphs(
     if edges < 0:
         raise InputError(f"expected 0 or more edges, got {edges}")
     highest = 2 * edges if most_degree is None else min(most_degree, 2 * edges)
+    # Degrees 1 and 2 alone make only m + 1 multisets.
     if edges > MAX_EDGES and highest > 2:
         raise InputError(
             f"expected at most {MAX_EDGES} edges, got {edges}: with more, worlds with a property of"
             " their graph are too many to count; ask for fewer edges"
         )
     total = [_all_maps(m, highest, loopless=loopless, simple=simple) for m in range(edges + 1)]
+    # connected[m] = [x^m] log T(x). The constant terms are T(0) = 1 and log 1 = 0.
     connected = [Fraction(0)]
     for m in range(1, edges + 1):  # log, from T' = T·(log T)'
         known = sum((k * connected[k] * total[m - k] for k in range(1, m)), Fraction(0))
@@ -94,11 +96,13 @@ def _wirings(degrees: Degrees, *, loopless: bool) -> int:
     """The number of ways to join all darts in pairs; no two of one vertex, if loopless."""
     if not degrees:
         return 1
+    # Choose the partner of one dart of the first vertex: it is in every wiring exactly once.
     first, rest = degrees[0], degrees[1:]
     ways = 0
     if first > 1 and not loopless:
         ways += (first - 1) * _wirings(_sorted(first - 2, *rest), loopless=False)
     for degree, times in Counter(rest).items():
+        # The partner is one of `degree` darts at one of `times` vertices that are alike.
         left = list(rest)
         left.remove(degree)
         lower = _wirings(_sorted(first - 1, degree - 1, *left), loopless=loopless)
@@ -111,6 +115,7 @@ def _simple_wirings(degrees: Degrees) -> int:
     """The number of ways to join all darts such that the graph is simple."""
     if not degrees:
         return 1
+    # All d darts of the first vertex at once: d! ways to give them to the d darts chosen there.
     met = _meetings(degrees[0], tuple(Counter(degrees[1:]).items()))
     return factorial(degrees[0]) * sum(ways * _simple_wirings(_sorted(*left)) for ways, left in met)
 
@@ -127,6 +132,7 @@ def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple
         return
     (degree, times), *others = groups
     for chosen in range(min(darts, times) + 1):
+        # Which of the vertices that are alike, and which dart of each.
         here = comb(times, chosen) * degree**chosen
         left = (degree - 1,) * chosen + (degree,) * (times - chosen)
         for ways, further in _meetings(darts - chosen, tuple(others)):
@@ -134,4 +140,5 @@ def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple
 
 
 def _sorted(*degrees: int) -> Degrees:
+    # One form for each multiset, or the caches would hold the same number many times.
     return tuple(sorted(filter(None, degrees), reverse=True))

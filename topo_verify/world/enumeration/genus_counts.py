@@ -26,6 +26,7 @@ def count_genus(edges: int, genus: int) -> int:
     """
     if edges < 0 or genus < 0:
         raise InputError(f"expected 0 or more edges and genus, got edges={edges}, genus={genus}")
+    # Euler: n + f = m + 2 - 2g, and every map has a vertex and a face.
     if 2 * genus > edges:
         return 0
     known: list[list[int]] = []  # known[g][m], the Q of the module's docstring

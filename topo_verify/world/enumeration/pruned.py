@@ -64,6 +64,7 @@ def ranked_tables(
     stop = total if stop is None else min(stop, total)
     kind = WorldClass() if kind is None else kind
     if edges == 0 or kind == WorldClass():
+        # Nothing prunes here. The one world without edges never grows, so it is tested as it is.
         listed = enumerate(rank_order.tables(edges, start, stop), start)
         yield from (pair for pair in listed if edges or kind.admits(pair[1]))
     else:
@@ -81,12 +82,14 @@ class _Partial(NamedTuple):
 
 
 def _grown(edges: int, kind: WorldClass, start: int, stop: int) -> Iterator[tuple[int, Table]]:
+    # Partial maps leave the stack in the order of their ranks, each before its completions.
     stack = list(_roots(edges, kind))[::-1]
     while stack:
         partial = stack.pop()
         u, r = len(partial.opened), 2 * edges - len(partial.alpha)
         if partial.rank >= stop:
             return
+        # All its completions have ranks below `start`.
         if partial.rank + rank_order.completions(u, r) <= start:
             continue
         if u:
@@ -101,6 +104,7 @@ def _roots(edges: int, kind: WorldClass) -> Iterator[_Partial]:
         pruners = _pruners(kind, edges, degree)
         if pruners is not None:
             yield _Partial(rank, (degree,), tuple(range(degree)), (-1,) * degree, pruners)
+        # Also for a root that is pruned: ranks count the worlds of class `any`.
         rank += rank_order.completions(degree, 2 * edges - degree)
 
 
@@ -108,6 +112,7 @@ def _children(partial: _Partial, r: int) -> Iterator[_Partial]:
     """Maps one step later, in rank order: joins at the smallest open dart, then new vertices."""
     rank, degrees, opened, alpha, pruners = partial
     dart, u, created = opened[0], len(opened), len(alpha)
+    # No way at all: the join would leave no open dart while darts remain (a dead end).
     ways = rank_order.completions(u - 2, r) if u > 1 else 0
     for place in range(1, u) if ways else ():
         partner = opened[place]
@@ -204,6 +209,7 @@ class GenusPruner(NamedTuple):
             with_partner = next(word for word in others if partner in word)
             others.remove(with_partner)
             parts, handles = [ahead + _turned(with_partner, partner)], self.handles - 1
+        # An empty word is a finished face, and nothing more can happen there.
         words = (*others, *(part for part in parts if part))
         return self._if_feasible(GenusPruner(words, handles, self.exact), left)
 
@@ -227,6 +233,7 @@ class GenusPruner(NamedTuple):
             return True
         # Each handle takes a join that makes one word of two; every other join adds a word, perhaps
         # an empty one. One at least is there at the end, because every map has a face.
+        # If darts are left, one of the edges to come hangs a new vertex and is no join.
         joins = (sum(map(len, self.words)) + left) // 2 - (left > 0)
         return 2 * self.handles <= max(0, len(self.words) + joins - 1)
 
@@ -248,6 +255,7 @@ class NeighbourPruner(NamedTuple):
     def join(self, dart: int, partner: int, left: int) -> NeighbourPruner | None:
         """Impossible within one vertex and, if `simple`, between neighbours."""
         a, b = self.vertex[dart], self.vertex[partner]
+        # Without `simple` the masks stay 0, so only the loop is refused.
         if a == b or self.near[a] >> b & 1:
             return None
         return self._joined(self.vertex, self.opened, self.near, (a, b), left)
@@ -275,6 +283,7 @@ class NeighbourPruner(NamedTuple):
     def feasible(self, left: int) -> bool:
         """Can each open dart still end at another vertex, if `simple` at another one each?"""
         if not self.simple:
+            # Enough for one vertex is enough for all: max <= (sum - max) + left.
             return 2 * max(self.opened) <= sum(self.opened) + left
         waiting = sum(1 << v for v, darts in enumerate(self.opened) if darts)
         return all(

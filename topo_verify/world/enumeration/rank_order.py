@@ -56,10 +56,12 @@ def completions(open_darts: int, to_create: int) -> int:
 
 
 _rows: list[tuple[int, ...]] = [(1,)]
-"""IntTuple t holds F(2t - r, r) for r = 0 … 2t; each row follows from the one before it."""
+"""Row t holds F(2t - r, r) for r = 0 … 2t; each row follows from the one before it."""
 
 
 def _next_row(before: tuple[int, ...]) -> tuple[int, ...]:
+    # total = u + r. F(u, r) joins from before[r], where u - 2 darts are open; with u = 1 there is
+    # no join, and with u = 0 and r > 0 there is no completion.
     total = len(before) + 1
     attached = [0, *accumulate(before)]  # Σ_d F(u+d-2, r-d) = before[0] + … + before[r-1]
     joined = [(total - r - 1) * ways for r, ways in enumerate(before)]
@@ -84,6 +86,7 @@ def count_by_recurrence(edges: int) -> int:
     _require_edges(edges)
     numbers: list[int] = [1]
     for m in range(1, edges + 1):
+        # z·M and 2z²·M' have the coefficients M[m-1] and 2(m-1)·M[m-1].
         squared = sum(numbers[i] * numbers[m - 1 - i] for i in range(m))
         numbers.append(squared + (2 * m - 1) * numbers[m - 1])
     return numbers[edges]
@@ -110,6 +113,7 @@ def rank(table: Table) -> int:
     # that stand before it.
     m2 = len(alpha)
     before = sum(completions(d, m2 - d) for d in range(1, degrees[0]))
+    # `opened` stays ascending, because new darts get the highest numbers.
     opened = list(range(degrees[0]))
     created, vertices = degrees[0], 1
     while opened:
@@ -143,6 +147,7 @@ def unrank(edges: int, rank: int) -> Table:
     if edges == 0:
         return (0,), ()
     m2 = 2 * edges
+    # `_choose` counts from 0, so here and below the degree is d + 1.
     d, rank = _choose(rank, (completions(d, m2 - d) for d in range(1, m2 + 1)))
     degrees, opened, alpha = [d + 1], list(range(d + 1)), [0] * m2
     created = d + 1
@@ -151,6 +156,7 @@ def unrank(edges: int, rank: int) -> Table:
         dart = opened.pop(0)
         joins = (u - 1) * completions(u - 2, r)
         if rank < joins:
+            # Not a division by zero: rank < joins, so joins > 0.
             place, rank = divmod(rank, completions(u - 2, r))
             partner = opened.pop(place)
         else:
@@ -238,6 +244,8 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
         if skip and completions(u, r) <= skip:
             skip -= completions(u, r)
         elif u + r <= _TAIL:
+            # What can follow depends on u and r alone: the endings are cached over slots, and here
+            # the slots get the numbers of the darts.
             slots = (*opened, *range(created, m2))
             place = _inverse(joined + slots)
             for more, partner_slots in islice(_endings(u, r), skip, None):
@@ -253,6 +261,8 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
 
 def _steps(opened: IntTuple, created: int, r: int) -> Iterator[tuple[int, int, IntTuple]]:
     """Each step at the smallest open dart: its partner's place and number, and new degrees."""
+    # A step must leave an open dart (a join leaves u - 2, a new vertex u + d - 2) or no dart to
+    # create. j = u stands for a partner that is not among the open darts.
     u = len(opened)
     if u > 2 or r == 0:
         for j in range(1, u):
@@ -264,6 +274,7 @@ def _steps(opened: IntTuple, created: int, r: int) -> Iterator[tuple[int, int, I
 
 def _inverse(darts: IntTuple) -> itemgetter[IntTuple]:
     """A getter that puts a row given in the order `darts` into the order of the darts."""
+    # Two darts at least: with one index an itemgetter would return it bare, not in a tuple.
     return itemgetter(*sorted(range(len(darts)), key=darts.__getitem__))
 
 
@@ -279,6 +290,7 @@ def _endings(u: int, r: int) -> tuple[tuple[IntTuple, itemgetter[IntTuple]], ...
         rest = tuple(s for s in slots if s not in (0, partner))
         if not rest:  # two slots are left, and this is the only way to join them
             return ((more, itemgetter(1, 0)),)
+        # `rest` has the form of the slots again: the open ones first, then those to come.
         place = _inverse((0, partner, *rest))
         for further, partners in _endings(u - 2 + sum(more), r - sum(more)):
             row = place((partner, 0, *partners(rest)))

@@ -28,6 +28,7 @@ def marker(family: str, value: object) -> Dart | None:
 def share(family: str, name: str, value: object, *, whole: bool) -> float:
     """The value as a plain float; refuses what is not in 0 … 1 (1 only if `whole`)."""
     if isinstance(value, SupportsFloat):
+        # A NaN fails the comparison and a huge integer overflows, so both are refused below.
         with suppress(OverflowError):
             share = float(value)
             if 0 <= share < 1 or (whole and share == 1):

@@ -53,9 +53,11 @@ def largest_component(graph: Graph) -> Graph:
             seen.add(node)
             component = [node]
             for reached in component:  # grows as it goes: a queue
+                # The order of this set does not show, because the component is sorted at the end.
                 fresh = {end.to for end in graph[reached]} - seen
                 seen |= fresh
                 component += fresh
+            # Of two that are as large, `max` keeps the earlier, which has the lower node.
             largest = max(largest, component, key=len)
     return {node: graph[node] for node in sorted(largest)}
 
@@ -68,6 +70,7 @@ def as_world(
     positions: tuple[tuple[float, float], ...] = (),
 ) -> World:
     """The world of a connected graph: darts numbered node by node, clockwise."""
+    # The side is needed for loops, both ends of which are at one node.
     number = {
         (end.edge, end.side): dart
         for dart, end in enumerate(end for ends in graph.values() for end in ends)
@@ -75,6 +78,7 @@ def as_world(
     rotations = [[number[end.edge, end.side] for end in ends] for ends in graph.values()]
     pairs = [(dart, number[edge, 1]) for (edge, side), dart in number.items() if side == 0]
     if marker is None and number and random:
+        # Not a choice among all darts: every vertex is to be as likely as any other.
         marker = random.choice(random.choice(rotations))
     try:
         return World.from_rotations(rotations, pairs, marker, name=name, positions=positions)

@@ -65,7 +65,8 @@ def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> W
     """A honeycomb whose borders are joined: all faces hexagons. Genus 1, degrees 3.
 
     There are two nodes a cell. Arguments and errors as for `torus`; it is simple from 2 rows and 2
-    columns on. It is the dual of the triangular torus of the same size.
+    columns on. It is the dual of the triangular torus of the same size, faces taken as rotations:
+    drawn with north upwards, the exits of a node are listed anticlockwise.
     """
     family = "hexagonal_torus"
     rows, columns = arguments.size(family, (rows, columns), darts_each=6)
@@ -131,6 +132,7 @@ def _grid(rows: int, columns: int, steps: Sequence[tuple[int, int]], *, wrapped:
     graph: Graph = {}
     for node in range(rows * columns):
         exits = graph[node] = []
+        # First along the steps, then against them: once around, clockwise.
         for side in (0, 1):
             for way, (down, right) in enumerate(steps):
                 row = node // columns + (down, -down)[side]

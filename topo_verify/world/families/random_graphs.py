@@ -48,6 +48,8 @@ def regular(
     marker = arguments.marker(family, marker)
     name = arguments.name(family, nodes, degree, holes=holes, seed=seed, marker=marker)
     random = Random(seed)
+    # The order of the draws is a promise, because the name makes the world again: edges, holes,
+    # rotations, marker.
     graph = _graph(nodes, _regular_edges(nodes, degree, random))
     return _rotated(name, with_holes(name, graph, holes, random), marker, random)
 
@@ -130,6 +132,7 @@ def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[in
                     left += pair
                 else:
                     edges[pair] = None
+            # `_some_fit` is slow, so it is asked only when a whole round has fitted nothing.
             if len(left) == len(ends) and not _some_fit(left, edges):
                 break  # no pair of free ends fits: start again, as the paper does
             ends = left

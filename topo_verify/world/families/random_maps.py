@@ -88,10 +88,12 @@ def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None =
     edges, seed, marker = _checked(family, edges, seed, marker)
     name = arguments.name(family, edges, genus, seed=seed, marker=marker)
     random = Random(seed)
+    # A handle takes two edges outside the tree: one splits a face, one joins two.
     in_tree = sum(random.randrange(2) for _ in range(edges - 2 * genus))
     kinds = [1] * (edges - in_tree - genus) + [-1] * genus  # what each adds to the faces
     random.shuffle(kinds)
     faces = _Faces(_walk(_tree(in_tree, random)))
+    # The sum so far is the number of faces less one. It is never negative, so a join finds two.
     for kind in _from_lowest_point(kinds):
         (faces.split if kind > 0 else faces.join)(random)
     root = random.randrange(2 * edges) if edges else 0
@@ -119,6 +121,7 @@ def _rooted(name: str, sigma: Sequence[Dart], root: Dart, marker: Dart | None) -
 
 def _turning(faces: Sequence[Sequence[Dart]]) -> list[Dart]:
     """`sigma` of the map with these faces."""
+    # Along a face each dart is sigma∘alpha of the one before it, and alpha(d) = d ^ 1.
     sigma = [0] * sum(map(len, faces))
     for face in faces:
         for place, dart in enumerate(face):
@@ -171,6 +174,7 @@ def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple
         steps: what the label rises by along each edge, in the order of the ups.
         coin: 0 or 1: the map's vertices have labels as even as the root's is, or as odd.
     """
+    # An arc goes from label l to l - 1, so exactly one of its two darts is at a vertex of the map.
     vertices, labels = _corners(word, steps)
     around = _quadrangulation(vertices, labels)
     # A dart of the quadrangulation at one of the map's vertices also stands for the corner before
@@ -193,6 +197,7 @@ def _corners(word: Sequence[int], steps: Sequence[int]) -> tuple[list[int], list
     vertices, labels = [0], [0]
     below: list[tuple[int, int]] = []
     count = 1
+    # The last step leads back to the first corner.
     for step in word[:-1]:
         if step > 0:
             below.append((vertices[-1], labels[-1]))
@@ -258,6 +263,7 @@ class _Faces:
         here, there = self._edge()
         low, high = sorted((first, second))
         parts = [[here, *darts[low:high]], [there, *darts[high:], *darts[:low]]]
+        # The longer part keeps the face's number, so that fewer darts need a new one.
         parts.sort(key=len)
         self.faces[face] = parts[1]
         self.faces.append(parts[0])
@@ -271,6 +277,7 @@ class _Faces:
         two = (one + 1 + random.randrange(len(self.faces) - 1)) % len(self.faces)
         second = random.randrange(len(self.faces[two]))
         here, there = self._edge()
+        # Across the new edge, once around the other face, back, once around this one.
         joined = [here, *_turned(self.faces[two], second), there, *_turned(self.faces[one], first)]
         small, large = sorted((one, two), key=lambda face: len(self.faces[face]))
         for dart in (here, *self.faces[small], there):
@@ -278,9 +285,8 @@ class _Faces:
         self.faces[large] = joined
         last = self.faces.pop()
         if small < len(self.faces):  # the last face takes the number that became free
-            moved = joined if large == len(self.faces) else last
-            self.faces[small] = moved
-            for dart in moved:
+            self.faces[small] = last
+            for dart in last:
                 self.face_of[dart] = small
 
     def _corner(self, random: Random) -> tuple[int, int]:

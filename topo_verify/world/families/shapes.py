@@ -58,6 +58,7 @@ def wheel(rim: int, *, marker: Dart | None = None) -> World:
     def rows(n: int) -> Iterable[list[int]]:
         return [
             list(range(1, n + 1)),
+            # At the top of the circle: next node east, hub south, previous node west.
             *([(i + 1) % n + 1, 0, (i - 1) % n + 1] for i in range(n)),
         ]
 
@@ -72,6 +73,7 @@ def prism(sides: int, *, marker: Dart | None = None) -> World:
 
     def rows(n: int) -> Iterable[list[int]]:
         return [
+            # The outer cycle, then the inner one, whose nodes have the outer node in the north.
             *([(i + 1) % n, n + i, (i - 1) % n] for i in range(n)),
             *([i, n + (i + 1) % n, n + (i - 1) % n] for i in range(n)),
         ]
@@ -96,5 +98,6 @@ def _made(
     arguments.require_darts(family, darts_each * value)
     marker = arguments.marker(family, marker)
     name = arguments.name(family, value, marker=marker)
+    # path(1) has no dart that a marker could point at.
     made = graph(value)
     return as_world(name, made, 0 if marker is None and made[0] else marker)

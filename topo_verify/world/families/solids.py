@@ -34,18 +34,21 @@ def cube(*, marker: Dart | None = None) -> World:
 def octahedron(*, marker: Dart | None = None) -> World:
     """6 vertices of degree 4, 12 edges, 8 triangles."""
     ring = [[5, i % 4 + 1, 0, (i - 2) % 4 + 1] for i in range(1, 5)]
+    # The node outside sees the ring from its other side, so in the reverse order.
     rows = [[1, 2, 3, 4], *ring, [4, 3, 2, 1]]
     return _named("octahedron", as_world("octahedron", from_neighbours(rows), 0), marker)
 
 
 def dodecahedron(*, marker: Dart | None = None) -> World:
     """20 vertices of degree 3, 30 edges, 12 pentagons."""
+    # Faces taken as rotations make the dual or its mirror image; a solid is its own mirror image.
     other = icosahedron()
     return _named("dodecahedron", World.from_rotations(other.faces, other.edges, 0), marker)
 
 
 def icosahedron(*, marker: Dart | None = None) -> World:
     """12 vertices of degree 5, 30 edges, 20 triangles."""
+    # Node 6 + i lies outside the inner ring, between node 1 + i and the next one.
     inner = [[6 + i, 1 + (i + 1) % 5, 0, 1 + (i - 1) % 5, 6 + (i - 1) % 5] for i in range(5)]
     outer = [[11, 6 + (i + 1) % 5, 1 + (i + 1) % 5, 1 + i, 6 + (i - 1) % 5] for i in range(5)]
     rows = [[1, 2, 3, 4, 5], *inner, *outer, [10, 9, 8, 7, 6]]

@@ -150,6 +150,7 @@ def _merged(
 
 
 def _survivor(end: DrawnEnd, same: dict[int, int]) -> DrawnEnd:
+    # The way that is kept runs the other way, so its other end is at the same place.
     return DrawnEnd(same[end.way], 1 - end.side) if end.way in same else end
 
 
@@ -169,7 +170,7 @@ class _LeavingEnd(NamedTuple):
 
     @property
     def westward(self) -> bool:
-        """Is the direction from south, inclusive, to north, clockwise?"""
+        """Does the direction point west or due south?"""
         x, y = self.direction
         return x < 0 or (x == 0 and y < 0)
 
@@ -239,6 +240,8 @@ def _compared(one: _LeavingEnd, other: _LeavingEnd) -> int:
     """Negative where `one` comes first clockwise from the north, 0 for the very same direction."""
     if one.westward != other.westward:
         return 1 if one.westward else -1
+    # Both point into one half, so less than half a turn lies between them. Then the cross product
+    # a·d - b·c is positive exactly if `other` is anticlockwise from `one`, and so comes first.
     (a, b), (c, d) = one.direction, other.direction
     ahead, back = a * d, b * c
     if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):  # more than rounding can amount to

@@ -114,6 +114,7 @@ def write(path: str | PathLike[str], text: str | bytes) -> None:
 
 
 def _replace(target: Path, data: bytes) -> None:
+    # In the same folder, because a file cannot be renamed into another file system.
     temporary = target.parent / f".topo-verify-{token_hex(8)}"
     try:
         with temporary.open("xb") as file:

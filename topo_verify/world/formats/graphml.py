@@ -108,6 +108,7 @@ class _Reader:
                 pass
 
     def _key(self, attributes: Mapping[str, str]) -> None:
+        # The key of a <default> that may follow within this <key>; empty if the key is not wanted.
         self.data_key = ""
         for kind in ("node", "edge"):
             name = attributes.get("attr.name", "")
@@ -159,6 +160,7 @@ class _Reader:
         number = {name: place for place, name in enumerate(self.places)}
         ways: list[DrawnEdge] = []
         for attributes, data in self.edges:
+            # `_what` names the element that is at hand, and an edge may stand before its nodes.
             self.attributes = attributes
             ends = [number.get(attributes.get(key, "")) for key in ("source", "target")]
             start, end = ends

@@ -69,6 +69,7 @@ def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
         parser.Parse(data, True)  # noqa: FBT003  expat's own signature: this is all
     except expat.ExpatError as error:
         raise InputError(f"{name} is not valid XML: {error}") from error
+    # expat knows no encoding of that name, or it is one of several bytes a character.
     except (LookupError, ValueError) as error:
         if isinstance(error, InputError):
             raise

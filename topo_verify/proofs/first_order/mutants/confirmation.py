@@ -51,6 +51,7 @@ def _plays_only(replay: SceneReplay, rule: Term) -> bool:
 def _plays_confirm_unturned(replay: SceneReplay, rule: Term) -> bool:
     vu = replay.behind("e")
     replay.forward("d1")
+    # Back, but not by the pilot, which would turn the next door.
     replay.robot.move(0)
     sensed = replay.take("own1")
     at = replay.dart("h")

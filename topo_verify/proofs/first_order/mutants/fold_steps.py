@@ -18,6 +18,7 @@ def _plays_fold(replay: SceneReplay, doors: tuple[str | int, ...], one: str, oth
     arrivals = [at]
     for door in doors:
         percept = replay.robot.percept
+        # A text names a constant of the scene, a number is a door.
         taken = door if isinstance(door, int) else replay.door(door, percept.degree)
         for _ in range(taken % percept.degree):
             at = world.sigma[at]

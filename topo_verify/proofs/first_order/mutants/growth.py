@@ -53,6 +53,7 @@ GROWTH: tuple[RuleMutant, ...] = (
         of="new-is-new",
         words="one hypothesis is skipped before a new vertex is added",
         claims=MAPPED,
+        # Never true: the hypothesis is skipped wherever it would be posed.
         rule=conj(r.POSED, neg(r.POSED)),
         scene={**TRUE, **AWAY},
         plays=_plays_not_posed,

@@ -60,6 +60,7 @@ def _recording(
     name: str, of: str, words: str, under: Term, kept: Term, met: Term, **how: int
 ) -> RuleMutant:
     """A mutant of records: kept under a dart, with the percept at `kept`, compared at `met`."""
+    # The record is kept under another dart than the one that was crossed.
     stale = under != t.mrot(H1, D1)
 
     def entry(replay: SceneReplay) -> int:

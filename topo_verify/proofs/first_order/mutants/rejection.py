@@ -47,6 +47,7 @@ def _history(name: str, of: str, words: str, rule: Term) -> RuleMutant:
 
 _ABSOLUTE = t.mrot(mfirst(x), k)
 
+# As in rules.py, but also where the own door differs from the one that was taken.
 _PREFIX = neg(r.alike(r.arrival(x, own), b))
 _SHIFTED = neg(r.alike(x, b))
 _FROM_FIRST = conj(
@@ -64,6 +65,7 @@ def _plays_prefix(replay: SceneReplay, rule: Term) -> bool:
 def _plays_unturned(replay: SceneReplay, rule: Term) -> bool:
     vu = replay.behind("e")
     replay.forward("d1")
+    # Back, but not by the pilot, which would turn the next door.
     replay.robot.move(0)
     sensed = replay.take("own1")
     own_ = replay.scene.constants["own1"]

@@ -84,6 +84,7 @@ P, Q, P2, Q2 = (constant(name, "P") for name in ("p1", "q1", "p3", "q3"))
 
 FITS: dict[str, Term] = {
     "pi-turn": forall(p, eq(pi(pturn(p)), sigma(pi(p)))),
+    # Tried: without `tried_at`, fold-closed-home comes back `unknown`.
     "place-rot-zero": forall(p, eq(prot(p, k0), p), tried_at=((prot(p, k0),), (ptoroot(p),))),
     "place-rot-next": forall((p, k), eq(prot(p, succ(k)), pturn(prot(p, k)))),
     "pi-joined": forall((p, q), joined(p, q), eq(alpha(pi(p)), pi(q))),

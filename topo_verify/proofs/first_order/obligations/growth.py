@@ -59,6 +59,7 @@ from topo_verify.proofs.first_order.terms import (
     substitute,
 )
 
+# A 2 means after the augmentation; `old` are the darts that S had before it.
 phi2 = Symbol("phi2", ("M",), "W")
 malpha2 = Symbol("malpha2", ("M",), "M")
 explored2 = Symbol("explored2", ("M",), BOOL)

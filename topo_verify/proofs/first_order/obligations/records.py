@@ -60,16 +60,19 @@ from topo_verify.proofs.first_order.terms import (
 TRUE = (*CORRESPONDENCE, *TRUE_RECORDS)
 ON_RECORD = {"corresponds": eq(spot(R), B), "goes-deeper": deeper(R, D)}
 
+# rwalk(r, w) is the place of the trie where w leads from r; rstays(r, w): does the trie go so far?
 rwalk = Symbol("rwalk", ("R", "L"), "R")
 rstays = Symbol("rstays", ("R", "L"), BOOL)
 RECORD_WORDS: dict[str, Term] = {
     "record-walk-nil": forall(r, eq(rwalk(r, nil), r)),
+    # For the constant WORD alone: the step speaks of no other word.
     "record-walk-cons": forall((r, k), eq(rwalk(r, cons(k, WORD)), rwalk(behind(r, k), WORD))),
     "record-stays-cons": forall(
         (r, k), eq(rstays(r, cons(k, WORD)), conj(deeper(r, k), rstays(behind(r, k), WORD)))
     ),
 }
 
+# A 2 means after the augmentation; `old` are the darts that S had before it.
 recorded2 = Symbol("recorded2", ("M",), BOOL)
 phi2 = Symbol("phi2", ("M",), "W")
 old = Symbol("old", ("M",), BOOL)

@@ -1,0 +1,140 @@
+"""rejection-justified under the labels `folding` and `planar`: what is cited must follow."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+import pytest
+
+from tests.checkers.example import said
+from tests.helpers import edited, failing, of_type, trace_of
+from topo_verify import World
+from topo_verify.robot.events import Evidence, Record, Reject, RuleName, Trace
+from topo_verify.robot.percept import Percept
+
+CLASH = "two degrees, or the marker and its absence, at one place"
+TURNED = "a vertex would be itself, turned"
+OWN = "a dart would be its own other end"
+TWO = "two vertices of S would be one"
+FACE = "it lies on another face than e"
+
+WORLD = World.from_id("m5/434")
+TRACE = trace_of(WORLD, "folding")
+FIRST = next(i for i, e in enumerate(TRACE) if isinstance(e, Reject) and e.rule == "folding")
+
+NONSENSE = Evidence(999, Percept(424242, None), Percept(424242, None))
+
+
+def renamed(trace: Trace, evidence: Evidence | None, rule: RuleName = "folding") -> Trace:
+    """The trace with every rejection under another label."""
+    return tuple(
+        msgspec.structs.replace(event, rule=rule, evidence=evidence or event.evidence)
+        if isinstance(event, Reject)
+        else event
+        for event in trace
+    )
+
+
+def citing(**changes: Any) -> Trace:
+    """The trace with other evidence in its first rejection."""
+    event = TRACE[FIRST]
+    assert isinstance(event, Reject)
+    return edited(TRACE, FIRST, evidence=msgspec.structs.replace(event.evidence, **changes))
+
+
+@pytest.mark.parametrize("rule", ["folding", "planar"])
+@pytest.mark.parametrize("evidence", [NONSENSE, None, Evidence(0)])
+def test_another_label_does_not_excuse_from_evidence(
+    rule: RuleName, evidence: Evidence | None
+) -> None:
+    lie = renamed(trace_of(WORLD, "basic"), evidence, rule)
+    assert failing(WORLD, lie) == {"rejection-justified"}
+    assert len(said(lie, "rejection-justified", WORLD)) == len(of_type(Reject, lie)) > 1
+
+
+def test_ours_cite_the_contradiction_and_no_percepts() -> None:
+    for reject in of_type(Reject, TRACE):
+        if reject.rule == "folding":
+            told = reject.evidence.contradiction
+            assert reject.evidence == Evidence(0, contradiction=told)
+            assert told in (CLASH, TURNED, OWN, TWO)
+    assert not failing(WORLD, TRACE)
+
+
+def test_percepts_may_stand_where_they_are_those_at_the_two_ends() -> None:
+    # So did traces of version 1 that were recorded before.
+    shown, seen = Percept(7, None), Percept(7, None)
+    assert not failing(WORLD, citing(expected=shown, observed=seen))
+    assert not failing(WORLD, citing(observed=seen))
+
+
+@pytest.mark.parametrize(
+    ("changes", "why"),
+    [
+        ({"expected": Percept(1, 0)}, "what is seen there is (degree 7, no marker), not (degr"),
+        ({"observed": Percept(3, None)}, "what is seen there is (degree 7, no marker), not (de"),
+        ({"step": 1}, "it rests on no step of a sequence, and cites one"),
+        ({"sequence": 0}, "it rests on no step"),
+        ({"at": 0}, "it rests on no step"),
+        ({"record": Record(3, ())}, "it rests on no step"),
+        ({"contradiction": None}, "it does not follow that None"),
+        ({"contradiction": "because"}, "it does not follow that 'because'"),
+        ({"contradiction": TURNED}, "it does not follow that 'a vertex would be itself, turned'"),
+        ({"contradiction": FACE}, "it does not follow that 'it lies on another face than e'"),
+    ],
+)  # fmt: skip
+def test_false_evidence_of_the_complete_rule_is_caught(changes: dict[str, Any], why: str) -> None:
+    lie = citing(**changes)
+    assert failing(WORLD, lie) == {"rejection-justified"}
+    (message,) = said(lie, "rejection-justified", WORLD)
+    assert why in message
+
+
+@pytest.mark.parametrize(
+    ("place", "kinds"),
+    [
+        ("m2/4", {TURNED}),
+        ("m4/36", {CLASH}),
+    ],
+)
+def test_every_kind_of_contradiction_that_follows_may_be_cited_and_no_other(
+    place: str, kinds: set[str]
+) -> None:
+    world = World.from_id(place)
+    trace = trace_of(world, "folding")
+    index = next(i for i, e in enumerate(trace) if isinstance(e, Reject) and e.rule == "folding")
+    for kind in (CLASH, TURNED, OWN, TWO):
+        cites = edited(trace, index, evidence=Evidence(0, contradiction=kind))
+        assert (kind in kinds) == (not failing(world, cites))
+
+
+def test_percepts_that_disagree_need_no_contradiction_and_may_cite_none() -> None:
+    trace = trace_of(WORLD, "basic")
+    index = next(i for i, event in enumerate(trace) if isinstance(event, Reject))
+    event = trace[index]
+    assert isinstance(event, Reject)
+    evidence = msgspec.structs.replace(event.evidence, contradiction=CLASH)
+    (message,) = said(edited(trace, index, evidence=evidence), "rejection-justified", WORLD)
+    assert message.endswith("rule 'motion' rests on two percepts, and cites a contradiction")
+
+
+@pytest.mark.parametrize("part", ["expected", "observed"])
+def test_percepts_that_disagree_must_stand_there(part: str) -> None:
+    trace = trace_of(WORLD, "basic")
+    index = next(i for i, event in enumerate(trace) if isinstance(event, Reject))
+    event = trace[index]
+    assert isinstance(event, Reject)
+    evidence = msgspec.structs.replace(event.evidence, **{part: None})
+    (message,) = said(edited(trace, index, evidence=evidence), "rejection-justified", WORLD)
+    assert message.endswith(", not None")
+
+
+def test_the_planar_rule_must_say_what_it_rests_on() -> None:
+    world = World.from_id("m3/50")
+    trace = trace_of(world, "folding+planar")
+    index = next(i for i, e in enumerate(trace) if isinstance(e, Reject) and e.rule == "planar")
+    assert not failing(world, trace)
+    for told in (None, CLASH, "because"):
+        lie = edited(trace, index, evidence=Evidence(0, contradiction=told))
+        assert failing(world, lie) == {"rejection-justified"}

@@ -1,0 +1,146 @@
+"""TARGET on the command line: an argument or --target, and what a wrong one is told."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import Result
+
+from topo_verify.cli import main
+
+Call = Callable[..., Result]
+
+LINES = {
+    "verify": "verify {} --quick",
+    "search": "search {} --edges 2 --workers 0",
+    "conform": "conform {} --worlds m2/3 --workers 0",
+    "record": "record {} --worlds m2/3 --out b.gz",
+    "compare": "compare b.gz {}",
+}
+"""A quick call of each command that takes a TARGET as an argument."""
+
+
+@pytest.fixture
+def baseline(call: Call) -> None:
+    assert call("record basic --worlds m2/3 --out b.gz").exit_code == 0
+
+
+def untimed(done: Result) -> dict[str, Any]:
+    assert done.exit_code == 0, done.output
+    envelope: dict[str, Any] = json.loads(done.stdout)
+    del envelope["timing"]
+    return envelope
+
+
+@pytest.mark.usefixtures("baseline", "proved_once")
+@pytest.mark.parametrize("name", LINES)
+def test_an_argument_and_the_option_are_the_same(name: str, call: Call) -> None:
+    line = f"{LINES[name]} --format json"
+    assert untimed(call(line.format("basic"))) == untimed(call(line.format("--target basic")))
+
+
+def test_explore_calls_it_algorithm_as_well(call: Call) -> None:
+    one, other = (call(f"explore m2/3 {word} basic") for word in ("--algorithm", "--target"))
+    assert one.exit_code == other.exit_code == 0
+    assert one.stdout == other.stdout
+
+
+@pytest.mark.usefixtures("baseline")
+@pytest.mark.parametrize(
+    "line",
+    [
+        *(line.format("basic --target folding") for line in LINES.values()),
+        "explore m2/3 --algorithm basic --target folding",
+    ],
+)
+def test_two_targets_get_one_sentence(line: str, call: Call) -> None:
+    done = call(line)
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert "expected one TARGET, got 'basic' and --target folding; leave one out\n" in done.stderr
+
+
+@pytest.mark.usefixtures("baseline")
+@pytest.mark.parametrize(
+    "line", [*(line.format("basic --cmd ./x") for line in LINES.values()), "explore m2/3 --cmd ''"]
+)
+def test_a_program_is_a_target_as_well(line: str, call: Call) -> None:
+    assert call(line.replace("basic", "--target basic")).exit_code == 2
+    assert call(line).exit_code == 2
+
+
+@pytest.mark.parametrize("command", [*LINES, "explore", "replay"])
+def test_the_help_of_each_has_the_option(command: str, call: Call) -> None:
+    assert "--target TARGET" in " ".join(call(f"{command} --help").stdout.split())
+
+
+# ---------------------------------------------------------------- help
+
+
+@pytest.mark.parametrize("path", ["", *main.commands, "world sample"])
+def test_h_is_short_for_help(path: str, call: Call) -> None:
+    done = call(f"{path} -h")
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert done.stdout == call(f"{path} --help").stdout
+
+
+@pytest.mark.parametrize("group", ["", "world"])
+def test_a_group_alone_shows_its_help(group: str, call: Call) -> None:
+    """On stderr and with exit 2: in a script the name of a command is missing."""
+    done = call(group)
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert done.stderr == call(f"{group} --help").stdout
+
+
+# ---------------------------------------------------------------- hints
+
+
+@pytest.mark.parametrize("target", ["m.py:explore", "m.py", "pack.m:explore"])
+def test_a_target_in_the_place_of_a_command_is_told_verify(target: str, call: Call) -> None:
+    done = call(f"{target} --quick")
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert f"no such command {target!r}, did you mean verify {target}; " in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+MODULE = """
+from math import floor
+LIMIT = 3
+def explore(robot): ...
+def _helper(robot): ...
+class Walker: ...
+"""
+
+
+@pytest.mark.parametrize(
+    ("target", "hint"),
+    [
+        ("m.py", "m.py is a file; name a mapper in it, as m.py:explore (it has explore, Walker)"),
+        ("m", "m.py is a file; name a mapper in it, as m:explore (it has explore, Walker)"),
+        ("empty.py", "empty.py is a file; name a mapper in it, as empty.py:explore"),
+        ("gone.py", "there is no file 'gone.py'"),
+        ("m.py:explor", "m.py has no attribute 'explor'; did you mean 'explore'?"),
+        ("m.py:walker", "m.py has no attribute 'walker'; did you mean 'Walker'?"),
+        ("m.py:", "m.py has no attribute ''; it has explore, Walker"),
+        ("m.py:LIMIT.real.x", "m.py has no attribute 'LIMIT.real.x'\n"),
+        ("m.py:Walker.step", "m.py has no attribute 'Walker.step'"),
+        ("empty.py:explore", "empty.py has no attribute 'explore'\n"),
+        ("bassic", "no algorithm 'bassic'; did you mean 'basic'? there are basic, "),
+        ("basic,foldin", "no algorithm 'foldin'; did you mean 'folding'? there are basic, "),
+        ("mine", "no algorithm 'mine': there are basic, "),
+    ],
+)
+def test_a_wrong_target_is_told_the_right_one(
+    target: str, hint: str, call: Call, folder: Path
+) -> None:
+    (folder / "m.py").write_text(MODULE)
+    (folder / "empty.py").write_text("a syntax error is no mapper")
+    if ":" in target:
+        (folder / "empty.py").write_text("")
+    done = call(f"verify {target}")
+    assert done.exit_code == 2
+    assert hint in done.stderr
+    assert done.stderr.count("\n") == 1

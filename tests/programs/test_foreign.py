@@ -1,0 +1,262 @@
+"""A Python mapper in a process of its own: judged as in this one, and kept from what judges it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.harness.conform.test_misbehaviour import alive, gone
+from tests.helpers import worlds
+from topo_verify import Limits, World, examine, explore
+from topo_verify.errors import InputError
+from topo_verify.harness.search.exhaustive import Search
+from topo_verify.harness.search.plan import Plan
+from topo_verify.harness.targets import one_target, targets
+from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.program import Program
+
+WORLD = World.from_id("m3/14")
+
+MAPPERS = """
+import asyncio, os, signal, sys, time
+import topo_verify as tv
+
+basic = tv.CATALOGUE["basic"]
+
+def explore(robot):
+    return basic(robot)
+
+def chats(robot):
+    print("by print")
+    sys.stderr.write("on stderr\\n")
+    os.write(1, b"by hand\\n")
+    return basic(robot)
+
+def fails(robot):
+    raise ValueError("boom")
+
+def cancels(robot):
+    raise asyncio.CancelledError
+
+def interrupts(robot):
+    raise KeyboardInterrupt("mine")
+
+def generates(robot):
+    raise GeneratorExit
+
+def exits(robot):
+    os._exit(3)
+
+def crashes(robot):
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+def own_alarm(robot):
+    signal.signal(signal.SIGALRM, lambda *_: None)
+    signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
+    while True:
+        time.sleep(0.01)
+
+def swallows(robot):
+    while True:
+        try:
+            robot.move(99)
+        except BaseException:
+            pass
+
+def no_door(robot):
+    robot.move("left")
+
+def no_purpose(robot):
+    robot.move(0, "fun")
+
+def no_decision(robot):
+    robot.declare({"type": "pose", "edge": "e"})
+    robot.move(0)
+
+def no_json(robot):
+    robot.declare({"type": object()})
+
+def no_map(robot):
+    return 7
+
+def huge(robot):
+    return {"vertices": [[2**70]], "edges": [], "marker": None}
+
+def unreadable(robot):
+    class Lazy:
+        @property
+        def vertices(self):
+            raise KeyError("later")
+    return Lazy()
+
+def looks(robot):
+    names = sorted(name for name in dir(robot) if not name.startswith("_"))
+    raise LookupError(f"{names} events={hasattr(robot.move.__self__, 'events')}")
+
+def reads(robot):
+    with open("data.txt") as file:
+        assert file.read()
+    return basic(robot)
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The current folder, with the mappers."""
+    (tmp_path / "mine.py").write_text(MAPPERS)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    return tmp_path
+
+
+def why(name: str, *, limits: Limits | None = None, in_process: bool = False) -> str | None:
+    """Why a mapper delivers no map."""
+    target = one_target(f"mine.py:{name}", in_process=in_process)
+    return explore(WORLD, target, limits=limits).stopped
+
+
+# ---------------------------------------------------------------- as in this process
+
+
+def test_a_run_in_a_child_is_the_run_in_this_process() -> None:
+    with Foreign("mine.py:explore") as mapper:
+        for world in worlds([1, 2]):
+            inside, outside = explore(world, "basic"), explore(world, mapper.target)
+            assert outside.trace[1:] == inside.trace[1:]  # with the purposes of the moves
+            assert examine(mapper.target, world).ok
+
+
+WAYS = (
+    "fails cancels generates no_door no_purpose no_decision no_json no_map huge unreadable swallows"
+)
+
+
+@pytest.mark.parametrize("name", WAYS.split())
+def test_what_keeps_it_from_a_map_is_said_in_the_same_words(name: str) -> None:
+    limits = Limits(budget=3)
+    if name == "swallows":  # in this process nothing but the clock stops it
+        assert why(name, limits=Limits(move_timeout=0.3)) == "the mapper did not move for 0.3 s"
+        return
+    told = why(name, limits=limits)
+    assert told == why(name, limits=limits, in_process=True)
+    assert told
+
+
+@pytest.mark.parametrize(
+    ("name", "error"),
+    [
+        ("fails", "ValueError: boom"),
+        ("cancels", "CancelledError"),
+        ("interrupts", "KeyboardInterrupt: mine"),
+        ("generates", "GeneratorExit"),
+    ],
+)
+def test_every_exception_is_told_with_its_line(folder: Path, name: str, error: str) -> None:
+    lines = (folder / "mine.py").read_text().splitlines()
+    line = lines.index(f"def {name}(robot):") + 2
+    assert why(name) == f"the mapper raised {error} (mine.py, line {line})"
+
+
+def test_a_child_that_dies_names_the_signal_and_the_line() -> None:
+    with Foreign("mine.py:crashes") as mapper:
+        run = explore(WORLD, mapper.target)
+        assert run.misbehaved is not None
+        assert (run.misbehaved.kind, run.misbehaved.signal) == ("crashed", "SIGSEGV")
+        assert 'mine.py", line' in str(run.stopped)
+        assert not explore(WORLD, mapper.target).map  # by a fresh process
+    assert str(why("exits")).startswith("the program ended with exit code 3")
+
+
+def test_the_clock_ends_a_mapper_that_uses_the_alarm_itself() -> None:
+    told = why("own_alarm", limits=Limits(move_timeout=0.3))
+    assert told == "the mapper did not move for 0.3 s"
+
+
+# ---------------------------------------------------------------- what it is given
+
+
+@pytest.mark.parametrize("in_process", [False, True])
+def test_a_mapper_gets_percept_move_and_declare(*, in_process: bool) -> None:
+    told = str(why("looks", in_process=in_process))
+    assert "['declare', 'move', 'percept']" in told or "'misuse'" in told
+    assert f"events={in_process}" in told
+
+
+def test_what_it_prints_is_marked_on_our_standard_error(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    with Foreign("mine.py:chats") as mapper:
+        assert examine(mapper.target, WORLD).ok
+    out, err = capfd.readouterr()
+    assert out == ""
+    marked = {f"mine.py:chats: {words}" for words in ("by print", "on stderr", "by hand")}
+    assert set(err.splitlines()) == marked
+
+
+def test_loaded_names_the_files_that_it_imported_and_read(folder: Path) -> None:
+    (folder / "data.txt").write_text("1")
+    (folder / "helper.py").write_text("")
+    (folder / "mine.py").write_text("import helper, msgspec\n" + MAPPERS)
+    with Foreign("mine.py:reads") as mapper:
+        before = mapper.loaded()
+        assert {Path(path).name for path in before.files} == {"mine.py", "helper.py"}
+        assert "msgspec" in before.distributions
+        assert explore(WORLD, mapper.target).map
+        after = mapper.loaded()
+    assert {Path(path).name for path in after.files} == {"mine.py", "helper.py", "data.txt"}
+    assert {len(digest) for digest in after.files.values()} == {64}
+
+
+# ---------------------------------------------------------------- its process
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("mine.py:nope", "mine.py has no attribute 'nope'"),
+        ("there.py:explore", "there is no file 'there.py'"),
+        ("no.such.module:explore", "cannot import 'no.such.module'"),
+        ("mine.py:sys", "expected a callable that takes a robot, got module"),
+    ],
+)
+def test_a_text_that_names_no_mapper_is_refused_at_once(text: str, words: str) -> None:
+    with pytest.raises(InputError, match="target ") as refused:
+        targets(text, in_process=False)
+    assert words in str(refused.value)
+
+
+def test_a_mapper_that_ends_its_process_while_it_is_loaded_is_bad_input(folder: Path) -> None:
+    (folder / "ends.py").write_text("import os\nos._exit(4)\n")
+    with pytest.raises(InputError, match="its process ended with exit code 4 before it was loaded"):
+        targets("ends.py:explore", in_process=False)
+
+
+def test_a_name_of_the_catalogue_needs_no_process() -> None:
+    assert not isinstance(one_target("basic", in_process=False).mapper, Program)
+
+
+def test_one_process_plays_all_worlds_though_a_mapper_raises(folder: Path) -> None:
+    (folder / "once.py").write_text(
+        "import os\ndef explore(robot):\n    raise OSError(os.getpid())"
+    )
+    with Foreign("once.py:explore") as mapper:
+        assert len({explore(WORLD, mapper.target).stopped for _ in range(3)}) == 1
+        assert str(os.getpid()) not in str(explore(WORLD, mapper.target).stopped)
+
+
+def test_its_process_ends_with_the_last_object_that_uses_it(folder: Path) -> None:
+    text = "import os\ndef explore(robot):\n    raise OSError(os.getpid())\n"
+    (folder / "tells.py").write_text(text)
+    target = one_target("tells.py:explore", in_process=False)
+    plan = Plan(targets=(target.text,), edges=1, in_process=False)
+    work = Search(plan, (target,))
+    work.work()
+    failure = work.found().counterexample
+    assert failure is not None
+    process = int(failure.findings[0].message.split("OSError: ")[1].split()[0])
+    assert alive(process)
+    del target, work
+    assert gone(process)

@@ -1,0 +1,122 @@
+"""Calls a mapper and reads what comes of it: the same in this process and in a child.
+
+A mapper delivers a map, or it does not: it raises, or returns something else. Reading its result is
+part of the call, because attributes of a foreign object may run code.
+"""
+
+from __future__ import annotations
+
+import os
+import traceback
+from collections.abc import Callable
+from operator import index
+from pathlib import Path
+from typing import NamedTuple, TypeVar
+
+from topo_verify import errors
+from topo_verify.errors import InputError
+from topo_verify.programs.loaded import is_users
+from topo_verify.robot.events import Finish, MapData
+from topo_verify.robot.limits import MapperStopped
+from topo_verify.text import LINE, shown
+from topo_verify.world.validation import map_parts, optional_part
+
+R = TypeVar("R")
+
+_PACKAGE = Path(errors.__file__).resolve().parent
+
+TEST_TOOLS = ("hypothesis", "_pytest", "pytest")
+"""Their exceptions pass through a mapper in the same process: they end a test, not a mapper."""
+
+
+class Undelivered(NamedTuple):
+    """Why a mapper delivered no map: it raised (`error`), or what it returned is none."""
+
+    why: str
+    error: BaseException | None = None
+
+
+def deliver(
+    mapper: Callable[[R], object], robot: R, *, alone: bool = False
+) -> Finish | Undelivered:
+    """The map that a mapper delivers, as the `finish` event; or why there is none.
+
+    Args:
+        alone: nothing but the mapper lives in this process; so whatever is raised, it raised.
+    Raises:
+        MapperStopped: the robot or a limit stopped the mapper.
+        KeyboardInterrupt: Ctrl-C (unless `alone`); test tools raise what they need to.
+    """
+    try:
+        result = mapper(robot)
+    except MapperStopped:
+        raise
+    except BaseException as raised:
+        if not alone and _passes(raised):
+            raise
+        return Undelivered(f"the mapper raised {exception_text(raised)}", raised)
+    try:
+        return finish_of(result)
+    except MapperStopped:
+        raise
+    except InputError as nonsense:
+        return Undelivered(str(nonsense))
+    except BaseException as raised:
+        if not alone and _passes(raised):
+            raise
+        why = f"what was delivered cannot be read: {exception_text(raised)}"
+        return Undelivered(why, raised)
+
+
+def _passes(error: BaseException) -> bool:
+    """Whether somebody else raised an exception through the mapper."""
+    # Of the bases, too: pytest names another module in those that it prints.
+    homes = {kind.__module__.partition(".")[0] for kind in type(error).__mro__}
+    of_tool = not isinstance(error, Exception) and not homes.isdisjoint(TEST_TOOLS)
+    return of_tool or isinstance(error, KeyboardInterrupt)
+
+
+def exception_text(error: BaseException) -> str:
+    """Type and text of an exception, file and line; the type alone if its text raises another."""
+    place = _place(error)
+    at = f" ({place})" if place else ""
+    name = type(error).__name__
+    try:
+        return shown(f"{name}: {error}" if str(error) else name, limit=LINE) + at
+    except Exception:  # noqa: BLE001  a mapper's exception may do anything
+        return name + at
+
+
+def _place(error: BaseException) -> str:
+    """Where an exception was raised: the innermost line of the user's own files, if there is one.
+
+    Otherwise the innermost line outside of topo_verify; empty if there is none.
+    """
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.lineno]
+    others = [f for f in frames if not Path(f.filename).is_relative_to(_PACKAGE)]
+    chosen = [f for f in others if Path(f.filename).is_file() and is_users(f.filename)] or others
+    if not chosen:
+        return ""
+    path = Path(chosen[-1].filename)
+    here = path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path
+    return f"{os.fspath(here)}, line {chosen[-1].lineno}"
+
+
+def finish_of(result: object) -> Finish:
+    """The `finish` event of what a mapper returned.
+
+    Raises:
+        InputError: the result is no map, or its cost is no integer.
+    """
+    vertices, edges, marker = map_parts(result)
+    cost = optional_part(result, "cost")
+    if cost is not None and (isinstance(cost, bool) or not hasattr(cost, "__index__")):
+        raise InputError(
+            f"the mapper reports the cost {cost!r}: expected a number of moves or None"
+        )
+    if cost is not None and index(cost).bit_length() > 64:
+        # msgspec writes 64 bits; no run has so many moves.
+        raise InputError("the mapper reports a cost of more than 64 bits: expected its moves")
+    rotations = tuple(map(tuple, vertices))
+    delivered = MapData(rotations, tuple(map(tuple, edges)), marker)
+    return Finish(None if cost is None else index(cost), delivered)

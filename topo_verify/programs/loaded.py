@@ -1,0 +1,170 @@
+"""What a mapper's process has loaded: files and distributions, so that results can name them.
+
+    watch()       from now on note every file that is opened for reading
+    loaded()      -> Loaded: each file and its hash, each installed distribution and its version
+
+A file counts if a module was loaded from it, or if Python opened it for reading after `watch`. Left
+out are the standard library, installed distributions (they count by their versions) and topo_verify
+itself. Files are hashed when `loaded` is called.
+
+What this does not show: files that C code or another process opens; what comes from the
+environment, a network or a clock.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+import sys
+import sysconfig
+from collections.abc import Iterable, Mapping
+from functools import cache
+from hashlib import sha256
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from topo_verify import errors
+
+_PACKAGE = str(Path(errors.__file__).resolve().parent)
+
+_NO_FILES = ("/proc/", "/sys/", "/dev/")
+"""What is not on a disk."""
+
+
+class Loaded(msgspec.Struct, frozen=True):
+    """What a mapper's process has loaded.
+
+    Attributes:
+        files: the SHA-256 of each file, by its absolute path.
+        distributions: the version of each installed distribution that it imported, by its name.
+        values: a hash of what the mapper was made with (values.py); empty: not known.
+    """
+
+    files: dict[str, str] = {}
+    distributions: dict[str, str] = {}
+    values: str = ""
+
+
+# ---------------------------------------------------------------- files
+
+_opened: dict[str, None] = {}
+_hashes: dict[str, tuple[tuple[int, ...], str]] = {}  # by path: what identifies its contents
+
+
+def watch() -> None:
+    """From now on note every file that Python opens for reading in this process."""
+    _opened.clear()
+    _hook()
+
+
+@cache
+def _hook() -> None:
+    sys.addaudithook(_note)  # for good: Python has no way to take one away
+
+
+def _note(event: str, arguments: tuple[Any, ...]) -> None:
+    if event == "open":
+        path, _, flags = arguments
+        if flags & os.O_ACCMODE == os.O_WRONLY or flags & os.O_TRUNC:
+            return
+    elif event in ("ctypes.dlopen", "sqlite3.connect"):
+        path = arguments[0]
+    else:
+        return
+    if hasattr(path, "__fspath__"):
+        path = path.__fspath__()
+    if isinstance(path, str | bytes) and path:
+        _opened[os.path.abspath(os.fsdecode(path))] = None  # noqa: PTH100  far cheaper
+
+
+def loaded(values: str = "") -> Loaded:
+    """What this process has loaded and, since `watch`, opened for reading.
+
+    Args:
+        values: the hash of the mapper's values, as it was when the mapper was loaded.
+    """
+    files: dict[str, str] = {}
+    tops: set[str] = set()
+    for name, module in list(sys.modules.items()):
+        path = getattr(module, "__file__", None)
+        if isinstance(path, str):
+            _enter(files, os.path.abspath(path))  # noqa: PTH100
+            if _is_installed(path):
+                tops.add(name.partition(".")[0])
+    for path in list(_opened):
+        _enter(files, path)
+    return Loaded(files, _versions(frozenset(tops)), values)
+
+
+def hashes(paths: Iterable[str]) -> dict[str, str]:
+    """The hash of each of these files; what is no file has none."""
+    files: dict[str, str] = {}
+    for path in paths:
+        if (found := file_hash(path)) is not None:
+            files[os.path.abspath(path)] = found  # noqa: PTH100
+    return files
+
+
+def file_hash(path: str) -> str | None:
+    """The hash of a file as it is now; None if there is none that can be read."""
+    try:
+        found = os.stat(path)  # noqa: PTH116  far cheaper
+        if not stat.S_ISREG(found.st_mode):
+            return None
+        state = (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns)
+        known, made = _hashes.get(path, ((), ""))
+        if known != state:
+            made = sha256(Path(path).read_bytes()).hexdigest()
+            _hashes[path] = (state, made)
+    except (OSError, ValueError):
+        return None
+    return made
+
+
+def _enter(files: dict[str, str], path: str) -> None:
+    # Bytecode is made from a source, which is among the files of the modules.
+    if path in files or "__pycache__" in path or not is_users(path):
+        return
+    if (made := file_hash(path)) is not None:
+        files[path] = made
+
+
+@cache
+def is_users(path: str) -> bool:
+    """Whether a file belongs to neither Python, nor an installed distribution, nor topo_verify."""
+    if path.startswith(_NO_FILES) or _is_installed(path):
+        return False
+    real = os.path.realpath(path)
+    return not any(f"{p}{os.sep}" == real[: len(p) + 1] for p in (_PACKAGE, *_standard()))
+
+
+@cache
+def _is_installed(path: str) -> bool:
+    return any(part in ("site-packages", "dist-packages") for part in Path(path).parts)
+
+
+@cache
+def _standard() -> frozenset[str]:
+    return frozenset(os.path.realpath(sysconfig.get_path(n)) for n in ("stdlib", "platstdlib"))
+
+
+@cache
+def _versions(tops: frozenset[str]) -> dict[str, str]:
+    """The version of each distribution that installs one of these top-level packages."""
+    return dict(sorted(pair for top in tops for pair in _installing(top)))
+
+
+@cache
+def _installing(top: str) -> tuple[tuple[str, str], ...]:
+    try:
+        return ((top, metadata.version(top)),)  # most have one name; to list all takes long
+    except metadata.PackageNotFoundError:
+        return tuple((name, metadata.version(name)) for name in _distributions().get(top, ()))
+
+
+@cache
+def _distributions() -> Mapping[str, list[str]]:
+    return metadata.packages_distributions()

@@ -1,0 +1,179 @@
+"""What a program does instead of delivering a map, and the sentence that says so.
+
+`Misbehaved` ends a world. `decoded` reads a line or says what is wrong with it; `crash_report` and
+`silence_report` say why no line came. Docs/oracle.md lists causes and cures of every kind.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any, Literal, get_args
+
+import msgspec
+
+from topo_verify.programs import protocol as ms
+from topo_verify.programs.child import Child
+from topo_verify.robot.limits import MapperStopped
+from topo_verify.text import shown
+
+Misbehaviour = Literal[
+    "crashed",
+    "closed-output",
+    "closed-input",
+    "flooded-stderr",
+    "half-line",
+    "too-long",
+    "not-json",
+    "not-utf8",
+    "nested",
+    "unknown-type",
+    "malformed",
+    "bad-declaration",
+    "unknown-field",
+    "doubled-field",
+    "out-of-turn",
+    "not-reading",
+    "declarations",
+    "bad-door",
+    "silent",
+    "unknown-world",
+    "no-map",
+    "skip",
+    "error",
+]
+"""What a program may do instead of delivering a map. Docs/oracle.md lists causes and cures."""
+
+MISBEHAVIOURS: tuple[Misbehaviour, ...] = get_args(Misbehaviour)
+
+SHOWN = 120
+"""How many characters of a bad line a message shows."""
+
+LAST_LINES = 10
+"""How many lines of standard error a message shows: the last ones."""
+
+
+class Misbehaved(MapperStopped):
+    """The program delivers no map in this world.
+
+    Attributes:
+        kind: what it did instead.
+        detail: words to append to the sentence that says why it was stopped.
+        signal: the name of the signal that ended it, as SIGSEGV; None: none did.
+    """
+
+    def __init__(
+        self, kind: Misbehaviour, message: str, *, detail: str = "", signal: str | None = None
+    ) -> None:
+        super().__init__(message)
+        self.kind: Misbehaviour = kind
+        self.detail = detail
+        self.signal = signal
+
+    def copy(self) -> Misbehaved:
+        """The same without a traceback, which would keep the frames of the run alive."""
+        return Misbehaved(self.kind, str(self), detail=self.detail, signal=self.signal)
+
+
+def decoded(line: bytes, decode: Callable[[bytes], Any], *, validate: bool) -> Any:
+    """The message in a line from a program.
+
+    Raises:
+        Misbehaved: the line holds no message; the sentence shows the line.
+    """
+    kind: Misbehaviour
+    try:
+        message = decode(line)
+        if validate:
+            _require_schema(line, message)
+    except RecursionError:
+        kind, what = "nested", "a line that is nested too deeply"
+    except UnicodeDecodeError:
+        kind, what = "not-utf8", "a line that is not UTF-8"
+    except msgspec.ValidationError as error:
+        kind, what = _kind(str(error)), f"a line that is no message of the protocol: {error}"
+    except msgspec.DecodeError as error:
+        reason = str(error).removeprefix("JSON is malformed: ")
+        kind, what = "not-json", f"a line that is not JSON ({reason})"
+    else:
+        return message
+    raise Misbehaved(kind, f"the program wrote {what}: {shown_line(line)}")
+
+
+def _kind(error: str) -> Misbehaviour:
+    """The misbehaviour that a validation error stands for; msgspec says only at which path."""
+    if error.endswith("`$.type`"):
+        return "unknown-type"
+    return "bad-declaration" if "`$.event" in error or "`$.declare" in error else "malformed"
+
+
+def _require_schema(line: bytes, message: object) -> None:
+    """Refuse a line with a field that the schema does not list, or with the same field twice."""
+
+    def single(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        data = dict(pairs)
+        if len(data) < len(pairs):
+            message = f"the program wrote a field twice (--validate): {shown_line(line)}"
+            raise Misbehaved("doubled-field", message)
+        return data
+
+    data = json.loads(line, object_pairs_hook=single)
+    for place in ms.unknown_fields(data, message):
+        what = f"{place}, which the schema does not list (--validate)"
+        raise Misbehaved("unknown-field", f"the program wrote {what}: {shown_line(line)}")
+
+
+def shown_line(line: bytes) -> str:
+    """A line as printable text, cut to `SHOWN` characters."""
+    return shown(line[: 2 * SHOWN].decode(errors="backslashreplace"), limit=SHOWN)
+
+
+def crash_report(child: Child, due: str) -> Misbehaved:
+    """Why a program's output ended too early.
+
+    Args:
+        due: what the program had yet to do, as in "delivered a map".
+    """
+    status = child.exit_status()
+    complaint = last_words(child.stderr())
+    if child.in_half_a_line:
+        end = status or "closed its output"
+        message = f"the program {end} in the middle of a line{complaint}"
+        return Misbehaved("half-line", message, signal=child.signal())
+    if status is None:
+        return Misbehaved("closed-output", "the program closed its output and runs on")
+    message = f"the program {status} before it {due}{complaint}"
+    return Misbehaved("crashed", message, signal=child.signal())
+
+
+def silence_report(child: Child, message: str, *, over: bool = False) -> Misbehaved | None:
+    """The reason why a program that ran out of time was silent; None if none is known.
+
+    Args:
+        over: it has ended the world.
+    """
+    if over:
+        detail = " after it had ended the world, and does not read on"
+        return Misbehaved("not-reading", message, detail=detail)
+    if child.in_half_a_line:
+        return Misbehaved("half-line", message, detail=f", in the middle of a line{seen(child)}")
+    if child.input_closed:
+        return Misbehaved("closed-input", message, detail="; it has closed its input")
+    if child.flooded_stderr:
+        detail = f"; it wrote more than {ms.LIMIT} bytes on standard error"
+        return Misbehaved("flooded-stderr", message, detail=detail)
+    return None
+
+
+def last_words(stderr: str) -> str:
+    """The last lines on standard error, as words to append to a sentence."""
+    lines = [shown(line.strip()) for line in stderr.splitlines() if line.strip()][-LAST_LINES:]
+    if not lines:
+        return ""
+    which = "last line" if len(lines) == 1 else "last lines"
+    return f"; its {which} on standard error: {' / '.join(lines)}"
+
+
+def seen(child: Child) -> str:
+    """The first line that nobody asked for, as words to append to a sentence."""
+    return f": {shown_line(child.unread)}" if child.unread else ""
