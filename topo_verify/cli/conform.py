@@ -124,12 +124,8 @@ def conform(  # noqa: PLR0913  an argument an option
     def standings() -> Iterator[Result[LevelResult]]:
         text = target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
-        asked = _ConformOptions(
-            corpus_from(texts, seed=seed),
-            processors() if workers is None else workers,
-            batch,
-            order_seed,
-        )
+        size = processors() if workers is None else workers
+        asked = _ConformOptions(corpus_from(texts, seed=seed), size, batch, order_seed)
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
         # The order is no part of the results; so they are the same whatever it is.
@@ -147,19 +143,19 @@ def conform(  # noqa: PLR0913  an argument an option
                 in_process=in_process,
                 replay_arguments=(
                     *_replay_command(one, like, (pick, order), batch=batch, validate=validate),
-                    *(("--strict",) if strict else ()),
-                    *(("--in-process",) if in_process else ()),
+                    *_flags(strict=strict, in_process=in_process),
                     *limits.options,
                 ),
             )
             yield from _tried(output, job, asked)
 
-    more: dict[str, Any] = {
-        "seed": seed,
-        "corpus": list(texts) or ["corpus"],
-        "in_process": in_process,
-    }
-    return output.run("conform", standings, _show, **more)
+    more: dict[str, Any] = {"seed": seed, "corpus": list(texts) or ["corpus"]}
+    return output.run("conform", standings, _show, in_process=in_process, **more)
+
+
+def _flags(**given: bool) -> list[str]:
+    """The words that set these flags again."""
+    return [f"--{name.replace('_', '-')}" for name, on in given.items() if on]
 
 
 def _texts(text: str) -> list[str]:
