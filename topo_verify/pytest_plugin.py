@@ -15,8 +15,8 @@ not declare the decisions that the claim is about, since the claim was then not 
 The results travel in the `user_properties` of the test reports, so the summary at the end is the
 same with pytest-xdist, and JUnit files hold them.
 
-Pytest loads this file in every session of its environment. So the file imports nothing of
-topo_verify and no library before there is a mapper to test.
+Pytest loads this file in every session of its environment. So the file imports no
+room of topo_verify and no library before there is a mapper to test.
 
 What this does not show: anything about worlds with more edges than N.
 """
@@ -30,9 +30,11 @@ import sys
 from collections.abc import Callable, Generator, Iterable, Iterator
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
+
+from topo_verify.text import shown
 
 if TYPE_CHECKING:
     from topo_verify.harness.judge import Report
@@ -146,7 +148,8 @@ def _import_for(metafunc: pytest.Metafunc) -> None:
     Hypothesis bounds the time of an example; the first one would take as long as the import.
     """
     if getattr(metafunc.function, "is_hypothesis_test", False):
-        for one in vars(metafunc.module).values():
+        module = cast("object", metafunc.module)  # pyright: ignore[reportUnknownMemberType]  pytest leaves it untyped
+        for one in vars(module).values():
             home = getattr(one, "__name__" if inspect.ismodule(one) else "__module__", None)
             if str(home).startswith("topo_verify"):
                 import_module("topo_verify.harness.judge")
@@ -217,8 +220,6 @@ def pytest_make_collect_report(
     report = yield
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
-        from topo_verify.text import shown
-
         name = shown(text)
         made = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
         report.result.append(made)
@@ -230,8 +231,6 @@ class MapperCollector(pytest.Collector):
 
     def collect(self) -> Iterable[ClaimItem]:
         """One test for each mapper and claim."""
-        from topo_verify.text import shown
-
         options = self.config.option
         cases = list(_of_targets(self.config, options.topo_target, options.topo_edges))
         several = len({case.target.text for case in cases}) > 1

@@ -28,6 +28,7 @@ from time import monotonic, sleep
 
 from processes import children, descendants, left_over
 from readers import Count
+from trial import difference
 
 SECONDS = 120
 """On the clock: the most that a command may take, on a machine that has more to do."""
@@ -122,6 +123,10 @@ def results(text: str) -> str:
     return json.dumps(document)
 
 
+def _first_difference(text: str, true: str) -> str:
+    return difference(json.loads(results(text)), json.loads(true))
+
+
 # ---------------------------------------------------------------- a trial
 
 
@@ -168,7 +173,7 @@ def _let_finish(name: str, true: str) -> str | None:
     if done.code != 0:
         return f"let finish, it ended with {done.code}: {done.stderr.strip()[-300:]}"
     if results(done.stdout) != true:
-        return f"let finish, its results differ: {done.stdout[:300]}"
+        return f"let finish, its results differ: {_first_difference(done.stdout, true)}"
     return _remains(name, done, killed=True)
 
 
@@ -188,7 +193,7 @@ def helper_killed(name: str, seed: str) -> str | None:
         if done.code not in (0, 3) or "REFUTED" in done.stdout:
             return f"a helper was killed: exit code {done.code}: {done.stdout[-300:]} {done.stderr}"
         if done.code == 0 and results(done.stdout) != true:
-            return f"a helper was killed, and the results differ: {done.stdout[:300]}"
+            return f"a helper was killed, and then: {_first_difference(done.stdout, true)}"
         return _remains(name, done, killed=False)
 
 

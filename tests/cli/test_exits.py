@@ -262,7 +262,9 @@ def test_closed_streams_do_not_hurt(folder: Path) -> None:
 # ---------------------------------------------------------------- Ctrl-C
 
 
-def interrupted(folder: Path, *words: str) -> tuple[int, str, str]:
+def interrupted(
+    folder: Path, *words: str, by: signal.Signals = signal.SIGINT
+) -> tuple[int, str, str]:
     """What comes of a command that gets Ctrl-C as soon as its mapper says that it is at work."""
     running = subprocess.Popen(
         [sys.executable, "-m", "topo_verify", *words],
@@ -276,14 +278,15 @@ def interrupted(folder: Path, *words: str) -> tuple[int, str, str]:
     while not (folder / "at-work").exists():
         assert running.poll() is None, running.communicate()
         time.sleep(0.02)
-    running.send_signal(signal.SIGINT)
+    running.send_signal(by)
     out, error = running.communicate(timeout=30)
     return running.returncode, out, error
 
 
-def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path) -> None:
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_and_sigterm_exit_3_and_print_what_is_done(folder: Path, by: signal.Signals) -> None:
     words = ("verify", "mappers.py:starts_and_sleeps", "--move-timeout", "60", "--format", "json")
-    code, out, error = interrupted(folder, *words)
+    code, out, error = interrupted(folder, *words, by=by)
     parts = json.loads(out)["results"]
     assert code == json.loads(out)["exit"] == 3
     assert [(part["part"], part["verdict"]) for part in parts] == [("small-worlds", "UNKNOWN")]

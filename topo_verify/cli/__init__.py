@@ -13,6 +13,7 @@ failures.py   exit codes, and the sentences that go with them
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
@@ -52,6 +53,14 @@ class CommandLine(click.Group):
         """The names of the commands, in the order in which they were added."""
         return list(self.commands)
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that is called; a TARGET in its place is told `verify`."""
+        if args[0] not in self.commands and (":" in args[0] or args[0].endswith(".py")):
+            ctx.fail(f"no such command {args[0]!r}, did you mean verify {args[0]}")
+        return super().resolve_command(ctx, args)
+
     def main(  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]  it always exits
         self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any
     ) -> NoReturn:
@@ -59,6 +68,8 @@ class CommandLine(click.Group):
         name = prog_name or "topo-verify"
         if args is None:
             own_arguments()  # hidden before a mapper in another process can read them
+            # As Ctrl-C: what is done is kept and printed, and the exit code is 3.
+            signal.signal(signal.SIGTERM, signal.default_int_handler)
         if instruction := os.environ.get(_COMPLETE):
             sys.exit(shell_complete(self, extra, name, _COMPLETE, instruction))
         sys.exit(self._code(list(sys.argv[1:] if args is None else args), name, extra))

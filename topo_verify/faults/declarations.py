@@ -71,3 +71,19 @@ calls_every_rejection_folding = Fault(
     claim="rejection-justified",
     mapper=_all_by_folding,
 )
+
+
+class _CitesNothing(ForwardingRobot):
+    def declare(self, event: Decision) -> None:
+        if isinstance(event, Reject):
+            event = Reject(event.edge, event.hypothesis, "folding", Evidence(999))
+        super().declare(event)
+
+
+rejects_under_another_label = Fault(
+    name="rejects-under-another-label",
+    part="declarations",
+    why="each rejection by walking is declared as one by folding, with evidence of nothing",
+    claim="rejection-justified",
+    mapper=lambda robot: basic(_CitesNothing(robot)),
+)

@@ -9,7 +9,7 @@ from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.motion import Executed, Pilot
 from topo_verify.faults.fault import Fault, ForwardingRobot, mapper
-from topo_verify.robot.events import Decision, Evidence, MapDart, Reject, Robot
+from topo_verify.robot.events import MapDart, Robot
 
 basic = CATALOGUE["basic"]
 
@@ -173,35 +173,4 @@ joins_the_last_two_unseen = Fault(
     why="when two darts are left, they are joined to one edge unseen, and the robot stops",
     claim="map-entailed",
     mapper=mapper("basic", rule=_TwoDartsLeft),
-)
-
-
-class _Discreet(ForwardingRobot):
-    def declare(self, event: Decision) -> None:
-        if not isinstance(event, Reject):
-            super().declare(event)
-
-
-leaves_out_rejections = Fault(
-    name="leaves-out-rejections",
-    part="report",
-    why="rejections are not declared, so hypotheses are dropped in silence",
-    claim="true-hypothesis-kept",
-    mapper=lambda robot: basic(_Discreet(robot)),
-)
-
-
-class _Labelling(ForwardingRobot):
-    def declare(self, event: Decision) -> None:
-        if isinstance(event, Reject):
-            event = Reject(event.edge, event.hypothesis, "folding", Evidence(999))
-        super().declare(event)
-
-
-rejects_under_another_label = Fault(
-    name="rejects-under-another-label",
-    part="report",
-    why="rejections by motion are declared under the label `folding`, with evidence of nothing",
-    claim="rejection-justified",
-    mapper=lambda robot: basic(_Labelling(robot)),
 )
