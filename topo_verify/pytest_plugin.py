@@ -30,7 +30,7 @@ import sys
 from collections.abc import Callable, Generator, Iterable, Iterator
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 
@@ -148,7 +148,8 @@ def _import_for(metafunc: pytest.Metafunc) -> None:
     Hypothesis bounds the time of an example; the first one would take as long as the import.
     """
     if getattr(metafunc.function, "is_hypothesis_test", False):
-        for one in vars(metafunc.module).values():
+        module = cast("object", metafunc.module)  # pyright: ignore[reportUnknownMemberType]  pytest leaves it untyped
+        for one in vars(module).values():
             home = getattr(one, "__name__" if inspect.ismodule(one) else "__module__", None)
             if str(home).startswith("topo_verify"):
                 import_module("topo_verify.harness.judge")

@@ -73,7 +73,8 @@ def test_what_a_mapper_prints_stands_marked_on_standard_error(program: Call, lin
 def test_an_exception_of_any_kind_is_a_finding_with_its_line(
     results: Call, line: str, name: str, error: str
 ) -> None:
-    at = RUDE.splitlines().index(f"def {name}(robot):") + 2
+    lines: list[str] = [*RUDE.splitlines()]
+    at = lines.index(f"def {name}(robot):") + 2
     said = json.dumps(results(line.format(name), code=1)["results"])
     assert f"the mapper raised {error} (rude.py, line {at})" in said
 

@@ -97,6 +97,15 @@ def test_a_group_alone_shows_its_help(group: str, call: Call) -> None:
 
 # ---------------------------------------------------------------- hints
 
+
+@pytest.mark.parametrize("target", ["m.py:explore", "m.py", "pack.m:explore"])
+def test_a_target_in_the_place_of_a_command_is_told_verify(target: str, call: Call) -> None:
+    done = call(f"{target} --quick")
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert f"no such command {target!r}, did you mean verify {target}; " in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
 MODULE = """
 from math import floor
 LIMIT = 3

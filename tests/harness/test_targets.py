@@ -18,7 +18,7 @@ from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.motion import retrace
 from topo_verify.harness.targets import one_target, targets
-from topo_verify.programs.loader import Target
+from topo_verify.programs.loader import Mapper, Target
 from topo_verify.robot.simulator import SimulatedRobot
 
 
@@ -42,6 +42,7 @@ class Mappers:
 
 
 MADE = Mappers()
+LAMBDAS: list[Mapper] = [lambda _: None]
 PARTIAL = partial(mine)
 PARTIAL.__module__ = __name__
 
@@ -204,7 +205,7 @@ def test_what_cannot_be_called_is_no_mapper(mapper: Any) -> None:
         (PARTIAL, "tests.harness.test_targets:PARTIAL"),
         (partial(mine), "functools:<partial>"),
         (Mappers().__call__, "tests.harness.test_targets:<__call__>"),
-        (lambda _: None, "tests.harness.test_targets:<lambda>"),
+        (LAMBDAS[0], "tests.harness.test_targets:<lambda>"),
         (CATALOGUE["basic"].with_policies(pick="last"), "basic"),
         (Algorithm("basic", PrefixRule, retrace), "<basic>"),
         (Algorithm("other", NoRule, retrace), "<other>"),
@@ -225,7 +226,7 @@ def test_a_module_that_other_programs_do_not_find_is_called_by_its_file(
     """As pytest finds test files: their folder is on its path and on no other program's."""
     (folder / "tests").mkdir()
     (folder / "tests" / "test_mine.py").write_text("def mine(robot): ...")
-    monkeypatch.syspath_prepend(folder / "tests")
+    monkeypatch.setattr(sys, "path", [str(folder / "tests"), *sys.path])
     mapper = importlib.import_module("test_mine").mine
     assert one_target(mapper).text == "tests/test_mine.py:mine"
     monkeypatch.setenv("PYTHONPATH", str(folder / "tests"))

@@ -8,9 +8,12 @@ from pathlib import Path
 
 import pytest
 
+from tests.harness.conform.test_misbehaviour import alive, gone
 from tests.helpers import worlds
 from topo_verify import Limits, World, examine, explore
 from topo_verify.errors import InputError
+from topo_verify.harness.search.exhaustive import Search
+from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.targets import one_target, targets
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.program import Program
@@ -242,3 +245,18 @@ def test_one_process_plays_all_worlds_though_a_mapper_raises(folder: Path) -> No
     with Foreign("once.py:explore") as mapper:
         assert len({explore(WORLD, mapper.target).stopped for _ in range(3)}) == 1
         assert str(os.getpid()) not in str(explore(WORLD, mapper.target).stopped)
+
+
+def test_its_process_ends_with_the_last_object_that_uses_it(folder: Path) -> None:
+    text = "import os\ndef explore(robot):\n    raise OSError(os.getpid())\n"
+    (folder / "tells.py").write_text(text)
+    target = one_target("tells.py:explore", in_process=False)
+    plan = Plan(targets=(target.text,), edges=1, in_process=False)
+    work = Search(plan, (target,))
+    work.work()
+    failure = work.found().counterexample
+    assert failure is not None
+    process = int(failure.findings[0].message.split("OSError: ")[1].split()[0])
+    assert alive(process)
+    del target, work
+    assert gone(process)

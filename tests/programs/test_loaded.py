@@ -122,7 +122,11 @@ def bound(value: object) -> object:
     return Made(value=value).method
 
 
-WAYS = (closing_over, defaulting_to, by_keyword, partly, bound, lambda value: Made(x=[value]))
+def made_of(value: object) -> object:
+    return Made(x=[value])
+
+
+WAYS = (closing_over, defaulting_to, by_keyword, partly, bound, made_of)
 
 
 @pytest.mark.parametrize("way", WAYS)

@@ -19,7 +19,7 @@ from tests.programs.programs import ROOT, misbehaving, python, served
 from topo_verify import World, examine, explore
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
-from topo_verify.harness.targets import fingerprint, target_arguments, target_text, targets
+from topo_verify.harness.targets import target_arguments, target_text, targets
 from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Move
@@ -275,17 +275,6 @@ def test_a_program_that_cannot_be_started_is_bad_input(tmp_path: Path) -> None:
 def test_a_program_has_no_policies_of_ours() -> None:
     with pytest.raises(InputError, match="has no policies"):
         targets("--cmd ./mapper", pick="last")
-
-
-def test_a_fingerprint_is_of_the_command_and_of_its_files(tmp_path: Path) -> None:
-    file = tmp_path / "mapper.py"
-    file.write_text("1")
-    command = f"--cmd {shlex.join([sys.executable, str(file)])}"
-    one = fingerprint(command)
-    assert one == fingerprint(command)
-    assert one != fingerprint(command + " --fast")
-    file.write_text("2")
-    assert one != fingerprint(command)
 
 
 def test_misbehaviour_is_an_exception_that_a_mapper_cannot_swallow() -> None:

@@ -18,7 +18,7 @@ from topo_verify.checkers.coverage import coverage
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.entailment import Conclusion, delivered_code, map_conclusion
 from topo_verify.checkers.excursions import Word
-from topo_verify.checkers.findings import Finding, Judgement
+from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
 from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
@@ -53,18 +53,21 @@ def check(
 def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: bool) -> Judgement:
     """The judgement of one claim."""
     claim, speaks_of = CLAIMS[name]
-    if speaks_of and run.world.alpha and not any(isinstance(e, speaks_of) for e in run.trace):
+    if speaks_of and run.world.alpha and not {*speaks_of}.intersection(map(type, run.trace)):
         return Judgement(name, "not-declared", 0, of)
     if claim is decisions_entailed and len(run.world.edges) > LARGE and not strict:
         return Judgement(name, "not-asked", 0, of)
     if findings := tuple(msgspec.structs.replace(wrong, claim=name) for wrong in claim(run)):
         return Judgement(name, "failed", judged, of, findings)
-    left = claim is decisions_entailed and sum(one.undecided for one in run.conclusions.values())
-    if left:
+    if claim is decisions_entailed and (left := _undecided(run)):
         return Judgement(name, "undecided", judged - left, of)
-    return Judgement(
-        name, "ok" if judged == of else "partial" if judged else "not-declared", judged, of
-    )
+    status: Status = "ok" if judged == of else "partial" if judged else "not-declared"
+    return Judgement(name, status, judged, of)
+
+
+def _undecided(run: ReplayedTrace) -> int:
+    """The number of decisions that claim 10 leaves undecided."""
+    return sum(conclusion.undecided for conclusion in run.conclusions.values())
 
 
 # ---------------------------------------------------------------- the claims
@@ -109,25 +112,19 @@ def _wrongly_posed(run: ReplayedTrace, when: int, pose: ev.Pose) -> Iterator[Fin
 
 def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
     """3. No rule and no motion rejects the true hypothesis, and none is dropped in silence."""
-    dropped = {
-        fate.when: sorted(fate.left)
-        for fate in run.fates.values()
-        if fate.left and isinstance(fate.event, ev.Augment)
-    }
     for when, event, _, _, _ in run.rounds:
         truth = run.map.truth(event.edge, when)
-        match event:
-            case ev.Reject(edge, hypothesis, rule) if truth == hypothesis:
-                message = f"edge {edge} does lead to dart {truth}, which rule {rule!r} rejects"
-                yield Wrong(when, "kept", "rejected", message)
-            case ev.Augment(edge, "new") if truth is not None:
-                message = f"edge {edge} leads to dart {truth}, but S grows by a new vertex"
-                yield Wrong(when, truth, "new", message)
-            case ev.Augment(edge, "new") if when in dropped:
-                message = f"S grows by a new vertex behind edge {edge}, but hypotheses are left"
-                yield Wrong(when, "each rejected", dropped[when], message)
-            case _:
-                pass
+        if isinstance(event, ev.Reject) and truth == event.hypothesis:
+            does = f"edge {event.edge} does lead to dart {truth}"
+            message = f"{does}, which rule {event.rule!r} rejects"
+            yield Wrong(when, "kept", "rejected", message)
+        elif isinstance(event, ev.Augment) and event.kind == "new" and truth is not None:
+            message = f"edge {event.edge} leads to dart {truth}, but S grows by a new vertex"
+            yield Wrong(when, truth, "new", message)
+    for when, event, left in run.fates.values():
+        if isinstance(event, ev.Augment) and left:
+            message = f"S grows by a new vertex behind edge {event.edge}, but hypotheses are left"
+            yield Wrong(when, "each rejected", sorted(left), message)
 
 
 def no_false_confirm(run: ReplayedTrace) -> Iterator[Finding]:

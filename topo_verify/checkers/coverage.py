@@ -43,13 +43,12 @@ def coverage(run: ReplayedTrace) -> dict[str, Share]:
     left = sum(len(fate.left) for fate in run.fates.values())
     missing = sum(len(fate.left) for edge, fate in run.fates.items() if edge in ends)
     grown = {run.crossing(run.map.phi[dart]) for dart in run.map.joined}
-    decisions = sum(isinstance(event, (Reject, Confirm, Augment)) for event in run.trace)
-    finish = run.trace[-1]
-    maps = int(isinstance(finish, Finish))
-    costs = int(isinstance(finish, Finish) and finish.cost is not None)
-    percepts = sum(isinstance(e, (Start, Move)) for e in run.trace[: len(run.positions)])
+    decisions = rejections + confirmations + declared[Augment]
+    maps = sum(isinstance(event, Finish) for event in run.trace)
+    costs = int(getattr(run.trace[-1], "cost", None) is not None)
+    followed = Counter(map(type, run.trace[: len(run.positions)]))
     return {
-        "percepts-true": (percepts, 1 + run.cost),
+        "percepts-true": (followed[Start] + followed[Move], 1 + run.cost),
         "true-hypothesis-posed": (len(run.crossings & run.fates.keys()), len(run.crossings)),
         "true-hypothesis-kept": (posed - left, posed + unsettled),
         "no-false-confirm": (confirmations, max(confirmations, loops) + unsettled),

@@ -36,8 +36,7 @@ class MapOnFold:
         self.size = 0
         self.entries: list[Place] = []
         self._places: dict[KnownDart, Place] = {}
-        self._next: dict[KnownDart, KnownDart] = {}  # clockwise
-        self._alpha: dict[KnownDart, KnownDart] = {}  # an open dart is its own other end
+        self._after: dict[KnownDart, KnownDart] = {}  # on the face; an open dart turns back
         self._open: set[KnownDart] = set()
         self._add_vertex((0, 0))
 
@@ -64,7 +63,7 @@ class MapOnFold:
     def face(self, e: KnownDart) -> list[KnownDart]:
         """The darts of S on the face of e; where a dart is open, the boundary turns back."""
         face = [e]
-        while (dart := self._next[self._alpha[face[-1]]]) != e:
+        while (dart := self._after[face[-1]]) != e:
             face.append(dart)
         return face
 
@@ -75,8 +74,8 @@ class MapOnFold:
             assert entry is not None, "an edge is crossed before S grows along it"
             self._add_vertex(entry)
         self._open -= {event.edge, event.dart}
-        e, other = KnownDart(event.edge), KnownDart(event.dart)
-        self._alpha[e], self._alpha[other] = other, e
+        after, e, other = self._after, KnownDart(event.edge), KnownDart(event.dart)
+        after[e], after[other] = after[other], after[e]  # each goes on beyond the other
 
     def _add_vertex(self, entry: Place) -> None:
         node, first = entry
@@ -84,7 +83,7 @@ class MapOnFold:
         degree, size = self.fold.degree(node), self.size
         for door in range(degree):
             dart = KnownDart(size + door)
-            self._places[dart], self._alpha[dart] = (node, first + door), dart
-            self._next[dart] = KnownDart(size + (door + 1) % degree)
+            self._places[dart] = node, first + door
+            self._after[dart] = KnownDart(size + (door + 1) % degree)
             self._open.add(dart)
         self.size += degree

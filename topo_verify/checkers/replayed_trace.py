@@ -54,6 +54,11 @@ def require_order(trace: Sequence[ev.Event]) -> None:
             raise InputError(f"event {when} of the trace is out of order: {rule}")
 
 
+def _is_of(pose: ev.Pose | None, event: ev.Augment) -> bool:
+    """Whether an augmentation is for the edge that was posed last."""
+    return pose is not None and pose.edge == event.edge
+
+
 class ReplayedTrace:
     """A world and a trace, replayed once; what the claims are asked about.
 
@@ -144,7 +149,7 @@ class ReplayedTrace:
 
     def _record(self, when: int, event: ev.Augment, pose: ev.Pose | None, seen: Excursion) -> None:
         """Keep what was seen behind an edge, now that it is known where that edge leads."""
-        if pose is not None and pose.edge == event.edge and when != self.spoiled:
+        if _is_of(pose, event) and when != self.spoiled:
             for sequence in seen.sequences:  # the augmentation is true, so S has its dart
                 self.records.add(when, KnownDart(event.dart), sequence)
 
@@ -170,13 +175,13 @@ class ReplayedTrace:
             match event:
                 case ev.Pose(_, hypotheses):
                     fates[edge] = Fate(when, event, left.union(hypotheses))
-                case ev.Augment(dart, kind):
-                    if pose is not None and pose.edge == dart and when != self.spoiled:
-                        open_ones = (h for h in left if kind == "new" and self.map.is_open(h, when))
-                        fates[edge] = Fate(when, event, frozenset(open_ones))
+                case ev.Augment(_, kind) if _is_of(pose, event) and when != self.spoiled:
+                    open_ones = (h for h in left if kind == "new" and self.map.is_open(h, when))
+                    fates[edge] = Fate(when, event, frozenset(open_ones))
+                case ev.Reject(_, h) | ev.Confirm(_, h) if edge in fates:
+                    fates[edge] = fates[edge]._replace(left=left - {h})
                 case _:
-                    if edge in fates:
-                        fates[edge] = fates[edge]._replace(left=left - {event.hypothesis})
+                    pass
         return fates
 
     @cached_property

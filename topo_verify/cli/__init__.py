@@ -53,6 +53,14 @@ class CommandLine(click.Group):
         """The names of the commands, in the order in which they were added."""
         return list(self.commands)
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that is called; a TARGET in its place is told `verify`."""
+        if args[0] not in self.commands and (":" in args[0] or args[0].endswith(".py")):
+            ctx.fail(f"no such command {args[0]!r}, did you mean verify {args[0]}")
+        return super().resolve_command(ctx, args)
+
     def main(  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]  it always exits
         self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any
     ) -> NoReturn:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 import secrets
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import click
 
@@ -124,17 +123,14 @@ def conform(  # noqa: PLR0913  an argument an option
     def standings() -> Iterator[Result[LevelResult]]:
         text = target_text(target, command)
         policies = Policies(pick or "nearest", order or "shortest")
-        asked = _ConformOptions(
-            corpus_from(texts, seed=seed),
-            processors() if workers is None else workers,
-            batch,
-            order_seed,
-        )
+        number = processors() if workers is None else workers
+        asked = _ConformOptions(corpus_from(texts, seed=seed), number, batch, order_seed)
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
         # The order is no part of the results; so they are the same whatever it is.
         output.timing["seed"] = f"{seed}:{order_seed}"
         output.note(f"seed {seed}:{order_seed}")
+        flags = dict(batch=batch, validate=validate, strict=strict, in_process=in_process)  # noqa: C408
         for one in _texts(text):
             job = ConformJob(
                 target=one,
@@ -145,21 +141,12 @@ def conform(  # noqa: PLR0913  an argument an option
                 strict=strict,
                 transcript=transcript,
                 in_process=in_process,
-                replay_arguments=(
-                    *_replay_command(one, like, (pick, order), batch=batch, validate=validate),
-                    *(("--strict",) if strict else ()),
-                    *(("--in-process",) if in_process else ()),
-                    *limits.options,
-                ),
+                replay_arguments=_replay_command(one, like, (pick, order), flags, limits),
             )
             yield from _tried(output, job, asked)
 
-    more: dict[str, Any] = {
-        "seed": seed,
-        "corpus": list(texts) or ["corpus"],
-        "in_process": in_process,
-    }
-    return output.run("conform", standings, _show, **more)
+    corpus = list(texts) or ["corpus"]
+    return output.run("conform", standings, _show, seed=seed, corpus=corpus, in_process=in_process)
 
 
 def _texts(text: str) -> list[str]:
@@ -201,18 +188,16 @@ def _replay_command(
     target: str,
     like: str | None,
     policies: tuple[str | None, str | None],
-    *,
-    batch: bool,
-    validate: bool,
+    flags: Mapping[str, bool],
+    limits: Limits,
 ) -> tuple[str, ...]:
     """The command that repeats the run, in words; the world is appended to it."""
     words = ["topo-verify", "conform", *target_arguments(target)]
     pick, order = policies
     for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
         words += [name, value] if value is not None else []
-    words += ["--batch"] if batch else []
-    words += ["--validate"] if validate else []
-    return tuple(words)
+    words += [f"--{name.replace('_', '-')}" for name, given in flags.items() if given]
+    return (*words, *limits.options)
 
 
 # ---------------------------------------------------------------- for people

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -218,7 +218,7 @@ def _opened(
     plan: Plan,
     mappers: tuple[Target, ...],
     identity: Identity | None,
-) -> Iterator[Ledger | None]:
+) -> Generator[Ledger | None]:
     """The ledger, if one is asked for."""
     if asked.ledger is None or identity is None:
         yield None

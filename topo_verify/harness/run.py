@@ -130,6 +130,8 @@ def explore(
         world=world.id if known else None,
         percept=first_percept(world),
     )
+    if isinstance(target.mapper, Program):
+        target.mapper.start()  # here: no limit of a run counts what it takes to load a mapper
     finish, stopped, error, limit = _run(target.mapper, robot, limits)
     misbehaved = None
     if isinstance(target.mapper, Program):

@@ -14,9 +14,6 @@ Source: docs/semantics.md, section 16.
 from __future__ import annotations
 
 import shlex
-import shutil
-from hashlib import sha256
-from pathlib import Path
 
 from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.errors import InputError
@@ -133,16 +130,3 @@ def target_text(target: str | None, command: str | None, default: str | None = N
 def target_arguments(text: str) -> tuple[str, ...]:
     """The arguments of a command line that name this TARGET."""
     return ("--cmd", text.removeprefix(PREFIX)) if text.startswith(PREFIX) else (text,)
-
-
-def fingerprint(text: str) -> str:
-    """A hash of a program's TARGET: of its command, and of the files that the command names."""
-    command = split(text.removeprefix(PREFIX))
-    made = sha256(repr(command).encode())
-    for place, word in enumerate(command):
-        path = Path((shutil.which(word) or word) if place == 0 else word)
-        try:
-            made.update(path.read_bytes() if path.is_file() else b"")
-        except (OSError, ValueError):  # an unreadable file, or a word that cannot name one
-            continue
-    return made.hexdigest()

@@ -74,7 +74,9 @@ def _note(event: str, arguments: tuple[Any, ...]) -> None:
         path = arguments[0]
     else:
         return
-    if isinstance(path, str | bytes | os.PathLike) and path:
+    if hasattr(path, "__fspath__"):
+        path = path.__fspath__()
+    if isinstance(path, str | bytes) and path:
         _opened[os.path.abspath(os.fsdecode(path))] = None  # noqa: PTH100  far cheaper
 
 

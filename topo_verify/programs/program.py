@@ -3,8 +3,8 @@
     with Program("./mapper --fast") as program:
         report = examine(program.target, world)
 
-The program receives percepts and answers with doors. It never receives the world, so it cannot
-cheat; the simulated robot makes, checks and counts every move. One process plays many worlds. If
+The program receives percepts and answers with doors, never the world. The simulated robot makes,
+checks and counts every move, so the program can hide none. One process plays many worlds. If
 the program misbehaves in a world, or a limit stops it, its process and all descendants are ended,
 and the next world starts a fresh one.
 

@@ -19,7 +19,7 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from io import TextIOWrapper
 from operator import index
-from typing import BinaryIO, Literal
+from typing import BinaryIO, Literal, cast
 
 import msgspec
 
@@ -172,8 +172,7 @@ def child(text: str) -> None:
     """Serve the mapper of a TARGET for `Foreign`; this is what its process runs."""
     loaded.watch()
     reader, writer = isolation.private_pipes()
-    if isinstance(sys.stdout, TextIOWrapper):
-        sys.stdout.reconfigure(line_buffering=True)
+    cast("TextIOWrapper", sys.stdout).reconfigure(line_buffering=True)
     faulthandler.enable()  # what kills the process says in which line
     try:
         mapper = load(text)

@@ -102,7 +102,10 @@ def test_the_version_of_a_distribution_counts(here: Path, monkeypatch: pytest.Mo
     with (here / "mine.py").open("a") as opened:
         opened.write("import networkx\n")
     searched()
-    monkeypatch.setattr(identity, "_version", lambda _name: None)  # pyright: ignore[reportUnknownLambdaType]
+
+    def none(_name: str) -> None: ...
+
+    monkeypatch.setattr(identity, "_version", none)
     with pytest.raises(InputError, match=r"the mapper used \w+ [\d.]+, installed is none; name an"):
         searched()
 

@@ -91,16 +91,20 @@ def _examined(target: Target, limits: Limits, world: World, beat: Callable[[], N
 # ---------------------------------------------------------------- named policies
 
 
-@cache
 def _variants(target: Target, *, named: bool) -> tuple[Target, ...]:
     """The mapper with each pair of named policies; without `named`, as it is."""
     if not named or not isinstance(target.mapper, Algorithm):
-        return (target,)
+        return (target,)  # not from a cache, which would keep the process of a program alive
+    return _named(target.text, target.mapper)
+
+
+@cache
+def _named(text: str, mapper: Algorithm) -> tuple[Target, ...]:
+    """An algorithm with each pair of named policies."""
     random = [f"random({seed})" for seed in range(SEEDS)]
     pairs = product([*PICKS, *random], [*ORDERS, *random])
     return tuple(
-        Target(target.text, target.mapper.with_policies(pick=pick, order=order))
-        for pick, order in pairs
+        Target(text, mapper.with_policies(pick=pick, order=order)) for pick, order in pairs
     )
 
 
