@@ -89,7 +89,7 @@ def test_the_world_without_edges_is_proved_by_standing_in_it() -> None:
         (
             [(1, 0), (2, None), (2, 0)],
             [0, 0],
-            "two degrees.*: .*degree 1, marker.* and .*degree 2, marker",
+            "two degrees.*: .*degree 2, marker.* and .*degree 1, marker",
         ),
         ([(2, 0), (2, 0)], [0], "its own other end"),  # door 0 of v0 would lead to itself
         # The second and the third vertex are one, for the same dart of v0 leads to both.
