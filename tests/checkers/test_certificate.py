@@ -184,13 +184,13 @@ def test_the_walk_to_an_open_door_ends_where_the_door_is_said_to_be(
     found = list(open_doors(certificate))
     assert len(found) == certificate.open_darts
     assert [len(door.walk) for door in found] == sorted(len(door.walk) for door in found)
-    for door in found:
-        exits, here = exit_dart(world, places[door.event], door.door), at
-        for step in door.walk[:-1]:
+    for opened in found:
+        exits, here = exit_dart(world, places[opened.event], opened.door), at
+        for step in opened.walk[:-1]:
             here = exit_dart(world, here, step)
             assert here in crossed
             here = world.alpha[here]
-        assert exit_dart(world, here, door.walk[-1]) == exits
+        assert exit_dart(world, here, opened.walk[-1]) == exits
 
 
 # ---------------------------------------------------------------- what a log may cost

@@ -189,7 +189,7 @@ class Fold:
 
     def alike(self) -> Iterator[tuple[Place, Place]]:
         """The pairs of places that may be one dart: each two vertices once in every turn."""
-        for one, other in combinations(self._roots(), 2):
+        for one, other in combinations(self.roots(), 2):
             if self._seen[one].signature == self._seen[other].signature:
                 yield from (((one, 0), (other, door)) for door in range(self.degree(one)))
 

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from secrets import token_hex
-from typing import IO
+from typing import IO, BinaryIO
 
 from topo_verify.errors import InputError
 from topo_verify.text import shown
@@ -47,7 +47,7 @@ def opened(path: str | PathLike[str]) -> Iterator[IO[bytes]]:
         raise InputError(f"cannot read {shown(path)}: {_reason(error)}; name a file") from error
 
 
-def standard_input() -> IO[bytes]:
+def standard_input() -> BinaryIO:
     """Standard input, as bytes.
 
     Raises:
