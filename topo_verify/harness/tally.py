@@ -325,7 +325,8 @@ def joint_judgements(
 def joint_status(runs: Mapping[str, int]) -> Status:
     """The status of a claim in many runs, of which so many have each status."""
     seen = {status for status, number in runs.items() if number}
-    for status in ("failed", "undecided"):
+    worst: tuple[Status, ...] = ("failed", "undecided")
+    for status in worst:
         if status in seen:
             return status
     alike: tuple[Status, ...] = ("ok", "not-declared", "not-asked")

@@ -217,9 +217,10 @@ class Program:
             self._reaper = self._reaper or ReaperProcess()
             try:
                 self._child = self._started(self._reaper)
-            except BaseException:
-                self._reaper.close()
-                self._reaper = None
+            except Exception:
+                # A time limit is no Exception: the next start takes the same reaper.
+                reaper, self._reaper = self._reaper, None
+                reaper.close()
                 raise
         return self._child
 

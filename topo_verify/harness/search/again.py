@@ -143,10 +143,10 @@ class _Fresh:
 
     def target(self) -> Target:
         """The mapper, in a process that has played no world."""
-        if isinstance(self._program, Foreign):
-            return self._program.target
-        self.close()
-        self._program = Program(split(self._text.removeprefix(PREFIX)))
+        if not isinstance(self._program, Foreign):
+            self.close()
+            self._program = Program(split(self._text.removeprefix(PREFIX)))
+        self._program.start()  # here, where no time limit counts it
         return self._program.target
 
     def close(self) -> None:
@@ -214,6 +214,7 @@ def _fails_last(plan: Plan, row: Sequence[str]) -> bool:
         Program(split(text.removeprefix(PREFIX))) if text.startswith(PREFIX) else Foreign(text)
     )
     with program:
+        program.start()
         runs = [explore(World.from_id(w), program.target, limits=plan.limits) for w in row]
         return not judge(runs[-1]).ok
 
