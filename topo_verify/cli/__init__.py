@@ -16,7 +16,7 @@ import os
 import signal
 import sys
 from collections.abc import Sequence
-from typing import Any, NoReturn
+from typing import IO, Any, NoReturn
 
 import click
 from click.shell_completion import shell_complete
@@ -94,13 +94,14 @@ class CommandLine(click.Group):
 
 def _flushed(code: int) -> int:
     """The exit code, once all that was printed is written; 2 if it cannot be (--help > full)."""
+    out: IO[str] | None = sys.stdout  # None after >&-
     try:
-        if sys.stdout is not None:  # pyright: ignore[reportUnnecessaryComparison]  after >&-
-            sys.stdout.flush()
+        if out is not None:
+            out.flush()
     except BrokenPipeError:
-        silence(sys.stdout)
+        silence(out)
     except OSError as error:
-        silence(sys.stdout)
+        silence(out)
         say(f"topo-verify: cannot write to standard output: {error.strerror}")
         return ExitCode.BAD_INPUT
     return code

@@ -70,10 +70,11 @@ def say(sentence: str) -> None:
         silence(sys.stderr)
 
 
-def silence(stream: IO[str]) -> None:
+def silence(stream: IO[str] | None) -> None:
     """Point a stream at the null device, so that Python's flush at exit does not fail."""
-    with suppress(OSError, ValueError, AttributeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+    with suppress(OSError, ValueError):
+        if stream is not None:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from secrets import token_hex
-from typing import IO, BinaryIO
+from typing import IO, BinaryIO, TextIO
 
 from topo_verify.errors import InputError
 from topo_verify.text import shown
@@ -32,7 +32,7 @@ def read(path: str | PathLike[str]) -> bytes:
 
 
 @contextmanager
-def opened(path: str | PathLike[str]) -> Iterator[IO[bytes]]:
+def opened(path: str | PathLike[str]) -> Generator[IO[bytes]]:
     """The file, open for reading inside the block.
 
     Raises:
@@ -53,9 +53,10 @@ def standard_input() -> BinaryIO:
     Raises:
         InputError: it was closed before the start.
     """
-    if sys.stdin is None:  # pyright: ignore[reportUnnecessaryComparison]  it is, after <&-
+    stream: TextIO | None = sys.stdin  # None after <&-
+    if stream is None:
         raise InputError("standard input is closed: name a file, or pipe the text in")
-    return sys.stdin.buffer
+    return stream.buffer
 
 
 def lines(stream: IO[bytes], *, name: str) -> Iterator[bytes]:
