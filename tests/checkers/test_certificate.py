@@ -57,7 +57,7 @@ def test_a_log_that_no_world_shows_names_its_line() -> None:
     log[2] = Move(0, Percept(9, None))
     log.insert(3, Move(0, Percept(7, None)))
     certificate = certify(log)
-    assert (certificate.verdict, certificate.map, certificate.shown) == ("REFUTED", None, False)
+    assert (certificate.verdict, certificate.map, certificate.fold) == ("REFUTED", None, None)
     assert certificate.witnesses == ()
     assert not list(open_doors(certificate))
     assert certificate.findings[0].event is not None
@@ -103,7 +103,7 @@ def test_a_tampered_log_is_caught_or_certifies_a_world_that_shows_it(
             robot = SimulatedRobot(shown, budget=len(log))
             assert all(not isinstance(e, Move) or robot.move(e.door) == e.percept for e in log)
     expected = (
-        "REFUTED" if not certificate.shown else "UNKNOWN" if certificate.open_darts else "PROVED"
+        "REFUTED" if certificate.fold is None else "UNKNOWN" if certificate.open_darts else "PROVED"
     )
     assert certificate.verdict == expected
 

@@ -23,7 +23,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from topo_verify.checkers.claims import check
-from topo_verify.checkers.entailment import decision_conclusions, followed, map_conclusion
+from topo_verify.checkers.entailment import decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
 from topo_verify.checkers.replayed_trace import require_order
@@ -49,7 +49,7 @@ class Certificate:
         entailed, decisions: how many of the declared decisions follow from the log before them.
         findings: what is wrong; an incomplete log that declares nothing wrong has none.
         fold: of the log; None if no world shows it.
-        reached: of each node of the fold, the event that added it.
+        log: what was judged.
     """
 
     map: World | None
@@ -59,9 +59,8 @@ class Certificate:
     entailed: int
     decisions: int
     findings: tuple[Finding, ...]
-    _log: Sequence[Event] = field(repr=False)
+    log: Sequence[Event] = field(repr=False)
     fold: Fold | None = field(repr=False)
-    reached: Sequence[int] = field(repr=False)
 
     @property
     def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
@@ -71,16 +70,11 @@ class Certificate:
         return "UNKNOWN" if self.map is None else "PROVED"
 
     @property
-    def shown(self) -> bool:
-        """Whether some world shows the log."""
-        return self.fold is not None
-
-    @property
     def witnesses(self) -> tuple[World, ...]:
         """Two different worlds that show an incomplete log, made now; none for any other log."""
         if self.fold is None or self.map is not None:
             return ()
-        return tuple(_shown(self.fold.world(hang), self._log) for hang in (1, 2))
+        return tuple(_shown(self.fold.world(hang), self.log) for hang in (1, 2))
 
 
 def certify(trace: Sequence[Event]) -> Certificate:
@@ -95,7 +89,10 @@ def certify(trace: Sequence[Event]) -> Certificate:
     Complexity: nearly linear for a plain log; claim 10 looks at every open dart once a decision.
     """
     require_order(trace)
-    fold, reached, broken = _folded(trace)
+    fold, broken = fold_history(trace)
+    if (darts := fold.darts()) > MOST_DARTS:
+        expected = f"expected at most {MOST_DARTS}; is a degree wrong?"
+        raise InputError(f"the places of this log have {darts} doors together: {expected}")
     left = fold.open_darts()
     decisions = sum(isinstance(event, Reject | Confirm | Augment) for event in trace)
     entailed, doubts = _judged(trace) if decisions else (0, ())
@@ -103,36 +100,11 @@ def certify(trace: Sequence[Event]) -> Certificate:
         when, why = broken
         message = f"no world shows this history: {why}"
         finding = Finding("map-entailed", when, "percepts that some world shows", why, message)
-        return Certificate(None, left, 0, 0, entailed, decisions, (finding,), trace, None, reached)
+        return Certificate(None, left, 0, 0, entailed, decisions, (finding,), trace, None)
     world = None if left else _shown(fold.world(), trace)
     findings = (*doubts, *_unproved(trace)) if world is None else _findings(world, trace)
-    vertices, edges = len(fold.roots()) + left, (fold.darts() + left) // 2
-    return Certificate(
-        world, left, vertices, edges, entailed, decisions, findings, trace, fold, reached
-    )
-
-
-def _folded(trace: Sequence[Event]) -> tuple[Fold, list[int], tuple[int, str] | None]:
-    """The fold of a log; the event that added each node; the first event that no world shows.
-
-    Raises:
-        InputError: its places have too many doors.
-    """
-    start, broken = trace[0], None
-    assert isinstance(start, Start)
-    fold, reached = Fold(start.percept), [0]
-    for when, event in enumerate(trace):
-        if why := followed(fold, event):
-            broken = when, why
-            break
-        if len(fold) > len(reached):
-            reached.append(when)
-    if (darts := fold.darts()) > MOST_DARTS:
-        raise InputError(
-            f"the places of this log have {darts} doors together: expected at most {MOST_DARTS};"
-            " is a degree wrong?"
-        )
-    return fold, reached, broken
+    vertices, edges = len(fold.roots()) + left, (darts + left) // 2
+    return Certificate(world, left, vertices, edges, entailed, decisions, findings, trace, fold)
 
 
 def _judged(trace: Sequence[Event]) -> tuple[int, Sequence[Finding]]:

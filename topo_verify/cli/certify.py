@@ -215,7 +215,7 @@ def _proof(
     # The certificate is stated by a fold of its own. Were the two folds to differ, Coq would
     # still accept a true statement, but not the one that the user was told.
     stated = certificates.certificate_of(log)
-    shown = "undetermined" if certificate.shown else "impossible"
+    shown = "undetermined" if certificate.fold is not None else "impossible"
     if stated.statement != ("map" if certificate.map is not None else shown):
         raise InternalError(f"{traces[number]}: two folds of one log differ: {stated.statement}")
     name = _identifier(traces, number)
@@ -288,7 +288,7 @@ def _result(
 
 def _witnesses(trace: str, certificate: Certificate, folder: str | None) -> tuple[str, ...]:
     """The two worlds that show an incomplete log: the files, or the ids, or how large they are."""
-    if certificate.map is not None or not certificate.shown:
+    if certificate.map is not None or certificate.fold is None:
         return ()
     sizes = (certificate.edges, certificate.edges + certificate.open_darts)
     # A world is made where it is asked for, or small: it may have a million exits.

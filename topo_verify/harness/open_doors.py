@@ -13,6 +13,9 @@ from collections.abc import Iterator
 import msgspec
 
 from topo_verify.checkers.certificate import Certificate
+from topo_verify.checkers.entailment import followed
+from topo_verify.checkers.folding import Fold
+from topo_verify.robot.events import Start
 from topo_verify.robot.percept import Door
 
 
@@ -33,20 +36,26 @@ class OpenDoor(msgspec.Struct, frozen=True):
 
 def open_doors(certificate: Certificate) -> Iterator[OpenDoor]:
     """The open doors of an incomplete log, breadth-first from where it ends; of others none."""
-    fold = certificate.fold
-    if fold is None:
+    if certificate.fold is None:
         return
-    start, reference = fold.find(fold.at)
-    entries = {start: reference}  # of each place found: the dart by which the search came in
+    start = certificate.log[0]
+    assert isinstance(start, Start)
+    fold, reached = Fold(start.percept), [0]  # of each node of the fold, the event that added it
+    for when, event in enumerate(certificate.log):
+        followed(fold, event)
+        if len(fold) > len(reached):
+            reached.append(when)
+    first, reference = fold.find(fold.at)
+    entries = {first: reference}  # of each place found: the dart by which the search came in
     taken: dict[int, tuple[int, Door]] = {}  # from where, and by which door
-    queue = [start]
+    queue = [first]
     for node in queue:  # grows as it goes
         degree = fold.degree(node)
         for door in range(degree):
             dart = (entries[node] + door) % degree
             end = fold.partner((node, dart))
             if end is None:
-                yield OpenDoor(certificate.reached[node], dart, (*_walk(taken, node), door))
+                yield OpenDoor(reached[node], dart, (*_walk(taken, node), door))
             elif end[0] not in entries:
                 entries[end[0]], taken[end[0]] = end[1], (node, door)
                 queue.append(end[0])
