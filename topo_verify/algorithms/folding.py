@@ -62,7 +62,7 @@ class PartialFold:
         self.joined: list[tuple[NodeDart, NodeDart]] = []  # every edge, in the order of `join`
         self.below = below
         self._leader, self._weight, self._behind, self._known = (
-            ({}, {}, {}, set())
+            ({}, {}, {}, set[int]())
             if below is None
             else (below.leader, below.weight, below.behind, below.known)
         )

@@ -16,7 +16,7 @@ import os
 import signal
 import sys
 from collections.abc import Sequence
-from typing import IO, Any, NoReturn
+from typing import Any, NoReturn, TextIO
 
 import click
 from click.shell_completion import shell_complete
@@ -94,7 +94,7 @@ class CommandLine(click.Group):
 
 def _flushed(code: int) -> int:
     """The exit code, once all that was printed is written; 2 if it cannot be (--help > full)."""
-    out: IO[str] | None = sys.stdout  # None after >&-
+    out: TextIO | None = sys.stdout  # it is None after >&-
     try:
         if out is not None:
             out.flush()

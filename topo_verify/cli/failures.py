@@ -72,8 +72,8 @@ def say(sentence: str) -> None:
 
 def silence(stream: IO[str] | None) -> None:
     """Point a stream at the null device, so that Python's flush at exit does not fail."""
-    with suppress(OSError, ValueError):
-        if stream is not None:
+    if stream is not None:
+        with suppress(OSError, ValueError):  # it has no descriptor, or is closed
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 

@@ -326,8 +326,11 @@ def joint_status(runs: Mapping[str, int]) -> Status:
     """The status of a claim in many runs, of which so many have each status."""
     seen = {status for status, number in runs.items() if number}
     worst: tuple[Status, ...] = ("failed", "undecided")
+    alike: tuple[Status, ...] = ("ok", "not-declared", "not-asked")
     for status in worst:
         if status in seen:
             return status
-    alike: tuple[Status, ...] = ("ok", "not-declared", "not-asked")
-    return next((status for status in alike if seen == {status}), "partial")
+    for status in alike:
+        if seen == {status}:
+            return status
+    return "partial"

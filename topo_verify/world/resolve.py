@@ -19,7 +19,7 @@ from __future__ import annotations
 import re
 from importlib import resources
 from pathlib import Path
-from typing import BinaryIO
+from typing import IO
 
 from topo_verify.errors import InputError
 from topo_verify.text import shown
@@ -32,7 +32,7 @@ _ID = re.compile(r"m[0-9]+/[0-9]+")
 _FAMILY = calls.CallSyntax("family of worlds", "family:", "family:lattice(3,4,seed=7)")
 
 
-def resolve_world(text: str, *, stdin: BinaryIO | None = None) -> World:
+def resolve_world(text: str, *, stdin: IO[bytes] | None = None) -> World:
     """The world that the text names.
 
     Args:
@@ -58,7 +58,7 @@ def resolve_world(text: str, *, stdin: BinaryIO | None = None) -> World:
     return World.load(text)
 
 
-def _from_stream(stream: BinaryIO) -> World:
+def _from_stream(stream: IO[bytes]) -> World:
     name = "standard input"
     return world_json.decode(World, files.read_stream(stream, name=name), name=name)
 

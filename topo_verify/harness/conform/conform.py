@@ -140,7 +140,7 @@ class ConformTally:
             if job.like is not None or level != "decisions"
         }
         self.claims = {claim: Counter[str]() for claim in CLAIMS}
-        self.shares = dict.fromkeys(CLAIMS, (0, 0))
+        self.shares: dict[str, tuple[int, int]] = dict.fromkeys(CLAIMS, (0, 0))
         self.priced: list[WorldCost] = []
         self.timeouts = self.tried = 0
 

@@ -152,7 +152,9 @@ def part_claims(statuses: dict[str, dict[str, int]]) -> dict[str, dict[str, int]
 
 def claims_in_words(claims: dict[str, dict[str, int]]) -> str:
     """How many claims hold in all runs, and how many have each other status."""
-    joint = {claim: joint_status(seen) for claim, seen in claims.items() if any(seen.values())}
+    joint: dict[str, Status] = {
+        claim: joint_status(seen) for claim, seen in claims.items() if any(seen.values())
+    }
     return in_words(joint, "claims hold") if joint else "no run was judged"
 
 

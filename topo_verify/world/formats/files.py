@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from secrets import token_hex
-from typing import IO, BinaryIO, TextIO
+from typing import IO, TextIO
 
 from topo_verify.errors import InputError
 from topo_verify.text import shown
@@ -47,13 +47,13 @@ def opened(path: str | PathLike[str]) -> Generator[IO[bytes]]:
         raise InputError(f"cannot read {shown(path)}: {_reason(error)}; name a file") from error
 
 
-def standard_input() -> BinaryIO:
+def standard_input() -> IO[bytes]:
     """Standard input, as bytes.
 
     Raises:
         InputError: it was closed before the start.
     """
-    stream: TextIO | None = sys.stdin  # None after <&-
+    stream: TextIO | None = sys.stdin  # it is None after <&-
     if stream is None:
         raise InputError("standard input is closed: name a file, or pipe the text in")
     return stream.buffer
