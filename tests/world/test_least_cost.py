@@ -29,7 +29,7 @@ def cheapest_proof(world: World, at_most: int) -> int | None:
                 return cost
             for door in range(percepts(world)[at].degree):
                 longer, _, left = walked(world, (*doors, door))
-                state = shape(longer, cost + 1)
+                state = shape(longer)
                 if state not in seen and cost + 1 + left <= at_most:
                     seen.add(state)
                     following.append((*doors, door))
@@ -48,8 +48,8 @@ def walked(world: World, doors: tuple[int, ...]) -> tuple[Fold, int, int]:
     return fold, at, len(world.edges) - len(crossed) // 2
 
 
-def shape(fold: Fold, visit: int) -> State:
-    """A fold and the place of a visit in it, numbered breadth-first from the marked dart."""
+def shape(fold: Fold) -> State:
+    """A fold and the robot's place in it, numbered breadth-first from the marked dart."""
     entries = [fold.find((0, 0))]
     rows: list[tuple[object, ...]] = []
     for node, first in entries:  # grows as it goes
@@ -60,7 +60,7 @@ def shape(fold: Fold, visit: int) -> State:
                 entries.append(end)
             row.append(end and place(fold, entries, end))
         rows.append(tuple(row))
-    return tuple(rows), place(fold, entries, fold.find((visit, 0)))
+    return tuple(rows), place(fold, entries, fold.find(fold.at))
 
 
 def place(fold: Fold, entries: list[tuple[int, int]], end: tuple[int, int]) -> tuple[int, int]:

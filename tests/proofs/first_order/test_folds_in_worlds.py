@@ -23,16 +23,18 @@ def folded(world: World, doors: list[int]) -> tuple[Structure, Fold]:
     """A walk in a world, as a structure: its places, what they are, and what the fold says."""
     robot, percepts = SimulatedRobot(world, len(doors)), [first_percept(world)]
     fold, arrivals = Fold(percepts[0]), [world.root or 0]
+    at = [fold.at]  # of each visit: the fold adds no node for a place that it knows
     joined: set[tuple[Place, Place]] = set()
     for visit, door in enumerate(doors):
         taken = door % percepts[-1].degree
         arrivals.append(world.alpha[exit_dart(world, arrivals[-1], taken)])
         percepts.append(robot.move(taken))
         fold.move(taken, percepts[-1])
+        at.append(fold.at)
         joined |= {((visit, taken), (visit + 1, 0)), ((visit + 1, 0), (visit, taken))}
     places = [(v, d) for v, percept in enumerate(percepts) for d in range(percept.degree)]
     number = {place: p for p, place in enumerate(places)}
-    found = [fold.find(place) for place in places]
+    found = [fold.find((at[v][0], at[v][1] + d)) for v, d in places]
     edges = {(number[one], number[other]) for one, other in joined}
 
     def degree(p: int) -> int:
