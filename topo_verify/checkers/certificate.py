@@ -22,8 +22,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-from topo_verify.checkers.claims import check
-from topo_verify.checkers.entailment import decision_conclusions, followed, map_conclusion
+from topo_verify.checkers.claims import check, unproved
+from topo_verify.checkers.entailment import decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
 from topo_verify.checkers.replayed_trace import require_order
@@ -48,8 +48,8 @@ class Certificate:
         vertices, edges: of the map; else of the smaller witness; 0 if no world shows the log.
         entailed, decisions: how many of the declared decisions follow from the log before them.
         findings: what is wrong; an incomplete log that declares nothing wrong has none.
+        log: what was judged.
         fold: of the log; None if no world shows it.
-        reached: of each node of the fold, the event that added it.
     """
 
     map: World | None
@@ -59,9 +59,8 @@ class Certificate:
     entailed: int
     decisions: int
     findings: tuple[Finding, ...]
-    _log: Sequence[Event] = field(repr=False)
+    log: Sequence[Event] = field(repr=False)
     fold: Fold | None = field(repr=False)
-    reached: Sequence[int] = field(repr=False)
 
     @property
     def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
@@ -80,7 +79,7 @@ class Certificate:
         """Two different worlds that show an incomplete log, made now; none for any other log."""
         if self.fold is None or self.map is not None:
             return ()
-        return tuple(_shown(self.fold.world(hang), self._log) for hang in (1, 2))
+        return tuple(_shown(self.fold.world(hang), self.log) for hang in (1, 2))
 
 
 def certify(trace: Sequence[Event]) -> Certificate:
@@ -95,87 +94,39 @@ def certify(trace: Sequence[Event]) -> Certificate:
     Complexity: nearly linear for a plain log; claim 10 looks at every open dart once a decision.
     """
     require_order(trace)
-    fold, reached, broken = _folded(trace)
-    left = fold.open_darts()
+    fold, broken = fold_history(trace)
+    if (darts := fold.darts()) > MOST_DARTS:
+        told = f"the places of this log have {darts} doors together: expected at most {MOST_DARTS}"
+        raise InputError(f"{told}; is a degree wrong?")
     decisions = sum(isinstance(event, Reject | Confirm | Augment) for event in trace)
-    entailed, doubts = _judged(trace) if decisions else (0, ())
+    conclusions = [*decision_conclusions(trace)] if decisions else []
+    counts = sum(not conclusion.why for conclusion in conclusions), decisions
+    left = fold.open_darts()
     if broken is not None:
         when, why = broken
         message = f"no world shows this history: {why}"
         finding = Finding("map-entailed", when, "percepts that some world shows", why, message)
-        return Certificate(None, left, 0, 0, entailed, decisions, (finding,), trace, None, reached)
-    world = None if left else _shown(fold.world(), trace)
-    findings = (*doubts, *_unproved(trace)) if world is None else _findings(world, trace)
-    vertices, edges = len(fold.roots()) + left, (fold.darts() + left) // 2
-    return Certificate(
-        world, left, vertices, edges, entailed, decisions, findings, trace, fold, reached
-    )
+        return Certificate(None, left, 0, 0, *counts, (finding,), trace, None)
+    sizes = len(fold.roots()) + left, (darts + left) // 2
+    if not left:
+        world = _shown(fold.world(), trace)
+        return Certificate(world, 0, *sizes, *counts, _wrong(world, trace), trace, fold)
+    delivered = [map_conclusion(trace)] if isinstance(trace[-1], Finish) else []
+    doubts = *unproved("decisions-entailed", conclusions), *unproved("map-entailed", delivered)
+    return Certificate(None, left, *sizes, *counts, doubts, trace, fold)
 
 
-def _folded(trace: Sequence[Event]) -> tuple[Fold, list[int], tuple[int, str] | None]:
-    """The fold of a log; the event that added each node; the first event that no world shows.
+def _wrong(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
+    """What a log says that is wrong in its proved world.
 
-    Raises:
-        InputError: its places have too many doors.
-    """
-    start, broken = trace[0], None
-    assert isinstance(start, Start)
-    fold, reached = Fold(start.percept), [0]
-    for when, event in enumerate(trace):
-        if why := followed(fold, event):
-            broken = when, why
-            break
-        if len(fold) > len(reached):
-            reached.append(when)
-    if (darts := fold.darts()) > MOST_DARTS:
-        raise InputError(
-            f"the places of this log have {darts} doors together: expected at most {MOST_DARTS};"
-            " is a degree wrong?"
-        )
-    return fold, reached, broken
-
-
-def _judged(trace: Sequence[Event]) -> tuple[int, Sequence[Finding]]:
-    """How many of the declared decisions follow, and a finding for each that does not."""
-    entailed, doubts = 0, list[Finding]()
-    for conclusion in decision_conclusions(trace):
-        when, why, witness = conclusion[:3]
-        if not why:
-            entailed += 1
-        if not why or conclusion.undecided:
-            continue
-        message = f"the decision does not follow: {why}"
-        text = None if witness is None else witness.text
-        doubts.append(Finding("decisions-entailed", when, "a proved decision", why, message, text))
-    return entailed, doubts
-
-
-def _unproved(trace: Sequence[Event]) -> tuple[Finding, ...]:
-    """What is wrong with the map that an incomplete log delivers, if it delivers one."""
-    if not isinstance(trace[-1], Finish):
-        return ()
-    when, why, witness = map_conclusion(trace)[:3]
-    message = f"the history proves no such map: {why}"
-    text = None if witness is None else witness.text
-    return (Finding("map-entailed", when, "a map that is proved", why, message, text),)
-
-
-def _findings(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
-    """The findings of all claims in the proved world, but for what only a mapper owes.
-
-    That is a map at the end, and a cost within the bound.
+    A finding of no event is about the run as a whole: that it costs too much, or delivers no map. A
+    log owes neither.
     """
     if all(isinstance(event, Start | Move) for event in trace):
         return ()  # the world shows the log, and it says no more
-    plain = not isinstance(trace[-1], Finish)
-    return tuple(
-        finding
-        for judgement in check(world, trace, strict=True)
-        for finding in judgement.findings
-        if judgement.claim != "cost-within-bound"
-        if not (plain and judgement.claim in ("map-isomorphic", "map-entailed"))
-        or finding.event not in (None, len(trace) - 1)
-    )
+    judgements = check(world, trace, strict=True)
+    found = (finding for judgement in judgements for finding in judgement.findings)
+    return tuple(finding for finding in found if finding.event is not None)
 
 
 def _shown(world: World, trace: Sequence[Event]) -> World:

@@ -9,7 +9,7 @@ guesses and is lucky passes them. Claims 9 and 10 ask about every world with the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 
 import msgspec
@@ -210,24 +210,35 @@ UNTRUE = Wrong(None, "true percepts", None, "the percepts are not true and prove
 
 def map_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """9. The history alone proves the map: no other world fits it."""
-    if not run.is_history:
+    if run.is_history:
+        yield from unproved("map-entailed", [map_conclusion(run.trace)])
+    else:
         yield UNTRUE
-    elif (conclusion := map_conclusion(run.trace)).why:
-        yield _unproved("a map that is proved", "the history proves no such map", conclusion)
 
 
 def decisions_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """10. The history at that moment alone proves each declared reject, confirm, augmentation."""
-    if not run.is_history:
+    if run.is_history:
+        yield from unproved("decisions-entailed", run.conclusions.values())
+    else:
         yield UNTRUE
-    for conclusion in run.conclusions.values():
-        if conclusion.why and not conclusion.undecided:
-            yield _unproved("a proved decision", "the decision does not follow", conclusion)
 
 
-def _unproved(expected: str, message: str, conclusion: Conclusion) -> Finding:
-    when, why, witness, _ = conclusion
-    return Wrong(when, expected, why, f"{message}: {why}", witness.text if witness else None)
+UNPROVED = {
+    "map-entailed": ("a map that is proved", "the history proves no such map"),
+    "decisions-entailed": ("a proved decision", "the decision does not follow"),
+}
+"""What is expected where a conclusion does not follow, and the message that begins so."""
+
+
+def unproved(claim: str, conclusions: Iterable[Conclusion]) -> Iterator[Finding]:
+    """A finding for each of these conclusions that does not follow; none where it is undecided."""
+    expected, message = UNPROVED[claim]
+    for conclusion in conclusions:
+        when, why, witness, _ = conclusion
+        if why and not conclusion.undecided:
+            text = witness.text if witness else None
+            yield Finding(claim, when, expected, why, f"{message}: {why}", text)
 
 
 # ---------------------------------------------------------------- what justifies a rejection

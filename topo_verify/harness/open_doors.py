@@ -8,11 +8,14 @@ much work that is. Behind an open door there may be further doors.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import msgspec
 
 from topo_verify.checkers.certificate import Certificate
+from topo_verify.checkers.entailment import followed
+from topo_verify.checkers.folding import Fold
+from topo_verify.robot.events import Event, Start
 from topo_verify.robot.percept import Door
 
 
@@ -34,8 +37,9 @@ class OpenDoor(msgspec.Struct, frozen=True):
 def open_doors(certificate: Certificate) -> Iterator[OpenDoor]:
     """The open doors of an incomplete log, breadth-first from where it ends; of others none."""
     fold = certificate.fold
-    if fold is None:
+    if fold is None or not certificate.open_darts:
         return
+    reached = _reached(certificate.log)
     start, reference = fold.find(fold.at)
     entries = {start: reference}  # of each place found: the dart by which the search came in
     taken: dict[int, tuple[int, Door]] = {}  # from where, and by which door
@@ -46,7 +50,7 @@ def open_doors(certificate: Certificate) -> Iterator[OpenDoor]:
             dart = (entries[node] + door) % degree
             end = fold.partner((node, dart))
             if end is None:
-                yield OpenDoor(certificate.reached[node], dart, (*_walk(taken, node), door))
+                yield OpenDoor(reached[node], dart, (*_walk(taken, node), door))
             elif end[0] not in entries:
                 entries[end[0]], taken[end[0]] = end[1], (node, door)
                 queue.append(end[0])
@@ -59,3 +63,15 @@ def _walk(taken: dict[int, tuple[int, Door]], node: int) -> list[Door]:
         node, door = taken[node]
         doors.append(door)
     return doors[::-1]
+
+
+def _reached(log: Sequence[Event]) -> list[int]:
+    """Of each node of the fold of a log, the event that added it."""
+    start = log[0]
+    assert isinstance(start, Start)
+    fold, reached = Fold(start.percept), [0]
+    for when, event in enumerate(log):
+        followed(fold, event)
+        if len(fold) > len(reached):
+            reached.append(when)
+    return reached
