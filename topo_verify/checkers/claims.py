@@ -22,7 +22,7 @@ from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
 from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
-from topo_verify.robot.percept import Door, Percept
+from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
 
 Wrong = partial(Finding, "")
@@ -59,15 +59,13 @@ def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: b
         return Judgement(name, "not-asked", 0, of)
     if findings := tuple(msgspec.structs.replace(wrong, claim=name) for wrong in claim(run)):
         return Judgement(name, "failed", judged, of, findings)
-    if claim is decisions_entailed and (left := _undecided(run)):
+    left = (
+        sum(one.undecided for one in run.conclusions.values()) if claim is decisions_entailed else 0
+    )
+    if left:
         return Judgement(name, "undecided", judged - left, of)
     status: Status = "ok" if judged == of else "partial" if judged else "not-declared"
     return Judgement(name, status, judged, of)
-
-
-def _undecided(run: ReplayedTrace) -> int:
-    """The number of decisions that claim 10 leaves undecided."""
-    return sum(conclusion.undecided for conclusion in run.conclusions.values())
 
 
 # ---------------------------------------------------------------- the claims
@@ -75,11 +73,8 @@ def _undecided(run: ReplayedTrace) -> int:
 
 def percepts_true(run: ReplayedTrace) -> Iterator[Finding]:
     """1. Every percept in the trace is what the world shows after these doors."""
-    for when, seen in run.false_percepts:
-        event = run.trace[when]
-        assert isinstance(event, (ev.Start, ev.Move))
-        message = f"the trace says {event.percept} where the world shows {seen}"
-        yield Wrong(when, seen, event.percept, message)
+    for when, told, seen in run.false_percepts:
+        yield Wrong(when, seen, told, f"the trace says {told} where the world shows {seen}")
     if run.illegal is not None:
         move, degree = run.trace[run.illegal], run.map.seen_at(run.positions[-1]).degree
         assert isinstance(move, ev.Move)
@@ -92,7 +87,7 @@ def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Finding]:
     for when, event, pose, _, _ in run.rounds:
         if isinstance(event, ev.Pose):
             yield from _wrongly_posed(run, when, event)
-        elif isinstance(event, ev.Augment) and (pose is None or pose.edge != event.edge):
+        elif isinstance(event, ev.Augment) and pose is None:
             message = f"S grows along dart {event.edge}, which was not posed"
             yield Wrong(when, event.edge, None, message)
 
@@ -115,8 +110,9 @@ def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
     for when, event, _, _, _ in run.rounds:
         truth = run.map.truth(event.edge, when)
         if isinstance(event, ev.Reject) and truth == event.hypothesis:
-            does = f"edge {event.edge} does lead to dart {truth}"
-            message = f"{does}, which rule {event.rule!r} rejects"
+            message = (
+                f"edge {event.edge} does lead to dart {truth}, which rule {event.rule!r} rejects"
+            )
             yield Wrong(when, "kept", "rejected", message)
         elif isinstance(event, ev.Augment) and event.kind == "new" and truth is not None:
             message = f"edge {event.edge} leads to dart {truth}, but S grows by a new vertex"
@@ -199,8 +195,7 @@ def rejection_justified(run: ReplayedTrace) -> Iterator[Finding]:
     for decision in run.rounds:
         event = decision.event
         if isinstance(event, ev.Reject) and (why := _unjustified(run, decision, event)):
-            rejection = f"rejecting {event.hypothesis} for edge {event.edge}"
-            message = f"{rejection} is not justified: {why}"
+            message = f"rejecting {event.hypothesis} for edge {event.edge} is not justified: {why}"
             yield Wrong(decision.when, "evidence that disagrees", event.evidence, message)
 
 
@@ -248,23 +243,21 @@ def _unjustified(run: ReplayedTrace, decision: Round, event: ev.Reject) -> str:
     """What is wrong with a rejection; "" if it is justified."""
     when, _, pose, _, _ = decision
     e, h = event.edge, event.hypothesis
-    if pose is None or e != pose.edge or h not in pose.hypotheses:
+    if pose is None or h not in pose.hypotheses:
         return "no such hypothesis was posed"
     if not run.map.is_open(e, when) or not run.map.is_open(h, when):
         return "the two are not unexplored darts of S"
     if event.rule in ("folding", "planar"):
-        return _unmet(run, when, event.evidence, (e, h))
+        ends = run.map.seen_at(run.map.phi[h]), run.map.seen_at(run.map.end(e))
+        return _unmet(run, when, event.evidence, ends)
     if event.evidence.contradiction is not None:
         return f"rule {event.rule!r} rests on two percepts, and cites a contradiction"
     return _percepts_agree(run, decision, event, e, h)
 
 
-def _unmet(
-    run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[KnownDart, KnownDart]
-) -> str:
+def _unmet(run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[Percept, Percept]) -> str:
     """Why the contradiction that is cited does not follow, or what else is cited wrongly; or ""."""
-    at_ends = run.map.seen_at(run.map.phi[ends[1]]), run.map.seen_at(run.map.end(ends[0]))
-    for told, seen in zip((cited.expected, cited.observed), at_ends, strict=True):
+    for told, seen in zip((cited.expected, cited.observed), ends, strict=True):
         if told not in (None, seen):
             return f"what is seen there is {seen}, not {told}"
     if cited.step or (cited.sequence, cited.at, cited.record) != (None, None, None):
@@ -306,29 +299,16 @@ def _expectation(
     run: ReplayedTrace, when: int, at: KnownDart, evidence: ev.Evidence, word: Word
 ) -> Percept | str:
     """What is seen at the end of a word if it leads on from `at`; or why that is unknown."""
-    for place, step in enumerate(word):
-        exit_at = run.map.turn(at, step.door)
-        if run.map.is_open(exit_at, when):
-            doors = tuple(later.door for later in word[place + 1 :])
-            return _recorded(run, when, exit_at, doors, evidence)
-        at = run.map.alpha[exit_at]
-    if evidence.record is not None or evidence.at not in (None, at):
-        return f"tracing ends at dart {at} of S, not where the evidence says"
-    return run.map.seen_at(run.map.phi[at])
-
-
-def _recorded(
-    run: ReplayedTrace,
-    when: int,
-    exit_at: KnownDart,
-    doors: tuple[Door, ...],
-    evidence: ev.Evidence,
-) -> Percept | str:
-    """What a record says of the place behind an unexplored dart and further doors; or why not."""
-    if evidence.record != ev.Record(exit_at, doors) or evidence.at not in (None, exit_at):
-        return f"tracing leaves S at dart {exit_at} with the doors {list(doors)} to go"
-    seen = run.records.behind(exit_at, doors, when)
-    return seen or f"nothing is recorded behind dart {exit_at} and the doors {list(doors)}"
+    at, rest = run.records.trace(at, word, when)
+    if not rest:
+        if evidence.record is not None or evidence.at not in (None, at):
+            return f"tracing ends at dart {at} of S, not where the evidence says"
+        return run.map.seen_at(run.map.phi[at])
+    doors = tuple(step.door for step in rest[1:])
+    if evidence.record != ev.Record(at, doors) or evidence.at not in (None, at):
+        return f"tracing leaves S at dart {at} with the doors {list(doors)} to go"
+    seen = run.records.behind(at, doors, when)
+    return seen or f"nothing is recorded behind dart {at} and the doors {list(doors)}"
 
 
 # ---------------------------------------------------------------- words for messages

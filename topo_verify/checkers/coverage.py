@@ -46,7 +46,7 @@ def coverage(run: ReplayedTrace) -> dict[str, Share]:
     decisions = rejections + confirmations + declared[Augment]
     maps = sum(isinstance(event, Finish) for event in run.trace)
     costs = int(getattr(run.trace[-1], "cost", None) is not None)
-    followed = Counter(map(type, run.trace[: len(run.positions)]))
+    followed = Counter(map(type, run.followed))
     return {
         "percepts-true": (followed[Start] + followed[Move], 1 + run.cost),
         "true-hypothesis-posed": (len(run.crossings & run.fates.keys()), len(run.crossings)),
