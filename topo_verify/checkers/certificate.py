@@ -1,17 +1,13 @@
-"""Certificates: what a log of percepts and doors proves where nobody knows the world.
+"""A log judged by itself: what percepts and doors prove where nobody knows the world.
 
-A real robot leaves a log of the doors that it took and what it sensed behind them. Folded, the log
-has no open dart: then there is one world that shows it, and that is the map (PROVED). Or it has:
-then two different worlds show it, and no mapper could know which one it was in (UNKNOWN: walk on).
-Or no world shows it, or what it delivers or decides does not follow from it (REFUTED).
-
-    certificate = certify(read_trace(log))
-    certificate.map             # the world, proved; or None
-    certificate.witnesses       # else: two worlds, each of which shows this very log
+Trusted. Folded, a log has no open dart: then there is one world that shows it, and that is the map
+(PROVED). Or it has: then two different worlds show it, and no mapper could know which one it was in
+(UNKNOWN: walk on). Or no world shows it, or what it delivers or decides does not follow from it
+(REFUTED).
 
 A log is not a mapper: how long it is, or how often it walks one edge, is not judged (claim 7).
 What this does not show: that the log is what happened. Percepts that no world shows are found; a
-log of another walk is a proof about another world.
+log of another walk is a proof about another world. For people the harness makes a `Certificate`.
 
 Source: docs/semantics.md, section 11; docs/certify.md.
 """
@@ -19,7 +15,7 @@ Source: docs/semantics.md, section 11; docs/certify.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal
 
 from topo_verify.checkers.claims import check, unproved
@@ -37,57 +33,35 @@ MOST_DARTS = 2**20
 
 
 @dataclass(frozen=True, slots=True)
-class Certificate:
-    """What a log proves: its one map, or what is left to walk.
+class JudgedLog:
+    """What a log proves.
 
     Attributes:
-        verdict: PROVED: the map is proved and what was declared follows. UNKNOWN: the log is true
-            of several worlds. REFUTED: there are findings.
+        fold: of the log, up to the first event with which no world shows it.
+        broken: the first event with which no world shows it, and why; or None.
         map: the one world that shows the log, or None.
-        open_darts: how many darts of the fold were never crossed; 0 if there is a map.
-        vertices, edges: of the map; else of the smaller witness; 0 if no world shows the log.
         entailed, decisions: how many of the declared decisions follow from the log before them.
         findings: what is wrong; an incomplete log that declares nothing wrong has none.
-        log: what was judged.
-        fold: of the log; None if no world shows it.
     """
 
+    fold: Fold
+    broken: tuple[int, str] | None
     map: World | None
-    open_darts: int
-    vertices: int
-    edges: int
     entailed: int
     decisions: int
     findings: tuple[Finding, ...]
-    log: Sequence[Event] = field(repr=False)
-    fold: Fold | None = field(repr=False)
 
     @property
     def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
-        """The verdict on the log in one word."""
+        """PROVED: the map is proved and what was declared follows. REFUTED: there are findings."""
         if self.findings:
             return "REFUTED"
         return "UNKNOWN" if self.map is None else "PROVED"
 
-    @property
-    def shown(self) -> bool:
-        """Whether some world shows the log."""
-        return self.fold is not None
 
-    @property
-    def witnesses(self) -> tuple[World, ...]:
-        """Two different worlds that show an incomplete log, made now; none for any other log."""
-        if self.fold is None or self.map is not None:
-            return ()
-        return tuple(_shown(self.fold.world(hang), self.log) for hang in (1, 2))
-
-
-def certify(trace: Sequence[Event]) -> Certificate:
+def judge_log(trace: Sequence[Event]) -> JudgedLog:
     """Judge a log without its world.
 
-    Args:
-        trace: at least `start` and `move` events; declared decisions and a delivered map are judged
-            too, if there are any.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
             its places have more than 2^20 doors together.
@@ -101,19 +75,17 @@ def certify(trace: Sequence[Event]) -> Certificate:
     decisions = sum(isinstance(event, Reject | Confirm | Augment) for event in trace)
     conclusions = [*decision_conclusions(trace)] if decisions else []
     counts = sum(not conclusion.why for conclusion in conclusions), decisions
-    left = fold.open_darts()
     if broken is not None:
         when, why = broken
         message = f"no world shows this history: {why}"
         finding = Finding("map-entailed", when, "percepts that some world shows", why, message)
-        return Certificate(None, left, 0, 0, *counts, (finding,), trace, None)
-    sizes = len(fold.roots()) + left, (darts + left) // 2
-    if not left:
-        world = _shown(fold.world(), trace)
-        return Certificate(world, 0, *sizes, *counts, _wrong(world, trace), trace, fold)
-    delivered = [map_conclusion(trace)] if isinstance(trace[-1], Finish) else []
-    doubts = *unproved("decisions-entailed", conclusions), *unproved("map-entailed", delivered)
-    return Certificate(None, left, *sizes, *counts, doubts, trace, fold)
+        return JudgedLog(fold, broken, None, *counts, (finding,))
+    if fold.open_darts():
+        delivered = [map_conclusion(trace)] if isinstance(trace[-1], Finish) else []
+        doubts = *unproved("decisions-entailed", conclusions), *unproved("map-entailed", delivered)
+        return JudgedLog(fold, None, None, *counts, doubts)
+    world = showing(fold.world(), trace)
+    return JudgedLog(fold, None, world, *counts, _wrong(world, trace))
 
 
 def _wrong(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
@@ -129,7 +101,7 @@ def _wrong(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
     return tuple(finding for finding in found if finding.event is not None)
 
 
-def _shown(world: World, trace: Sequence[Event]) -> World:
+def showing(world: World, trace: Sequence[Event]) -> World:
     """The world, which is seen to show the log, as a proof and a witness must.
 
     Raises:

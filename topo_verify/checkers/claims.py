@@ -59,9 +59,7 @@ def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: b
         return Judgement(name, "not-asked", 0, of)
     if findings := tuple(msgspec.structs.replace(wrong, claim=name) for wrong in claim(run)):
         return Judgement(name, "failed", judged, of, findings)
-    left = (
-        sum(one.undecided for one in run.conclusions.values()) if claim is decisions_entailed else 0
-    )
+    left = claim is decisions_entailed and sum(c.undecided for c in run.conclusions.values())
     if left:
         return Judgement(name, "undecided", judged - left, of)
     status: Status = "ok" if judged == of else "partial" if judged else "not-declared"
@@ -110,9 +108,8 @@ def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
     for when, event, _, _, _ in run.rounds:
         truth = run.map.truth(event.edge, when)
         if isinstance(event, ev.Reject) and truth == event.hypothesis:
-            message = (
-                f"edge {event.edge} does lead to dart {truth}, which rule {event.rule!r} rejects"
-            )
+            does = f"edge {event.edge} does lead to dart {truth}"
+            message = f"{does}, which rule {event.rule!r} rejects"
             yield Wrong(when, "kept", "rejected", message)
         elif isinstance(event, ev.Augment) and event.kind == "new" and truth is not None:
             message = f"edge {event.edge} leads to dart {truth}, but S grows by a new vertex"
@@ -272,43 +269,34 @@ def _percepts_agree(
     run: ReplayedTrace, decision: Round, event: ev.Reject, e: KnownDart, h: KnownDart
 ) -> str:
     """Why the two percepts that are cited do not disagree as they are said to; "" if they do."""
-    evidence, executed = event.evidence, _executed(decision, event)
-    if executed is None or not 0 <= evidence.step <= len(executed):
-        return f"step {evidence.step} of sequence {evidence.sequence} was not executed"
-    word = executed[: evidence.step]
+    cited, word = event.evidence, _executed(decision, event)
+    if word is None:
+        return f"step {cited.step} of sequence {cited.sequence} was not executed"
     observed = word[-1].percept if word else run.map.seen_at(run.map.end(e))
-    expected = _expectation(run, decision.when, h, evidence, word)
-    if evidence.observed != observed:
-        return f"observed is {observed}, not {evidence.observed}"
-    if isinstance(expected, str):
-        return expected
-    if evidence.expected != expected:
-        return f"expected is {expected}, not {evidence.expected}"
+    if cited.observed != observed:
+        return f"observed is {observed}, not {cited.observed}"
+    at, rest = run.records.trace(h, word, decision.when)
+    doors = tuple(step.door for step in rest[1:])
+    if cited.at not in (None, at) or cited.record != (ev.Record(at, doors) if rest else None):
+        leaves = f"leaves S at dart {at} with the doors {list(doors)} to go"
+        ends = f"ends at dart {at} of S, not where the evidence says"
+        return f"tracing {leaves if rest else ends}"
+    behind = run.records.behind(at, doors, decision.when)
+    expected = behind if rest else run.map.seen_at(run.map.phi[at])
+    if expected is None:
+        return f"nothing is recorded behind dart {at} and the doors {list(doors)}"
+    if cited.expected != expected:
+        return f"expected is {expected}, not {cited.expected}"
     return f"{observed} is both expected and observed" if expected == observed else ""
 
 
 def _executed(decision: Round, event: ev.Reject) -> Word | None:
-    """The word that a rejection cites, by the number of its sequence; None if there is none."""
-    number = event.evidence.sequence
+    """The word that a rejection cites, up to its step; None if that was not executed."""
+    number, step, words = event.evidence.sequence, event.evidence.step, decision.sequences
     if number is None:
-        return decision.word if event.rule == "motion" else None
-    return decision.sequences[number] if 0 <= number < len(decision.sequences) else None
-
-
-def _expectation(
-    run: ReplayedTrace, when: int, at: KnownDart, evidence: ev.Evidence, word: Word
-) -> Percept | str:
-    """What is seen at the end of a word if it leads on from `at`; or why that is unknown."""
-    at, rest = run.records.trace(at, word, when)
-    if not rest:
-        if evidence.record is not None or evidence.at not in (None, at):
-            return f"tracing ends at dart {at} of S, not where the evidence says"
-        return run.map.seen_at(run.map.phi[at])
-    doors = tuple(step.door for step in rest[1:])
-    if evidence.record != ev.Record(at, doors) or evidence.at not in (None, at):
-        return f"tracing leaves S at dart {at} with the doors {list(doors)} to go"
-    seen = run.records.behind(at, doors, when)
-    return seen or f"nothing is recorded behind dart {at} and the doors {list(doors)}"
+        number, words = 0, (decision.word,) if event.rule == "motion" else ()
+    executed = 0 <= number < len(words) and 0 <= step <= len(words[number])
+    return words[number][:step] if executed else None
 
 
 # ---------------------------------------------------------------- words for messages

@@ -72,6 +72,9 @@ class ReplayedTrace:
         followed: the events up to an illegal move.
         illegal: the first move through a door that is not there, or None.
         spoiled: the first augmentation that is false in this world, or None.
+        rounds: every decision that can be judged: up to the first illegal move or false map.
+        crossings: the edges of the world that the robot crossed.
+        false_percepts: each event whose percept is not what the world shows: its own, and what is.
     Raises:
         InputError: the events are in no such order.
     """
@@ -83,11 +86,16 @@ class ReplayedTrace:
         self.map = MapInWorld(world)
         self.records = Records(self.map)
         self.illegal: int | None = None
-        self.positions = list(self._walk())
+        self.spoiled: int | None = None
+        self.positions: list[WorldDart] = []
+        self.crossings: set[int] = set()
+        self.false_percepts: list[tuple[int, Percept, Percept]] = []
+        self._walk()
         self.followed = trace[: len(self.positions)]
-        self.spoiled = self._draw()
+        self.rounds = tuple(self._rounds())
 
-    def _walk(self) -> Iterator[WorldDart]:
+    def _walk(self) -> None:
+        """Follow the doors up to the first that is not there, and draw S on the way."""
         at = WorldDart(self.world.root or 0)
         for when, event in enumerate(self.trace):
             if isinstance(event, ev.Move):
@@ -95,32 +103,18 @@ class ReplayedTrace:
                     self.illegal = when
                     return
                 at = self.map.beyond(at, event.door)
-            yield at
-
-    def _draw(self) -> int | None:
-        for when, event in enumerate(self.followed):
-            if isinstance(event, ev.Augment) and not self.map.grow(when, event):
-                return when
-        return None
-
-    @cached_property
-    def false_percepts(self) -> tuple[tuple[int, Percept, Percept], ...]:
-        """Each event whose percept is not what the world shows: its own, and what is shown."""
-        return tuple(
-            (when, event.percept, self.map.seen_at(at))
-            for when, (event, at) in enumerate(zip(self.followed, self.positions, strict=True))
-            if isinstance(event, (ev.Start, ev.Move)) and event.percept != self.map.seen_at(at)
-        )
+                self.crossings.add(self.crossing(at))
+            elif isinstance(event, ev.Augment) and self.spoiled is None:
+                self.spoiled = None if self.map.grow(when, event) else when
+            seen = self.map.seen_at(at)
+            if isinstance(event, (ev.Start, ev.Move)) and event.percept != seen:
+                self.false_percepts.append((when, event.percept, seen))
+            self.positions.append(at)
 
     @property
     def is_history(self) -> bool:
         """Whether the world shows all percepts of the trace and has all its doors."""
         return self.illegal is None and not self.false_percepts
-
-    @cached_property
-    def rounds(self) -> tuple[Round, ...]:
-        """Every decision that can be judged: up to the first illegal move or false map."""
-        return tuple(self._rounds())
 
     def _rounds(self) -> Iterator[Round]:
         pose: ev.Pose | None = None
@@ -144,12 +138,6 @@ class ReplayedTrace:
                     behind.mismatch()
             if when == self.spoiled:
                 return
-
-    @cached_property
-    def crossings(self) -> frozenset[int]:
-        """The edges of the world that the robot crossed."""
-        ends = zip(self.followed, self.positions, strict=True)
-        return frozenset(self.crossing(at) for event, at in ends if isinstance(event, ev.Move))
 
     def crossing(self, dart: WorldDart) -> int:
         """The edge of the world that has this dart, by the lesser of its two."""

@@ -12,9 +12,9 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from topo_verify.checkers.certificate import Certificate
 from topo_verify.checkers.entailment import followed
 from topo_verify.checkers.folding import Fold
+from topo_verify.harness.log_report import Certificate
 from topo_verify.robot.events import Event, Start
 from topo_verify.robot.percept import Door
 
