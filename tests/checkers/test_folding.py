@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from tests.helpers import EMPTY, any_world, trace_of, worlds
 from topo_verify import World
-from topo_verify.checkers import Contradiction, Fold, fold_history
+from topo_verify.checkers.entailment import fold_history
+from topo_verify.checkers.folding import Contradiction, Fold
 from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot, first_percept

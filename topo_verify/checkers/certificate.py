@@ -15,26 +15,23 @@ Source: docs/semantics.md, section 11; docs/certify.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal
+from typing import NamedTuple
 
 from topo_verify.checkers.claims import check, unproved
 from topo_verify.checkers.entailment import decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
-from topo_verify.checkers.replayed_trace import require_order
+from topo_verify.checkers.replayed_trace import ReplayedTrace, require_order
 from topo_verify.errors import InputError, InternalError
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Reject, Start
-from topo_verify.robot.simulator import exit_dart, first_percept, percepts
 from topo_verify.world.rooted_map import World
 
 MOST_DARTS = 2**20
 """The most doors that the places of a log may have together: a world of them takes about 2 GB."""
 
 
-@dataclass(frozen=True, slots=True)
-class JudgedLog:
-    """What a log proves.
+class JudgedLog(NamedTuple):
+    """What a log proves: REFUTED if there are findings, else PROVED if it has a map, else UNKNOWN.
 
     Attributes:
         fold: of the log, up to the first event with which no world shows it.
@@ -50,13 +47,6 @@ class JudgedLog:
     entailed: int
     decisions: int
     findings: tuple[Finding, ...]
-
-    @property
-    def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
-        """PROVED: the map is proved and what was declared follows. REFUTED: there are findings."""
-        if self.findings:
-            return "REFUTED"
-        return "UNKNOWN" if self.map is None else "PROVED"
 
 
 def judge_log(trace: Sequence[Event]) -> JudgedLog:
@@ -96,8 +86,7 @@ def _wrong(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
     """
     if all(isinstance(event, Start | Move) for event in trace):
         return ()  # the world shows the log, and it says no more
-    judgements = check(world, trace, strict=True)
-    found = (finding for judgement in judgements for finding in judgement.findings)
+    found = (wrong for one in check(world, trace, strict=True) for wrong in one.findings)
     return tuple(finding for finding in found if finding.event is not None)
 
 
@@ -107,10 +96,6 @@ def showing(world: World, trace: Sequence[Event]) -> World:
     Raises:
         InternalError: it does not.
     """
-    at, seen = world.root or 0, percepts(world) or (first_percept(world),)
-    for event in trace:
-        if isinstance(event, Move):
-            at = world.alpha[exit_dart(world, at, event.door)]
-        if isinstance(event, Start | Move) and seen[at] != event.percept:
-            raise InternalError("a fold does not show the log that it is the fold of")
+    if not ReplayedTrace(world, trace).is_history:
+        raise InternalError("a fold does not show the log that it is the fold of")
     return world

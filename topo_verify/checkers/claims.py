@@ -20,7 +20,6 @@ from topo_verify.checkers.entailment import Conclusion, delivered_code, map_conc
 from topo_verify.checkers.excursions import Word
 from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
-from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
@@ -152,12 +151,10 @@ def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
     if run.spoiled is run.illegal is None and run.map.joined and left:
         message = f"the map is delivered while {left} darts of S are unexplored"
         yield Wrong(last, 0, left, message)
-    try:
-        code = delivered_code(finish.map)
-    except InputError as error:
-        yield Wrong(last, "a map", None, f"the delivered value is not a map: {error}")
-        return
-    if code != run.world.code:
+    code = delivered_code(finish.map)
+    if isinstance(code, str):
+        yield Wrong(last, "a map", None, code)
+    elif code != run.world.code:
         ours, theirs = _size(run.world.code), _size(code)
         message = f"the map ({theirs}) is not isomorphic to the world ({ours})"
         yield Wrong(last, ours, theirs, message)
@@ -173,12 +170,12 @@ def cost_honest(run: ReplayedTrace) -> Iterator[Finding]:
 
 def cost_within_bound(run: ReplayedTrace) -> Iterator[Finding]:
     """7. m <= cost <= m·(n + (2m-1)·2(n-1)); the lower half only where a map was delivered."""
-    bound, m = run.world.cost_bound, len(run.world.edges)
+    bound, m, n = run.world.cost_bound, len(run.world.edges), len(run.world.vertices)
     least = m if isinstance(run.trace[-1], ev.Finish) else 0
     if not least <= run.cost <= bound:
-        size = f"m = {m} and n = {len(run.world.vertices)}"
-        message = f"a cost of {run.cost} is outside {m} … {bound}, the bound for {size}"
-        yield Wrong(None, f"{m} … {bound}", run.cost, message)
+        bounds = f"{m} … {bound}"
+        message = f"a cost of {run.cost} is outside {bounds}, the bound for m = {m} and n = {n}"
+        yield Wrong(None, bounds, run.cost, message)
 
 
 def rejection_justified(run: ReplayedTrace) -> Iterator[Finding]:
@@ -202,18 +199,13 @@ UNTRUE = Wrong(None, "true percepts", None, "the percepts are not true and prove
 
 def map_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """9. The history alone proves the map: no other world fits it."""
-    if run.is_history:
-        yield from unproved("map-entailed", [map_conclusion(run.trace)])
-    else:
-        yield UNTRUE
+    yield from unproved("map-entailed", [map_conclusion(run.trace)]) if run.is_history else [UNTRUE]
 
 
 def decisions_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """10. The history at that moment alone proves each declared reject, confirm, augmentation."""
-    if run.is_history:
-        yield from unproved("decisions-entailed", run.conclusions.values())
-    else:
-        yield UNTRUE
+    conclusions = run.conclusions.values()
+    yield from unproved("decisions-entailed", conclusions) if run.is_history else [UNTRUE]
 
 
 UNPROVED = {

@@ -85,9 +85,12 @@ def followed(fold: Fold, event: Event) -> str:
 
 
 @lru_cache(maxsize=16)
-def delivered_code(delivered: MapData) -> Code:
-    """The canonical code of a delivered map, which claims 5 and 9 ask for. Raises InputError."""
-    return World.from_rotations(delivered.vertices, delivered.edges, delivered.marker).code
+def delivered_code(delivered: MapData) -> Code | str:
+    """The canonical code of a delivered map, which claims 5 and 9 ask for; or why it is none."""
+    try:
+        return World.from_rotations(delivered.vertices, delivered.edges, delivered.marker).code
+    except InputError as error:
+        return f"the delivered value is not a map: {error}"
 
 
 def map_conclusion(trace: Sequence[Event]) -> Conclusion:
@@ -101,10 +104,9 @@ def map_conclusion(trace: Sequence[Event]) -> Conclusion:
     fold, broken = fold_history(trace)
     if broken is not None:
         return Conclusion(broken[0], f"no world shows this history: {broken[1]}")
-    try:
-        code = delivered_code(finish.map)
-    except InputError as error:
-        return Conclusion(last, f"the delivered value is not a map: {error}")
+    code = delivered_code(finish.map)
+    if isinstance(code, str):
+        return Conclusion(last, code)
     left = fold.open_darts()
     why = f"darts never crossed: {left}" if left else "the history proves another map"
     for witness in (fold.world(1), fold.world(2)) if left else (fold.world(),):
@@ -166,9 +168,8 @@ def _unknown_dart(on_fold: MapOnFold, event: Concluded) -> str:
     other = event.dart if isinstance(event, Augment) else event.hypothesis
     is_new = isinstance(event, Augment) and event.kind == "new"
     right = other == on_fold.size if is_new else on_fold.is_open(other)
-    if right and on_fold.is_open(event.edge):
-        return ""
-    return f"{event.edge} or {other} is not an unexplored dart of S"
+    right = right and on_fold.is_open(event.edge)
+    return "" if right else f"{event.edge} or {other} is not an unexplored dart of S"
 
 
 def _doubt(
@@ -201,8 +202,7 @@ def _may_lead_to(on_fold: MapOnFold, e: KnownDart, ends: list[KnownDart], tries:
         with suppress(Contradiction), fold.assuming(on_fold.place(e), on_fold.place(end)):
             if tries is None:
                 return "the edge may well lead there", fold.world()
-            witness = _planar_folding(fold, tuple(islice(fold.alike(), FURTHER + 1)), tries)
-            if witness is not None:
+            if witness := _planar_folding(fold, tuple(islice(fold.alike(), FURTHER + 1)), tries):
                 return "the edge may well lead there", witness
             if next(tries, None) is None:
                 doubt = UNDECIDED
@@ -228,7 +228,7 @@ def _planar_folding(
 def _may_be_apart(on_fold: MapOnFold, e: KnownDart, h: KnownDart, degree: int | None) -> Doubt:
     """Folding must make e and h partners, at a vertex of this degree, if one is stated."""
     fold = on_fold.fold
-    if not on_fold.are_partners(e, h):
+    if fold.partner(on_fold.place(e)) != fold.find(on_fold.place(h)):
         return f"darts {e} and {h} may well belong to different edges", fold.world()
     if degree not in (None, fold.degree(on_fold.place(h)[0])):
         return "the vertex there has another degree", fold.world()

@@ -54,11 +54,6 @@ class Excursion:
             self.word.append(Step(door, behind))
             self._turned = 0
 
-    def mismatch(self) -> None:
-        """Note the word as a sequence: motion along it has rejected a hypothesis."""
-        if self.word:
-            self.sequences = (*self.sequences, tuple(self.word))
-
 
 class Records:
     """What was seen behind unexplored darts of S, and since which event it is known."""

@@ -58,10 +58,6 @@ class Fold:
         self._met: set[str] | None = None  # the contradictions so far, while they are listed
         self.at: Place = (self._visit(percept), 0)
 
-    def __len__(self) -> int:
-        """How many nodes were added; a node's number says when."""
-        return len(self._seen)
-
     def _visit(self, percept: Percept) -> int:
         node = len(self._seen)
         self._seen.append(percept)

@@ -121,9 +121,8 @@ class ReplayedTrace:
         behind = Excursion()
         for when, event in enumerate(self.followed):
             if isinstance(event, ev.Move):
-                left, entered = self.positions[when - 1], self.positions[when]
-                degree = self.map.seen_at(left).degree
-                behind.move(event.door, degree, self.map.seen_at(entered))
+                left, entered = map(self.map.seen_at, self.positions[when - 1 : when + 1])
+                behind.move(event.door, left.degree, entered)
             elif isinstance(event, ev.Pose):
                 pose, behind = event, Excursion()
                 yield Round(when, event, pose, (), ())
@@ -134,8 +133,8 @@ class ReplayedTrace:
                     if of_edge and when != self.spoiled:  # it is true, so S has its dart
                         self.records.add(when, KnownDart(event.dart), behind.sequences)
                     pose, behind.sequences = None, ()
-                elif isinstance(event, ev.Reject) and event.rule == "motion":
-                    behind.mismatch()
+                elif isinstance(event, ev.Reject) and event.rule == "motion" and behind.word:
+                    behind.sequences = (*behind.sequences, tuple(behind.word))
             if when == self.spoiled:
                 return
 

@@ -40,7 +40,6 @@ class Certificate:
         fold: of the log; None if no world shows it.
     """
 
-    verdict: Literal["PROVED", "UNKNOWN", "REFUTED"]
     map: World | None
     open_darts: int
     vertices: int
@@ -50,6 +49,13 @@ class Certificate:
     findings: tuple[Finding, ...]
     log: Sequence[Event] = field(repr=False)
     fold: Fold | None = field(repr=False)
+
+    @property
+    def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
+        """The verdict on the log in one word."""
+        if self.findings:
+            return "REFUTED"
+        return "UNKNOWN" if self.map is None else "PROVED"
 
     @property
     def shown(self) -> bool:
@@ -79,7 +85,6 @@ def certify(trace: Sequence[Event]) -> Certificate:
     shown = judged.broken is None
     fold, left = judged.fold, judged.fold.open_darts()
     return Certificate(
-        verdict=judged.verdict,
         map=judged.map,
         open_darts=left,
         vertices=len(fold.roots()) + left if shown else 0,

@@ -65,13 +65,12 @@ def _walk(taken: dict[int, tuple[int, Door]], node: int) -> list[Door]:
     return doors[::-1]
 
 
-def _reached(log: Sequence[Event]) -> list[int]:
+def _reached(log: Sequence[Event]) -> dict[int, int]:
     """Of each node of the fold of a log, the event that added it."""
     start = log[0]
     assert isinstance(start, Start)
-    fold, reached = Fold(start.percept), [0]
+    fold, reached = Fold(start.percept), dict[int, int]()
     for when, event in enumerate(log):
         followed(fold, event)
-        if len(fold) > len(reached):
-            reached.append(when)
+        reached.setdefault(fold.at[0], when)  # the robot stands at a node when it is added
     return reached
