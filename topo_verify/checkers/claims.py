@@ -58,11 +58,15 @@ def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: b
         return Judgement(name, "not-asked", 0, of)
     if findings := tuple(msgspec.structs.replace(wrong, claim=name) for wrong in claim(run)):
         return Judgement(name, "failed", judged, of, findings)
-    left = claim is decisions_entailed and sum(c.undecided for c in run.conclusions.values())
-    if left:
+    if claim is decisions_entailed and (left := _undecided(run)):
         return Judgement(name, "undecided", judged - left, of)
     status: Status = "ok" if judged == of else "partial" if judged else "not-declared"
     return Judgement(name, status, judged, of)
+
+
+def _undecided(run: ReplayedTrace) -> int:
+    """The number of decisions that claim 10 leaves undecided."""
+    return sum(conclusion.undecided for conclusion in run.conclusions.values())
 
 
 # ---------------------------------------------------------------- the claims
@@ -155,7 +159,8 @@ def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
     if isinstance(code, str):
         yield Wrong(last, "a map", None, code)
     elif code != run.world.code:
-        ours, theirs = _size(run.world.code), _size(code)
+        codes = run.world.code, code
+        ours, theirs = (f"{len(v)} vertices, {len(a) // 2} edges" for v, a in codes)
         message = f"the map ({theirs}) is not isomorphic to the world ({ours})"
         yield Wrong(last, ours, theirs, message)
 
@@ -300,10 +305,6 @@ def _end(run: ReplayedTrace, edge: int, when: int) -> str:
         return "nowhere (it is not an unexplored dart of S)"
     truth, degree = run.map.truth(edge, when), run.map.seen_at(run.map.end(edge)).degree
     return f"a new vertex of degree {degree}" if truth is None else f"dart {truth}"
-
-
-def _size(code: tuple[Sequence[int], Sequence[int]]) -> str:
-    return f"{len(code[0])} vertices, {len(code[1]) // 2} edges"
 
 
 CLAIMS: dict[str, tuple[Claim, tuple[type[ev.Event], ...]]] = {

@@ -130,13 +130,13 @@ class ReplayedTrace:
                 of_edge = pose if pose and pose.edge == event.edge else None
                 yield Round(when, event, of_edge, tuple(behind.word), behind.sequences)
                 if isinstance(event, ev.Augment):
-                    if of_edge and when != self.spoiled:  # it is true, so S has its dart
+                    if when == self.spoiled:
+                        return
+                    if of_edge:  # it is true, so S has its dart
                         self.records.add(when, KnownDart(event.dart), behind.sequences)
                     pose, behind.sequences = None, ()
                 elif isinstance(event, ev.Reject) and event.rule == "motion" and behind.word:
                     behind.sequences = (*behind.sequences, tuple(behind.word))
-            if when == self.spoiled:
-                return
 
     def crossing(self, dart: WorldDart) -> int:
         """The edge of the world that has this dart, by the lesser of its two."""
