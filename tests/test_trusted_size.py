@@ -1,7 +1,7 @@
 """The trusted rooms stay small enough to be read and believed: lines, branches, and their sum.
 
 Everything that topo-verify says rests on these rooms, so no function in them exceeds 40 lines or
-12 branches, and the checkers together stay under 1,000 lines of code. A line of code is a line with
+12 branches, and the checkers together stay under 900 lines of code. A line of code is a line with
 at least one token that is neither comment nor docstring: words that explain cost nothing.
 
 What this does not show: that a short function is a plain one. That is for the reader to judge.
@@ -22,7 +22,7 @@ PACKAGE = Path(__file__).resolve().parent.parent / "topo_verify"
 TRUSTED = ("checkers", "robot", "world/rooted_map.py", "world/enumeration")
 """Files and rooms in which a mistake would make a false verdict."""
 
-MOST_LINES, MOST_BRANCHES, MOST_CODE = 40, 12, 1000
+MOST_LINES, MOST_BRANCHES, MOST_CODE = 40, 12, 900
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 

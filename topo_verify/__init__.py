@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from topo_verify import strategies
     from topo_verify.algorithms import CATALOGUE, Algorithm
-    from topo_verify.checkers.certificate import Certificate, certify
     from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
     from topo_verify.harness.judge import Report, assert_maps, examine
+    from topo_verify.harness.log_report import Certificate, certify
     from topo_verify.harness.run import Exploration, explore
     from topo_verify.robot.events import Policies, Robot
     from topo_verify.robot.limits import Limits
@@ -54,12 +54,12 @@ __all__ = [
 
 _MODULES = {
     "algorithms": ("CATALOGUE", "Algorithm"),
-    "checkers.certificate": ("Certificate", "certify"),
     "errors": ("ClaimFailed", "InputError", "InternalError", "TopoVerifyError"),
     "robot.limits": ("Limits",),
     "robot.events": ("Policies", "Robot"),
     "robot.percept": ("Percept",),
     "harness.judge": ("Report", "assert_maps", "examine"),
+    "harness.log_report": ("Certificate", "certify"),
     "harness.run": ("Exploration", "explore"),
     "world": ("families",),
     "world.rooted_map": ("World",),

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from tests.helpers import any_world, of_type, trace_of, worlds
 from topo_verify import World, examine, explore, families
 from topo_verify.algorithms.folding import PartialFold
-from topo_verify.checkers import Contradiction, Fold, decision_conclusions
+from topo_verify.checkers import Fold, decision_conclusions
+from topo_verify.checkers.folding import Contradiction
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject, Start, Trace
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot

@@ -132,6 +132,14 @@ def test_a_false_decision_is_found_with_its_world_proved() -> None:
     assert certificate.findings
 
 
+def test_a_false_decision_at_the_end_of_a_log_is_found_in_its_world() -> None:
+    there, back = Move(0, Percept(1, None)), Move(0, Percept(1, 0))
+    certificate = certify([Start(percept=Percept(1, 0)), there, back, Augment(0, "new", 1, 9)])
+    assert certificate.map == World.from_id("m1/0")
+    wrong = {finding.claim for finding in certificate.findings if finding.event == 3}
+    assert wrong == {"map-isomorphic", "decisions-entailed"}
+
+
 def test_a_log_is_not_a_mapper_and_may_walk_an_edge_as_often_as_it_likes() -> None:
     there, back = Move(0, Percept(1, None)), Move(0, Percept(1, 0))
     certificate = certify([Start(percept=Percept(1, 0)), there, back, there, back, there])

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from tests.helpers import EMPTY, any_world, trace_of, worlds
 from topo_verify import World
-from topo_verify.checkers import Contradiction, Fold, fold_history
+from topo_verify.checkers.entailment import fold_history
+from topo_verify.checkers.folding import Contradiction, Fold
 from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
@@ -141,3 +142,13 @@ def test_a_leaf_is_what_hangs_on_an_open_dart_unless_more_is_asked_for() -> None
     fold = Fold(Percept(1, 0))
     assert fold.world() == fold.world(1)
     assert [len(fold.world(hang).edges) for hang in (1, 2, 3)] == [1, 2, 3]
+
+
+def test_two_vertices_of_s_that_an_assumption_makes_one_are_a_contradiction() -> None:
+    fold = Fold(Percept(3, 0))
+    fold.move(0, Percept(2, None))
+    first = fold.at
+    fold.move(0, Percept(3, 0))
+    fold.move(1, Percept(2, None))
+    met = fold.contradictions((0, 0), fold.at, [(0, 0), first, fold.at])
+    assert met == {"a vertex would be itself, turned", "two vertices of S would be one"}

@@ -10,8 +10,8 @@ from tests.checkers.example import inserted
 from tests.checkers.test_folding import shows
 from tests.helpers import edited, of_type, place, statuses, trace_of, worlds
 from topo_verify import World, certify
-from topo_verify.checkers import check, claims, decision_conclusions, fold_history, map_conclusion
-from topo_verify.checkers.entailment import Conclusion
+from topo_verify.checkers import check, claims, decision_conclusions
+from topo_verify.checkers.entailment import Conclusion, fold_history, map_conclusion
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.robot.events import (
     Augment,

@@ -10,20 +10,17 @@ certificate.py      a log judged by itself, without a world
 """
 
 from topo_verify.checkers.claims import CLAIMS, LARGE, check
-from topo_verify.checkers.entailment import decision_conclusions, fold_history, map_conclusion
+from topo_verify.checkers.entailment import decision_conclusions
 from topo_verify.checkers.findings import Finding, Judgement, Status
-from topo_verify.checkers.folding import Contradiction, Fold
+from topo_verify.checkers.folding import Fold
 
 __all__ = [
     "CLAIMS",
     "LARGE",
-    "Contradiction",
     "Finding",
     "Fold",
     "Judgement",
     "Status",
     "check",
     "decision_conclusions",
-    "fold_history",
-    "map_conclusion",
 ]

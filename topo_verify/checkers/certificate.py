@@ -1,17 +1,13 @@
-"""Certificates: what a log of percepts and doors proves where nobody knows the world.
+"""A log judged by itself: what percepts and doors prove where nobody knows the world.
 
-A real robot leaves a log of the doors that it took and what it sensed behind them. Folded, the log
-has no open dart: then there is one world that shows it, and that is the map (PROVED). Or it has:
-then two different worlds show it, and no mapper could know which one it was in (UNKNOWN: walk on).
-Or no world shows it, or what it delivers or decides does not follow from it (REFUTED).
-
-    certificate = certify(read_trace(log))
-    certificate.map             # the world, proved; or None
-    certificate.witnesses       # else: two worlds, each of which shows this very log
+Trusted. Folded, a log has no open dart: then there is one world that shows it, and that is the map
+(PROVED). Or it has: then two different worlds show it, and no mapper could know which one it was in
+(UNKNOWN: walk on). Or no world shows it, or what it delivers or decides does not follow from it
+(REFUTED).
 
 A log is not a mapper: how long it is, or how often it walks one edge, is not judged (claim 7).
 What this does not show: that the log is what happened. Percepts that no world shows are found; a
-log of another walk is a proof about another world.
+log of another walk is a proof about another world. For people the harness makes a `Certificate`.
 
 Source: docs/semantics.md, section 11; docs/certify.md.
 """
@@ -19,70 +15,43 @@ Source: docs/semantics.md, section 11; docs/certify.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Literal
+from typing import NamedTuple
 
-from topo_verify.checkers.claims import check
+from topo_verify.checkers.claims import check, unproved
 from topo_verify.checkers.entailment import decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
-from topo_verify.checkers.replayed_trace import require_order
+from topo_verify.checkers.replayed_trace import ReplayedTrace, require_order
 from topo_verify.errors import InputError, InternalError
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Reject, Start
-from topo_verify.robot.simulator import exit_dart, first_percept, percepts
 from topo_verify.world.rooted_map import World
 
 MOST_DARTS = 2**20
 """The most doors that the places of a log may have together: a world of them takes about 2 GB."""
 
 
-@dataclass(frozen=True, slots=True)
-class Certificate:
-    """What a log proves: its one map, or what is left to walk.
+class JudgedLog(NamedTuple):
+    """What a log proves: REFUTED if there are findings, else PROVED if it has a map, else UNKNOWN.
 
     Attributes:
-        verdict: PROVED: the map is proved and what was declared follows. UNKNOWN: the log is true
-            of several worlds. REFUTED: there are findings.
+        fold: of the log, up to the first event with which no world shows it.
+        broken: the first event with which no world shows it, and why; or None.
         map: the one world that shows the log, or None.
-        open_darts: how many darts of the fold were never crossed; 0 if there is a map.
-        vertices, edges: of the map; else of the smaller witness; 0 if no world shows the log.
         entailed, decisions: how many of the declared decisions follow from the log before them.
         findings: what is wrong; an incomplete log that declares nothing wrong has none.
-        fold: of the log; None if no world shows it.
-        log: what was judged.
     """
 
+    fold: Fold
+    broken: tuple[int, str] | None
     map: World | None
-    open_darts: int
-    vertices: int
-    edges: int
     entailed: int
     decisions: int
     findings: tuple[Finding, ...]
-    log: Sequence[Event] = field(repr=False)
-    fold: Fold | None = field(repr=False)
-
-    @property
-    def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
-        """The verdict on the log in one word."""
-        if self.findings:
-            return "REFUTED"
-        return "UNKNOWN" if self.map is None else "PROVED"
-
-    @property
-    def witnesses(self) -> tuple[World, ...]:
-        """Two different worlds that show an incomplete log, made now; none for any other log."""
-        if self.fold is None or self.map is not None:
-            return ()
-        return tuple(_shown(self.fold.world(hang), self.log) for hang in (1, 2))
 
 
-def certify(trace: Sequence[Event]) -> Certificate:
+def judge_log(trace: Sequence[Event]) -> JudgedLog:
     """Judge a log without its world.
 
-    Args:
-        trace: at least `start` and `move` events; declared decisions and a delivered map are judged
-            too, if there are any.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
             its places have more than 2^20 doors together.
@@ -91,75 +60,42 @@ def certify(trace: Sequence[Event]) -> Certificate:
     require_order(trace)
     fold, broken = fold_history(trace)
     if (darts := fold.darts()) > MOST_DARTS:
-        expected = f"expected at most {MOST_DARTS}; is a degree wrong?"
-        raise InputError(f"the places of this log have {darts} doors together: {expected}")
-    left = fold.open_darts()
+        told = f"the places of this log have {darts} doors together: expected at most {MOST_DARTS}"
+        raise InputError(f"{told}; is a degree wrong?")
     decisions = sum(isinstance(event, Reject | Confirm | Augment) for event in trace)
-    entailed, doubts = _judged(trace) if decisions else (0, ())
+    conclusions = [*decision_conclusions(trace)] if decisions else []
+    counts = sum(not conclusion.why for conclusion in conclusions), decisions
     if broken is not None:
         when, why = broken
         message = f"no world shows this history: {why}"
         finding = Finding("map-entailed", when, "percepts that some world shows", why, message)
-        return Certificate(None, left, 0, 0, entailed, decisions, (finding,), trace, None)
-    world = None if left else _shown(fold.world(), trace)
-    findings = (*doubts, *_unproved(trace)) if world is None else _findings(world, trace)
-    vertices, edges = len(fold.roots()) + left, (darts + left) // 2
-    return Certificate(world, left, vertices, edges, entailed, decisions, findings, trace, fold)
+        return JudgedLog(fold, broken, None, *counts, (finding,))
+    if fold.open_darts():
+        delivered = [map_conclusion(trace)] if isinstance(trace[-1], Finish) else []
+        doubts = *unproved("decisions-entailed", conclusions), *unproved("map-entailed", delivered)
+        return JudgedLog(fold, None, None, *counts, doubts)
+    world = showing(fold.world(), trace)
+    return JudgedLog(fold, None, world, *counts, _wrong(world, trace))
 
 
-def _judged(trace: Sequence[Event]) -> tuple[int, Sequence[Finding]]:
-    """How many of the declared decisions follow, and a finding for each that does not."""
-    entailed, doubts = 0, list[Finding]()
-    for conclusion in decision_conclusions(trace):
-        when, why, witness = conclusion[:3]
-        if not why:
-            entailed += 1
-        if not why or conclusion.undecided:
-            continue
-        message = f"the decision does not follow: {why}"
-        text = None if witness is None else witness.text
-        doubts.append(Finding("decisions-entailed", when, "a proved decision", why, message, text))
-    return entailed, doubts
+def _wrong(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
+    """What a log says that is wrong in its proved world.
 
-
-def _unproved(trace: Sequence[Event]) -> tuple[Finding, ...]:
-    """What is wrong with the map that an incomplete log delivers, if it delivers one."""
-    if not isinstance(trace[-1], Finish):
-        return ()
-    when, why, witness = map_conclusion(trace)[:3]
-    message = f"the history proves no such map: {why}"
-    text = None if witness is None else witness.text
-    return (Finding("map-entailed", when, "a map that is proved", why, message, text),)
-
-
-def _findings(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
-    """The findings of all claims in the proved world, but for what only a mapper owes.
-
-    That is a map at the end, and a cost within the bound.
+    A finding of no event is about the run as a whole: that it costs too much, or delivers no map. A
+    log owes neither.
     """
     if all(isinstance(event, Start | Move) for event in trace):
         return ()  # the world shows the log, and it says no more
-    plain = not isinstance(trace[-1], Finish)
-    return tuple(
-        finding
-        for judgement in check(world, trace, strict=True)
-        for finding in judgement.findings
-        if judgement.claim != "cost-within-bound"
-        if not (plain and judgement.claim in ("map-isomorphic", "map-entailed"))
-        or finding.event not in (None, len(trace) - 1)
-    )
+    found = (wrong for one in check(world, trace, strict=True) for wrong in one.findings)
+    return tuple(finding for finding in found if finding.event is not None)
 
 
-def _shown(world: World, trace: Sequence[Event]) -> World:
+def showing(world: World, trace: Sequence[Event]) -> World:
     """The world, which is seen to show the log, as a proof and a witness must.
 
     Raises:
         InternalError: it does not.
     """
-    at, seen = world.root or 0, percepts(world) or (first_percept(world),)
-    for event in trace:
-        if isinstance(event, Move):
-            at = world.alpha[exit_dart(world, at, event.door)]
-        if isinstance(event, Start | Move) and seen[at] != event.percept:
-            raise InternalError("a fold does not show the log that it is the fold of")
+    if not ReplayedTrace(world, trace).is_history:
+        raise InternalError("a fold does not show the log that it is the fold of")
     return world

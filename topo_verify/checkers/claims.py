@@ -9,7 +9,7 @@ guesses and is lucky passes them. Claims 9 and 10 ask about every world with the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 
 import msgspec
@@ -20,9 +20,8 @@ from topo_verify.checkers.entailment import Conclusion, delivered_code, map_conc
 from topo_verify.checkers.excursions import Word
 from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
-from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
-from topo_verify.robot.percept import Door, Percept
+from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
 
 Wrong = partial(Finding, "")
@@ -75,11 +74,8 @@ def _undecided(run: ReplayedTrace) -> int:
 
 def percepts_true(run: ReplayedTrace) -> Iterator[Finding]:
     """1. Every percept in the trace is what the world shows after these doors."""
-    for when, seen in run.false_percepts:
-        event = run.trace[when]
-        assert isinstance(event, (ev.Start, ev.Move))
-        message = f"the trace says {event.percept} where the world shows {seen}"
-        yield Wrong(when, seen, event.percept, message)
+    for when, told, seen in run.false_percepts:
+        yield Wrong(when, seen, told, f"the trace says {told} where the world shows {seen}")
     if run.illegal is not None:
         move, degree = run.trace[run.illegal], run.map.seen_at(run.positions[-1]).degree
         assert isinstance(move, ev.Move)
@@ -92,7 +88,7 @@ def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Finding]:
     for when, event, pose, _, _ in run.rounds:
         if isinstance(event, ev.Pose):
             yield from _wrongly_posed(run, when, event)
-        elif isinstance(event, ev.Augment) and (pose is None or pose.edge != event.edge):
+        elif isinstance(event, ev.Augment) and pose is None:
             message = f"S grows along dart {event.edge}, which was not posed"
             yield Wrong(when, event.edge, None, message)
 
@@ -159,13 +155,12 @@ def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
     if run.spoiled is run.illegal is None and run.map.joined and left:
         message = f"the map is delivered while {left} darts of S are unexplored"
         yield Wrong(last, 0, left, message)
-    try:
-        code = delivered_code(finish.map)
-    except InputError as error:
-        yield Wrong(last, "a map", None, f"the delivered value is not a map: {error}")
-        return
-    if code != run.world.code:
-        ours, theirs = _size(run.world.code), _size(code)
+    code = delivered_code(finish.map)
+    if isinstance(code, str):
+        yield Wrong(last, "a map", None, code)
+    elif code != run.world.code:
+        codes = run.world.code, code
+        ours, theirs = (f"{len(v)} vertices, {len(a) // 2} edges" for v, a in codes)
         message = f"the map ({theirs}) is not isomorphic to the world ({ours})"
         yield Wrong(last, ours, theirs, message)
 
@@ -180,12 +175,12 @@ def cost_honest(run: ReplayedTrace) -> Iterator[Finding]:
 
 def cost_within_bound(run: ReplayedTrace) -> Iterator[Finding]:
     """7. m <= cost <= m·(n + (2m-1)·2(n-1)); the lower half only where a map was delivered."""
-    bound, m = run.world.cost_bound, len(run.world.edges)
+    bound, m, n = run.world.cost_bound, len(run.world.edges), len(run.world.vertices)
     least = m if isinstance(run.trace[-1], ev.Finish) else 0
     if not least <= run.cost <= bound:
-        size = f"m = {m} and n = {len(run.world.vertices)}"
-        message = f"a cost of {run.cost} is outside {m} … {bound}, the bound for {size}"
-        yield Wrong(None, f"{m} … {bound}", run.cost, message)
+        bounds = f"{m} … {bound}"
+        message = f"a cost of {run.cost} is outside {bounds}, the bound for m = {m} and n = {n}"
+        yield Wrong(None, bounds, run.cost, message)
 
 
 def rejection_justified(run: ReplayedTrace) -> Iterator[Finding]:
@@ -199,8 +194,7 @@ def rejection_justified(run: ReplayedTrace) -> Iterator[Finding]:
     for decision in run.rounds:
         event = decision.event
         if isinstance(event, ev.Reject) and (why := _unjustified(run, decision, event)):
-            rejection = f"rejecting {event.hypothesis} for edge {event.edge}"
-            message = f"{rejection} is not justified: {why}"
+            message = f"rejecting {event.hypothesis} for edge {event.edge} is not justified: {why}"
             yield Wrong(decision.when, "evidence that disagrees", event.evidence, message)
 
 
@@ -210,24 +204,30 @@ UNTRUE = Wrong(None, "true percepts", None, "the percepts are not true and prove
 
 def map_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """9. The history alone proves the map: no other world fits it."""
-    if not run.is_history:
-        yield UNTRUE
-    elif (conclusion := map_conclusion(run.trace)).why:
-        yield _unproved("a map that is proved", "the history proves no such map", conclusion)
+    yield from unproved("map-entailed", [map_conclusion(run.trace)]) if run.is_history else [UNTRUE]
 
 
 def decisions_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """10. The history at that moment alone proves each declared reject, confirm, augmentation."""
-    if not run.is_history:
-        yield UNTRUE
-    for conclusion in run.conclusions.values():
-        if conclusion.why and not conclusion.undecided:
-            yield _unproved("a proved decision", "the decision does not follow", conclusion)
+    conclusions = run.conclusions.values()
+    yield from unproved("decisions-entailed", conclusions) if run.is_history else [UNTRUE]
 
 
-def _unproved(expected: str, message: str, conclusion: Conclusion) -> Finding:
-    when, why, witness, _ = conclusion
-    return Wrong(when, expected, why, f"{message}: {why}", witness.text if witness else None)
+UNPROVED = {
+    "map-entailed": ("a map that is proved", "the history proves no such map"),
+    "decisions-entailed": ("a proved decision", "the decision does not follow"),
+}
+"""What is expected where a conclusion does not follow, and the message that begins so."""
+
+
+def unproved(claim: str, conclusions: Iterable[Conclusion]) -> Iterator[Finding]:
+    """A finding for each of these conclusions that does not follow; none where it is undecided."""
+    expected, message = UNPROVED[claim]
+    for conclusion in conclusions:
+        when, why, witness, _ = conclusion
+        if why and not conclusion.undecided:
+            text = witness.text if witness else None
+            yield Finding(claim, when, expected, why, f"{message}: {why}", text)
 
 
 # ---------------------------------------------------------------- what justifies a rejection
@@ -237,23 +237,21 @@ def _unjustified(run: ReplayedTrace, decision: Round, event: ev.Reject) -> str:
     """What is wrong with a rejection; "" if it is justified."""
     when, _, pose, _, _ = decision
     e, h = event.edge, event.hypothesis
-    if pose is None or e != pose.edge or h not in pose.hypotheses:
+    if pose is None or h not in pose.hypotheses:
         return "no such hypothesis was posed"
     if not run.map.is_open(e, when) or not run.map.is_open(h, when):
         return "the two are not unexplored darts of S"
     if event.rule in ("folding", "planar"):
-        return _unmet(run, when, event.evidence, (e, h))
+        ends = run.map.seen_at(run.map.phi[h]), run.map.seen_at(run.map.end(e))
+        return _unmet(run, when, event.evidence, ends)
     if event.evidence.contradiction is not None:
         return f"rule {event.rule!r} rests on two percepts, and cites a contradiction"
     return _percepts_agree(run, decision, event, e, h)
 
 
-def _unmet(
-    run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[KnownDart, KnownDart]
-) -> str:
+def _unmet(run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[Percept, Percept]) -> str:
     """Why the contradiction that is cited does not follow, or what else is cited wrongly; or ""."""
-    at_ends = run.map.seen_at(run.map.phi[ends[1]]), run.map.seen_at(run.map.end(ends[0]))
-    for told, seen in zip((cited.expected, cited.observed), at_ends, strict=True):
+    for told, seen in zip((cited.expected, cited.observed), ends, strict=True):
         if told not in (None, seen):
             return f"what is seen there is {seen}, not {told}"
     if cited.step or (cited.sequence, cited.at, cited.record) != (None, None, None):
@@ -268,56 +266,34 @@ def _percepts_agree(
     run: ReplayedTrace, decision: Round, event: ev.Reject, e: KnownDart, h: KnownDart
 ) -> str:
     """Why the two percepts that are cited do not disagree as they are said to; "" if they do."""
-    evidence, executed = event.evidence, _executed(decision, event)
-    if executed is None or not 0 <= evidence.step <= len(executed):
-        return f"step {evidence.step} of sequence {evidence.sequence} was not executed"
-    word = executed[: evidence.step]
+    cited, word = event.evidence, _executed(decision, event)
+    if word is None:
+        return f"step {cited.step} of sequence {cited.sequence} was not executed"
     observed = word[-1].percept if word else run.map.seen_at(run.map.end(e))
-    expected = _expectation(run, decision.when, h, evidence, word)
-    if evidence.observed != observed:
-        return f"observed is {observed}, not {evidence.observed}"
-    if isinstance(expected, str):
-        return expected
-    if evidence.expected != expected:
-        return f"expected is {expected}, not {evidence.expected}"
+    if cited.observed != observed:
+        return f"observed is {observed}, not {cited.observed}"
+    at, rest = run.records.trace(h, word, decision.when)
+    doors = tuple(step.door for step in rest[1:])
+    if cited.at not in (None, at) or cited.record != (ev.Record(at, doors) if rest else None):
+        leaves = f"leaves S at dart {at} with the doors {list(doors)} to go"
+        ends = f"ends at dart {at} of S, not where the evidence says"
+        return f"tracing {leaves if rest else ends}"
+    behind = run.records.behind(at, doors, decision.when)
+    expected = behind if rest else run.map.seen_at(run.map.phi[at])
+    if expected is None:
+        return f"nothing is recorded behind dart {at} and the doors {list(doors)}"
+    if cited.expected != expected:
+        return f"expected is {expected}, not {cited.expected}"
     return f"{observed} is both expected and observed" if expected == observed else ""
 
 
 def _executed(decision: Round, event: ev.Reject) -> Word | None:
-    """The word that a rejection cites, by the number of its sequence; None if there is none."""
-    number = event.evidence.sequence
+    """The word that a rejection cites, up to its step; None if that was not executed."""
+    number, step, words = event.evidence.sequence, event.evidence.step, decision.sequences
     if number is None:
-        return decision.word if event.rule == "motion" else None
-    return decision.sequences[number] if 0 <= number < len(decision.sequences) else None
-
-
-def _expectation(
-    run: ReplayedTrace, when: int, at: KnownDart, evidence: ev.Evidence, word: Word
-) -> Percept | str:
-    """What is seen at the end of a word if it leads on from `at`; or why that is unknown."""
-    for place, step in enumerate(word):
-        exit_at = run.map.turn(at, step.door)
-        if run.map.is_open(exit_at, when):
-            doors = tuple(later.door for later in word[place + 1 :])
-            return _recorded(run, when, exit_at, doors, evidence)
-        at = run.map.alpha[exit_at]
-    if evidence.record is not None or evidence.at not in (None, at):
-        return f"tracing ends at dart {at} of S, not where the evidence says"
-    return run.map.seen_at(run.map.phi[at])
-
-
-def _recorded(
-    run: ReplayedTrace,
-    when: int,
-    exit_at: KnownDart,
-    doors: tuple[Door, ...],
-    evidence: ev.Evidence,
-) -> Percept | str:
-    """What a record says of the place behind an unexplored dart and further doors; or why not."""
-    if evidence.record != ev.Record(exit_at, doors) or evidence.at not in (None, exit_at):
-        return f"tracing leaves S at dart {exit_at} with the doors {list(doors)} to go"
-    seen = run.records.behind(exit_at, doors, when)
-    return seen or f"nothing is recorded behind dart {exit_at} and the doors {list(doors)}"
+        number, words = 0, (decision.word,) if event.rule == "motion" else ()
+    executed = 0 <= number < len(words) and 0 <= step <= len(words[number])
+    return words[number][:step] if executed else None
 
 
 # ---------------------------------------------------------------- words for messages
@@ -329,10 +305,6 @@ def _end(run: ReplayedTrace, edge: int, when: int) -> str:
         return "nowhere (it is not an unexplored dart of S)"
     truth, degree = run.map.truth(edge, when), run.map.seen_at(run.map.end(edge)).degree
     return f"a new vertex of degree {degree}" if truth is None else f"dart {truth}"
-
-
-def _size(code: tuple[Sequence[int], Sequence[int]]) -> str:
-    return f"{len(code[0])} vertices, {len(code[1]) // 2} edges"
 
 
 CLAIMS: dict[str, tuple[Claim, tuple[type[ev.Event], ...]]] = {

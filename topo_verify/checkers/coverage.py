@@ -34,7 +34,7 @@ Share = tuple[int, int]
 def coverage(run: ReplayedTrace) -> dict[str, Share]:
     """How much of a run each claim judges; of claim 10, how much there is to judge."""
     events = [decision.event for decision in run.rounds]
-    declared = Counter(map(type, events))
+    declared, followed = Counter(map(type, events)), Counter(map(type, run.followed))
     rejections, confirmations = declared[Reject], declared[Confirm]
     posed = sum(len(event.hypotheses) for event in events if isinstance(event, Pose))
     ends = {edge: fate.event for edge, fate in run.fates.items() if isinstance(fate.event, Augment)}
@@ -46,7 +46,6 @@ def coverage(run: ReplayedTrace) -> dict[str, Share]:
     decisions = rejections + confirmations + declared[Augment]
     maps = sum(isinstance(event, Finish) for event in run.trace)
     costs = int(getattr(run.trace[-1], "cost", None) is not None)
-    followed = Counter(map(type, run.trace[: len(run.positions)]))
     return {
         "percepts-true": (followed[Start] + followed[Move], 1 + run.cost),
         "true-hypothesis-posed": (len(run.crossings & run.fates.keys()), len(run.crossings)),

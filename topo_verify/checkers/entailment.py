@@ -31,6 +31,12 @@ from topo_verify.robot.events import Augment, Confirm, Event, Finish, MapData, M
 from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import Code, World
 
+Concluded = Reject | Confirm | Augment
+"""A decision that says where an edge leads, or where it does not."""
+
+Tries = Iterator[int] | None
+"""The foldings that may still be tried; None without the planar prior: no world needs be planar."""
+
 
 class Conclusion(NamedTuple):
     """Why what was concluded at event `when` does not follow ("": it does), and a witness.
@@ -79,9 +85,12 @@ def followed(fold: Fold, event: Event) -> str:
 
 
 @lru_cache(maxsize=16)
-def delivered_code(delivered: MapData) -> Code:
-    """The canonical code of a delivered map, which claims 5 and 9 ask for. Raises InputError."""
-    return World.from_rotations(delivered.vertices, delivered.edges, delivered.marker).code
+def delivered_code(delivered: MapData) -> Code | str:
+    """The canonical code of a delivered map, which claims 5 and 9 ask for; or why it is none."""
+    try:
+        return World.from_rotations(delivered.vertices, delivered.edges, delivered.marker).code
+    except InputError as error:
+        return f"the delivered value is not a map: {error}"
 
 
 def map_conclusion(trace: Sequence[Event]) -> Conclusion:
@@ -95,10 +104,9 @@ def map_conclusion(trace: Sequence[Event]) -> Conclusion:
     fold, broken = fold_history(trace)
     if broken is not None:
         return Conclusion(broken[0], f"no world shows this history: {broken[1]}")
-    try:
-        code = delivered_code(finish.map)
-    except InputError as error:
-        return Conclusion(last, f"the delivered value is not a map: {error}")
+    code = delivered_code(finish.map)
+    if isinstance(code, str):
+        return Conclusion(last, code)
     left = fold.open_darts()
     why = f"darts never crossed: {left}" if left else "the history proves another map"
     for witness in (fold.world(1), fold.world(2)) if left else (fold.world(),):
@@ -119,18 +127,18 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
         if why := followed(fold, event):
             yield Conclusion(when, f"no world shows this history: {why}")
             return
-        if not isinstance(event, (Reject, Confirm, Augment)):
+        if not isinstance(event, Concluded):
             continue
         if why := _unknown_dart(on_fold, event):
             yield Conclusion(when, why)
             return
-        why, witness = doubt = _doubt(on_fold, event, refuted, tries)
+        why, witness = _doubt(on_fold, event, refuted, tries)
         yield Conclusion(when, why, witness, _is_met(on_fold, event))
         if isinstance(event, Augment):
             if why:  # from here on S is not proved
                 return
             on_fold.grow(event)
-        elif doubt == FOLLOWS:
+        elif not why:
             refuted.add((event.edge, event.hypothesis))
 
 
@@ -155,23 +163,17 @@ def _is_met(on_fold: MapOnFold, event: Event) -> bool:
     return event.evidence.contradiction in on_fold.fold.contradictions(*places, on_fold.entries)
 
 
-def _unknown_dart(on_fold: MapOnFold, event: Reject | Confirm | Augment) -> str:
+def _unknown_dart(on_fold: MapOnFold, event: Concluded) -> str:
     """Which dart that a decision names is not the one that it must be; "" if all are."""
     other = event.dart if isinstance(event, Augment) else event.hypothesis
-    if isinstance(event, Augment) and event.kind == "new":
-        right = other == on_fold.size
-    else:
-        right = on_fold.is_open(other)
-    if right and on_fold.is_open(event.edge):
-        return ""
-    return f"{event.edge} or {other} is not an unexplored dart of S"
+    is_new = isinstance(event, Augment) and event.kind == "new"
+    right = other == on_fold.size if is_new else on_fold.is_open(other)
+    right = right and on_fold.is_open(event.edge)
+    return "" if right else f"{event.edge} or {other} is not an unexplored dart of S"
 
 
 def _doubt(
-    on_fold: MapOnFold,
-    event: Reject | Confirm | Augment,
-    refuted: Container[tuple[int, int]],
-    tries: Iterator[int] | None,
+    on_fold: MapOnFold, event: Concluded, refuted: Container[tuple[int, int]], tries: Tries
 ) -> Doubt:
     """Why a decision does not follow from the history; `FOLLOWS` if it does.
 
@@ -182,7 +184,7 @@ def _doubt(
         case Reject(_, h):
             return _may_lead_to(on_fold, e, [KnownDart(h)], tries)
         case Confirm(_, h):
-            return _may_be_apart(on_fold, e, KnownDart(h))
+            return _may_be_apart(on_fold, e, KnownDart(h), None)
         case Augment(_, "new", _, degree):
             ends = [h for h in on_fold.others(e) if (e, h) not in refuted]
             return _may_be_known(on_fold, e, degree) or _may_lead_to(on_fold, e, ends, tries)
@@ -192,9 +194,7 @@ def _doubt(
             assert_never(event)
 
 
-def _may_lead_to(
-    on_fold: MapOnFold, e: KnownDart, ends: Sequence[KnownDart], tries: Iterator[int] | None
-) -> Doubt:
+def _may_lead_to(on_fold: MapOnFold, e: KnownDart, ends: list[KnownDart], tries: Tries) -> Doubt:
     """Folding with e joined to each of these must contradict; else the fold shows an end of e."""
     fold, doubt = on_fold.fold, FOLLOWS
     face = ends if tries is None else on_fold.face(e)
@@ -202,8 +202,7 @@ def _may_lead_to(
         with suppress(Contradiction), fold.assuming(on_fold.place(e), on_fold.place(end)):
             if tries is None:
                 return "the edge may well lead there", fold.world()
-            witness = _planar_folding(fold, tuple(islice(fold.alike(), FURTHER + 1)), tries)
-            if witness is not None:
+            if witness := _planar_folding(fold, tuple(islice(fold.alike(), FURTHER + 1)), tries):
                 return "the edge may well lead there", witness
             if next(tries, None) is None:
                 doubt = UNDECIDED
@@ -226,12 +225,10 @@ def _planar_folding(
     return None
 
 
-def _may_be_apart(
-    on_fold: MapOnFold, e: KnownDart, h: KnownDart, degree: int | None = None
-) -> Doubt:
+def _may_be_apart(on_fold: MapOnFold, e: KnownDart, h: KnownDart, degree: int | None) -> Doubt:
     """Folding must make e and h partners, at a vertex of this degree, if one is stated."""
     fold = on_fold.fold
-    if not on_fold.are_partners(e, h):
+    if fold.partner(on_fold.place(e)) != fold.find(on_fold.place(h)):
         return f"darts {e} and {h} may well belong to different edges", fold.world()
     if degree not in (None, fold.degree(on_fold.place(h)[0])):
         return "the vertex there has another degree", fold.world()

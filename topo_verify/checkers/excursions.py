@@ -12,6 +12,7 @@ Source: docs/semantics.md, section 9, "Moves become words"; section 7, "Records"
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from topo_verify.checkers.darts import KnownDart
@@ -53,11 +54,6 @@ class Excursion:
             self.word.append(Step(door, behind))
             self._turned = 0
 
-    def mismatch(self) -> None:
-        """Note the word as a sequence: motion along it has rejected a hypothesis."""
-        if self.word:
-            self.sequences = (*self.sequences, tuple(self.word))
-
 
 class Records:
     """What was seen behind unexplored darts of S, and since which event it is known."""
@@ -66,15 +62,27 @@ class Records:
         self._map = drawn
         self._words: dict[KnownDart, list[tuple[int, Word]]] = {}
 
-    def add(self, when: int, at: KnownDart, sequence: Word) -> None:
-        """Keep what a sequence from a dart of S shows behind the first unexplored dart."""
-        for place, step in enumerate(sequence):
-            exit_at = self._map.turn(at, step.door)
+    def add(self, when: int, start: KnownDart, sequences: Iterable[Word]) -> None:
+        """Keep what sequences from a dart of S show, each behind the first unexplored dart."""
+        for sequence in sequences:
             # The edge that event `when` explores is explored here: so S is asked one event later.
-            if self._map.is_open(exit_at, when + 1):
-                self._words.setdefault(exit_at, []).append((when, sequence[place:]))
-                return
+            at, rest = self.trace(start, sequence, when + 1)
+            if rest:
+                self._words.setdefault(at, []).append((when, rest))
+
+    def trace(self, at: KnownDart, word: Word, when: int) -> tuple[KnownDart, Word]:
+        """Where a word from a dart of S leads on S as it is at event `when`.
+
+        Returns:
+            The first unexplored dart that it leaves by, and the word from there on; or the dart of
+            S by which it comes in at its end, and no word.
+        """
+        for place, step in enumerate(word):
+            exit_at = self._map.turn(at, step.door)
+            if self._map.is_open(exit_at, when):
+                return exit_at, word[place:]
             at = self._map.alpha[exit_at]
+        return at, ()
 
     def behind(self, dart: KnownDart, doors: tuple[Door, ...], when: int) -> Percept | None:
         """What was known at event `when` of the place behind an unexplored dart and doors."""

@@ -58,10 +58,6 @@ class Fold:
         self._met: set[str] | None = None  # the contradictions so far, while they are listed
         self.at: Place = (self._visit(percept), 0)
 
-    def __len__(self) -> int:
-        """How many nodes were added; a node's number says when."""
-        return len(self._seen)
-
     def _visit(self, percept: Percept) -> int:
         node = len(self._seen)
         self._seen.append(percept)
@@ -211,14 +207,11 @@ class Fold:
 
     def world(self, pendant_length: int = 1) -> World:
         """The fold as a world, with a path of so many vertices hung on every open dart."""
-        first: dict[int, int] = {}  # of each node, the number of its dart 0
-        vertices: list[tuple[int, ...]] = []
-        edges: list[tuple[int, int]] = []
-        count = 0
+        first, count = dict[int, int](), 0  # of each node, the number of its dart 0
         for node in self.roots():
-            first[node] = count
-            count += self.degree(node)
-            vertices.append(tuple(range(first[node], count)))
+            first[node], count = count, count + self.degree(node)
+        vertices = [tuple(range(dart, dart + self.degree(node))) for node, dart in first.items()]
+        edges: list[tuple[int, int]] = []
         for node, start in first.items():
             for dart in range(self.degree(node)):
                 here, end = start + dart, self.partner((node, dart))

@@ -60,13 +60,11 @@ class MapInWorld:
         if not self.is_open(edge, when):
             return False
         end = self.end(edge)
-        known = self.number.get(end)
-        if (event.kind == "new") != (known is None) or event.degree != self.seen_at(end).degree:
+        is_new, here = end not in self.number, self.number.get(end, KnownDart(len(self.phi)))
+        truth = is_new, here, self.seen_at(end).degree
+        if (event.kind == "new", event.dart, event.degree) != truth:
             return False
-        here = KnownDart(len(self.phi)) if known is None else known
-        if event.dart != here:
-            return False
-        if known is None:
+        if is_new:
             self._add_vertex(end, when)
         for dart, other in ((edge, here), (here, edge)):
             self.alpha[dart], self.joined[dart] = other, when

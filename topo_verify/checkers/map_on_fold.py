@@ -56,10 +56,6 @@ class MapOnFold:
         """Whether this node of the fold is a vertex of S."""
         return any(self.fold.find(entry)[0] == node for entry in self.entries)
 
-    def are_partners(self, e: KnownDart, h: KnownDart) -> bool:
-        """Whether the history shows two darts of S to be the ends of one edge."""
-        return self.fold.partner(self.place(e)) == self.fold.find(self.place(h))
-
     def face(self, e: KnownDart) -> list[KnownDart]:
         """The darts of S on the face of e; where a dart is open, the boundary turns back."""
         face = [e]

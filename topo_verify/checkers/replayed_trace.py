@@ -23,7 +23,11 @@ from topo_verify.world.rooted_map import World
 
 
 class Round(NamedTuple):
-    """A decision at event `when`: what had been posed, and executed behind the edge, until then."""
+    """A decision at event `when`, and what was executed behind the edge since the last pose.
+
+    Attributes:
+        pose: the last one so far, if it was of this edge and S did not grow since.
+    """
 
     when: int
     event: ev.Decision
@@ -54,11 +58,6 @@ def require_order(trace: Sequence[ev.Event]) -> None:
             raise InputError(f"event {when} of the trace is out of order: {rule}")
 
 
-def _is_of(pose: ev.Pose | None, event: ev.Augment) -> bool:
-    """Whether an augmentation is for the edge that was posed last."""
-    return pose is not None and pose.edge == event.edge
-
-
 class ReplayedTrace:
     """A world and a trace, replayed once; what the claims are asked about.
 
@@ -70,8 +69,12 @@ class ReplayedTrace:
         cost: the number of moves.
         map: S, drawn on the world.
         positions: the reference dart in the world after each event, up to an illegal move.
+        followed: the events up to an illegal move.
         illegal: the first move through a door that is not there, or None.
         spoiled: the first augmentation that is false in this world, or None.
+        rounds: every decision that can be judged: up to the first illegal move or false map.
+        crossings: the edges of the world that the robot crossed.
+        false_percepts: each event whose percept is not what the world shows: its own, and what is.
     Raises:
         InputError: the events are in no such order.
     """
@@ -83,10 +86,16 @@ class ReplayedTrace:
         self.map = MapInWorld(world)
         self.records = Records(self.map)
         self.illegal: int | None = None
-        self.positions = list(self._walk())
-        self.spoiled = self._draw()
+        self.spoiled: int | None = None
+        self.positions: list[WorldDart] = []
+        self.crossings: set[int] = set()
+        self.false_percepts: list[tuple[int, Percept, Percept]] = []
+        self._walk()
+        self.followed = trace[: len(self.positions)]
+        self.rounds = tuple(self._rounds())
 
-    def _walk(self) -> Iterator[WorldDart]:
+    def _walk(self) -> None:
+        """Follow the doors up to the first that is not there, and draw S on the way."""
         at = WorldDart(self.world.root or 0)
         for when, event in enumerate(self.trace):
             if isinstance(event, ev.Move):
@@ -94,70 +103,40 @@ class ReplayedTrace:
                     self.illegal = when
                     return
                 at = self.map.beyond(at, event.door)
-            yield at
-
-    def _draw(self) -> int | None:
-        for when, event in enumerate(self._followed):
-            if isinstance(event, ev.Augment) and not self.map.grow(when, event):
-                return when
-        return None
-
-    @property
-    def _followed(self) -> Sequence[ev.Event]:
-        """The events up to the first illegal move."""
-        return self.trace[: len(self.positions)]
-
-    @cached_property
-    def false_percepts(self) -> tuple[tuple[int, Percept], ...]:
-        """Each event whose percept is not what the world shows then, and what it does show."""
-        return tuple(
-            (when, self.map.seen_at(at))
-            for when, (event, at) in enumerate(zip(self._followed, self.positions, strict=True))
-            if isinstance(event, (ev.Start, ev.Move)) and event.percept != self.map.seen_at(at)
-        )
+                self.crossings.add(self.crossing(at))
+            elif isinstance(event, ev.Augment) and self.spoiled is None:
+                self.spoiled = None if self.map.grow(when, event) else when
+            seen = self.map.seen_at(at)
+            if isinstance(event, (ev.Start, ev.Move)) and event.percept != seen:
+                self.false_percepts.append((when, event.percept, seen))
+            self.positions.append(at)
 
     @property
     def is_history(self) -> bool:
         """Whether the world shows all percepts of the trace and has all its doors."""
         return self.illegal is None and not self.false_percepts
 
-    @cached_property
-    def rounds(self) -> tuple[Round, ...]:
-        """Every decision that can be judged: up to the first illegal move or false map."""
-        return tuple(self._rounds())
-
     def _rounds(self) -> Iterator[Round]:
         pose: ev.Pose | None = None
         behind = Excursion()
-        for when, event in enumerate(self._followed):
+        for when, event in enumerate(self.followed):
             if isinstance(event, ev.Move):
-                left, entered = self.positions[when - 1], self.positions[when]
-                degree = self.map.seen_at(left).degree
-                behind.move(event.door, degree, self.map.seen_at(entered))
+                left, entered = map(self.map.seen_at, self.positions[when - 1 : when + 1])
+                behind.move(event.door, left.degree, entered)
             elif isinstance(event, ev.Pose):
                 pose, behind = event, Excursion()
                 yield Round(when, event, pose, (), ())
             elif isinstance(event, (ev.Reject, ev.Confirm, ev.Augment)):
-                yield Round(when, event, pose, tuple(behind.word), behind.sequences)
+                of_edge = pose if pose and pose.edge == event.edge else None
+                yield Round(when, event, of_edge, tuple(behind.word), behind.sequences)
                 if isinstance(event, ev.Augment):
-                    self._record(when, event, pose, behind)
+                    if when == self.spoiled:
+                        return
+                    if of_edge:  # it is true, so S has its dart
+                        self.records.add(when, KnownDart(event.dart), behind.sequences)
                     pose, behind.sequences = None, ()
-                elif isinstance(event, ev.Reject) and event.rule == "motion":
-                    behind.mismatch()
-            if when == self.spoiled:
-                return
-
-    def _record(self, when: int, event: ev.Augment, pose: ev.Pose | None, seen: Excursion) -> None:
-        """Keep what was seen behind an edge, now that it is known where that edge leads."""
-        if _is_of(pose, event) and when != self.spoiled:
-            for sequence in seen.sequences:  # the augmentation is true, so S has its dart
-                self.records.add(when, KnownDart(event.dart), sequence)
-
-    @cached_property
-    def crossings(self) -> frozenset[int]:
-        """The edges of the world that the robot crossed."""
-        ends = zip(self._followed, self.positions, strict=True)
-        return frozenset(self.crossing(at) for event, at in ends if isinstance(event, ev.Move))
+                elif isinstance(event, ev.Reject) and event.rule == "motion" and behind.word:
+                    behind.sequences = (*behind.sequences, tuple(behind.word))
 
     def crossing(self, dart: WorldDart) -> int:
         """The edge of the world that has this dart, by the lesser of its two."""
@@ -175,7 +154,7 @@ class ReplayedTrace:
             match event:
                 case ev.Pose(_, hypotheses):
                     fates[edge] = Fate(when, event, left.union(hypotheses))
-                case ev.Augment(_, kind) if _is_of(pose, event) and when != self.spoiled:
+                case ev.Augment(_, kind) if pose and when != self.spoiled:
                     open_ones = (h for h in left if kind == "new" and self.map.is_open(h, when))
                     fates[edge] = Fate(when, event, frozenset(open_ones))
                 case ev.Reject(_, h) | ev.Confirm(_, h) if edge in fates:

@@ -8,14 +8,14 @@ much work that is. Behind an open door there may be further doors.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from topo_verify.checkers.certificate import Certificate
 from topo_verify.checkers.entailment import followed
 from topo_verify.checkers.folding import Fold
-from topo_verify.robot.events import Start
+from topo_verify.harness.log_report import Certificate
+from topo_verify.robot.events import Event, Start
 from topo_verify.robot.percept import Door
 
 
@@ -36,19 +36,14 @@ class OpenDoor(msgspec.Struct, frozen=True):
 
 def open_doors(certificate: Certificate) -> Iterator[OpenDoor]:
     """The open doors of an incomplete log, breadth-first from where it ends; of others none."""
-    if certificate.fold is None:
+    fold = certificate.fold
+    if fold is None or not certificate.open_darts:
         return
-    start = certificate.log[0]
-    assert isinstance(start, Start)
-    fold, reached = Fold(start.percept), [0]  # of each node of the fold, the event that added it
-    for when, event in enumerate(certificate.log):
-        followed(fold, event)
-        if len(fold) > len(reached):
-            reached.append(when)
-    first, reference = fold.find(fold.at)
-    entries = {first: reference}  # of each place found: the dart by which the search came in
+    reached = _reached(certificate.log)
+    start, reference = fold.find(fold.at)
+    entries = {start: reference}  # of each place found: the dart by which the search came in
     taken: dict[int, tuple[int, Door]] = {}  # from where, and by which door
-    queue = [first]
+    queue = [start]
     for node in queue:  # grows as it goes
         degree = fold.degree(node)
         for door in range(degree):
@@ -68,3 +63,14 @@ def _walk(taken: dict[int, tuple[int, Door]], node: int) -> list[Door]:
         node, door = taken[node]
         doors.append(door)
     return doors[::-1]
+
+
+def _reached(log: Sequence[Event]) -> dict[int, int]:
+    """Of each node of the fold of a log, the event that added it."""
+    start = log[0]
+    assert isinstance(start, Start)
+    fold, reached = Fold(start.percept), dict[int, int]()
+    for when, event in enumerate(log):
+        followed(fold, event)
+        reached.setdefault(fold.at[0], when)  # the robot stands at a node when it is added
+    return reached

@@ -12,8 +12,8 @@ import pytest
 from tests.helpers import EMPTY, edited, of_type, trace_of, worlds
 from tests.proofs.mechanised.conftest import LIMIT, nowhere
 from topo_verify import World, families
-from topo_verify.checkers.certificate import certify
 from topo_verify.errors import InputError
+from topo_verify.harness.log_report import certify
 from topo_verify.proofs.mechanised import certificates, toolchain
 from topo_verify.proofs.mechanised.evidence import Alone, Arrive, Illegal, MapRow, Marked
 from topo_verify.proofs.mechanised.vernacular import CoqCertificate, coq_file

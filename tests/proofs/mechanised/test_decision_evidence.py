@@ -10,9 +10,9 @@ import pytest
 from tests.helpers import EMPTY, PAPER, edited, of_type, place, trace_of, worlds
 from topo_verify import families
 from topo_verify.checkers import Fold
-from topo_verify.checkers.certificate import certify
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InternalError
+from topo_verify.harness.log_report import certify
 from topo_verify.proofs.mechanised import decision_evidence as module
 from topo_verify.proofs.mechanised import evidence
 from topo_verify.proofs.mechanised.decision_evidence import (
