@@ -2,7 +2,7 @@
 #
 #   make verify                     the main job: one report, under a minute
 #   make test                       the suite and the branch coverage of the trusted rooms
-#   make slow                       the tests that make test leaves out because they take long
+#   make long                       the tests that make test leaves out because they take long
 #   make nightly                    every test, the slow ones too, with new examples each time
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
 #   make mutants                    the checkers with one thing changed: each must fail a test
@@ -37,7 +37,7 @@ CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help verify test slow nightly coq lint types bench mutants torture constraints oldest clean
+.PHONY: help verify test long nightly coq lint types bench mutants torture constraints oldest clean
 
 help:
 	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 14
@@ -46,14 +46,14 @@ verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
 
 test: $(VENV)/.dev
-	$(PYTEST) $(PARALLEL) -m 'traced and not slow' --cov --cov-report= $(call report,traced)
-	$(PYTEST) $(PARALLEL) -m 'not (traced or coq or slow)' $(call report,test)
+	$(PYTEST) $(PARALLEL) -m 'traced and not (slow or long)' --cov --cov-report= $(call report,traced)
+	$(PYTEST) $(PARALLEL) -m 'not (traced or coq or slow or long)' $(call report,test)
 	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
 	$(BIN)/coverage report --fail-under=100
 
-# What tests/slow.py names; those that need Coq run in make coq.
-slow: $(VENV)/.dev
-	$(PYTEST) $(PARALLEL) -m 'slow and not coq' $(call report,slow)
+# What tests/long.py names; those that need Coq run in make coq.
+long: $(VENV)/.dev
+	$(PYTEST) $(PARALLEL) -m 'long and not (slow or coq)' $(call report,long)
 
 nightly: $(VENV)/.dev
 	HYPOTHESIS_PROFILE=nightly $(PYTEST) $(PARALLEL) $(EVERY)

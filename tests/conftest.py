@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from hypothesis import HealthCheck, settings
 
-from tests.slow import is_slow
+from tests.long import is_long
 
 if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Theorem
@@ -51,13 +51,13 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests `traced` that measure coverage, `slow` ones, and `coq` those that compile."""
+    """Mark the tests `traced` that measure coverage, `long` ones, and `coq` those that compile."""
     for item in items:
         inside = any(folder in item.path.parents for folder in TRACING)
         if inside and item.get_closest_marker("no_cover") is None:
             item.add_marker("traced")
-        if is_slow(item.path, item.name):
-            item.add_marker("slow")
+        if is_long(item.path, item.name):
+            item.add_marker("long")
         if "library" in getattr(item, "fixturenames", ()):  # tests/proofs/mechanised/conftest.py
             item.add_marker("coq")
 

@@ -135,7 +135,7 @@ def test_a_mirror_that_leaves_the_doors_is_seen() -> None:
 
 def peeks(robot: Robot) -> Survey:
     """Lets the number of the dart that it stands at decide in which order it goes on."""
-    simulator = robot.move.__self__  # type: ignore[attr-defined]  it looks behind the handle
+    simulator = getattr(robot.move, "__self__", None)  # it looks behind the handle
     assert isinstance(simulator, SimulatedRobot)
     peeked: int = simulator._at  # pyright: ignore[reportPrivateUsage]
     return CATALOGUE["basic"].with_policies(pick=("nearest", "lifo")[peeked % 2])(robot)

@@ -1,0 +1,328 @@
+"""The tests that take long: `make long` and `make nightly` run them, `make test` does not.
+
+A test is named here if it takes more than about one second: the largest sizes of statements whose
+smaller sizes `make test` runs, and whole commands whose parts it runs one by one. `.ci/run` runs
+all of them, so that a change is asked everything before it is taken.
+"""
+
+import re
+from pathlib import Path
+
+LONG: dict[str, tuple[str, ...]] = {
+    "algorithms/test_folding.py": ("test_what_is_kept_has_a_witness_in_larger_worlds",),
+    "checkers/test_check.py": (r"test_no_claim_fails_for_any_algorithm_on_any_world\[4\]",),
+    "checkers/test_entailment.py": (r"test_where_a_guess_is_lucky_its_witness_breaks_it\[.*\]",),
+    "checkers/test_faulty_mappers.py": (
+        r"test_without_a_directed_marker_there_are_false_confirmations\[.*\]",
+    ),
+    "checkers/test_lies.py": (
+        "test_a_doctored_trace_gets_the_same_verdict_from_a_second_opinion",
+        "test_nonsense_is_judged_and_never_crashes",
+    ),
+    "checkers/test_witnesses.py": (
+        "test_a_dart_is_rejected_by_planarity_just_if_the_edge_would_raise_the_genus_of_s",
+    ),
+    "cli/test_compare.py": (
+        "test_a_cheaper_mapper_passes_and_a_dearer_one_does_not",
+        "test_a_time_out_is_incomplete",
+        "test_a_wrong_mapper_exits_1_and_the_line_shows_it_again",
+        "test_an_algorithm_has_the_policies_of_the_baseline_unless_others_are_asked_for",
+        "test_nothing_has_changed_for_the_same_mapper",
+        "test_only_what_has_changed_has_a_row",
+        "test_the_page_shows_what_is_printed",
+        "test_two_comparisons_are_equal_but_for_the_time",
+    ),
+    "cli/test_conform.py": (
+        "test_a_program_meets_the_worlds_in_an_order_that_is_drawn_anew",
+        "test_an_entry_a_level_with_every_promised_field",
+        "test_two_runs_differ_in_timing_alone",
+    ),
+    "cli/test_coverage_shown.py": ("test_a_search_and_a_report_over_many_worlds_say_so_as_well",),
+    "cli/test_exits.py": (
+        "test_a_full_disk_is_told_as_such",
+        "test_a_reader_who_leaves_early_ends_the_work",
+        r"test_a_reader_who_leaves_is_no_error\[explore nyc\]",
+        "test_a_terminal_without_our_letters_gets_others",
+        "test_closed_streams_do_not_hurt",
+        "test_ctrl_c_after_a_finding_exits_1",
+        r"test_ctrl_c_and_sigterm_exit_3_and_print_what_is_done\[.*\]",
+        "test_ctrl_c_in_explore_keeps_the_runs_that_are_done",
+        r"test_exit_1_is_for_counterexamples_and_not_for_broken_streams\[.*\]",
+        "test_sigterm_says_where_it_stopped_and_keeps_what_is_done",
+        r"test_two_runs_differ_in_timing_alone\[.*\]",
+        r"test_two_runs_differ_in_timing_alone\[verify .*\]",
+        "test_what_a_mapper_prints_goes_to_stderr",
+    ),
+    "cli/test_explore.py": (
+        r"test_a_faulty_mapper_is_found_and_its_line_shows_it_again\[.*\]",
+        "test_a_large_world_from_stdin_is_kept_in_a_file_for_the_line",
+        "test_a_mapper_that_moves_on_when_time_is_up_is_not_decided",
+        "test_one_world_gets_a_table_of_algorithms",
+        "test_tables_fit_into_80_columns_without_colour",
+        "test_without_algorithm_the_whole_catalogue_is_run",
+    ),
+    "cli/test_faults.py": ("test_a_fault_that_no_check_was_put_to_is_not_counted_as_caught",),
+    "cli/test_in_process.py": (
+        r"test_what_a_mapper_prints_stands_marked_on_standard_error\[.*\]",
+        "test_workers_run_no_code_from_the_current_folder",
+    ),
+    "cli/test_programs.py": (
+        "test_a_changed_program_does_not_go_on_with_a_ledger",
+        "test_a_wrong_program_has_its_smallest_counterexample_which_replay_shows",
+        r"test_search_goes_through_all_worlds_with_a_program\[.*\]",
+        "test_verify_and_explore_run_programs",
+    ),
+    "cli/test_prove.py": ("test_two_runs_are_byte_equal_without_the_timing",),
+    "cli/test_record.py": (
+        "test_a_mapper_that_hangs_has_no_baseline",
+        "test_the_default_corpus_is_recorded",
+    ),
+    "cli/test_replay.py": ("test_the_trace_of_a_large_world_needs_the_world",),
+    "cli/test_search.py": (
+        r"test_a_counterexample_exits_1_and_is_the_same_with_any_workers\[.*\]",
+        "test_a_ledger_is_resumed",
+        "test_a_mapper_out_of_time_exits_3",
+        "test_claims_without_declarations_are_named",
+        "test_compare_shows_where_the_first_costs_more",
+        r"test_ctrl_c_exits_3_and_prints_what_is_done\[.*\]",
+        "test_json_is_equal_byte_for_byte_but_for_timing",
+        "test_keeping_going_shows_the_smallest_world_of_each_claim",
+    ),
+    "cli/test_targets.py": (r"test_an_argument_and_the_option_are_the_same\[verify\]",),
+    "cli/test_tidiness.py": (r"test_worlds_are_drawn_and_hypothesis_leaves_no_folder\[.*\]",),
+    "cli/test_verify.py": (
+        r"test_a_faulty_mapper_is_refuted_and_the_line_shows_it_again\[ignores_direction-m1/1\]",
+        r"test_a_faulty_mapper_is_refuted_and_the_line_shows_it_again\[loops .*\]",
+        r"test_a_faulty_mapper_is_refuted_and_the_line_shows_it_again\[walks --budget 500-m1/0\]",
+        "test_a_refuted_part_shows_its_smallest_counterexample",
+        "test_a_silent_mapper_passes_with_four_claims_not_declared",
+        "test_each_part_has_its_own_line",
+        "test_markdown_is_a_report_with_valid_tables",
+        "test_quick_checks_the_catalogue_in_six_parts",
+        "test_time_outs_leave_a_part_undecided",
+        "test_what_does_not_concern_a_mapper_of_ones_own_is_left_out_and_said",
+    ),
+    "examples/test_property_test.py": (
+        r"test_it_fails_with_the_world_that_the_page_says\[, simple=True-m3/13\]",
+        r"test_it_fails_with_the_world_that_the_page_says\[.*\]",
+    ),
+    "examples/test_pytest_plugin.py": (
+        "test_a_wrong_one_fails_with_the_world",
+        "test_the_mapper_passes_its_tests",
+        "test_the_steps_of_the_workflow_work",
+    ),
+    "harness/baseline/test_compare.py": (
+        "test_classes_of_the_extremes_have_names",
+        "test_the_worlds_are_those_of_the_file",
+    ),
+    "harness/conform/test_batch.py": (
+        r"test_what_goes_wrong_in_one_world_is_found_there_alone\[.*\]",
+        r"test_what_goes_wrong_in_one_world_is_found_there_alone\[hangs-.*\]",
+    ),
+    "harness/conform/test_conform.py": (
+        "test_after_many_time_outs_the_rest_is_not_tried",
+        r"test_the_examples_decide_as_the_reference_event_for_event\[(c|js)\]",
+        r"test_the_examples_decide_as_the_reference_event_for_event\[.*\]",
+        r"test_the_number_of_workers_changes_nothing\[.*\]",
+        r"test_the_number_of_workers_changes_nothing\[3\]",
+        r"test_the_wrong_examples_are_found_out\[.*\]",
+    ),
+    "harness/conform/test_misbehaviour.py": (
+        r"test_misbehaviour_is_one_finding_for_its_world\[closes its input\]",
+        r"test_misbehaviour_is_one_finding_for_its_world\[delivers and reads no more\]",
+        r"test_misbehaviour_is_one_finding_for_its_world\[floods declarations of 1 MB\]",
+        r"test_misbehaviour_is_one_finding_for_its_world\[floods declarations\]",
+        r"test_misbehaviour_is_one_finding_for_its_world\[floods stderr\]",
+        r"test_misbehaviour_is_one_finding_for_its_world\[hangs\]",
+        r"test_misbehaviour_is_one_finding_for_its_world\[ignores SIGTERM\]",
+        r"test_misbehaviour_is_one_finding_for_its_world\[prints half a line and hangs\]",
+    ),
+    "harness/faults/test_detection.py": ("test_workers_find_the_same_in_the_same_order",),
+    "harness/search/test_again.py": (
+        r"test_a_mapper_that_does_the_same_each_time_is_judged_as_before\[.*\]",
+        "test_a_mapper_that_draws_lots_leaves_the_verdict_open",
+        "test_a_program_is_run_again_too",
+        "test_a_world_that_fails_after_others_only_is_shown_after_others",
+        "test_where_no_row_of_worlds_makes_it_fail_the_search_is_named",
+    ),
+    "harness/search/test_page.py": (r"test_a_command_prints_what_the_page_shows\[.*\]",),
+    "harness/search/test_search.py": (
+        r"test_a_program_that_is_killed_once_is_tried_again\[.*\]",
+        "test_the_highest_costs_are_the_known_ones_and_their_worlds_have_them",
+        "test_the_planar_prior_is_right_in_planar_worlds_and_wrong_in_all_others",
+        "test_two_mappers_in_the_same_worlds_are_compared",
+    ),
+    "harness/test_gap.py": ("test_the_basic_algorithm_has_the_largest",),
+    "harness/test_ledger.py": ("test_killed_at_random_moments_it_ends_with_the_same_totals",),
+    "harness/test_pool.py": (
+        "test_a_mapper_that_cannot_be_interrupted_is_given_up",
+        "test_a_mapper_that_loops_ends_at_its_time_limit",
+        "test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_done",
+        "test_a_shard_whose_worker_was_killed_is_not_kept_in_a_ledger",
+        r"test_a_world_that_kills_its_worker_twice_is_a_finding\[.*\]",
+        "test_all_worlds_that_kill_their_workers_are_found",
+        r"test_results_are_equal_byte_for_byte_however_many_work\[.*\]",
+        r"test_results_are_equal_byte_for_byte_however_many_work\[enhancement.*\]",
+        "test_the_item_that_hangs_is_found",
+    ),
+    "harness/verify/test_proofs.py": (
+        "test_all_that_is_quick_comes_out_as_it_must",
+        "test_quick_is_the_inductive_theorems_alone",
+    ),
+    "harness/verify/test_verify.py": ("test_the_whole_campaign_exhausts_what_it_says",),
+    "programs/test_program.py": (
+        r"test_a_seeded_fault_is_found_through_the_pipe_just_as_in_process\[identifies-without-turning\]",
+    ),
+    "programs/test_protocol.py": ("test_every_line_of_a_conversation_meets_its_schema",),
+    "proofs/bounded/test_encoding.py": (
+        r"test_percepts_are_alike_as_far_as_the_marker_is_looked_at\[.*\]",
+        r"test_the_maps_are_exactly_those_that_an_exploration_can_draw\[3\]",
+    ),
+    "proofs/bounded/test_model_count.py": (
+        r"test_the_models_are_exactly_the_canonical_codes\[4-706\]",
+    ),
+    "proofs/bounded/test_theorems.py": (
+        "test_each_question_is_a_script_of_its_own",
+        r"test_one_door_theorems_hold_in_all_worlds_up_to_four_edges\[bounded-door\]",
+        r"test_one_door_theorems_hold_in_all_worlds_up_to_four_edges\[bounded-pose\]",
+        r"test_whole_words_hold_in_all_worlds_up_to_three_edges\[words-records-.*\]",
+    ),
+    "proofs/first_order/test_conformance.py": (
+        r"test_a_change_inside_an_algorithm_is_seen\[basic.*\]",
+        r"test_every_decision_in_every_world_to_four_edges\[.*\]",
+        r"test_every_decision_in_every_world_to_four_edges\[enhancement-iii-.*\]",
+    ),
+    "proofs/first_order/test_folds_in_worlds.py": (
+        "test_a_world_fits_its_own_walk_and_folds_identify_only_what_is_one_dart",
+    ),
+    "proofs/first_order/test_rule_mutants.py": (
+        "test_a_stage_draws_the_map_of_the_scene",
+        r"test_it_is_refuted_in_a_world_and_replayed\[conclude-the-last\]",
+        r"test_it_is_refuted_in_a_world_and_replayed\[records-stale-root\]",
+    ),
+    "proofs/first_order/test_terms.py": ("test_evaluation_and_solver_agree",),
+    "proofs/first_order/test_terms_in_worlds.py": (
+        "test_every_axiom_holds_on_every_map_of_a_world",
+        "test_the_obligations_hold_of_any_places_and_doors",
+        "test_what_inductions_over_words_say_holds_of_any_word",
+    ),
+    "proofs/first_order/test_theorems.py": (
+        r"test_its_mutant_is_refuted_by_a_structure\[records-written-without-trace\]",
+    ),
+    "proofs/solvers/test_cvc5_solver.py": (
+        r"test_it_agrees_on_the_bounded_theorems\[words-records-all\]",
+        r"test_it_agrees_on_the_bounded_theorems\[words-records-one\]",
+        r"test_it_finds_the_counterexamples_too\[undirected-simple\]",
+    ),
+    "proofs/test_catalogue.py": (
+        "test_each_question_is_a_whole_script_and_says_what_is_expected",
+        "test_the_package_alone_loads_no_solver",
+    ),
+    "properties/test_claims.py": (
+        r"test_every_claim_is_true_of_every_run\[dense_worlds-percepts-true\]",
+        r"test_every_claim_is_true_of_every_run\[tree_worlds-map-isomorphic\]",
+        r"test_every_claim_of_what_assumes_a_plane_holds_in_planar_worlds\[.*\]",
+        r"test_what_a_run_says_of_all_worlds_is_true_of_those_of_about_its_size\[.*\]",
+    ),
+    "properties/test_findings.py": (r"test_a_stronger_algorithm_may_cost_more\[.*-m5/177-.*\]",),
+    "properties/test_rules.py": (
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[dense_worlds-history-records.1.\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[dense_worlds-none-prefix\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[dense_worlds-prefix-history\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[dense_worlds-records..u221e.-folding\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[nonplanar_worlds-history-records.1.\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[nonplanar_worlds-none-prefix\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[nonplanar_worlds-prefix-history\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[nonplanar_worlds-records..u221e.-folding\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[nonplanar_worlds-records.1.-records..u22.*\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[symmetric_worlds-none-prefix\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[symmetric_worlds-prefix-history\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[tree_worlds-history-records.1.\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[tree_worlds-none-prefix\]",
+        r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[tree_worlds-prefix-history\]",
+    ),
+    "properties/test_stateful.py": ("test_whatever_is_explored_in_whatever_order_s_stays_true",),
+    "strategies/test_arguments.py": (
+        "test_strategies_compose_as_strategies_do",
+        r"test_the_default_bounds_are_the_widest\[.*\]",
+        r"test_the_world_without_an_edge_is_drawn_on_request_only\[.*\]",
+    ),
+    "strategies/test_growth.py": (
+        r"test_every_world_within_the_bounds_grows_and_no_other\[.*-4\]",
+    ),
+    "strategies/test_lattices.py": (
+        r"test_every_number_of_edges_can_be_had\[(31|57)\]",
+        r"test_every_number_of_edges_can_be_had\[11\]",
+        r"test_every_number_of_edges_can_be_had\[23\]",
+        r"test_every_number_of_edges_can_be_had\[30\]",
+        r"test_every_number_of_edges_can_be_had\[6\]",
+        r"test_every_number_of_edges_can_be_had\[8\]",
+        r"test_every_number_of_edges_can_be_had\[9\]",
+    ),
+    "strategies/test_notes.py": (
+        "test_the_failing_example_can_be_pasted_as_it_is_printed",
+        "test_the_failing_example_prints_its_world_and_the_run",
+        "test_with_hypothesiss_own_switch_on_every_run_carries_its_features",
+    ),
+    "strategies/test_registration.py": (
+        "test_a_mapper_is_drawn_wherever_an_algorithm_is_annotated",
+        "test_it_works_from_either_end",
+        "test_worlds_are_drawn_wherever_a_world_is_annotated",
+    ),
+    "strategies/test_resolve.py": (
+        r"test_arguments_are_numbers_words_and_truth_values\[worlds.min_edges=1, marker=.hub..-m1/0\]",
+    ),
+    "strategies/test_shrinking.py": (
+        r"test_a_planted_fault_shrinks_to_within_one_edge_of_its_smallest_world\[.*\]",
+        r"test_what_worlds_shrink_to\[<lambda>-m1/1\]",
+        r"test_what_worlds_shrink_to\[<lambda>-m2/7\]",
+        r"test_what_worlds_shrink_to\[<lambda>-m4/629\]",
+        r"test_what_worlds_shrink_to\[is_dear-m11/134485045224\]",
+    ),
+    "strategies/test_symmetric.py": (
+        r"test_well_known_worlds_are_found\[prism-9\]",
+        r"test_well_known_worlds_are_found\[torus-18\]",
+    ),
+    "strategies/test_uniform.py": (
+        "test_a_thousand_draws_of_74_worlds_are_spread_evenly",
+        "test_they_have_the_edges_that_were_asked_for_and_shrink_towards_rank_0",
+    ),
+    "test_house.py": ("test_the_rooms_and_their_arrows_can_be_drawn_from_memory",),
+    "test_layers.py": ("test_every_room_imports_only_what_it_may",),
+    "test_pytest_plugin.py": (
+        "test_a_junit_file_has_the_worlds_and_the_line",
+        "test_a_mapper_that_hangs_fails_and_leaves_the_rest_undecided",
+        "test_a_mapper_that_is_too_slow_never_passes",
+        "test_a_mapper_that_raises_shows_where",
+        "test_a_mark_may_name_a_program",
+        "test_a_mark_takes_a_callable_stands_on_classes_and_meets_parameters",
+        "test_a_mark_that_cannot_be_meant_is_an_error_of_one_sentence",
+        "test_a_target_that_is_none_is_an_error_of_collection",
+        "test_marks_without_a_target_mean_that_of_the_option",
+        "test_no_text_of_a_mapper_or_its_file_controls_a_terminal",
+        "test_the_fixtures_give_a_robot_and_a_report",
+        "test_the_help_has_a_group_and_the_mark_is_known",
+        "test_the_mapper_runs_once_in_each_world_and_the_body_after_each_claim",
+        "test_the_mark_selects_the_tests_of_the_option",
+        "test_the_traceback_of_a_bug_of_ours_is_shown_whole",
+        "test_tracebacks_show_the_users_code_and_none_of_ours",
+        "test_what_is_not_declared_is_skipped_and_does_not_pass",
+    ),
+    "world/formats/test_planar_code.py": ("test_nautys_grid_of_300_vertices_is_our_lattice",),
+    "world/formats/test_world_json.py": ("test_a_world_comes_back_with_all_that_it_carries",),
+    "world/test_least_cost.py": (
+        r"test_it_is_what_brute_force_finds\[[34]\]",
+        "test_no_run_costs_less",
+    ),
+}
+"""Patterns of the names of tests, parameters included, by their file in tests/."""
+
+TESTS = Path(__file__).resolve().parent
+
+
+def is_long(path: Path, name: str) -> bool:
+    """Whether a test is named in `LONG`."""
+    if not path.is_relative_to(TESTS):
+        return False
+    patterns = LONG.get(path.relative_to(TESTS).as_posix(), ())
+    return any(re.fullmatch(pattern, name) for pattern in patterns)
