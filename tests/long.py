@@ -270,7 +270,7 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_worlds_are_drawn_wherever_a_world_is_annotated",
     ),
     "strategies/test_resolve.py": (
-        r"test_arguments_are_numbers_words_and_truth_values\[worlds.min_edges=1, marker=.hub..-m1/0\]",
+        r"test_arguments_are_numbers_words_and_truth_values\[worlds.min_edges=1, marker.*",
     ),
     "strategies/test_shrinking.py": (
         r"test_a_planted_fault_shrinks_to_within_one_edge_of_its_smallest_world\[.*\]",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import stat
+from io import BytesIO
 from pathlib import Path
 
 import pytest
@@ -178,3 +179,25 @@ def test_a_text_in_a_message_is_one_line_of_bounded_length() -> None:
     assert shown("a\nb\0\x1b[31m\ud800") == r"a\nb\x00\x1b[31m\ud800"
     assert shown("x" * 500) == "x" * 199 + "…"
     assert shown(Path("a/b")) == "a/b"
+
+
+def test_a_stream_of_any_length_is_read_line_by_line_and_no_line_may_be_too_long(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(files, "LIMIT", 4)
+    assert list(files.lines(BytesIO(b"one\ntwo\n\nlast"), name="a log")) == [
+        b"one\n",
+        b"two\n",
+        b"\n",
+        b"last",
+    ]
+    found = files.lines(BytesIO(b"one\nthree\n"), name="a log")
+    assert next(found) == b"one\n"
+    with pytest.raises(InputError, match=r"a line of a log is larger than"):
+        next(found)
+
+
+def test_standard_input_that_was_closed_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stdin", None)
+    with pytest.raises(InputError, match="standard input is closed: name a file"):
+        files.standard_input()
