@@ -72,7 +72,7 @@ def test_the_whole_campaign_exhausts_what_it_says(monkeypatch: pytest.MonkeyPatc
     ]
     assert all(part.ok and not part.failing for part in parts)
     assert all(
-        seen == {"ok": 8954, "failed": 0, "not-declared": 0, "not-asked": 0}
+        {status for status, runs in seen.items() if runs} == {"ok"} and seen["ok"] == 8954
         for seen in parts[1].claims.values()
     )
 
