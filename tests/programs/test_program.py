@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import signal
 import subprocess
@@ -318,3 +319,13 @@ def test_what_a_served_mapper_prints_is_no_message(tmp_path: Path) -> None:
     )
     with program(served(f"{tmp_path}/chatty.py:explore")) as player:
         assert examine(player.target, World.from_id("m3/14")).ok
+
+
+def test_the_thread_that_plays_may_run_everywhere_again_after_a_world() -> None:
+    if not hasattr(os, "sched_getaffinity"):
+        pytest.skip("this system does not keep a thread on a processor")
+    before = os.sched_getaffinity(0)
+    with program(served("basic")) as mapper:
+        for world in ("m2/0", "m3/14"):
+            assert explore(World.from_id(world), mapper.target).map is not None
+            assert os.sched_getaffinity(0) == before

@@ -274,8 +274,12 @@ class Child:
             raise TooLong
 
     def beside(self) -> None:
-        """Keep a program with a single thread on the processor of this thread."""
+        """Keep a program with a single thread, and this thread, on one processor."""
         self._processor.follow()
+
+    def apart(self) -> None:
+        """Let this thread run again where it might before `beside`."""
+        self._processor.release()
 
     def read_on(self) -> None:
         """Wait until the program reads our next message, of which it gets the first bytes now.

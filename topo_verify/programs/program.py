@@ -230,9 +230,11 @@ class Program:
 
     def settle(self) -> None:
         """End the process if it misbehaved in its last world. Call this outside of time limits."""
-        if self._child is not None and not self._idle:
-            self._child.end()
-            self._child = None
+        if self._child is not None:
+            self._child.apart()
+            if not self._idle:
+                self._child.end()
+                self._child = None
         self._idle = True
 
     def close(self) -> None:
