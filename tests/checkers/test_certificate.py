@@ -215,3 +215,11 @@ def test_the_doors_of_all_places_of_a_log_have_a_bound() -> None:
     start = Start(percept=Percept(10**6, 0))
     with pytest.raises(InputError, match="have 1100000 doors together: expected at most 1048576"):
         certify([start, Move(0, Percept(10**5, None))])
+
+
+def test_a_long_log_may_have_sixteen_doors_an_event(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("topo_verify.checkers.certificate.MOST_DARTS", 1)
+    start = Start(percept=Percept(2, 0))
+    assert certify([start, Move(0, Percept(1, None))]).verdict == "UNKNOWN"
+    with pytest.raises(InputError, match="101 doors together: expected at most 32"):
+        certify([start, Move(0, Percept(99, None))])

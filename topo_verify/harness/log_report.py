@@ -78,7 +78,7 @@ def certify(trace: Sequence[Event]) -> Certificate:
             too, if there are any.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
-            its places have more than 2^20 doors together.
+            its places have more than 2^20 doors together, and more than 16 an event.
     Complexity: nearly linear for a plain log; claim 10 looks at every open dart once a decision.
     """
     judged = judge_log(trace)
