@@ -4,7 +4,7 @@
     .venv/bin/python benchmarks/torture --only readers --scale 20     more of one part
     .venv/bin/python benchmarks/torture --only "bit flips" --scale inf   every single bit
 
-    readers.py      every format, mutated: read, or refused with one sentence
+    readers.py      every format (formats.py), mutated: read, or refused with one sentence
     flips.py        single bits of ledgers and baselines: refused, or harmless
     programs.py     programs that misbehave in several ways: one report, nothing left over
     kills.py        signals at random moments: nothing lost, nothing wrong afterwards
@@ -41,8 +41,9 @@ import kills
 import planted
 import programs
 import readers
+from formats import FORMATS
 from processes import adopt
-from readers import FORMATS, Count
+from readers import Count
 
 KEEP = Path("torture-failures").resolve()
 TRIALS = {"readers": 400, "bit flips": 3000, "programs": 40, "kills": 9}

@@ -9,8 +9,9 @@ from __future__ import annotations
 from pathlib import Path
 from random import Random
 
+from formats import FORMATS
 from mutations import flipped
-from readers import FORMATS, Count, attempt
+from readers import Count, attempt
 
 
 def bits(name: str) -> int:
