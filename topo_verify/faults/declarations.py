@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.algorithms.chart import Survey
 from topo_verify.faults.fault import Fault, ForwardingRobot
-from topo_verify.robot.events import Decision, Evidence, Reject, Robot
+from topo_verify.robot.events import Decision, Evidence, Reject
 from topo_verify.robot.percept import Percept
 
 basic = CATALOGUE["basic"]
@@ -17,16 +16,12 @@ class _SilentOnRejections(ForwardingRobot):
             super().declare(event)
 
 
-def _no_rejects(robot: Robot) -> Survey:
-    return basic(_SilentOnRejections(robot))
-
-
 leaves_out_every_reject = Fault(
     name="leaves-out-every-reject",
     part="declarations",
     why="no rejection is declared, so hypotheses are posed and never heard of again",
     claim="true-hypothesis-kept",
-    mapper=_no_rejects,
+    mapper=lambda robot: basic(_SilentOnRejections(robot)),
 )
 
 
@@ -39,16 +34,12 @@ class _SilentOnEverySecond(ForwardingRobot):
             super().declare(event)
 
 
-def _half_the_rejects(robot: Robot) -> Survey:
-    return basic(_SilentOnEverySecond(robot))
-
-
 leaves_out_every_second_reject = Fault(
     name="leaves-out-every-second-reject",
     part="declarations",
     why="every second rejection is not declared",
     claim="true-hypothesis-kept",
-    mapper=_half_the_rejects,
+    mapper=lambda robot: basic(_SilentOnEverySecond(robot)),
 )
 
 
@@ -60,16 +51,12 @@ class _CitesNonsense(ForwardingRobot):
         super().declare(event)
 
 
-def _all_by_folding(robot: Robot) -> Survey:
-    return basic(_CitesNonsense(robot))
-
-
 calls_every_rejection_folding = Fault(
     name="calls-every-rejection-folding",
     part="declarations",
     why="each rejection by walking is declared as one by folding, with evidence that is made up",
     claim="rejection-justified",
-    mapper=_all_by_folding,
+    mapper=lambda robot: basic(_CitesNonsense(robot)),
 )
 
 
