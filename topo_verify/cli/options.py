@@ -33,6 +33,18 @@ def _seconds(_context: click.Context, _option: click.Parameter, value: str) -> f
     return seconds
 
 
+def seed(meaning: str) -> Callable[[Callable[..., int]], Callable[..., int]]:
+    """Add --seed, whose help says what it is the seed of."""
+    return click.option(
+        "--seed",
+        type=click.IntRange(min=0),
+        default=0,
+        show_default=True,
+        metavar="N",
+        help=meaning,
+    )
+
+
 def limits(command: Callable[..., int]) -> Callable[..., int]:
     """Add the limits of a run in one world; the command gets them as `limits`."""
     usual = Limits()

@@ -65,14 +65,7 @@ if TYPE_CHECKING:
 @click.option("--deep", is_flag=True, help="Include the theorems that take minutes.")
 @click.option("--certify", is_flag=True, help="Make and check certificates of bounded theorems.")
 @click.option("--smt2", "folder", metavar="DIR", help="Write each question to DIR as SMT-LIB 2.")
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    metavar="N",
-    help="Seed of the solver.",
-)
+@options.seed("Seed of the solver.")
 @output_options
 def prove(  # noqa: PLR0913  an argument an option
     output: Output,

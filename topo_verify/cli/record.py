@@ -129,14 +129,7 @@ def _opened(
     metavar="WORLDS",
     help="corpus, edges<=N, generated:N, a folder or a WORLD; repeatable.  [default: corpus]",
 )
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    metavar="N",
-    help="Seed of the generated worlds.",
-)
+@options.seed("Seed of the generated worlds.")
 @mapper_options
 @options.limits
 @output_options

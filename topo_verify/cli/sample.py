@@ -52,14 +52,7 @@ class SampleEntry(msgspec.Struct, frozen=True):
     metavar="STRATEGY",
     help="Draw from this Hypothesis strategy instead, for example 'worlds(max_edges=20)'.",
 )
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    metavar="N",
-    help="Seed of the drawing.",
-)
+@options.seed("Seed of the drawing.")
 @click.option(
     "-n",
     "number",

@@ -92,14 +92,7 @@ class _SearchOptions:
 )
 @click.option("--worst", is_flag=True, help="Show the highest costs and the worlds that have them.")
 @click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    metavar="N",
-    help="Seed of the worlds that are run again.",
-)
+@options.seed("Seed of the worlds that are run again.")
 @options.limits
 @output_options
 def search(  # noqa: PLR0913  an argument an option

@@ -150,7 +150,7 @@ class _Fresh:
         return self._program.target
 
     def close(self) -> None:
-        """End its process."""
+        """End the process in which worlds are run again."""
         if self._program is not None:
             self._program.close()
 
