@@ -52,6 +52,22 @@ def test_a_child_cannot_read_the_memory_of_a_shielded_process() -> None:
     assert peeped("shielded") == "PermissionError"
 
 
+DUMPABLE = """
+import ctypes, sys
+from topo_verify.programs import isolation
+library, PR_GET_DUMPABLE = ctypes.CDLL(None), 3
+print(library.prctl(PR_GET_DUMPABLE), isolation.shield(), library.prctl(PR_GET_DUMPABLE))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere no process can hide its memory")
+def test_a_shielded_process_is_not_dumpable() -> None:
+    """This is what keeps out an ordinary user; root is kept out by the capability it lacks."""
+    command = [sys.executable, "-c", DUMPABLE]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["1", "True", "0"]
+
+
 LOOKS = """
 import os
 def explore(robot):

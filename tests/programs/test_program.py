@@ -42,6 +42,9 @@ for line in sys.stdin:
 """
 """A program that gives every world up, telling its process; at the end it says that it was told."""
 
+PROCESSORS = os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else None
+"""Where this thread may run, as read before any test plays a world."""
+
 
 EDGE = World.from_id("m1/0")
 
@@ -322,10 +325,9 @@ def test_what_a_served_mapper_prints_is_no_message(tmp_path: Path) -> None:
 
 
 def test_the_thread_that_plays_may_run_everywhere_again_after_a_world() -> None:
-    if not hasattr(os, "sched_getaffinity"):
+    if PROCESSORS is None:
         pytest.skip("this system does not keep a thread on a processor")
-    before = os.sched_getaffinity(0)
     with program(served("basic")) as mapper:
         for world in ("m2/0", "m3/14"):
             assert explore(World.from_id(world), mapper.target).map is not None
-            assert os.sched_getaffinity(0) == before
+            assert os.sched_getaffinity(0) == PROCESSORS
