@@ -1,7 +1,7 @@
 """Exceptions, grouped by who must act: the caller, the mapper's author, or us.
 
-They are `InputError`, `ClaimFailed` and `InternalError`; the command line turns them into the exit
-codes 2, 1 and 70.
+They are `InputError`, `ClaimFailed` (with `ClaimUndecided`) and `InternalError`; the command line
+turns them into the exit codes 2, 1 (3) and 70.
 """
 
 from __future__ import annotations
@@ -25,6 +25,14 @@ class InputError(TopoVerifyError, ValueError):
 
 class ClaimFailed(TopoVerifyError, AssertionError):
     """At least one claim does not hold for the mapper; the text is the report."""
+
+
+class ClaimUndecided(TopoVerifyError, AssertionError):
+    """No claim fails, but one was neither proved nor refuted; the text names it, with the report.
+
+    What is not decided is no success. Where it is none of yours, catch it: `pytest.skip`, or
+    `hypothesis.reject`.
+    """
 
 
 class InternalError(TopoVerifyError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -223,12 +224,12 @@ def test_a_world_shows_itself_as_what_makes_it_or_by_its_size() -> None:
     ("alpha", "sigma", "root", "sentence"),
     [
         ((1, 0), (0,), 0, "alpha has 2 entries and sigma 1"),
-        ((0,), (0,), 0, "alpha has 1 entries and sigma 1: both have one a dart, two darts an edge"),
+        ((0,), (0,), 0, "alpha has 1 entries and sigma 1: give both one a dart, two darts an edge"),
         ((1, 0), (0, 1), None, "marker None with 2 darts"),
         ((), (), 0, "marker 0 with 0 darts"),
         ((1, 0), (0, 1), 2, "the marker points at dart 2, which is out of range"),
         ((1, 0), (0, 1), -1, "the marker points at dart -1"),
-        ((2, 0), (0, 1), 0, r"alpha\[0\] = 2 is out of range: the darts are 0 … 1"),
+        ((2, 0), (0, 1), 0, r"alpha\[0\] = 2 is out of range: name one of the darts 0 … 1"),
         ((1, 0), (0, -1), 0, r"sigma\[1\] = -1 is out of range"),
         ((1, 0, 2, 3), (1, 2, 3, 0), 0, "alpha has the fixed point 2"),
         ((1, 2, 3, 0), (1, 2, 3, 0), 0, r"no involution|alpha\[0\] = 1, but alpha\[1\] = 2"),
@@ -273,3 +274,12 @@ def test_its_text_brings_it_back_whatever_its_size() -> None:
 
 def test_it_is_printed_by_pretty_printers_as_anywhere() -> None:
     assert pretty(PATH) == repr(PATH)
+
+
+def test_a_world_shows_itself_and_writes_its_picture(tmp_path: Path) -> None:
+    world = World.from_id("m1/0")
+    picture = world.draw(tmp_path / "world.svg")
+    assert (tmp_path / "world.svg").read_text() == picture
+    assert world._repr_svg_() == picture  # pyright: ignore[reportPrivateUsage]
+    with pytest.raises(InputError, match=r"world\.gif"):
+        world.draw(tmp_path / "world.gif")

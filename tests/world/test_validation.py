@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any
@@ -23,7 +24,7 @@ LOOP = World.from_id("m1/1")
 Rows = list[list[int]]
 
 NO_WORLDS: list[tuple[Rows, Rows, int | None, str]] = [
-    ([], [], None, "'vertices' is empty: the smallest world has one vertex"),
+    ([], [], None, "'vertices' is empty: give one list a vertex; the smallest world is"),
     ([[0, 1], []], [[0, 1]], 0, r"vertices\[1\] has no dart: the world is not connected"),
     ([[], []], [], None, r"vertices\[0\] has no dart"),
     (
@@ -33,7 +34,7 @@ NO_WORLDS: list[tuple[Rows, Rows, int | None, str]] = [
         r"dart 1 stands at two places .* vertices\[0\] and vertices\[1",
     ),
     ([[0, 0]], [[0, 1]], 0, r"dart 0 stands at two places .* vertices\[0\] and vertices\[0\]"),
-    ([[0, 1]], [[0]], 0, r"edges\[0\] has 1 darts: an edge is two darts"),
+    ([[0, 1]], [[0]], 0, r"edges\[0\] has 1 dart: an edge is two darts"),
     ([[0, 1]], [[0, 1, 2]], 0, r"edges\[0\] has 3 darts"),
     ([[0, 1]], [[0, 2]], 0, r"edges\[0\] names dart 2, which no vertex has"),
     ([[0, 1]], [[0, 0]], 0, r"dart 0 stands in edges\[0\] and edges\[0\]"),
@@ -54,6 +55,16 @@ def test_rotations_and_edges_that_are_no_world_are_refused(
         World.from_rotations(vertices, edges, marker)
     with pytest.raises(InputError, match=sentence):
         World.from_map({"vertices": vertices, "edges": edges, "marker": marker})
+
+
+@pytest.mark.parametrize(("vertices", "edges", "marker", "sentence"), NO_WORLDS)
+def test_each_refusal_says_what_to_do(
+    vertices: Rows, edges: Rows, marker: int | None, sentence: str
+) -> None:
+    with pytest.raises(InputError, match=sentence) as refusal:
+        World.from_rotations(vertices, edges, marker)
+    mend = r"[:;,] (or )?(give|name|put|take|leave|correct|join) .*"
+    assert re.search(mend, str(refusal.value)), str(refusal.value)
 
 
 # ---------------------------------------------------------------- what is a map

@@ -3,12 +3,13 @@
 | name ends in | format |
 | --- | --- |
 | `.pc`, `.plc` | planar_code |
-| `.graphml` | GraphML with positions |
+| `.graphml` | GraphML, with a rotation or with positions |
 | `.net.xml` | a road network of SUMO |
+| `.nx.json` | NetworkX's node-link JSON |
 | anything else | world JSON |
 
 Text without a file name, and whatever `World.save` writes, is world JSON. The other formats are
-written by the commands that ask for them.
+written by the commands that ask for them. Pictures are drawn by `drawing/`.
 """
 
 # Each format is imported in the function that uses it. Parsers of XML and JSON take longer to load
@@ -35,7 +36,7 @@ def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -
     Raises:
         InputError: the file cannot be read, or holds no world.
     """
-    from topo_verify.world.formats import graphml, planar_code, sumo, world_json
+    from topo_verify.world.formats import graphml, node_link, planar_code, sumo, world_json
 
     name = os.fspath(path).lower()
     if name.endswith((".pc", ".plc")):
@@ -49,6 +50,8 @@ def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -
         return graphml.load(cls, path)
     if name.endswith(".net.xml"):
         return sumo.load(cls, path)
+    if name.endswith(".nx.json"):
+        return node_link.load(cls, path)
     return world_json.load(cls, path)
 
 
@@ -79,3 +82,21 @@ def save(world: World, path: str | PathLike[str]) -> None:
     from topo_verify.world.formats import world_json
 
     world_json.save(world, path)
+
+
+def draw(world: World, path: str | PathLike[str] | None = None) -> str:
+    """The picture of the world as SVG; written to the file, too, in the format that it asks for.
+
+    Raises:
+        InputError: the file cannot be written, its name has another ending, or what renders it is
+            not installed.
+    """
+    from topo_verify.world.drawing import document, format_of, lay_out, to_svg
+    from topo_verify.world.formats import files
+
+    # A name that will not do is refused before the work begins.
+    kind = None if path is None else format_of(os.fspath(path))
+    layout = lay_out(world)
+    if kind is not None and path is not None:
+        files.write(path, document(world, layout, kind))
+    return to_svg(world, layout)

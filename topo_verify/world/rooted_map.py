@@ -27,6 +27,7 @@ from topo_verify.errors import InputError
 from topo_verify.world import validation
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.least_cost import least_cost
+from topo_verify.world.permutations import cycles
 
 W = TypeVar("W", bound="World")
 
@@ -44,6 +45,7 @@ class _Formats(Protocol):
     def decode(self, cls: type[W], text: str | bytes) -> W: ...
     def encode(self, world: World) -> str: ...
     def save(self, world: World, path: str | PathLike[str]) -> None: ...
+    def draw(self, world: World, path: str | PathLike[str] | None = None) -> str: ...
 
 
 @dataclass(frozen=True, eq=False, repr=False)  # no slots: cached_property needs `__dict__`
@@ -115,8 +117,7 @@ class World:
         rotations = [tuple(rotation) for rotation in vertices]
         pairs = [tuple(edge) for edge in edges]
         number = validation.numbering(rotations, pairs)
-        if marker is not None and marker not in number:
-            raise InputError(f"the marker points at dart {marker}, which no vertex has")
+        validation.require_marker(marker, number)
         alpha, sigma = [0] * len(number), [0] * len(number)
         for pair in pairs:
             alpha[number[pair[0]]], alpha[number[pair[1]]] = number[pair[1]], number[pair[0]]
@@ -162,7 +163,7 @@ class World:
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, graph: int | None = None) -> Self:
-        """The world in a file: .json, .pc, .plc, .graphml, .net.xml (`topo_verify.world.formats`).
+        """The world in a file: .json, .pc, .plc, .graphml, .net.xml, .nx.json (`io.py`).
 
         Args:
             graph: which of several graphs in a file of planar_code, counted from 0.
@@ -195,7 +196,7 @@ class World:
         """The darts of each vertex in clockwise order. One empty vertex where there is no dart."""
         if not self.alpha:
             return ((),)
-        return _cycles(self.sigma, self.starts)
+        return cycles(self.sigma, self.starts)
 
     @cached_property
     def edges(self) -> tuple[tuple[Dart, Dart], ...]:
@@ -240,7 +241,7 @@ class World:
         """The cycles of sigma∘alpha. One empty face where there is no dart (the sphere)."""
         if not self.alpha:
             return ((),)
-        return _cycles(tuple(self.sigma[other] for other in self.alpha))
+        return cycles(tuple(self.sigma[other] for other in self.alpha))
 
     @property
     def genus(self) -> int:
@@ -377,23 +378,19 @@ class World:
         size = f"{len(self.vertices)} vertices, {len(self.edges)} edges, genus {self.genus}"
         return f"<World {self.name!r}: {size}>"
 
+    def draw(self, path: str | PathLike[str] | None = None) -> str:
+        """A picture as SVG, in which the order of the darts at every vertex is the true one.
+
+        Args:
+            path: also write it to this file: .svg, .png, .pdf or .html.
+        Raises:
+            InputError: the file cannot be written, its name has another ending, or a PNG or a PDF
+                is asked for and the extra `draw` is not installed.
+        """
+        return self.formats.draw(self, path)
+
+    def _repr_svg_(self) -> str:
+        return self.draw()
+
     def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
         printer.text(repr(self))
-
-
-def _cycles(
-    permutation: Sequence[Dart], starts: Sequence[Dart] = ()
-) -> tuple[tuple[Dart, ...], ...]:
-    """The cycles, in the order of their starts; those without one by their least dart."""
-    seen = [False] * len(permutation)
-    cycles: list[tuple[Dart, ...]] = []
-    for start in (*starts, *range(len(permutation))):
-        cycle: list[Dart] = []
-        dart = start
-        while not seen[dart]:  # empty for a start that an earlier cycle went through
-            seen[dart] = True
-            cycle.append(dart)
-            dart = permutation[dart]
-        if cycle:
-            cycles.append(tuple(cycle))
-    return tuple(cycles)

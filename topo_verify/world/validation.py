@@ -6,7 +6,7 @@ because a world that differs from what its writer meant makes every result about
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence, Sized
+from collections.abc import Container, Iterable, Mapping, Sequence, Sized
 from collections.abc import Set as AbstractSet
 from contextlib import suppress
 from math import isfinite
@@ -14,6 +14,7 @@ from operator import index
 from typing import Any, SupportsIndex, cast
 
 from topo_verify.errors import InputError
+from topo_verify.text import plural
 
 
 def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int | None) -> None:
@@ -21,33 +22,37 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
     darts = len(alpha)
     if len(sigma) != darts or darts % 2:
         raise InputError(
-            f"alpha has {darts} entries and sigma {len(sigma)}: both have one a dart, two"
-            " darts an edge"
+            f"alpha has {darts} entries and sigma {len(sigma)}: give both one a dart, two darts an"
+            " edge"
         )
     if (root is None) != (darts == 0):
         raise InputError(
             f"marker {root} with {darts} darts: the marker points at a dart; it is null"
-            " exactly if the world has none"
+            " exactly if the world has none: name a dart, or null"
         )
     if root is not None and not 0 <= root < darts:
         raise InputError(
             f"the marker points at dart {root}, which is out of range:"
-            f" the darts are 0 … {darts - 1}"
+            f" name one of the darts 0 … {darts - 1}"
         )
     # Ranges first: the checks after these use images as indices.
     for name, row in (("alpha", alpha), ("sigma", sigma)):
         for dart, image in enumerate(row):
             if not 0 <= image < darts:
                 raise InputError(
-                    f"{name}[{dart}] = {image} is out of range: the darts are 0 … {darts - 1}"
+                    f"{name}[{dart}] = {image} is out of range: name one of the darts"
+                    f" 0 … {darts - 1}"
                 )
     for dart, other in enumerate(alpha):
         if other == dart:
-            raise InputError(f"alpha has the fixed point {dart}: an edge is two different darts")
+            raise InputError(
+                f"alpha has the fixed point {dart}: an edge is two different darts; pair it with"
+                " the dart at its other end"
+            )
         if alpha[other] != dart:
             raise InputError(
                 f"alpha is not an involution: alpha[{dart}] = {other}, but"
-                f" alpha[{other}] = {alpha[other]}"
+                f" alpha[{other}] = {alpha[other]}; let the two darts of an edge name each other"
             )
     if len(set(sigma)) != darts:  # all images are in range, so one dart is the image of two
         # Reversed: of two darts with one image, the lower is written last and stays.
@@ -55,7 +60,7 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
         second = min(dart for dart, image in enumerate(sigma) if first[image] != dart)
         raise InputError(
             f"sigma is not a permutation: darts {first[sigma[second]]} and {second} both turn"
-            f" to dart {sigma[second]}"
+            f" to dart {sigma[second]}; let one of them turn to the dart that none turns to"
         )
 
 
@@ -72,7 +77,7 @@ def require_one_each(
     for vertex, position in enumerate(positions):
         if len(position) != 2 or not all(map(isfinite, position)):
             raise InputError(
-                f"positions[{vertex}] is {position!r}: a position is two finite numbers, x and y"
+                f"positions[{vertex}] is {position!r}: give two finite numbers, x and y"
             )
 
 
@@ -81,33 +86,54 @@ def numbering(rotations: Sequence[Sequence[int]], pairs: Sequence[Sequence[int]]
     vertex: dict[int, int] = {}
     for place, rotation in enumerate(rotations):
         if not rotation and len(rotations) > 1:
-            raise InputError(f"vertices[{place}] has no dart: the world is not connected")
+            raise InputError(
+                f"vertices[{place}] has no dart: the world is not connected; leave it out, or"
+                " give it an edge"
+            )
         for dart in rotation:
             if dart in vertex:
                 raise InputError(
                     f"dart {dart} stands at two places of 'vertices': in vertices[{vertex[dart]}]"
-                    f" and vertices[{place}]; each dart belongs to one vertex, once"
+                    f" and vertices[{place}]; each dart belongs to one vertex, once:"
+                    " take one of the two out"
                 )
             vertex[dart] = place
     if not rotations:
-        raise InputError("'vertices' is empty: the smallest world has one vertex, [[]]")
+        raise InputError("'vertices' is empty: give one list a vertex; the smallest world is [[]]")
     edge: dict[int, int] = {}
     for place, pair in enumerate(pairs):
         if len(pair) != 2:
-            raise InputError(f"edges[{place}] has {len(pair)} darts: an edge is two darts")
+            raise InputError(
+                f"edges[{place}] has {plural(len(pair), 'dart')}: an edge is two darts; give both"
+            )
         for dart in pair:
             if dart not in vertex:
-                raise InputError(f"edges[{place}] names dart {dart}, which no vertex has")
+                raise InputError(
+                    f"edges[{place}] names dart {dart}, which no vertex has: put it into 'vertices'"
+                    " where the edge ends"
+                )
             if dart in edge:
                 raise InputError(
                     f"dart {dart} stands in edges[{edge[dart]}] and edges[{place}]:"
-                    " each dart belongs to one edge, and an edge is two different darts"
+                    " each dart belongs to one edge, and an edge is two different darts; correct"
+                    " one of the two places"
                 )
             edge[dart] = place
     for dart, place in vertex.items():
         if dart not in edge:
-            raise InputError(f"dart {dart} of vertices[{place}] belongs to no edge")
+            raise InputError(
+                f"dart {dart} of vertices[{place}] belongs to no edge: put it into 'edges' with the"
+                " dart at its other end, or take it out"
+            )
     return {dart: place for place, dart in enumerate(sorted(vertex))}
+
+
+def require_marker(marker: int | None, darts: Container[int]) -> None:
+    """Refuse a marker that is none of the darts."""
+    if marker is not None and marker not in darts:
+        raise InputError(
+            f"the marker points at dart {marker}, which no vertex has: name a dart of 'vertices'"
+        )
 
 
 def map_parts(map_like: object) -> tuple[list[list[int]], list[list[int]], int | None]:
@@ -117,7 +143,7 @@ def map_parts(map_like: object) -> tuple[list[list[int]], list[list[int]], int |
     if marker is not None and dart is None:
         raise InputError(
             "expected a dart (an integer of at most 64 bits) or None as the map's 'marker', got a"
-            f" {type(marker).__name__}"
+            f" {type(marker).__name__}: give the number of the dart"
         )
     return _rows("vertices", vertices), _rows("edges", edges), dart
 
@@ -137,7 +163,7 @@ def _part(map_like: object, name: str) -> Any:
     if part is _MISSING:
         raise InputError(
             f"{type(map_like).__name__} has no {name!r}; expected a map with vertices, edges and"
-            " marker, as attributes or as keys"
+            " marker, as attributes or as keys: give it all three"
         )
     return part
 
@@ -146,16 +172,21 @@ def _rows(name: str, value: object) -> list[list[int]]:
     given = _items(value)
     if given is None:
         seen = type(value).__name__
-        raise InputError(f"expected a list of lists of darts as the map's {name!r}, got a {seen}")
+        raise InputError(
+            f"expected a list of lists of darts as the map's {name!r}, got a {seen}: give one list"
+            f" of darts {'a vertex' if name == 'vertices' else 'an edge'}"
+        )
     rows: list[list[int]] = []
+    kinds = [type(row).__name__ for row in given]
     for place, row in enumerate(given):
         # A set has no order, and the order is the rotation. An edge may be a set of two darts.
         items = None if name == "vertices" and isinstance(row, AbstractSet) else _items(row)
         darts = [dart for item in items or () if (dart := _integer(item)) is not None]
         if items is None or len(darts) < len(items):
+            seen = f"a {kinds[place]}" if items is None else "one with something else in it"
             raise InputError(
                 f"expected a list of darts (integers of at most 64 bits) as the map's"
-                f" {name}[{place}]"
+                f" {name}[{place}], got {seen}: give their numbers"
             )
         rows.append(darts)
     return rows

@@ -7,7 +7,7 @@ import pytest
 from topo_verify.errors import InputError
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
-from topo_verify.world.enumeration.degree_counts import MAX_EDGES, count_graphs
+from topo_verify.world.enumeration.degree_counts import MAX_EDGES, MAX_NARROW_EDGES, count_graphs
 
 SIMPLE = (1, 1, 2, 6, 23, 108, 596, 3790, 27339, 220918)
 LOOPLESS = (1, 1, 3, 14, 87, 672)
@@ -48,5 +48,7 @@ def test_paths_and_cycles_are_counted_at_any_size() -> None:
 def test_too_many_edges_are_refused() -> None:
     with pytest.raises(InputError, match=f"expected at most {MAX_EDGES} edges"):
         count_graphs(MAX_EDGES + 1, simple=True)
+    with pytest.raises(InputError, match=f"expected at most {MAX_NARROW_EDGES} edges, got 101: wi"):
+        count_graphs(MAX_NARROW_EDGES + 1, most_degree=2)
     with pytest.raises(InputError, match="expected 0 or more edges, got -1"):
         count_graphs(-1)

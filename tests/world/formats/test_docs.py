@@ -31,6 +31,12 @@ def test_the_examples_print_what_the_page_shows(
     assert CliRunner().invoke(main, ["world", "convert", name]).stdout == shown[1] + "\n"
 
 
+def test_the_node_link_json_of_the_page_is_what_is_printed() -> None:
+    line = "topo-verify world convert m4/41 --to nx-json"
+    printed = CliRunner().invoke(main, line.split()[1:]).stdout
+    assert f"$ {line}\n{printed}```" in PAGE
+
+
 def test_the_python_of_the_page_runs() -> None:
     found = re.search(r"```python\n(.*?)```", PAGE, re.DOTALL)
     assert found is not None

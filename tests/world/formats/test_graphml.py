@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
-from topo_verify.world.formats import graphml
+from topo_verify.world.formats import embedding, graphml
 from topo_verify.world.formats.nx import from_positions
 
 NX: Any = nx
@@ -143,6 +143,28 @@ def test_what_is_wrong_is_named_with_its_place(old: bytes, new: bytes, sentence:
 )
 def test_what_is_no_graph_is_refused(data: bytes, sentence: str) -> None:
     assert sentence in refusal_of(data)
+
+
+@pytest.mark.parametrize(("vertices", "edges"), [(4, 5), (7, 4)])
+def test_a_file_is_refused_as_soon_as_it_has_too_much(
+    vertices: int, edges: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before its end, which is not XML."""
+    monkeypatch.setattr(embedding, "MOST_EDGES", 4)
+    text = "<graphml><graph>" + "".join(f'<node id="{v}"/>' for v in range(vertices))
+    text += '<edge source="0" target="0"/>' * edges + "<broken"
+    sentence = refusal_of(text.encode())
+    assert "expected at most 4 edges, their vertices, and 1,000,000 points in" in sentence
+    assert "is not valid XML" in refusal_of(b"<graphml><graph><broken")
+
+
+def test_a_polyline_of_too_many_points_is_refused_before_it_is_read(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(embedding, "MOST_POINTS", 4)
+    assert len(graphml.decode(World, OSMNX).edges) == 3
+    data = OSMNX.replace(b"-72.95 39.9,", b"-72.95 39.9, x, y, z,")
+    assert "4 points in all polylines, and it has more" in refusal_of(data)
 
 
 @given(data=st.data())

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from topo_verify.errors import InputError
 from topo_verify.world import World
-from topo_verify.world.formats import sumo
+from topo_verify.world.formats import embedding, sumo
 
 # As netconvert writes it, shortened: a crossing with streets to the west, the north and, by a
 # bend, the east; a one-way street from the east to the north.
@@ -47,6 +47,17 @@ def refusal_of(data: bytes) -> str:
     assert sentence.startswith("SUMO network")
     assert len(sentence) < 500
     return sentence
+
+
+def test_a_file_is_refused_as_soon_as_it_has_too_much(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before its end, which is not XML."""
+    data = NET.replace(b"</net>", b"<broken")
+    assert "is not valid XML" in refusal_of(data)
+    monkeypatch.setattr(embedding, "MOST_POINTS", 9)
+    assert "expected at most 500,000 edges, their vertices, and 9 points in" in refusal_of(data)
+    monkeypatch.undo()
+    monkeypatch.setattr(embedding, "MOST_EDGES", 2)
+    assert "expected at most 2 edges" in refusal_of(data)
 
 
 def test_a_network_is_read_each_street_once_and_nothing_within_junctions() -> None:

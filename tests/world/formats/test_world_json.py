@@ -177,7 +177,7 @@ def test_the_schema_refuses_what_the_reader_refuses() -> None:
         (EDGE.replace("0", "00"), "is not valid JSON"),
         (EDGE.replace("0]", "NaN]"), "is not valid JSON: invalid character"),
         (EDGE.replace("0]", "Infinity]"), "is not valid JSON"),
-        ("[" * 100_000, "expected `object`, got `array`; a world is one JSON object with no"),
+        ("[" * 100_000, "expected `object`, got `array`; correct it: a world is one JSON"),
         ('{"a":' * 100_000, "expected a world, got lists that are nested too deeply"),
         ('{"a":' + "[" * 100_000, "nested too deeply"),
         ("{" + HEAD + ',"vertices":' + "[" * 100_000, "nested too deeply"),
@@ -224,18 +224,22 @@ def test_a_large_text_is_refused_before_it_is_read(monkeypatch: pytest.MonkeyPat
             ": expected the 'format' 'topo-verify/world', got 'topo-verify/trace'",
         ),
         ("format", "a\nb" * 999, r": expected the 'format' 'topo-verify/world', got 'a\nba\nb"),
-        ("format", None, ", format: expected `str`, got `null`; 'format' is the name of this"),
+        ("format", None, ", format: expected `str`, got `null`; correct it: 'format' is the"),
         (
             "version",
             2,
             " has version 2 of the world format, and this topo-verify reads versions up",
         ),
-        ("version", 0, ", version: invalid enum value 0; 'version' is the version of this format"),
+        ("version", 0, ", version: invalid enum value 0; correct it: 'version' is the version"),
         ("version", True, ", version: expected `int`, got `bool`"),
         ("version", 1.0, ", version: expected `int`, got `float`"),
-        ("name", 5, ", name: expected `str`, got `int`; 'name' is a text"),
+        ("name", 5, ", name: expected `str`, got `int`; correct it: 'name' is a text"),
         ("name", None, ", name: expected `str`, got `null`"),
-        ("vertices", None, ", vertices: expected `array`, got `null`; 'vertices' is one list a"),
+        (
+            "vertices",
+            None,
+            ", vertices: expected `array`, got `null`; correct it: 'vertices' is one",
+        ),
         ("vertices", [0, 1], ", vertices[0]: expected `array`, got `int`"),
         ("vertices", [[0], [True]], ", vertices[1][0]: expected `int`, got `bool`"),
         ("vertices", [[0], [1.0]], ", vertices[1][0]: expected `int`, got `float`"),
@@ -245,7 +249,11 @@ def test_a_large_text_is_refused_before_it_is_read(monkeypatch: pytest.MonkeyPat
         ("vertices", [[0], [10**400]], ", vertices[1][0]: "),
         ("vertices", [[0], [1], [1]], ": dart 1 stands at two places of 'vertices'"),
         ("vertices", [], ": 'vertices' is empty"),
-        ("edges", [[0, 1, 2]], ", edges[0]: expected `array` of length 2; 'edges' is one list an"),
+        (
+            "edges",
+            [[0, 1, 2]],
+            ", edges[0]: expected `array` of length 2; correct it: 'edges' is one",
+        ),
         ("edges", [], ": dart 0 of vertices[0] belongs to no edge"),
         ("edges", {"0": 1}, ", edges: expected `array`, got `object`"),
         (
@@ -254,7 +262,11 @@ def test_a_large_text_is_refused_before_it_is_read(monkeypatch: pytest.MonkeyPat
             ": marker None with 2 darts: the marker points at a dart; it is null exactly",
         ),
         ("marker", 2, ": the marker points at dart 2, which no vertex has"),
-        ("marker", False, ", marker: expected `int | null`, got `bool`; 'marker' is the dart"),
+        (
+            "marker",
+            False,
+            ", marker: expected `int | null`, got `bool`; correct it: 'marker' is the",
+        ),
         ("marker", [0], ", marker: expected `int | null`, got `array`"),
         ("vertex_names", [], ", vertex_names: expected `array` of length >= 1"),
         ("vertex_names", ["a"], ": vertex_names has 1 entries for 2 vertices"),
@@ -266,7 +278,7 @@ def test_a_large_text_is_refused_before_it_is_read(monkeypatch: pytest.MonkeyPat
         ("positions", [[0, 0], ["1", 0]], ", positions[1][0]: expected `float`, got `str`"),
         ("source", 1, ", source: expected `str`, got `int`"),
         ("licence", [], ", licence: expected `str`, got `array`"),
-        ("colour", "red", ": object contains unknown field `colour`; a world is one JSON object"),
+        ("colour", "red", ": object contains unknown field `colour`; leave it out: a world is"),
         ("\u001b[31m\n", 1, r": object contains unknown field `\x1b[31m\n`"),
         ("k" * 9999, 1, ": object contains unknown field `kkkk"),
     ],
@@ -282,7 +294,7 @@ def test_a_field_that_is_missing_is_named_with_what_it_is(field: str) -> None:
     fields = json.loads(EDGE)
     del fields[field]
     seen = refusal_of(json.dumps(fields))
-    assert f"object missing required field `{field}`; '{field}' is" in seen
+    assert f"object missing required field `{field}`; add it: '{field}' is" in seen
 
 
 @pytest.mark.parametrize("field", ["format", "version", "vertices", "edges", "marker"])

@@ -5,4 +5,5 @@ degree_counts.py   counts of worlds by properties of their graph: loopless, simp
 genus_counts.py    counts of worlds by genus
 classes.py         CLASS on a command line: planar, genus:1, simple, ...
 pruned.py          the worlds of a class, grown in rank order without listing the others
+listing.py         `tv.worlds`: the worlds of a size and a class, one after the other
 """

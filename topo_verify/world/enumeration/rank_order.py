@@ -24,6 +24,7 @@ W. T. Tutte, "A census of planar maps", Canad. J. Math. 15 (1963).
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from functools import cache
 from itertools import accumulate, islice
@@ -225,7 +226,8 @@ def tables(edges: int, start: int = 0, stop: int | None = None) -> Iterator[Tabl
     """
     total = count(edges)
     stop = total if stop is None else min(stop, total)
-    return islice(_tables_from(edges, start), max(0, stop - start))
+    # `islice` takes no longer number, and nobody lists so many.
+    return islice(_tables_from(edges, start), min(max(0, stop - start), sys.maxsize))
 
 
 def _tables_from(edges: int, skip: int) -> Iterator[Table]:

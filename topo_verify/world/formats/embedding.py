@@ -23,7 +23,7 @@ a place (bridges) the map need not be planar; the drawing is taken as it is.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import cmp_to_key
@@ -41,6 +41,13 @@ Point = tuple[float, float]
 
 FARTHEST = 1e12
 """The largest coordinate, either way: products of two differences are far from overflowing."""
+
+
+MOST_EDGES = 500_000
+"""The most edges of a file: a million darts."""
+
+MOST_POINTS = 1_000_000
+"""The most points of all polylines in a file: each takes 100 bytes and more, once read."""
 
 
 class DrawnVertex(NamedTuple):
@@ -255,20 +262,30 @@ def _compared(one: _LeavingEnd, other: _LeavingEnd) -> int:
 # ---------------------------------------------------------------- texts
 
 
-def number(value: Any, what: str) -> float:
+def require_size(name: str, *, vertices: int, edges: int, points: int) -> None:
+    """Refuse a file as soon as it has more than memory is promised for."""
+    if vertices > MOST_EDGES + 1 or edges > MOST_EDGES or points > MOST_POINTS:
+        raise InputError(
+            f"{name}: expected at most {MOST_EDGES:,} edges, their vertices, and"
+            f" {MOST_POINTS:,} points in all polylines, and it has more: give a part of it, or"
+            " simplify the polylines"
+        )
+
+
+def number(value: Any, what: str, most: float = FARTHEST) -> float:
     """The value as a coordinate.
 
     Raises:
-        InputError: it is not a number, or larger than `FARTHEST`.
+        InputError: it is not a number, or larger than `most`, either way.
     """
     with suppress(TypeError, ValueError, OverflowError):
         found = float(value)
-        if abs(found) <= FARTHEST:
+        if abs(found) <= most:
             return found + 0.0  # no negative zero
     # A long integer is not written out: Python refuses to, beyond some thousand digits.
     seen = "an integer" if isinstance(value, int) else repr(value)
     raise InputError(
-        f"{what} is {shown(seen, limit=60)}, expected a number of at most {FARTHEST:.0e} in size"
+        f"{what} is {shown(seen, limit=60)}, expected a number of at most {most:.0e} in size"
     )
 
 
@@ -283,16 +300,31 @@ def line(text: str, what: str) -> tuple[Point, ...]:
         raise InputError(
             f"{what} is '{shown(text, limit=60)}', expected a line as LINESTRING (0 0, 1 2)"
         )
-    return points([part.split() for part in found[1].split(",")], what)
+    # One point at a time, since a million of them as texts take ten times the memory.
+    return points((part.split() for part in _parts(found[1])), what)
 
 
-def points(rows: Sequence[Sequence[object]], what: str) -> tuple[Point, ...]:
+def _parts(text: str) -> Iterator[str]:
+    """What stands between the commas."""
+    begin = 0
+    while (comma := text.find(",", begin)) >= 0:
+        yield text[begin:comma]
+        begin = comma + 1
+    yield text[begin:]
+
+
+def points(rows: Iterable[Sequence[object]], what: str) -> tuple[Point, ...]:
     """The points of a polyline, x and y each; a third coordinate, a height, is left out.
 
     Raises:
         InputError: a point has fewer or more coordinates, or one of them is not a number.
     """
-    for row in rows:
-        if len(row) not in {2, 3}:
-            raise InputError(f"{what} has a point of {len(row)} coordinates, expected x and y")
-    return tuple((number(row[0], what), number(row[1], what)) for row in rows)
+    return tuple(_point(row, what) for row in rows)
+
+
+def _point(row: Sequence[object], what: str) -> Point:
+    if len(row) not in {2, 3}:
+        raise InputError(
+            f"{what} has a point of {len(row)} coordinates, expected x and y: give it both"
+        )
+    return number(row[0], what), number(row[1], what)

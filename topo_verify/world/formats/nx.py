@@ -1,6 +1,9 @@
-"""NetworkX: planar embeddings both ways, and worlds of any graph with positions.
+"""NetworkX: every world as a multigraph and back, planar embeddings, graphs with positions.
 
 NetworkX is imported when one of these functions is called, because it takes long to load.
+
+**Multigraphs with rotations** (`to_networkx`, `from_networkx`) hold every world whole: rotated.py
+names their attributes. Nodes are the numbers of the vertices, keys those of the edges.
 
 **Planar embeddings** (`networkx.PlanarEmbedding`) hold clockwise orders, as worlds do, for simple
 planar graphs: other worlds are refused. The vertices come in the order of the nodes, each from its
@@ -11,8 +14,8 @@ with the marker's, so that the marker comes back as the first dart of the first 
 first segment, y upwards; equal angles are an error. A street network from OSMnx can be given as it
 is, projected or not.
 
-Everywhere the marker is the first dart of the first vertex, unless it is named by the two ends of
-its edge: `marker=("a", "b")` lies at a and points to b; in a multigraph a key may follow.
+In the last two the marker is the first dart of the first vertex, unless it is named by the two
+ends of its edge: `marker=("a", "b")` lies at a and points to b; in a multigraph a key may follow.
 Vertices keep their nodes' names as texts.
 """
 
@@ -23,9 +26,10 @@ from typing import TYPE_CHECKING, Any, cast
 
 from topo_verify.errors import InputError
 from topo_verify.text import shown
-from topo_verify.world.formats import embedding
+from topo_verify.world.formats import embedding, rotated
 from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex, Point
 from topo_verify.world.formats.planar_code import require_simple_and_planar
+from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
@@ -33,6 +37,69 @@ if TYPE_CHECKING:
 
 MarkerEnds = tuple[Any, ...]
 """The node where the marker lies, the node that it points to, and perhaps the edge's key."""
+
+
+# ---------------------------------------------------------------- multigraphs with rotations
+
+
+def to_networkx(world: World) -> nx.MultiGraph[int]:
+    """The world's graph, whose attributes carry the rotation; `from_networkx` brings it back.
+
+    The graph has `marker`; each node has `rotation`, its darts clockwise; each edge has `darts`.
+    Names and positions (`x`, `y`) come along where the world has them.
+    """
+    import networkx as nx
+
+    graph: nx.MultiGraph[int] = nx.MultiGraph()
+    graph.graph.update(rotated.attributes(world))
+    for vertex in range(len(world.vertices)):
+        graph.add_node(vertex, **rotated.node_attributes(world, vertex))
+    for number, (a, b) in enumerate(world.edges):
+        graph.add_edge(world.vertex_of[a], world.vertex_of[b], key=number, darts=[a, b])
+    return graph
+
+
+def from_networkx(graph: nx.Graph[Any]) -> World:
+    """The world of a graph with the attributes that `to_networkx` gives; others are ignored.
+
+    Nodes and keys may have been renamed. The vertices come in the order of the nodes.
+
+    Raises:
+        InputError: a node has no rotation, an edge no darts, or together they make no world.
+    """
+    given = cast("Any", graph)
+    if "format" in given.graph:
+        rotated.require_version(
+            given.graph["format"], given.graph.get("version"), source="the graph"
+        )
+    nodes: dict[Any, int] = {node: number for number, node in enumerate(given)}
+    vertices = [_rotated(given.nodes[node], node) for node in nodes]
+    edges: list[RotatedEdge] = []
+    for start, end, attributes in given.edges(data=True):
+        if "darts" not in attributes:
+            what = f"the graph: edge {shown(repr((start, end)), limit=60)}"
+            raise InputError(f"{what} has no 'darts': give it the two darts of its ends")
+        edges.append(RotatedEdge(nodes[start], nodes[end], attributes["darts"]))
+    return rotated.as_world(
+        World,
+        vertices,
+        edges,
+        given.graph.get("marker"),
+        source="the graph",
+        about=rotated.texts_of(given.graph),
+    )
+
+
+def _rotated(attributes: Mapping[str, Any], node: Any) -> RotatedVertex:
+    what = f"the graph: node {shown(repr(node), limit=60)}"
+    if "rotation" not in attributes:
+        raise InputError(
+            f"{what} has no 'rotation', its darts in clockwise order: give it one, or read the"
+            " graph with from_positions or from_planar_embedding"
+        )
+    name = attributes.get("name")
+    at = rotated.point(attributes.get("x"), attributes.get("y"), what)
+    return RotatedVertex(str(node), attributes["rotation"], None if name is None else str(name), at)
 
 
 # ---------------------------------------------------------------- planar embeddings

@@ -19,6 +19,7 @@ Source: Eclipse SUMO, user documentation, "SUMO Road Networks".
 
 from __future__ import annotations
 
+import re
 from os import PathLike
 from typing import TypeVar
 
@@ -52,10 +53,15 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
     """
     places: dict[str, DrawnVertex] = {}
     edges: dict[str, dict[str, str]] = {}
+    points = 0
 
     def start(path: tuple[str, ...], attributes: dict[str, str]) -> None:
+        nonlocal points
         if path[0] != "net":
-            raise InputError(f"{name}: expected a SUMO network, whose first element is <net>")
+            raise InputError(
+                f"{name}: expected a SUMO network, whose first element is <net>: name a file of"
+                " that kind"
+            )
         if path[1:] in {("junction",), ("edge",)}:
             known = places if path[1] == "junction" else edges
             key = attributes.get("id", "")
@@ -67,8 +73,10 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
                 return
             if path[1] == "edge":
                 edges[key] = attributes
+                points += attributes.get("shape", "").count(",")  # each point has one at least
             else:
                 places[key] = DrawnVertex(key, _at(attributes, what))
+            embedding.require_size(name, vertices=len(places), edges=len(edges), points=points)
 
     def end(_path: tuple[str, ...], _text: str) -> None:
         """Does nothing: SUMO writes everything into attributes."""
@@ -93,7 +101,9 @@ def _ways(
         start, end = (number.get(attributes.get(side, "")) for side in ("from", "to"))
         if start is None or end is None:
             raise InputError(f"{what}: expected the ids of two junctions as 'from' and 'to'")
-        rows = [point.split(",") for point in attributes.get("shape", "").split()]
+        # One point at a time: see embedding.line.
+        shape = re.finditer(r"\S+", attributes.get("shape", ""))
+        rows = (point[0].split(",") for point in shape)
         course = embedding.points(rows, f"{what}, shape")
         # SUMO names the other direction of a street with a leading "-".
         other = ways.get(key[1:] if key.startswith("-") else f"-{key}")

@@ -148,27 +148,30 @@ def from_data(cls: type[W], data: WorldFile, *, name: str, stem: str = "") -> W:
 
 
 def _parse(text: str | bytes, name: str) -> WorldFile:
-    text = _text(text, name)
+    text = utf8_text(text, name)
     try:
         # The header alone first: a newer version may have fields that this one would refuse.
         _require_version(msgspec.json.decode(text, type=_Header), name)
         data = msgspec.json.decode(text, type=WorldFile)
     except msgspec.ValidationError as error:
-        raise InputError(_sentence(str(error), name)) from error
+        sentence = _sentence(str(error), name)
+        if '"nodes"' in text:
+            sentence += "; a file of node-link JSON has a name that ends in .nx.json"
+        raise InputError(sentence) from error
     except msgspec.DecodeError as error:
         why = _lower(str(error).removeprefix("JSON is malformed: "))
         raise InputError(f"{name} is not valid JSON: {why}; a world is one JSON object") from error
     except RecursionError as error:
         raise InputError(
-            f"{name}: expected a world, got lists that are nested too deeply"
+            f"{name}: expected a world, got lists that are nested too deeply: give one a vertex"
         ) from error
     # msgspec keeps the last of two equal keys. This pass sees nothing but a valid world file, so
     # there is one object, and neither its depth nor its numbers can be too large.
-    json.loads(text, object_pairs_hook=lambda pairs: _require_single(pairs, name))
+    require_single_keys(text, name)
     return data
 
 
-def _text(text: str | bytes, name: str) -> str:
+def utf8_text(text: str | bytes, name: str) -> str:
     """The text without a byte order mark; refuses what is not UTF-8, is empty or is too large."""
     try:
         data = text.encode() if isinstance(text, str) else text
@@ -179,7 +182,7 @@ def _text(text: str | bytes, name: str) -> str:
         raise InputError(files.too_large(name))
     text = text.removeprefix("\ufeff")
     if not text.strip():
-        raise InputError(f"{name} is empty: a world is one JSON object")
+        raise InputError(f"{name} is empty: a world is one JSON object; name a file that holds one")
     return text
 
 
@@ -196,25 +199,33 @@ def _require_version(header: _Header, name: str) -> None:
         )
 
 
-def _require_single(pairs: list[tuple[str, Any]], name: str) -> None:
-    seen: set[str] = set()
-    for key, _ in pairs:
-        if key in seen:
-            raise InputError(f"{name} has the field '{key}' twice: leave one of the two out")
-        seen.add(key)
+def require_single_keys(text: str, name: str) -> None:
+    """Refuse JSON in which a field stands twice in one object."""
+
+    def single(pairs: list[tuple[str, Any]]) -> None:
+        seen: set[str] = set()
+        for key, _ in pairs:
+            if key in seen:
+                raise InputError(f"{name} has the field '{key}' twice: leave one of the two out")
+            seen.add(key)
+
+    # Numbers are not looked at, and Python refuses to turn some thousand digits into one.
+    json.loads(text, object_pairs_hook=single, parse_int=str)
 
 
 def _sentence(error: str, name: str) -> str:
-    """msgspec's objection as a sentence that names the place and says what was expected there."""
+    """msgspec's objection as a sentence that names the place, what belongs there and the mend."""
     what, _, place = error.partition(" - at `$.")
     fields = schema()["$defs"]["WorldFile"]["properties"]
     named = re.match(r"\w+", place) or re.search(r"(?<=missing required field `)\w+", what)
     if named and named[0] in fields:
-        mend = f"'{named[0]}' is {fields[named[0]]['description']}"
+        expected = f"'{named[0]}' is {fields[named[0]]['description']}"
     else:
-        mend = f"a world is one JSON object with no fields but {', '.join(fields)}"
+        expected = f"a world is one JSON object with no fields but {', '.join(fields)}"
     where = f"{name}, {shown(place[:-1])}" if place else name
-    return f"{where}: {shown(_lower(what))}; {mend}"
+    mends = {"missing": "add it", "unknown": "leave it out"}
+    mend = next((text for word, text in mends.items() if f" {word} " in what), "correct it")
+    return f"{where}: {shown(_lower(what))}; {mend}: {expected}"
 
 
 def _lower(sentence: str) -> str:
@@ -249,7 +260,9 @@ def encode(world: World) -> str:
     try:
         return msgspec.json.encode(to_data(world)).decode()
     except UnicodeEncodeError as error:
-        raise InputError(f"expected Unicode in the world's name and texts: {error}") from error
+        raise InputError(
+            f"expected Unicode in the world's name and texts: {error}; replace that character"
+        ) from error
 
 
 def save(world: World, path: str | PathLike[str]) -> None:

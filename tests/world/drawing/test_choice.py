@@ -1,0 +1,145 @@
+"""How a world is drawn: by its positions, without crossings, with bridges, as a cell or a ball."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+
+import pytest
+
+from tests.world.drawing.pictures import drawn
+from topo_verify.world import families
+from topo_verify.world.drawing import choice, lay_out, read_back, to_svg
+from topo_verify.world.resolve import resolve_world
+from topo_verify.world.rooted_map import World
+
+pytestmark = pytest.mark.no_cover  # drawing is not trusted: it is left out of the measure
+
+
+def test_positions_that_show_the_order_are_kept() -> None:
+    world = families.lattice(2, 3)
+    layout = drawn(world)
+    assert layout.kind == "positions"
+    (ax, ay), (bx, by) = layout.centres[0], layout.centres[1]
+    # Node 0 is at the top left, and node 1 on its right.
+    assert ay == by == min(y for _, y in layout.centres)
+    assert ax < bx
+
+
+def test_positions_that_show_another_order_are_not_used() -> None:
+    world = families.lattice(3, 3)
+    mirrored = replace(world, positions=tuple((-x, y) for x, y in world.positions))
+    assert drawn(mirrored).kind == "planar"
+
+
+def test_positions_with_an_edge_through_a_vertex_are_not_used() -> None:
+    world = families.lattice(1, 3)
+    bent = replace(world, positions=((0.0, 0.0), (2.0, 0.0), (1.0, 0.0)))
+    assert drawn(bent).kind == "planar"
+
+
+def test_positions_with_crossings_in_a_planar_world_are_not_used() -> None:
+    world = families.cycle(4)
+    crossed = replace(world, positions=((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)))
+    assert drawn(crossed).kind == "planar"
+
+
+def test_crowded_positions_are_spread() -> None:
+    layout = drawn(resolve_world("nyc"))
+    assert layout.kind == "planar"
+    assert layout.radius / max(layout.width, layout.height) > 0.015
+
+
+def test_diagonals_of_a_king_pass_over_each_other() -> None:
+    layout = drawn(families.king(3, 3))
+    assert (layout.kind, len(layout.bridges)) == ("positions", 4)
+    assert all(bridge.over > bridge.under for bridge in layout.bridges)
+
+
+def test_a_world_without_a_dart_is_one_circle() -> None:
+    layout = drawn(World.from_id("m0/0"))
+    assert (len(layout.centres), layout.paths) == (1, ())
+
+
+def test_a_long_path_is_wound_up() -> None:
+    layout = drawn(families.path(120))
+    assert 0.6 < layout.width / layout.height < 1.6
+
+
+def test_thirty_parallel_edges_and_their_loops_are_drawn_true() -> None:
+    parallel = World.from_rotations(
+        [list(range(30)), list(range(59, 29, -1))], [(k, 30 + k) for k in range(30)], 0
+    )
+    assert parallel.genus == 0
+    assert drawn(parallel).kind == "planar"
+
+
+def test_k7_lies_flat_on_the_torus() -> None:
+    """The neighbours of i are i + 1, 3, 2, 6, 4, 5 in turn: seven vertices, fourteen triangles."""
+    around = (1, 3, 2, 6, 4, 5)
+    dart = {(i, (i + k) % 7): 6 * i + place for i in range(7) for place, k in enumerate(around)}
+    rotations = [[dart[i, (i + k) % 7] for k in around] for i in range(7)]
+    edges = [(dart[i, j], dart[j, i]) for i, j in dart if i < j]
+    world = World.from_rotations(rotations, edges, 0)
+    assert (world.genus, len(world.faces)) == (1, 14)
+    layout = drawn(world)
+    assert layout.kind == "cell"
+    assert any(len(parts) > 1 for parts in layout.paths)
+
+
+def test_an_edge_that_comes_back_elsewhere_in_a_cell_is_seen() -> None:
+    world = families.torus(3, 4)
+    layout = lay_out(world)
+    torn = next(k for k, parts in enumerate(layout.paths) if len(parts) == 2)
+    first, second = layout.paths[torn]
+    other = next(p for k, p in enumerate(layout.paths) if len(p) == 2 and k != torn)[1]
+    end = second.split("L")[1]
+    paths = list(layout.paths)
+    paths[torn] = (first, f"{other.split('L')[0]}L{end}")
+    picture = read_back.read(to_svg(world, replace(layout, paths=tuple(paths))))
+    edge = world.edges[torn]
+    assert read_back.untruths(picture, world) == [
+        f"edge {edge} does not come back where it left the cell"
+    ]
+
+
+@pytest.fixture
+def large(monkeypatch: pytest.MonkeyPatch) -> World:
+    """A world that counts as large here."""
+    monkeypatch.setattr(choice, "READABLE", 20)
+    monkeypatch.setattr(choice, "LIMIT", 30)
+    return families.random_planar(60, seed=1)
+
+
+def test_of_a_large_world_a_ball_around_the_marker_is_shown(large: World) -> None:
+    layout = drawn(large)
+    assert layout.kind == "ball"
+    assert large.marker_vertex not in layout.hidden
+    assert layout.stubs
+    shown = len(large.vertices) - len(layout.hidden)
+    assert f"{shown} of {len(large.vertices)} vertices are shown" in to_svg(large, layout)
+
+
+def test_a_ball_may_be_around_another_dart(large: World) -> None:
+    hidden = min(lay_out(large).hidden)
+    layout = drawn(large, centre=large.vertices[hidden][0])
+    assert hidden not in layout.hidden
+
+
+def test_the_same_bytes_in_every_process() -> None:
+    code = (
+        "import topo_verify as tv;"
+        "print(tv.families.random_genus(8, 2, seed=3).draw(), tv.families.random_tree(9).draw())"
+    )
+    made = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for seed in ("0", "1")
+    }
+    assert len(made) == 1

@@ -1,0 +1,74 @@
+"""Plane maps: spheres by Euler's formula, with every vertex' order, crossings in dummies."""
+
+from __future__ import annotations
+
+from random import Random
+
+import numpy as np
+import pytest
+
+from topo_verify.world import families
+from topo_verify.world.drawing import mesh, packing, polish
+from topo_verify.world.drawing.arrays import Floats
+from topo_verify.world.drawing.plane_map import MOST_CROSSINGS, PlaneMap, best_plane_map, planarise
+from topo_verify.world.rooted_map import World
+
+pytestmark = pytest.mark.no_cover  # drawing is not trusted: it is left out of the measure
+
+SMALL = [World.from_id(f"m3/{rank}") for rank in range(74)]
+OTHERS = [families.complete(6, seed=1), families.random_genus(25, 3, seed=1), families.torus(4, 4)]
+
+
+def plane_map(world: World) -> PlaneMap:
+    found = best_plane_map(world)
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("world", [*SMALL[::3], *OTHERS])
+def test_a_plane_map_is_a_sphere_that_keeps_every_order(world: World) -> None:
+    plane = plane_map(world)
+    assert plane.nodes - len(plane.other) // 2 + len(plane.faces()) == 2
+    for dart, turned in enumerate(world.sigma):
+        assert plane.after[plane.half[dart]] == plane.half[turned]
+    assert (plane.crossings > 0) == (world.genus > 0)
+    for number in range(len(world.edges)):
+        assert {plane.edge[half] for half in plane.chain(number)} == {number}
+
+
+def test_the_faces_have_names_of_their_own() -> None:
+    plane = plane_map(OTHERS[1])
+    names = [{plane.face[half] for half in face} for face in plane.faces()]
+    assert all(len(name) == 1 for name in names)
+    assert len({name for group in names for name in group}) == len(names)
+
+
+def test_a_map_with_too_many_crossings_is_given_up() -> None:
+    world = families.complete(16, seed=1)
+    assert planarise(world, Random(0)) is None
+    assert best_plane_map(world) is None
+    assert plane_map(families.complete(8, seed=1)).crossings <= MOST_CROSSINGS
+
+
+@pytest.mark.parametrize("world", [SMALL[20], OTHERS[1], families.dodecahedron()])
+def test_no_triangle_flips_in_packing_or_polish(world: World) -> None:
+    plane = plane_map(world)
+    made = mesh.over(plane, plane.faces()[0][0], points=2)
+    pairs = np.concatenate([made.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
+    edges = {frozenset(pair) for pair in pairs.tolist()}
+    # A disc: V - E + F = 1.
+    assert made.size - len(edges) + len(made.triangles) == 1
+    packed = packing.packed(made)
+    assert packed is not None
+    polished = polish.polished(made, packed, bend=0.4, steps=60)
+    for places in (packed, polished):
+        a, b, c = (places[made.triangles[:, k]] for k in range(3))
+        u, v = b - a, c - a
+        assert (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).min() > 0
+    # The polish brings triangles nearer to their wishes.
+    assert np.ptp(np.log(areas(made, polished))) < np.ptp(np.log(areas(made, packed)))
+
+
+def areas(made: mesh.Mesh, places: Floats) -> Floats:
+    a, b, c = (places[made.triangles[:, k]] for k in range(3))
+    return np.asarray((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])

@@ -1,0 +1,98 @@
+"""A picture in the format that a file's name asks for: SVG, PNG, PDF, or a page that holds it."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from hashlib import sha256
+from typing import Literal
+
+from topo_verify.errors import InputError
+from topo_verify.text import shown
+from topo_verify.world.drawing.layout import Layout
+from topo_verify.world.drawing.svg import STYLE, caption, text, to_svg
+from topo_verify.world.rooted_map import World
+
+Format = Literal["svg", "png", "pdf", "html"]
+
+FORMATS: tuple[Format, ...] = ("svg", "png", "pdf", "html")
+
+DENSITY = 144.0
+"""Pixels of a PNG per 72 units of the picture."""
+
+_TYPST = b"""#set document(date: none)
+#let size = json(bytes(sys.inputs.size))
+#set page(width: size.at(0) * 1pt, height: size.at(1) * 1pt, margin: 0pt)
+#image(bytes(sys.inputs.svg), format: "svg", width: 100%, height: 100%)
+"""
+
+
+def format_of(name: str) -> Format:
+    """The format that the file's name asks for.
+
+    Raises:
+        InputError: none of `FORMATS`.
+    """
+    for ending in FORMATS:
+        if name.lower().endswith(f".{ending}"):
+            return ending
+    raise InputError(f"{shown(name)}: expected a name that ends in .{', .'.join(FORMATS)}")
+
+
+def document(
+    world: World, layout: Layout, kind: Format, *, doors: bool = False, darts: bool = False
+) -> bytes:
+    """The picture as the content of a file.
+
+    Raises:
+        InputError: PNG or PDF, and the extra `draw` is not installed.
+    """
+    svg = to_svg(world, layout, doors=doors, darts=darts)
+    match kind:
+        case "svg":
+            return svg.encode()
+        case "html":
+            return _page(world, layout, svg).encode()
+        case "png" | "pdf":
+            return _rendered(layout, svg, kind)
+
+
+def _rendered(layout: Layout, svg: str, kind: Literal["png", "pdf"]) -> bytes:
+    try:
+        import typst
+    except ImportError as error:
+        raise InputError(
+            f"a picture as {kind.upper()} needs typst: install 'topo-verify[draw]', or write .svg"
+        ) from error
+    made: bytes = typst.compile(
+        _TYPST,
+        format=kind,
+        ppi=DENSITY,
+        sys_inputs={"svg": svg, "size": f"[{layout.width}, {layout.height}]"},
+        ignore_system_fonts=True,  # the same bytes whatever fonts are installed
+    )
+    return made
+
+
+def _page(world: World, layout: Layout, svg: str) -> str:
+    """A page that asks for nothing: its policy allows two styles by their hashes, and no script."""
+    own = (
+        "body{margin:0;background:#fdfcf9;color:#22282e;font:16px system-ui,sans-serif}"
+        "main{display:flex;min-height:100vh;align-items:center;justify-content:center}"
+        f"svg{{width:min(96vw,{3 * layout.width:.0f}px);height:auto;max-height:96vh}}"
+        "@media(prefers-color-scheme:dark){body{background:#14181c;color:#e8eaec}}"
+    )
+    hashes = " ".join(f"'sha256-{_digest(style)}'" for style in (own, STYLE))
+    policy = f"default-src 'none'; style-src {hashes}; base-uri 'none'; form-action 'none'"
+    # The policy forbids style attributes; the page has a rule in their place.
+    inside = svg.replace(' style="max-width:100%;height:auto"', "", 1)
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">'
+        '<meta name="viewport" content="width=device-width,initial-scale=1">'
+        f"<title>{text(caption(world, layout))}</title><style>{own}</style></head>"
+        f"<body><main>{inside}</main></body></html>\n"
+    )
+
+
+def _digest(style: str) -> str:
+    return b64encode(sha256(style.encode()).digest()).decode()

@@ -1,0 +1,245 @@
+"""A world as a plane map: edges that do not fit cross others in dummy nodes of degree 4.
+
+Every vertex keeps its cyclic order whatever the genus. A spanning tree comes first, then the edges
+both of whose corners lie on one face, then each other edge on a shortest way through the dual. With
+few crossings in mind this is repeated in other random orders (M. Chimani and C. Gutwenger,
+"Advances in the Planarization Method", JGAA 16 (2012), weigh such heuristics).
+
+A half-edge lies in the face on its left, which is the cycle of "cross, then turn clockwise".
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from random import Random
+
+from topo_verify.world.rooted_map import Dart, World
+
+MOST_CROSSINGS = 250
+"""Nobody could read a picture with more."""
+
+
+class PlaneMap:
+    """A plane map that grows: it begins with the nodes and no half-edge.
+
+    Attributes:
+        other, after, before: of each half-edge: the other half, the next and the previous half
+            clockwise at its node.
+        node, edge, face: of each half-edge: its node, the edge of the world, the face on its left.
+        half: the half-edge of each dart that is in.
+        nodes: how many there are; those from `vertices` on are dummies.
+    """
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self.other: list[int] = []
+        self.after: list[int] = []
+        self.before: list[int] = []
+        self.node: list[int] = []
+        self.edge: list[int] = []
+        self.face: list[int] = []
+        self.half: dict[Dart, int] = {}
+        self.vertices = self.nodes = len(world.vertices)
+        self._faces = 0
+
+    @property
+    def crossings(self) -> int:
+        """The number of dummies."""
+        return self.nodes - self.vertices
+
+    def cycle(self, half: int) -> list[int]:
+        """The half-edges of the face on the left of this one."""
+        found = [half]
+        while (half := self.after[self.other[half]]) != found[0]:
+            found.append(half)
+        return found
+
+    def faces(self) -> list[list[int]]:
+        """All faces, by their least half-edges."""
+        seen: set[int] = set()
+        found: list[list[int]] = []
+        for half in range(len(self.other)):
+            if half not in seen:
+                found.append(self.cycle(half))
+                seen.update(found[-1])
+        return found
+
+    def chain(self, number: int) -> list[int]:
+        """The half-edges of an edge of the world, one after the other from its lesser dart."""
+        a, b = self.world.edges[number]
+        found = [self.half[a]]
+        while self.other[found[-1]] != self.half[b]:
+            # At a dummy straight on is two places further.
+            found.append(self.after[self.after[self.other[found[-1]]]])
+        return found
+
+    # ------------------------------------------------------------ growing
+
+    def corner(self, dart: Dart) -> int | None:
+        """The half-edge that follows the place of the dart at its vertex; None: it has none yet."""
+        turned = self.world.sigma[dart]
+        while turned not in self.half:
+            if turned == dart:
+                return None
+            turned = self.world.sigma[turned]
+        return self.half[turned]
+
+    def _new(self, node: int, edge: int, before: int | None = None) -> int:
+        """A new half-edge at the node, in the corner that this other one follows."""
+        half = len(self.other)
+        self.other.append(-1)
+        self.node.append(node)
+        self.edge.append(edge)
+        self.face.append(-1)
+        self.after.append(half)
+        self.before.append(half)
+        if before is not None:
+            previous = self.before[before]
+            self.after[previous] = self.before[before] = half
+            self.after[half], self.before[half] = before, previous
+        return half
+
+    def _place(self, dart: Dart, edge: int) -> int:
+        half = self._new(self.world.vertex_of[dart], edge, self.corner(dart))
+        self.half[dart] = half
+        return half
+
+    def _join(self, a: int, b: int) -> None:
+        self.other[a], self.other[b] = b, a
+
+    def insert_tree(self, numbers: Sequence[int]) -> None:
+        """Put the edges of a spanning tree in. No face is asked for before the tree is whole."""
+        for number in numbers:
+            a, b = self.world.edges[number]
+            one, two = self._place(a, number), self._place(b, number)
+            self._join(one, two)
+        self._name_faces(range(len(self.other)))
+
+    def insert(self, number: int, way: Sequence[int] = ()) -> None:
+        """Put an edge in, across these half-edges in turn."""
+        a, b = self.world.edges[number]
+        made = [self._place(a, number)]
+        for half in way:
+            beyond, across, dummy = self.other[half], self.edge[half], self.nodes
+            self.nodes += 1
+            # The new edge comes from the left: clockwise arrival, ahead, departure, back.
+            arrive = self._new(dummy, number)
+            ahead = self._new(dummy, across, arrive)
+            leave = self._new(dummy, number, arrive)
+            back = self._new(dummy, across, arrive)
+            self._join(half, back)
+            self._join(ahead, beyond)
+            self._join(made[-1], arrive)
+            made += [arrive, leave]
+        made.append(self._place(b, number))
+        self._join(made[-2], made[-1])
+        self._name_faces(made)
+
+    def _name_faces(self, halves: Sequence[int]) -> None:
+        """New names for the faces beside these half-edges: all that an insertion has changed."""
+        for half in halves:
+            if self.face[half] < 0:
+                for other in self.cycle(half):
+                    self.face[other] = self._faces
+                self._faces += 1
+
+    def way(self, number: int) -> list[int]:
+        """The half-edges that an edge must cross: a shortest way from corner to corner."""
+        goal, home = (self.face_at(dart) for dart in self.world.edges[number])
+        # Backwards, so that the way reads forwards.
+        halves: dict[int, list[int]] = {}
+        for half, face in enumerate(self.face):
+            halves.setdefault(face, []).append(half)
+        entered: dict[int, int] = {home: -1}
+        queue = deque([home])
+        while queue and goal not in entered:
+            for half in halves[queue.popleft()]:
+                face = self.face[self.other[half]]
+                if face not in entered:
+                    entered[face] = self.other[half]
+                    queue.append(face)
+        found: list[int] = []
+        while goal != home:
+            found.append(entered[goal])
+            goal = self.face[self.other[entered[goal]]]
+        return found
+
+    def face_at(self, dart: Dart) -> int:
+        """The face in which the place of the dart lies."""
+        corner = self.corner(dart)
+        return -1 if corner is None else self.face[corner]
+
+
+def planarise(world: World, random: Random) -> PlaneMap | None:
+    """The world as a plane map, its edges put in in a random order.
+
+    None if there are more than `MOST_CROSSINGS`.
+    """
+    plane = PlaneMap(world)
+    number = {dart: k for k, edge in enumerate(world.edges) for dart in edge}
+    tree = [number[dart] for dart in _spanning_tree(world, random)]
+    plane.insert_tree(tree)
+    inside = set(tree)
+    rest = [k for k in range(len(world.edges)) if k not in inside]
+    random.shuffle(rest)
+    rest = _insert_uncrossed(plane, rest)
+    while rest:
+        pool = rest if len(rest) <= 12 else random.sample(rest, 12)
+        ways = [(len(way := plane.way(k)), place, k, way) for place, k in enumerate(pool)]
+        _, _, best, way = min(ways)
+        rest.remove(best)
+        plane.insert(best, way)
+        if plane.crossings > MOST_CROSSINGS:
+            return None
+    return plane
+
+
+def _spanning_tree(world: World, random: Random) -> list[Dart]:
+    """One dart of each edge of a tree that is grown from a random vertex, mostly breadth-first."""
+    root = random.randrange(len(world.vertices))
+    seen, queue, tree = {root}, deque([root]), list[Dart]()
+    while queue:
+        vertex = queue.popleft() if random.random() < 0.7 else queue.pop()
+        darts = list(world.vertices[vertex])
+        random.shuffle(darts)
+        for dart in darts:
+            end = world.vertex_of[world.alpha[dart]]
+            if end not in seen:
+                seen.add(end)
+                queue.append(end)
+                tree.append(dart)
+    return tree
+
+
+def _insert_uncrossed(plane: PlaneMap, rest: list[int]) -> list[int]:
+    """Put in what fits without a crossing, as long as anything does; the others are returned."""
+    while True:
+        left: list[int] = []
+        for number in rest:
+            a, b = map(plane.face_at, plane.world.edges[number])
+            if a == b:
+                plane.insert(number)
+            else:
+                left.append(number)
+        if len(left) == len(rest):
+            return left
+        rest = left
+
+
+def best_plane_map(world: World, seed: int = 0) -> PlaneMap | None:
+    """The plane map with the fewest crossings of several; the first of equals.
+
+    None if the first has more than `MOST_CROSSINGS`.
+    """
+    edges = len(world.edges)
+    # Small maps have few orders, and large ones take long.
+    tries = max(3, min(4 + 2 * edges, 40, 3000 // max(1, edges))) if world.genus else 1
+    best: PlaneMap | None = None
+    for k in range(tries):
+        plane = planarise(world, Random(1000 * seed + k))
+        if plane is None and best is None:
+            return None
+        if plane and (best is None or plane.crossings < best.crossings):
+            best = plane
+    return best

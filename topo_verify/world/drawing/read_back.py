@@ -1,0 +1,222 @@
+"""Reads a finished SVG and compares what it shows with the world.
+
+Independent of what drew it: it parses the XML and the path data, by the attributes that scripts are
+promised, and knows no layout. Nothing here is rounded in the picture's favour.
+
+What this does not show: that a reader's eye tells two near edges apart; `smallest_angle` and the
+distances below say how near they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from math import atan2, degrees, hypot, tau
+from xml.etree import ElementTree as ET
+
+import numpy as np
+
+from topo_verify.world.drawing.arrays import Floats
+from topo_verify.world.drawing.crossings import crossings
+from topo_verify.world.drawing.curves import flatten
+from topo_verify.world.rooted_map import Dart, World
+
+TOLERANCE = 0.03
+"""Coordinates have two decimals: a point may be that far off its circle."""
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What a finished SVG shows.
+
+    Attributes:
+        circles: x, y and radius of each vertex.
+        curves: the parts of each edge, by its two darts, as points.
+        stubs: the beginnings of edges that are not shown whole, by their dart.
+        cell: corner and sides of a periodic cell: x, y, x and y of one side, of the other.
+    """
+
+    circles: dict[int, tuple[float, float, float]]
+    curves: dict[tuple[Dart, Dart], tuple[Floats, ...]]
+    stubs: dict[Dart, Floats]
+    cell: tuple[float, ...] | None
+
+
+def read(svg: str) -> Picture:
+    """What the SVG shows.
+
+    Raises:
+        ValueError: it is no SVG of a world.
+    """
+    circles: dict[int, tuple[float, float, float]] = {}
+    parts: dict[tuple[Dart, Dart], dict[int, Floats]] = {}
+    stubs: dict[Dart, Floats] = {}
+    cell = None
+    for element in ET.fromstring(svg).iter():  # noqa: S314  a picture that we drew
+        get = element.attrib.get
+        if element.tag == f"{SVG}circle" and (vertex := get("data-vertex")) is not None:
+            if int(vertex) in circles:
+                raise ValueError(f"vertex {vertex} is drawn twice")
+            circles[int(vertex)] = (float(get("cx", "")), float(get("cy", "")), float(get("r", "")))
+        elif (darts := get("data-darts")) is not None:
+            a, b = map(int, darts.split())
+            part = int(get("data-part", "0"))
+            if part in parts.setdefault((a, b), {}):
+                raise ValueError(f"part {part} of edge {darts} is drawn twice")
+            parts[a, b][part] = flatten(get("d", ""))
+        elif (stub := get("data-stub")) is not None:
+            stubs[int(stub)] = flatten(get("d", ""))
+        elif (sides := get("data-cell")) is not None:
+            cell = tuple(map(float, sides.split()))
+    curves = {edge: tuple(found[k] for k in sorted(found)) for edge, found in parts.items()}
+    return Picture(circles, curves, stubs, cell)
+
+
+def untruths(picture: Picture, world: World, *, bridges: int | None = None) -> list[str]:
+    """A sentence on everything in the picture that is not so in the world.
+
+    Args:
+        bridges: how many crossings are meant; None: any number in worlds that are not planar.
+    """
+    missing = sorted(set(range(len(world.vertices))) - picture.circles.keys())
+    if missing and not picture.stubs:
+        return [f"vertex {missing[0]} is not drawn"]
+    # Each of these must hold before the next can be asked.
+    for check in (_edges, _ends, _seams):
+        if found := [*check(picture, world)]:
+            return found
+    found = [*_orders(picture, world), *overlaps(picture), *_touches(picture, world)]
+    flat = [part for parts in picture.curves.values() for part in parts]
+    flat += picture.stubs.values()
+    number = len(crossings(flat))
+    if bridges is None:
+        bridges = number if world.genus and not picture.cell else 0
+    if number != bridges:
+        found.append(f"{number} crossings are drawn, {bridges} are meant")
+    return found
+
+
+def _edges(picture: Picture, world: World) -> Iterator[str]:
+    drawn = picture.circles.keys()
+    whole = {
+        (a, b)
+        for a, b in world.edges
+        if world.vertex_of[a] in drawn and world.vertex_of[b] in drawn
+    }
+    cut = {
+        dart
+        for dart, other in enumerate(world.alpha)
+        if world.vertex_of[dart] in drawn and world.vertex_of[other] not in drawn
+    }
+    for edge in sorted(whole ^ picture.curves.keys()):
+        yield f"edge {edge} is {'not drawn' if edge in whole else 'drawn, and not there'}"
+    for dart in sorted(cut ^ picture.stubs.keys()):
+        yield f"the stub of dart {dart} is {'not drawn' if dart in cut else 'drawn, and not due'}"
+
+
+def leavings(picture: Picture) -> dict[Dart, Floats]:
+    """The curve of every dart, from where it leaves the circle of its vertex."""
+    found = dict(picture.stubs)
+    for (a, b), parts in picture.curves.items():
+        found[a], found[b] = parts[0], parts[-1][::-1]
+    return found
+
+
+def _ends(picture: Picture, world: World) -> Iterator[str]:
+    """Every curve begins and ends on the circle of the vertex that its dart belongs to."""
+    for dart, curve in sorted(leavings(picture).items()):
+        x, y, r = picture.circles[world.vertex_of[dart]]
+        off = hypot(curve[0][0] - x, curve[0][1] - y) - r
+        if abs(off) > TOLERANCE:
+            yield f"dart {dart} begins {off:.2f} off the circle of vertex {world.vertex_of[dart]}"
+
+
+def _seams(picture: Picture, _world: World) -> Iterator[str]:
+    """Where an edge leaves the cell it comes back at the point that is the same on the torus."""
+    for edge, parts in sorted(picture.curves.items()):
+        for before, after in pairwise(parts):
+            if picture.cell is None:
+                yield f"edge {edge} is torn, and there is no cell that it could leave"
+                continue
+            sides = np.array(picture.cell[2:]).reshape(2, 2)
+            inverse: Floats = np.asarray(np.linalg.inv(sides), np.float64)
+            jump: Floats = (after[0] - before[-1]) @ inverse
+            where: Floats = (before[-1] - np.array(picture.cell[:2])) @ inverse
+            slack = 3 * TOLERANCE / float(np.hypot(*sides.T).min())
+            whole = np.abs(jump - np.round(jump)).max() < slack and np.abs(np.round(jump)).sum() > 0
+            if not whole or min(np.abs(where).min(), np.abs(1 - where).min()) > slack:
+                yield f"edge {edge} does not come back where it left the cell"
+
+
+def gaps(picture: Picture, world: World) -> dict[int, list[float]]:
+    """At each drawn vertex of degree 2 or more, the angles between neighbouring darts.
+
+    With y downwards an angle grows clockwise on the screen, so they sum
+    up to 2 pi exactly if the order is that of the world.
+    """
+    starts = leavings(picture)
+    found: dict[int, list[float]] = {}
+    for vertex, (x, y, _) in picture.circles.items():
+        row = [atan2(starts[d][0][1] - y, starts[d][0][0] - x) for d in world.vertices[vertex]]
+        if len(row) > 1:
+            found[vertex] = [(b - a) % tau for a, b in zip(row, row[1:] + row[:1], strict=True)]
+    return found
+
+
+def _orders(picture: Picture, world: World) -> Iterator[str]:
+    for vertex, row in sorted(gaps(picture, world).items()):
+        if abs(sum(row) - tau) > 1e-6:
+            yield f"the order of the darts at vertex {vertex} is not that of the world"
+        elif min(row) * picture.circles[vertex][2] < TOLERANCE:
+            yield f"two darts leave vertex {vertex} at the same point"
+
+
+def smallest_angle(picture: Picture, world: World) -> float:
+    """The smallest angle between two darts of a vertex, in degrees."""
+    return degrees(min([tau, *(min(row) for row in gaps(picture, world).values())]))
+
+
+def overlaps(picture: Picture) -> Iterator[str]:
+    """A sentence on each two circles that overlap."""
+    vertices = sorted(picture.circles)
+    rows = np.array([picture.circles[vertex] for vertex in vertices])
+    apart = np.hypot(*(rows[:, None, :2] - rows[None, :, :2]).transpose(2, 0, 1))
+    near = apart < (rows[:, None, 2] + rows[None, :, 2])
+    for i, j in np.argwhere(np.triu(near, 1)).tolist():
+        yield f"vertices {vertices[i]} and {vertices[j]} overlap"
+
+
+def _touches(picture: Picture, world: World) -> Iterator[str]:
+    """No curve comes into a circle: not into a foreign one, nor again into its own."""
+    vertices = sorted(picture.circles)
+    rows = np.array([picture.circles[vertex] for vertex in vertices])
+    lines = [(edge, part) for edge, parts in picture.curves.items() for part in parts]
+    lines += [((dart, dart), stub) for dart, stub in picture.stubs.items()]
+    for edge, line in lines:
+        own = {world.vertex_of[dart] for dart in edge}
+        into = inside(rows, line)
+        for k in np.flatnonzero(into).tolist():
+            if vertices[k] not in own:
+                yield f"edge {edge} runs through vertex {vertices[k]}"
+            elif _depth(rows[k], line) > 2 * TOLERANCE:
+                yield f"edge {edge} comes back into its own vertex {vertices[k]}"
+
+
+def inside(circles: Floats, line: Floats) -> Floats:
+    """Which of the circles the polyline touches."""
+    start, step = line[:-1], np.diff(line, axis=0)
+    offset = circles[:, None, :2] - start[None]
+    square = np.maximum((step**2).sum(1), 1e-24)
+    t = np.clip((offset * step[None]).sum(2) / square, 0, 1)
+    gap = offset - t[:, :, None] * step[None]
+    into: Floats = (gap**2).sum(2).min(1) < circles[:, 2] ** 2
+    return into
+
+
+def _depth(circle: Floats, line: Floats) -> float:
+    """How deep the polyline goes into the circle, at the middles of its legs and its points."""
+    points = np.concatenate([line, (line[1:] + line[:-1]) / 2])
+    return float(circle[2] - np.hypot(*(points - circle[:2]).T).min())

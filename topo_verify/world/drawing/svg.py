@@ -1,0 +1,205 @@
+"""A layout as SVG: literal colours for light, a media query for dark; every text escaped.
+
+docs/commands.md, section "world draw", promises how a script finds vertices and edges in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+
+import numpy as np
+
+from topo_verify.text import plural, shown
+from topo_verify.world.drawing import curves
+from topo_verify.world.drawing.arrays import Floats
+from topo_verify.world.drawing.curves import number
+from topo_verify.world.drawing.layout import Layout
+from topo_verify.world.formats.embedding import Point
+from topo_verify.world.rooted_map import Dart, World
+
+STYLE = (
+    ".tv-card,.tv-vertex{fill:#fdfcf9}.tv-edge,.tv-over,.tv-stub{fill:none;stroke:#8a939c}"
+    ".tv-halo{fill:none;stroke:#fdfcf9}.tv-vertex{stroke:#22282e}.tv-name{fill:#22282e}"
+    ".tv-soft{fill:#626b74}.tv-mark{fill:none;stroke:#b3261e}.tv-tip{fill:#b3261e}"
+    ".tv-side-a{fill:none;stroke:#1f6feb}.tv-side-b{fill:none;stroke:#c2510c}"
+    ".tv-back{fill:#fdfcf9;fill-opacity:.85}"
+    "@media(prefers-color-scheme:dark){.tv-card,.tv-vertex,.tv-back{fill:#14181c}"
+    ".tv-edge,.tv-over,.tv-stub{stroke:#717c87}.tv-halo{stroke:#14181c}.tv-vertex{stroke:#e8eaec}"
+    ".tv-name{fill:#e8eaec}.tv-soft{fill:#9aa4ae}.tv-mark{stroke:#ff8078}.tv-tip{fill:#ff8078}"
+    ".tv-side-a{stroke:#6cb0ff}.tv-side-b{stroke:#ff9d5c}}"
+)
+"""Colours only. Sizes are attributes: two pictures in one page do not disturb each other."""
+
+FONT = "system-ui,-apple-system,'Segoe UI',Helvetica,Arial,sans-serif"
+
+
+def to_svg(world: World, layout: Layout, *, doors: bool = False, darts: bool = False) -> str:
+    """The picture of the world, the same bytes for the same arguments.
+
+    Args:
+        doors: write the place of each dart in the rotation of its vertex beside it.
+        darts: write the number of each dart beside it.
+    """
+    return "\n".join([*_head(world, layout), *_body(world, layout, doors, darts), "</svg>\n"])
+
+
+def text(words: str, *, limit: int = 200) -> str:
+    """Words of unknown origin as text of a document: on one line, escaped."""
+    return escape(shown(words, limit=limit))
+
+
+def caption(world: World, layout: Layout) -> str:
+    """What the picture shows, in one line."""
+    size = (
+        f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')},"
+        f" genus {world.genus}"
+    )
+    part = ""
+    if layout.hidden:
+        seen = len(world.vertices) - len(layout.hidden)
+        part = f"; {seen} of {len(world.vertices)} vertices are shown"
+    return f"{world.name}: {size}{part}" if world.name else f"{size}{part}"
+
+
+def _head(world: World, layout: Layout) -> Iterator[str]:
+    width, height = number(layout.width), number(layout.height)
+    title = text(caption(world, layout))
+    yield (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}"'
+        f' height="{height}" style="max-width:100%;height:auto" role="img" aria-label="{title}">'
+    )
+    yield f"<title>{title}</title><style>{STYLE}</style>"
+    yield f'<rect class="tv-card" fill="#fdfcf9" width="{width}" height="{height}"/>'
+
+
+def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
+    radius = layout.radius
+    # Thin circles in a large picture need lines that can be seen all the same.
+    line = number(min(max(0.15 * radius, max(layout.width, layout.height) / 1000), 0.35 * radius))
+    if layout.cell:
+        yield from _cell(layout.cell, radius)
+    yield f'<g stroke-width="{line}" stroke-linecap="round" stroke-linejoin="round">'
+    for (a, b), parts in zip(world.edges, layout.paths, strict=True):
+        for k, data in enumerate(parts):
+            part = f' data-part="{k}"' if len(parts) > 1 else ""
+            yield f'<path class="tv-edge" data-darts="{a} {b}"{part} d="{data}"/>'
+    for dart, data in layout.stubs:
+        dash = f"{number(0.1 * radius)} {number(0.5 * radius)}"
+        yield f'<path class="tv-stub" data-stub="{dart}" stroke-dasharray="{dash}" d="{data}"/>'
+    yield "</g>"
+    if layout.bridges:
+        halo = number(0.62 * radius)
+        yield f'<g stroke-width="{line}">'
+        for bridge in layout.bridges:
+            yield f'<path class="tv-halo" stroke-width="{halo}" d="{bridge.path}"/>'
+            yield f'<path class="tv-over" d="{bridge.path}"/>'
+        yield "</g>"
+    if world.root is not None:
+        yield from arrow(world, layout, world.root)
+    yield from _vertices(world, layout)
+    if layout.hidden:
+        seen = len(layout.centres) - len(layout.hidden)
+        size = number(max(0.9 * radius, layout.width / 60))
+        words = f"{seen} of {len(layout.centres)} vertices are shown"
+        at = f'x="{number(radius)}" y="{number(layout.height - radius)}"'
+        yield f'<text class="tv-soft" font-family="{FONT}" font-size="{size}" {at}>{words}</text>'
+    if doors or darts:
+        yield from _dart_labels(world, layout, doors, darts)
+
+
+def _cell(cell: tuple[Point, Point, Point], radius: float) -> Iterator[str]:
+    """The border of a cell: opposite sides have one colour, because they are the same line."""
+    (x, y), (ux, uy), (vx, vy) = cell
+    sides = " ".join(number(value) for pair in cell for value in pair)
+    dash = f"{number(0.5 * radius)} {number(0.4 * radius)}"
+    width = number(0.12 * radius)
+    yield f'<g data-cell="{sides}" stroke-width="{width}" stroke-dasharray="{dash}">'
+    level, rising = [(x, y), (x + ux, y + uy)], [(x, y), (x + vx, y + vy)]
+    for name, line, (dx, dy) in (("a", level, (vx, vy)), ("b", rising, (ux, uy))):
+        other = [(px + dx, py + dy) for px, py in line]
+        yield f'<path class="tv-side-{name}" d="{curves.straight(line)}{curves.straight(other)}"/>'
+    yield "</g>"
+
+
+def arrow(world: World, layout: Layout, dart: Dart) -> Iterator[str]:
+    """The marker: an arrow along the beginning of its dart."""
+    along = leaving(world, layout, dart)
+    if along is None:
+        return
+    radius = layout.radius
+    # Two thirds of a short edge at most; less of a loop, which turns round beneath it.
+    loop = world.vertex_of[dart] == world.vertex_of[world.alpha[dart]]
+    reach = min(2.5 * radius, (0.3 if loop else 0.66) * curves.length(along))
+    tip = 0.5 * reach
+    shaft = curves.piece(along, 0.0, reach - 0.8 * tip)
+    base, end = place(along, reach - tip), place(along, reach)
+    ahead = (end - base) / max(float(np.hypot(*(end - base))), 1e-9)
+    side = np.array([-ahead[1], ahead[0]]) * 0.42 * tip
+    head = "L".join(f"{number(x)} {number(y)}" for x, y in (base + side, end, base - side))
+    width = number(0.32 * min(radius, reach))
+    yield f'<path class="tv-mark" stroke-width="{width}" d="{shaft}"/>'
+    yield f'<path class="tv-tip" d="M{head}Z"/>'
+
+
+def leaving(world: World, layout: Layout, dart: Dart) -> Floats | None:
+    """The points of the dart's edge, from the dart on, up to the end of the first part."""
+    a = min(dart, world.alpha[dart])
+    parts = layout.paths[[edge[0] for edge in world.edges].index(a)]
+    if parts:
+        return curves.flatten(parts[0]) if dart == a else curves.flatten(parts[-1])[::-1]
+    stub = dict(layout.stubs).get(dart)
+    return None if stub is None else curves.flatten(stub)
+
+
+def place(points: Floats, distance: float) -> Floats:
+    """The point at this distance along the polyline."""
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    return np.array([np.interp(distance, along, points[:, k]) for k in (0, 1)])
+
+
+def _vertices(world: World, layout: Layout) -> Iterator[str]:
+    radius = layout.radius
+    size = number(radius)
+    yield (
+        f'<g stroke-width="{number(0.13 * radius)}" font-family="{FONT}" text-anchor="middle"'
+        f' font-size="{size}">'
+    )
+    names = world.vertex_names or tuple(map(str, range(len(world.vertices))))
+    for vertex, (x, y) in enumerate(layout.centres):
+        if vertex in layout.hidden:
+            continue
+        at = f'cx="{number(x)}" cy="{number(y)}"'
+        circle = f'<circle class="tv-vertex" data-vertex="{vertex}" {at} r="{size}">'
+        # A long name is read by pointing at its vertex.
+        label = names[vertex] if len(names[vertex]) <= 3 else str(vertex)
+        yield f"{circle}<title>{text(names[vertex])}</title></circle>"
+        yield (
+            f'<text class="tv-name" stroke="none" x="{number(x)}" y="{number(y + 0.36 * radius)}">'
+            f"{text(label)}</text>"
+        )
+    yield "</g>"
+
+
+def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
+    """Numbers beside the darts where they leave their circles: `door`, `dart`, or `door:dart`."""
+    radius = layout.radius
+    yield f'<g font-family="{FONT}" text-anchor="middle" font-size="{number(0.7 * radius)}">'
+    for vertex, rotation in enumerate(world.vertices):
+        for door, dart in enumerate(rotation):
+            along = None if vertex in layout.hidden else leaving(world, layout, dart)
+            if along is None:
+                continue
+            words = ":".join([str(door)] * doors + [str(dart)] * darts)
+            # Many darts: staggered, so that neighbours do not cover each other.
+            away = 0.75 + 0.8 * (door % 2 if len(rotation) > 8 else 0)
+            x, y = place(along, min(away * radius, 0.4 * curves.length(along))).tolist()
+            if dart == world.root:  # beside the arrow
+                ahead = along[1] - along[0]
+                x, y = (x, y) + 0.8 * radius * np.array([ahead[1], -ahead[0]]) / np.hypot(*ahead)
+            at = f'cx="{number(x)}" cy="{number(y)}"'
+            yield f'<circle class="tv-back" {at} r="{number(0.5 * radius)}"/>'
+            at = f'x="{number(x)}" y="{number(y + 0.25 * radius)}"'
+            yield f'<text class="tv-soft" {at}>{words}</text>'
+    yield "</g>"

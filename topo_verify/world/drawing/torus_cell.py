@@ -1,0 +1,234 @@
+"""A regular map of the torus as a flat periodic cell, without crossings.
+
+The torus is the plane divided by a lattice: each dart gets a whole translation, so that the sum
+around every face is zero, and each vertex comes to lie in the middle of its neighbours (Tutte's
+drawing, on a torus: S. Gortler, C. Gotsman and D. Thurston, "Discrete one-forms on meshes", CAGD
+23 (2006)). For maps whose vertices have one degree and whose faces have one length this is the
+regular drawing, up to an affine map that makes edges equally long.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from itertools import pairwise, product
+
+import numpy as np
+
+from topo_verify.world.drawing import curves
+from topo_verify.world.drawing.arrays import Floats, Ints
+from topo_verify.world.drawing.fit import MARGIN, RADIUS
+from topo_verify.world.drawing.layout import Layout
+from topo_verify.world.drawing.sparse import solve
+from topo_verify.world.formats.embedding import Point
+from topo_verify.world.rooted_map import Dart, World
+
+
+@dataclass(frozen=True)
+class _Torus:
+    """The drawing in the plane.
+
+    Attributes:
+        places: of the vertices, as fractions of the sides, in [0, 1) once the cell is chosen.
+        steps: from each dart's vertex to its other end, likewise.
+        sides: of the cell, as rows.
+        vertex_of: the vertex of each dart.
+    """
+
+    places: Floats
+    steps: Floats
+    sides: Floats
+    vertex_of: Ints
+
+
+def cell(world: World) -> Layout | None:
+    """The layout of a regular map of the torus; None of any other world."""
+    if world.genus != 1 or len(set(world.degrees)) > 1 or len(set(map(len, world.faces))) > 1:
+        return None
+    torus = _shifted(_flat(world))
+    corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) @ torus.sides
+    low, high = corners.min(0), corners.max(0)
+    lengths = np.hypot(*(torus.steps @ torus.sides).T)
+    radius = min(0.17 * float(lengths.min()), 0.8 * _to_border(torus))
+    scale = RADIUS / radius
+    margin = MARGIN * RADIUS
+
+    def on_page(points: Floats) -> Floats:
+        x, y = (points @ torus.sides).T
+        return np.stack([(x - low[0]) * scale + margin, (high[1] - y) * scale + margin], 1)
+
+    size = (high - low) * scale + 2 * margin
+    corner, right, up = on_page(np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])).round(2)
+    return Layout(
+        kind="cell",
+        width=round(float(size[0]), 2),
+        height=round(float(size[1]), 2),
+        radius=RADIUS,
+        centres=tuple((x, y) for x, y in on_page(torus.places).round(2).tolist()),
+        paths=tuple(
+            tuple(
+                curves.straight([(x, y) for x, y in on_page(part).tolist()])
+                for part in _parts(
+                    torus.places[world.vertex_of[a]], torus.steps[a], radius / float(lengths[a])
+                )
+            )
+            for a, _ in world.edges
+        ),
+        cell=(_pair(corner), _pair(right - corner), _pair(up - corner)),
+    )
+
+
+def _pair(point: Floats) -> Point:
+    return round(float(point[0]), 2), round(float(point[1]), 2)
+
+
+def _translations(world: World) -> dict[Dart, list[int]]:
+    """A whole translation of each dart: the sum around every face is zero, and none is trivial.
+
+    Two edges lie neither in a tree of vertices nor in one of faces. Each closes a cycle of faces;
+    a dart's translation counts how often these two cycles cross it.
+    """
+    face_of = {dart: k for k, face in enumerate(world.faces) for dart in face}
+    seen, queue, tree = {0}, deque([0]), set[Dart]()
+    while queue:
+        for dart in world.vertices[queue.popleft()]:
+            end = world.vertex_of[world.alpha[dart]]
+            if end not in seen:
+                seen.add(end)
+                queue.append(end)
+                tree |= {dart, world.alpha[dart]}
+    entered: dict[int, Dart] = {}
+    reached, queue = {0}, deque([0])
+    while queue:
+        for dart in world.faces[queue.popleft()]:
+            face = face_of[world.alpha[dart]]
+            if dart not in tree and face not in reached:
+                reached.add(face)
+                entered[face] = dart
+                queue.append(face)
+
+    def home(face: int) -> list[Dart]:
+        way: list[Dart] = []
+        while face in entered:
+            way.append(entered[face])
+            face = face_of[entered[face]]
+        return way
+
+    used = tree | {d for dart in entered.values() for d in (dart, world.alpha[dart])}
+    found = {dart: [0, 0] for dart in range(len(world.alpha))}
+    for k, (a, b) in enumerate(edge for edge in world.edges if edge[0] not in used):
+        back = [world.alpha[dart] for dart in home(face_of[b])]
+        for dart in (a, *back, *home(face_of[a])):
+            found[dart][k] += 1
+            found[world.alpha[dart]][k] -= 1
+    return found
+
+
+def _flat(world: World) -> _Torus:
+    """Every vertex in the middle of its neighbours; then as regular as an affine map makes it."""
+    translation = _translations(world)
+    moves = np.array([translation[dart] for dart in range(len(world.alpha))], float)
+    tails = np.array(world.vertex_of)
+    heads = tails[np.array(world.alpha)]
+    size = len(world.vertices)
+    right = np.zeros((size, 2))
+    np.add.at(right, tails, moves)
+    places = np.zeros((size, 2))
+    if size > 1:  # the first vertex stays where it is
+        kept = (tails > 0) & (heads > 0)
+        inner = np.arange(size - 1)
+        places[1:] = solve(
+            np.concatenate([inner, tails[kept] - 1]),
+            np.concatenate([inner, heads[kept] - 1]),
+            np.concatenate([np.array(world.degrees[1:], float), -np.ones(int(kept.sum()))]),
+            right[1:],
+        )
+    steps = places[heads] + moves - places[tails]
+    # The affine map after which the steps are spread alike in all directions.
+    spread = steps.T @ steps
+    a = np.sqrt(spread[0, 0])
+    b = spread[0, 1] / a
+    c = np.sqrt(spread[1, 1] - b * b)
+    sides = np.array([[1 / a, -b / (a * c)], [0.0, 1 / c]])
+    drawn = steps @ sides
+    after = drawn[np.array(world.sigma)]
+    if (drawn[:, 0] * after[:, 1] - drawn[:, 1] * after[:, 0]).sum() > 0:
+        sides = sides * np.array([1, -1])  # clockwise with y upwards: turns are negative
+    lattice = _reduced(sides)
+    change = sides @ np.linalg.inv(lattice)
+    return _Torus(places @ change, steps @ change, _level(lattice), tails)
+
+
+def _reduced(sides: Floats) -> Floats:
+    """A basis of the same lattice whose vectors are short, the longer one first."""
+    a, b = sides[0], sides[1]
+    while True:
+        if a @ a > b @ b + 1e-9:
+            a, b = b, a
+        times = round(float(a @ b / (a @ a)))
+        if not times:
+            break
+        b = b - times * a
+    # Counter-clockwise from the first to the second, with an angle between them of 90° or more.
+    if b[0] * a[1] - b[1] * a[0] < 0:
+        a = -a
+    return np.array([b, a])
+
+
+def _level(sides: Floats) -> Floats:
+    """The sides turned so that the first lies level."""
+    x, y = sides[0] / np.hypot(*sides[0])
+    turned: Floats = sides @ np.array([[x, -y], [y, x]])
+    return turned
+
+
+def _shifted(torus: _Torus) -> _Torus:
+    """The cell moved so that its border is far from vertices and its corners far from edges."""
+    candidates: list[list[float]] = []
+    for k in (0, 1):
+        row: list[float] = sorted(set((torus.places[:, k] % 1).round(6).tolist()))
+        gaps = [b - a for a, b in pairwise([*row, row[0] + 1])]
+        widest = [j for j, gap in enumerate(gaps) if gap > max(gaps) - 1e-3][:2]
+        shares = (0.5, 0.36, 0.64)
+        candidates.append([row[j] + gaps[j] * share for j in widest for share in shares])
+    moved = [
+        _Torus((torus.places - (x, y)) % 1, torus.steps, torus.sides, torus.vertex_of)
+        for x, y in product(*candidates)
+    ]
+    return max(moved, key=lambda it: round(min(_to_border(it), 2 * _to_corner(it)), 6))
+
+
+def _to_border(torus: _Torus) -> float:
+    """The distance of the border from the nearest vertex."""
+    area = abs(float(np.linalg.det(torus.sides)))
+    heights = area / np.hypot(*torus.sides[::-1].T)
+    return float((np.minimum(torus.places, 1 - torus.places) * heights).min())
+
+
+def _to_corner(torus: _Torus) -> float:
+    """The distance of the corners from the nearest edge."""
+    starts = torus.places[torus.vertex_of]
+    # All corners are one point of the torus: take those copies that lie near the edge.
+    near = np.round(starts)[:, None] + np.array([*product(range(-2, 3), repeat=2)])
+    offset = (near - starts[:, None]) @ torus.sides
+    step = (torus.steps @ torus.sides)[:, None]
+    t = np.clip((offset * step).sum(2) / (step**2).sum(2), 0, 1)
+    return float(np.hypot(*np.moveaxis(offset - t[:, :, None] * step, 2, 0)).min())
+
+
+def _parts(place: Floats, step: Floats, trim: float) -> list[Floats]:
+    """The pieces of an edge within the cell, in fractions of the sides.
+
+    Args:
+        trim: the share of the edge that lies within the circles of its vertices, at each end.
+    """
+    times = {trim, 1 - trim}
+    for start, length in zip(place.tolist(), step.tolist(), strict=True):
+        low, high = sorted((start, start + length))
+        borders = range(int(np.floor(low)) + 1, int(np.ceil(high)))
+        times |= {t for border in borders if trim < (t := (border - start) / length) < 1 - trim}
+    pieces: list[Floats] = []
+    for begin, end in pairwise(sorted(times)):
+        home = np.floor(place + (begin + end) / 2 * step)
+        pieces.append(np.array([place + begin * step - home, place + end * step - home]))
+    return pieces

@@ -1,0 +1,197 @@
+"""Graphs that carry a rotation: a world as NetworkX, GraphML and node-link JSON can hold it.
+
+Nothing is lost, whatever the genus, with loops and parallel edges. The graph is an undirected
+multigraph, and what makes it a world are attributes of these names:
+
+| of | attribute | what |
+| --- | --- | --- |
+| the graph | `format`, `version` | `topo-verify/graph`, 1 |
+| | `marker` | the dart that the marker points at; left out where there is no dart |
+| | `name`, `source`, `licence` | texts, where the world has them |
+| a node | `rotation` | its darts in clockwise order |
+| | `name`; `x` and `y` | its name and its position, y upwards, where the world has them |
+| an edge | `darts` | its two darts; the one named first is at either of its ends |
+
+Other attributes are ignored. A graph whose darts do not fit its edges is refused.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any, Final, NamedTuple, TypeVar
+
+from topo_verify.errors import InputError
+from topo_verify.text import shown
+from topo_verify.world import validation
+from topo_verify.world.formats import embedding
+from topo_verify.world.rooted_map import World
+
+W = TypeVar("W", bound=World)
+
+FORMAT: Final = "topo-verify/graph"
+VERSION: Final = 1
+"""The newest version of the attributes that is read, and the one that is written."""
+
+
+class RotatedVertex(NamedTuple):
+    """A node with its rotation; `label` is what messages call it."""
+
+    label: str
+    rotation: Any
+    name: str | None = None
+    at: tuple[float, float] | None = None
+
+
+class RotatedEdge(NamedTuple):
+    """An edge between two vertices, by their numbers, and its darts."""
+
+    start: int
+    end: int
+    darts: Any
+
+
+def as_world(
+    cls: type[W],
+    vertices: Sequence[RotatedVertex],
+    edges: Sequence[RotatedEdge],
+    marker: object,
+    *,
+    source: str,
+    about: Mapping[str, str],
+) -> W:
+    """The world with these rotations.
+
+    Args:
+        source: what to call the input in messages.
+        about: name, source and licence of the world.
+    Raises:
+        InputError: the darts make no world, or an edge joins other vertices than its darts are at.
+    """
+    given = {
+        "vertices": [vertex.rotation for vertex in vertices],
+        "edges": [edge.darts for edge in edges],
+        "marker": marker,
+    }
+    try:
+        rotations, pairs, root = validation.map_parts(given)
+        world = cls.from_rotations(
+            rotations,
+            pairs,
+            root,
+            **about,
+            vertex_names=_of_all("name", [vertex.name for vertex in vertices]),
+            positions=_of_all("x and y", [vertex.at for vertex in vertices]),
+        )
+        at = {dart: place for place, rotation in enumerate(rotations) for dart in rotation}
+        for edge, (a, b) in zip(edges, pairs, strict=True):
+            _require_ends(vertices, edge, (at[a], at[b]), (a, b))
+    except InputError as error:
+        raise InputError(f"{source}: {error}") from error
+    return world
+
+
+T = TypeVar("T")
+
+
+def _of_all(what: str, row: Sequence[T | None]) -> tuple[T, ...]:
+    """The row if all vertices have it, nothing if none has it."""
+    present = tuple(value for value in row if value is not None)
+    if present and len(present) < len(row):
+        raise InputError(
+            f"{len(present)} of {len(row)} nodes have {what}: give it to each, or to none"
+        )
+    return present
+
+
+def _require_ends(
+    vertices: Sequence[RotatedVertex],
+    edge: RotatedEdge,
+    places: tuple[int, int],
+    darts: tuple[int, int],
+) -> None:
+    if Counter(places) != Counter((edge.start, edge.end)):
+        joined, turned = (
+            " and ".join(repr(shown(vertices[place].label, limit=60)) for place in pair)
+            for pair in ((edge.start, edge.end), places)
+        )
+        raise InputError(
+            f"the edge of darts {darts[0]} and {darts[1]} joins the nodes {joined}, but by their"
+            f" 'rotation' these darts are at {turned}: correct one of the two"
+        )
+
+
+def point(x: object, y: object, what: str) -> tuple[float, float] | None:
+    """The position with these coordinates; None if both are None.
+
+    Raises:
+        InputError: one is None, or not a number.
+    """
+    if x is None and y is None:
+        return None
+    if x is None or y is None:
+        raise InputError(f"{what} has one of x and y: give it both, or none")
+    most = sys.float_info.max
+    return embedding.number(x, f"{what}, x", most), embedding.number(y, f"{what}, y", most)
+
+
+def attributes(world: World) -> dict[str, Any]:
+    """The attributes of the graph: format, version, marker, texts."""
+    texts = {"name": world.name, "source": world.source, "licence": world.licence}
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        **({} if world.root is None else {"marker": world.root}),
+        **{key: text for key, text in texts.items() if text},
+    }
+
+
+def node_attributes(world: World, vertex: int) -> dict[str, Any]:
+    """The attributes of one node: its rotation, its name and its position."""
+    found: dict[str, Any] = {"rotation": list(world.vertices[vertex])}
+    if world.vertex_names:
+        found["name"] = world.vertex_names[vertex]
+    if world.positions:
+        found["x"], found["y"] = map(float, world.positions[vertex])
+    return found
+
+
+def texts_of(graph: Mapping[str, Any]) -> dict[str, str]:
+    """Name, source and licence among the attributes of a graph."""
+    return {key: str(graph[key]) for key in ("name", "source", "licence") if key in graph}
+
+
+def require_version(kind: object, version: object, *, source: str) -> None:
+    """Refuse a graph that says it is of another format or of a newer version."""
+    if kind != FORMAT:
+        raise InputError(
+            f"{source}: expected the graph's 'format' {FORMAT!r}, got {_quoted(kind)}: name a file"
+            " that `topo-verify world convert` wrote"
+        )
+    if str(version) != str(VERSION):
+        raise InputError(
+            f"{source}: expected 'version' {VERSION} of {FORMAT}, got {_quoted(version)}: if it is"
+            " newer, update topo-verify"
+        )
+
+
+def _quoted(value: object) -> str:
+    return f"'{shown(str(value), limit=60)}'"
+
+
+def darts_in(text: str, what: str) -> list[int]:
+    """The darts in a text, as `0 5 3`.
+
+    Raises:
+        InputError: something else stands there.
+    """
+    words = text.split()
+    for word in words:
+        if not re.fullmatch(r"-?[0-9]{1,18}", word):
+            raise InputError(
+                f"{what} has '{shown(word, limit=60)}', expected darts as in '0 5 3', integers with"
+                " spaces between them"
+            )
+    return [int(word) for word in words]
