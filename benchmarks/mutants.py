@@ -77,14 +77,37 @@ AT_A_ROOT = "the offset of a node is read only while it has a parent, and is set
 EITHER_END = "an edge is met at both its ends, which are two darts, and is noted at one of them"
 FIRST = "who sees the marker joins the first visit at once, which so stands for v0; its dart is 0"
 
+BOTH_TWO = "both are pairs"
+ONLY_QUICKER = "what was rejected need not be tried again, and would be rejected again"
+ONLY_ROOM = "it changes how much memory a node takes, and no answer"
+BELOW_0 = "every number below 0 says that there is no other end"
+NO_DART = "a world without a dart has no marked dart, whatever its place"
+
 SAME = {
+    "claims.py _unmet: True -> False": BOTH_TWO,
+    "entailment.py decision_conclusions: refuted.add((event.edge, event.hypothesis)) -> pass": (
+        ONLY_QUICKER
+    ),
+    "folding.py : 64 -> 65": ONLY_ROOM,
+    "folding.py Ends.add: degree > NARROW -> degree >= NARROW": ONLY_ROOM,
+    "folding.py Ends.add: 0 -> 1": ONLY_ROOM,
+    "folding.py Ends.add: 1 -> 2": BELOW_0,
+    "folding.py Ends.put: 1 -> 2": BELOW_0,
+    "folding.py Fold.__init__: 0 -> 1": ONLY_ROOM,
+    "entailment.py _doubt:  for h in on_fold.others(e) if (e, h) not in refuted"
+    " ->  for h in on_fold.others(e)": ONLY_QUICKER,
+    "entailment.py _doubt: assert_never(event) -> pass": "no event comes there, as mypy proves",
     "folding.py Fold._visit: 0 -> 1": AT_A_ROOT,
     "folding.py Fold._visit: 1 -> 2": BY_SIZE,
     "folding.py Fold._identify: self._size[b] += self._size[a] -> pass": BY_SIZE,
     "folding.py Fold.assuming: self._size[self._parent[node]] -= self._size[node] -> pass": BY_SIZE,
     "folding.py Fold.assuming: 0 -> 1": AT_A_ROOT,
-    "folding.py Fold.world: if here < there: -> if not here < there:": EITHER_END,
-    "folding.py Fold.world: here < there -> here <= there": EITHER_END,
+    "folding.py Fold.world: if here < (there := (first[end[0]] + end[1])): -> if not here < (there"
+    " := (first[end[0]] + end[1])):": EITHER_END,
+    "folding.py Fold.world: here < (there := (first[end[0]] + end[1])) -> here <= (there :="
+    " (first[end[0]] + end[1]))": EITHER_END,
+    "folding.py Fold.world: 0 -> 1 (5)": NO_DART,
+    "folding.py Fold.world: 0 -> 1 (6)": NO_DART,
     "folding.py Fold.world: first[node] + dart -> first[node] - dart": FIRST,
 }
 """Mutants that change nothing that anybody can see, by their text; and why."""

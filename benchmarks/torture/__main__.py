@@ -2,7 +2,8 @@
 
     make torture                                                  minutes on two cores
     .venv/bin/python benchmarks/torture --only readers --scale 20     more of one part
-    .venv/bin/python benchmarks/torture --only "bit flips" --scale inf   every single bit
+    .venv/bin/python benchmarks/torture --only opened       every single bit of a ledger
+    .venv/bin/python benchmarks/torture --only "baseline of" --scale inf      and of a baseline
 
     readers.py      every format (formats.py), mutated: read, or refused with one sentence
     flips.py        single bits of ledgers and baselines: refused, or harmless
@@ -80,6 +81,10 @@ def rows(seed: int, scale: float) -> Iterator[Row]:
         several = cut("bit flips", bits)
         what = f"{name} of {flips.bits(name)} bits"
         yield Row("bit flips", what, [partial(flips.trials, name, one, KEEP) for one in several])
+    bits = flips.chosen("ledger", int(min(10**9, 50 * TRIALS["bit flips"] * scale)), seed)
+    several = cut("bit flips", bits)
+    what = f"opened: {len(bits)} of {flips.bits('ledger')} bits"
+    yield Row("bit flips", what, [partial(flips.openings, one, KEEP) for one in several])
     several = cut("programs", seeds("programs", "hostile", 10**4))
     yield Row("programs", "hostile programs", [partial(programs.trials, one) for one in several])
     for name in kills.COMMANDS:

@@ -2,16 +2,28 @@
 
 A flipped file is refused with one sentence and exit code 2, or the results are those of the file
 before the flip: the bit stood in padding, or in a field that nothing reads.
+
+    trials      the whole command, in a process of its own: a tenth of a second each
+    openings    a ledger is opened as a search opens it, and every row read: a millisecond each
+
+What a search makes of a ledger are its rows and nothing else; so `openings` can try every bit.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 from random import Random
+from tempfile import TemporaryDirectory
 
 from formats import FORMATS
 from mutations import flipped
 from readers import Count, attempt
+
+from topo_verify import __version__
+from topo_verify.errors import InputError
+from topo_verify.harness.ledger import Ledger
+from topo_verify.harness.search.plan import Plan
+from topo_verify.harness.targets import targets
 
 
 def bits(name: str) -> int:
@@ -40,3 +52,37 @@ def trials(name: str, places: list[int], keep: Path) -> Count:
                 f"flip-{name}-{bit}{FORMATS[name].suffix}", flipped(data, bit), wrong, keep
             )
     return count
+
+
+def openings(places: list[int], keep: Path) -> Count:
+    """Flip each of these bits of a ledger by itself, open it, and read every row."""
+    (data,) = FORMATS["ledger"].seeds()
+    count = Count()
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "flipped.ledger"
+        whole = _rows(path, data)
+        for bit in places:
+            count.trials += 1
+            wrong = None
+            try:
+                if _rows(path, flipped(data, bit)) != whole:
+                    wrong = "read as another ledger"
+            except InputError as refused:
+                count.refused += 1
+                if not str(refused).isprintable():
+                    wrong = f"no printable sentence: {str(refused)!r}"
+            except Exception as error:  # noqa: BLE001  whatever it is, it is wrong
+                wrong = repr(error)
+            if wrong is not None:
+                count.convict(f"opened-{bit}.ledger", flipped(data, bit), wrong, keep)
+    return count
+
+
+def _rows(path: Path, data: bytes) -> object:
+    """What a search reads in a ledger of these bytes."""
+    path.write_bytes(data)
+    plan = Plan(targets=("basic",), edges=3)
+    with Ledger(str(path), plan, targets("basic"), __version__) as ledger:
+        rows = [ledger.get(shard) for shard in plan.shards()]
+        assert all(row is not None for row in rows), "the ledger is of a finished search"
+        return rows, ledger.shards, ledger.loaded, ledger.since

@@ -59,7 +59,7 @@ def test_a_log_that_no_world_shows_names_its_line() -> None:
     certificate = certify(log)
     assert (certificate.verdict, certificate.map, certificate.fold) == ("REFUTED", None, None)
     assert certificate.witnesses == ()
-    assert not list(open_doors(certificate))
+    assert not open_doors(certificate)
     assert certificate.findings[0].event is not None
     assert "no world shows this history" in certificate.findings[0].message
 
@@ -147,6 +147,23 @@ def test_a_log_is_not_a_mapper_and_may_walk_an_edge_as_often_as_it_likes() -> No
     assert certificate.map == World.from_id("m1/0")
 
 
+def test_a_log_with_decisions_may_walk_an_edge_as_often_as_it_likes() -> None:
+    there, back = Move(0, Percept(1, None)), Move(0, Percept(1, 0))
+    walk = [there, back] * 20  # m1/0 has one edge: a mapper owes less
+    certificate = certify([Start(percept=Percept(1, 0)), *walk, there, Augment(0, "new", 1, 1)])
+    assert (certificate.verdict, certificate.decisions) == ("PROVED", 1)
+    assert certificate.findings == ()
+
+
+def test_decisions_are_judged_however_large_the_proved_world(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("topo_verify.checkers.claims.LARGE", 0)
+    there, back = Move(0, Percept(1, None)), Move(0, Percept(1, 0))
+    certificate = certify([Start(percept=Percept(1, 0)), there, back, Augment(0, "new", 1, 9)])
+    assert "decisions-entailed" in {finding.claim for finding in certificate.findings}
+
+
 def test_a_map_that_an_incomplete_log_delivers_does_not_follow() -> None:
     trace = trace_of("m4/300")
     delivered = (*plain(trace)[:-2], trace[-1])
@@ -189,7 +206,7 @@ def test_the_walk_to_an_open_door_ends_where_the_door_is_said_to_be(
             crossed |= {leaves, at}
             places.append(at)
     certificate = certify(log)
-    found = list(open_doors(certificate))
+    found = open_doors(certificate)
     assert len(found) == certificate.open_darts
     assert [len(door.walk) for door in found] == sorted(len(door.walk) for door in found)
     for opened in found:
@@ -199,6 +216,14 @@ def test_the_walk_to_an_open_door_ends_where_the_door_is_said_to_be(
             assert here in crossed
             here = world.alpha[here]
         assert exit_dart(world, here, opened.walk[-1]) == exits
+    assert open_doors(certificate, 2) == found[:2]
+
+
+def test_an_open_door_is_named_from_the_first_event_at_its_place() -> None:
+    crossing, v0 = Percept(4, None), Percept(2, 0)
+    log: list[Event] = [Start(percept=v0), Move(0, crossing), Move(0, v0), Move(0, crossing)]
+    named = {(door.event, door.door) for door in open_doors(certify([*log, Move(1, crossing)]))}
+    assert named == {(0, 1), (1, 2), (1, 3), (4, 1), (4, 2), (4, 3)}
 
 
 # ---------------------------------------------------------------- what a log may cost
@@ -207,7 +232,7 @@ def test_the_walk_to_an_open_door_ends_where_the_door_is_said_to_be(
 def test_a_place_with_a_million_doors_makes_no_world_until_one_is_asked_for() -> None:
     certificate = certify([Start(percept=Percept(10**6, 0))])
     assert (certificate.verdict, certificate.open_darts) == ("UNKNOWN", 10**6)
-    nearest = next(open_doors(certificate))
+    (nearest,) = open_doors(certificate, 1)
     assert (nearest.event, nearest.door, nearest.walk) == (0, 0, (0,))
 
 
@@ -220,6 +245,6 @@ def test_the_doors_of_all_places_of_a_log_have_a_bound() -> None:
 def test_a_long_log_may_have_sixteen_doors_an_event(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("topo_verify.checkers.certificate.MOST_DARTS", 1)
     start = Start(percept=Percept(2, 0))
-    assert certify([start, Move(0, Percept(1, None))]).verdict == "UNKNOWN"
+    assert certify([start, Move(0, Percept(30, None))]).verdict == "UNKNOWN"
     with pytest.raises(InputError, match="101 doors together: expected at most 32"):
         certify([start, Move(0, Percept(99, None))])

@@ -10,7 +10,17 @@ import pytest
 from tests.checkers.example import said
 from tests.helpers import edited, failing, of_type, trace_of
 from topo_verify import World
-from topo_verify.robot.events import Evidence, Record, Reject, RuleName, Trace
+from topo_verify.checkers import decision_conclusions
+from topo_verify.robot.events import (
+    Augment,
+    Evidence,
+    Move,
+    Record,
+    Reject,
+    RuleName,
+    Start,
+    Trace,
+)
 from topo_verify.robot.percept import Percept
 
 CLASH = "two degrees, or the marker and its absence, at one place"
@@ -138,3 +148,23 @@ def test_the_planar_rule_must_say_what_it_rests_on() -> None:
     for told in (None, CLASH, "because"):
         lie = edited(trace, index, evidence=Evidence(0, contradiction=told))
         assert failing(world, lie) == {"rejection-justified"}
+
+
+def test_only_a_rejection_that_cites_a_contradiction_meets_it() -> None:
+    for conclusion in decision_conclusions(TRACE):
+        event = TRACE[conclusion.when]
+        assert conclusion.met is (isinstance(event, Reject) and event.rule == "folding")
+    assert not any(
+        conclusion.met for conclusion in decision_conclusions(renamed(TRACE, None, "history"))
+    )
+    unknown = edited(TRACE, FIRST, hypothesis=10**6)
+    assert [c.met for c in decision_conclusions(unknown) if c.when == FIRST] == [False]
+
+
+def test_a_rejection_that_does_not_follow_proves_no_new_vertex() -> None:
+    far = Percept(3, None)
+    walk = (Start(percept=Percept(2, 0)), Move(0, far), Augment(0, "new", 2, 3), Move(1, far))
+    lie = (*walk, Reject(3, 4, "history", Evidence(0)), Augment(3, "new", 5, 3))
+    *_, rejected, grown = decision_conclusions(lie)
+    assert "the edge may well lead there" in rejected.why
+    assert "the edge may well lead there" in grown.why

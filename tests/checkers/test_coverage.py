@@ -121,6 +121,18 @@ def test_decisions_on_the_first_edges_alone_are_partial() -> None:
     }
 
 
+def test_an_edge_that_is_still_in_question_counts_once_whatever_is_left_of_it() -> None:
+    trace = lattice_trace()
+    posed = place(trace, Pose, 12)
+    event = trace[posed]
+    assert isinstance(event, Pose)
+    assert len(event.hypotheses) > 1
+    whole = trace[: posed + 1]
+    one_left = edited(whole, posed, hypotheses=event.hypotheses[:1])
+    claim = "rejection-justified"
+    assert told(LATTICE, whole)[claim].of == told(LATTICE, one_left)[claim].of
+
+
 def test_a_loop_that_was_not_confirmed_is_not_judged_by_claim_4() -> None:
     trace = lattice_trace()
     assert shares(LATTICE, only(trace, lambda event: not isinstance(event, Confirm))) == {

@@ -222,7 +222,9 @@ def test_large_worlds_are_asked_claim_10_only_if_strict(monkeypatch: pytest.Monk
         0,
     )
     trace = trace_of(world)
-    assert {j.claim: j.status for j in check(world, trace)}["decisions-entailed"] == "not-asked"
+    *_, left_out = check(world, trace)
+    assert (left_out.claim, left_out.status) == ("decisions-entailed", "not-asked")
+    assert left_out.judged == 0
     assert {j.claim: j.status for j in check(world, trace, strict=True)}[
         "decisions-entailed"
     ] == "ok"

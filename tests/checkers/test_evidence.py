@@ -10,7 +10,18 @@ import pytest
 from tests.checkers.example import LOOP, TRACE, WORLD, inserted, said, wrong
 from tests.helpers import edited, failing, place, trace_of
 from topo_verify import World
-from topo_verify.robot.events import Evidence, Pose, Record, Reject, Trace
+from topo_verify.checkers import check
+from topo_verify.robot.events import (
+    Augment,
+    Evidence,
+    Move,
+    Pose,
+    Record,
+    Reject,
+    RuleName,
+    Start,
+    Trace,
+)
 from topo_verify.robot.percept import Percept
 
 BY_MOTION = place(TRACE, Reject, 0)
@@ -178,3 +189,14 @@ def test_the_planar_rule_may_reject_what_lies_on_another_face_and_nothing_else()
     assert wrong(lie) == {"rejection-justified"}
     message = "it does not follow that 'it lies on another face than e'"
     assert said(lie, "rejection-justified")[0].endswith(message)
+
+
+@pytest.mark.parametrize("rule", ["motion", "folding"])
+def test_an_edge_that_is_explored_is_in_question_no_more(rule: RuleName) -> None:
+    world = World.from_rotations([[0, 1], [2], [3]], [(0, 2), (1, 3)], 0)
+    behind, marked = Percept(1, None), Percept(2, 1)
+    evidence = Evidence(0, marked, behind)  # the two percepts do disagree
+    history = (Start(percept=Percept(2, 0)), Move(0, behind), Augment(0, "new", 2, 1))
+    lie = (*history, Pose(0, (1,)), Reject(0, 1, rule, evidence))
+    findings = {one.claim: one.findings for one in check(world, lie)}["rejection-justified"]
+    assert ["the two are not unexplored darts of S" in one.message for one in findings] == [True]

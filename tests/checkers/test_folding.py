@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import tracemalloc
 from collections.abc import Sequence
+from unittest.mock import patch
 
 import pytest
 from hypothesis import given
@@ -11,6 +13,7 @@ from hypothesis import strategies as st
 
 from tests.helpers import EMPTY, any_world, trace_of, worlds
 from topo_verify import World
+from topo_verify.checkers import folding
 from topo_verify.checkers.entailment import fold_history
 from topo_verify.checkers.folding import Contradiction, Fold
 from topo_verify.robot.events import Event, Move, Start
@@ -126,6 +129,38 @@ def test_an_assumption_leaves_no_trace() -> None:
                 except Contradiction:
                     pass
             assert (fold.open_darts(), fold.world(1).code, fold.world(2).code) == before
+
+
+@pytest.mark.parametrize("degree", [4, 1000])
+def test_a_place_takes_few_bytes_and_no_more_where_it_has_more_doors(degree: int) -> None:
+    start, beyond = Start(percept=Percept(degree, 0)), Move(1, Percept(degree, None))
+    tracemalloc.start()
+    try:
+        fold, _ = fold_history([start, *([beyond] * 4000)])
+        bytes_a_place = tracemalloc.get_traced_memory()[0] / 4000
+    finally:
+        tracemalloc.stop()
+    assert len(fold.roots()) == 4001
+    assert bytes_a_place < (80 if degree == 4 else 800)
+
+
+@given(st.data())
+def test_a_wide_place_folds_as_a_narrow_one_does(data: st.DataObject) -> None:
+    world = data.draw(any_world(max_edges=6))
+    doors = data.draw(st.lists(st.integers(0, 11), max_size=30))
+    robot = SimulatedRobot(world, budget=len(doors))
+    history: list[Event] = [Start(percept=robot.percept)]
+    for door in doors:
+        robot.move(door % robot.percept.degree)
+        history.append(robot.events[-1])
+    narrow, _ = fold_history(history)
+    with patch.object(folding, "NARROW", 1):
+        wide, _ = fold_history(history)
+    assert wide.world(2) == narrow.world(2)
+    for turn in range(1, narrow.degree(0)):
+        ends = (0, 0), (0, turn)
+        assert wide.contradictions(*ends) == narrow.contradictions(*ends)
+    assert wide.world(2) == narrow.world(2)
 
 
 def test_what_is_possible_is_what_some_world_has() -> None:

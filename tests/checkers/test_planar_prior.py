@@ -7,7 +7,7 @@ import pytest
 from tests.checkers.test_witnesses import assert_wrong_in
 from tests.helpers import trace_of, worlds
 from topo_verify import World
-from topo_verify.checkers import check, decision_conclusions
+from topo_verify.checkers import check, decision_conclusions, entailment
 from topo_verify.checkers.entailment import FURTHER, Conclusion
 from topo_verify.robot.events import Event, Evidence, Move, Reject, Start, Trace
 from topo_verify.robot.simulator import SimulatedRobot
@@ -51,10 +51,11 @@ def test_where_the_search_is_given_up_the_decision_is_undecided_and_never_ok() -
     conclusion = told(OPEN)
     assert conclusion.undecided
     assert conclusion.witness is None
-    judgement = check(World.from_id("m5/4139"), OPEN)[-1]
+    *others, judgement = check(World.from_id("m5/4139"), OPEN)
     assert (judgement.claim, judgement.status) == ("decisions-entailed", "undecided")
-    assert judgement.judged < judgement.of
+    assert (judgement.judged, judgement.of) == (0, 4)
     assert judgement.findings == ()
+    assert "undecided" not in {other.status for other in others}
 
 
 def test_the_search_is_given_up_after_so_many_foldings() -> None:
@@ -76,3 +77,10 @@ def test_the_algorithm_with_the_prior_is_decided_in_every_small_planar_world() -
         if world.is_planar:
             for judgement in check(world, trace_of(world, "folding+planar")):
                 assert judgement.status == "ok"
+
+
+def test_what_lies_on_another_face_costs_no_folding(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(entailment, "FURTHER", 0)
+    trace = trace_of("m4/50", "folding+planar")
+    assert any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
+    assert not any(conclusion.why for conclusion in decision_conclusions(trace))

@@ -21,7 +21,7 @@ from topo_verify.programs.program import Program
 WORLD = World.from_id("m3/14")
 
 MAPPERS = """
-import asyncio, os, signal, sys, time
+import asyncio, json, os, signal, sys, time
 import topo_verify as tv
 
 basic = tv.CATALOGUE["basic"]
@@ -46,6 +46,12 @@ def interrupts(robot):
 
 def generates(robot):
     raise GeneratorExit
+
+def parsed(text):
+    return json.loads(text)
+
+def parses(robot):
+    return parsed("{")
 
 def exits(robot):
     os._exit(3)
@@ -160,6 +166,13 @@ def test_every_exception_is_told_with_its_line(folder: Path, name: str, error: s
     assert why(name) == f"the mapper raised {error} (mine.py, line {line})"
 
 
+def test_the_line_is_the_innermost_one_of_the_users_own_files(folder: Path) -> None:
+    line = (folder / "mine.py").read_text().splitlines().index("    return json.loads(text)") + 1
+    told = str(why("parses"))
+    assert told.startswith("the mapper raised JSONDecodeError: ")
+    assert told.endswith(f" (mine.py, line {line})")
+
+
 def test_a_child_that_dies_names_the_signal_and_the_line() -> None:
     with Foreign("mine.py:crashes") as mapper:
         run = explore(WORLD, mapper.target)
@@ -245,6 +258,86 @@ def test_one_process_plays_all_worlds_though_a_mapper_raises(folder: Path) -> No
     with Foreign("once.py:explore") as mapper:
         assert len({explore(WORLD, mapper.target).stopped for _ in range(3)}) == 1
         assert str(os.getpid()) not in str(explore(WORLD, mapper.target).stopped)
+
+
+STOPPED = """
+import os
+
+def noted(name):
+    with open("processes", "a") as file:
+        file.write(f"{name} {os.getpid()} {os.getppid()}\\n")
+
+def walks(robot):
+    noted("walks")
+    while True:
+        robot.move(0)
+
+def clings(robot):
+    noted("clings")
+    try:
+        walks(robot)
+    finally:
+        robot.move(0)
+
+def delivers(robot):
+    noted("delivers")
+    try:
+        walks(robot)
+    except BaseException:
+        return {"vertices": [[]], "edges": [], "marker": None}
+
+def declares_nonsense(robot):
+    noted("declares_nonsense")
+    robot.declare({"type": "pose", "edge": "e"})
+    robot.move(0)
+
+def declares_and_delivers(robot):
+    noted("declares_and_delivers")
+    robot.declare({"type": "pose", "edge": "e"})
+    return {"vertices": [[]], "edges": [], "marker": None}
+
+def stays(robot):
+    noted("stays")
+    while True:
+        try:
+            robot.move(0)
+        except BaseException:
+            pass
+"""
+
+
+def processes(folder: Path, name: str, *, fresh: bool = False) -> tuple[set[str], set[str]]:
+    """The processes that played three worlds until the robot stopped, and their parents."""
+    (folder / "stopped.py").write_text(STOPPED)
+    with Foreign(f"stopped.py:{name}", fresh=fresh) as mapper:
+        runs = [explore(WORLD, mapper.target, limits=Limits(budget=7)) for _ in range(3)]
+    assert {(run.stopped, run.cost) for run in runs} == {(runs[0].stopped, runs[0].cost)}
+    assert runs[0].cost == (0 if "declares" in name else 7)
+    assert runs[0].stopped
+    assert ("7 moves" in runs[0].stopped) == (runs[0].cost == 7)
+    rows = [row.split() for row in (folder / "processes").read_text().splitlines()]
+    mine = [row for row in rows if row[0] == name]
+    assert len(mine) == 3
+    return {own for _, own, _ in mine}, {parent for _, _, parent in mine}
+
+
+@pytest.mark.parametrize(
+    "name", ["walks", "clings", "delivers", "declares_nonsense", "declares_and_delivers"]
+)
+def test_one_process_plays_all_worlds_though_the_robot_stops(folder: Path, name: str) -> None:
+    assert len(processes(folder, name)[0]) == 1
+
+
+def test_a_mapper_that_does_not_come_back_is_ended(folder: Path) -> None:
+    assert len(processes(folder, "stays")[0]) == 3
+
+
+@pytest.mark.parametrize("name", ["walks", "declares_and_delivers"])
+def test_each_world_has_a_process_of_its_own_though_the_robot_stops(
+    folder: Path, name: str
+) -> None:
+    own, parents = processes(folder, name, fresh=True)
+    assert (len(own), len(parents)) == (3, 1)
 
 
 def test_its_process_ends_with_the_last_object_that_uses_it(folder: Path) -> None:

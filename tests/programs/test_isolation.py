@@ -94,7 +94,8 @@ def test_no_world_stands_on_the_command_line_that_a_mapper_can_read(tmp_path: Pa
 
 
 def test_our_own_processes_import_nothing_from_the_current_folder(tmp_path: Path) -> None:
-    (tmp_path / "msgspec.py").write_text("raise SystemExit('the wrong msgspec')")
+    for name in ("json", "msgspec"):  # one is imported before our path is set, one after
+        (tmp_path / f"{name}.py").write_text(f"raise SystemExit('the wrong {name}')")
     command = python_command("topo_verify.programs.serve:child", "topo_verify.algorithms:nothing")
     done = subprocess.run(
         command, cwd=tmp_path, input="", capture_output=True, text=True, check=False

@@ -41,8 +41,11 @@ def after(folder: Path, deed: str) -> Loaded:
 
 
 def test_files_that_are_imported_or_read_count_and_others_do_not(folder: Path) -> None:
-    for name in ("read", "rewritten", "written", "untouched", "opened", "by_bytes"):
+    for name in ("read", "rewritten", "written", "untouched", "opened", "by_bytes", "library"):
         (folder / name).write_text(name)
+    (folder / "__pycache__").mkdir()
+    (folder / "__pycache__" / "near.pyc").write_text("")
+    (folder / "base").write_text("")
     (folder / "near.py").write_text("import json, networkx")
     found = after(
         folder,
@@ -55,14 +58,23 @@ def test_files_that_are_imported_or_read_count_and_others_do_not(folder: Path) -
         "open(0).close()\n"
         "open(os.devnull).close()\n"
         "import ctypes\n"
-        "try: ctypes.CDLL('./read')\n"
-        "except OSError: pass\n",
+        "try: ctypes.CDLL('./library')\n"
+        "except OSError: pass\n"
+        "import sqlite3\n"
+        "sqlite3.connect('base').close()\n"
+        "open('__pycache__/near.pyc').close()\n",
     )
     names = {Path(path).name for path in found.files}
-    assert names == {"deed.py", "near.py", "read", "opened", "by_bytes"}
+    assert names == {"deed.py", "near.py", "read", "opened", "by_bytes", "library", "base"}
     (hashed,) = (made for path, made in found.files.items() if path == str(folder / "read"))
     assert hashed == hashlib.sha256(b"read").hexdigest()
     assert found.distributions.keys() >= {"msgspec", "networkx"}
+
+
+def test_files_of_distributions_are_not_the_users_wherever_they_are_installed() -> None:
+    assert loaded.is_users("/home/me/mapper.py")
+    assert not loaded.is_users("/home/me/.local/lib/site-packages/networkx/graph.py")
+    assert not loaded.is_users("/usr/lib/python3/dist-packages/networkx/graph.py")
 
 
 def test_to_watch_again_begins_anew(folder: Path) -> None:
@@ -138,7 +150,19 @@ def test_what_a_mapper_is_made_with_counts(way: Callable[[object], Any]) -> None
 
 
 def test_code_counts() -> None:
-    assert values.values_hash(lambda: 1) != values.values_hash(lambda: 2)
+    made: list[Callable[[str], object]] = [
+        lambda _text: 1,
+        lambda _text: 2,
+        lambda text: text.upper(),
+        lambda text: text.lower(),
+    ]
+    assert len({values.values_hash(one) for one in made}) == len(made)
+
+
+def test_the_order_in_which_a_set_was_filled_does_not_count() -> None:
+    one, other = {0, 8}, {8, 0}
+    assert list(one) != list(other)  # for both have the same place in its table
+    assert values.values_hash(one) == values.values_hash(other)
 
 
 def test_values_in_a_circle_and_too_many_of_them_have_an_end(

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import weakref
 from collections.abc import Iterable
 from itertools import islice
 from pathlib import Path
@@ -25,6 +26,8 @@ from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Move
 from topo_verify.robot.limits import Limits
+from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.robot.stopwatch import Stopwatch
 
 TELLS = """
 import json, os, sys
@@ -216,6 +219,16 @@ def test_a_program_object_that_is_forgotten_ends_its_program(tells: str) -> None
     assert gone(process)
 
 
+def test_it_is_forgotten_at_once_though_its_program_misbehaved(tells: str) -> None:
+    player = program(tells)
+    Path("extra").write_text("garbage")
+    explore(EDGE, player.target)
+    assert player.misbehaved is not None
+    known = weakref.ref(player)
+    del player
+    assert known() is None
+
+
 def test_a_text_names_a_program_in_python_too(tells: str) -> None:
     run = explore(EDGE, tells)
     assert run.algorithm == tells
@@ -331,3 +344,20 @@ def test_the_thread_that_plays_may_run_everywhere_again_after_a_world() -> None:
         for world in ("m2/0", "m3/14"):
             assert explore(World.from_id(world), mapper.target).map is not None
             assert os.sched_getaffinity(0) == PROCESSORS
+
+
+class StandsStill(Stopwatch):
+    """The stopwatch of a program that waits for a processor all the time."""
+
+    def seconds(self) -> float:
+        return 0.0
+
+
+def test_a_program_that_dies_slowly_on_a_busy_machine_has_crashed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("topo_verify.programs.child.Stopwatch", StandsStill)
+    monkeypatch.setattr("topo_verify.programs.child.LAST_WORDS", 0.01)
+    dies = "import os, time\nos.close(1)\ntime.sleep(0.3)\nos._exit(3)"
+    with pytest.raises(Misbehaved, match="ended with exit code 3 before it delivered a map"):
+        program(python("-c", dies))(SimulatedRobot(World.from_id("m1/0"), 9))

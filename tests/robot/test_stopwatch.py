@@ -19,11 +19,12 @@ ACCOUNTS = Path("/proc/self/schedstat").exists() and hasattr(os, "sched_setaffin
 
 
 class Machine:
-    """A clock and the waits of tasks, as a test sets them."""
+    """A clock, and what the kernel has booked for tasks, as a test sets them."""
 
     now = 100.0
     own = 0.0
     waits: Mapping[str, float] = {}
+    ran = 77.0
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(stopwatch, "monotonic", lambda: self.now)
@@ -33,7 +34,7 @@ class Machine:
         """The account of a task in /proc: nanoseconds on a processor and waiting, turns."""
         task = path.removeprefix("/proc/").removesuffix("/schedstat")  # or …/children: none
         wait = self.own if task.startswith("self") else self.waits.get(task)
-        return "" if wait is None else f"77 {round(wait * 1e9)} 5\n"
+        return "" if wait is None else f"{round(self.ran * 1e9)} {round(wait * 1e9)} 5\n"
 
 
 @pytest.fixture
@@ -65,6 +66,24 @@ def test_the_waits_of_the_helpers_tasks_do_not_add_up_but_the_longest_counts(
     watch = Stopwatch(lambda: machine.waits)
     machine.now, machine.own, machine.waits = 110, 1, {"a": 3, "b": 5, "new": 2}
     assert watch.seconds() == pytest.approx(10 - 1 - 4)
+
+
+def test_what_ran_was_used_though_the_thread_and_its_helper_wait_at_the_same_time(
+    machine: Machine,
+) -> None:
+    machine.waits = {"a": 0}
+    watch = Stopwatch(lambda: machine.waits)
+    for turn in range(1, 5):  # of ten seconds; the helper runs for one of them
+        machine.now, machine.ran = 100 + 10 * turn, 77 + turn
+        machine.own, machine.waits = 8 * turn, {"a": 9 * turn}
+        assert watch.seconds() == pytest.approx(turn)
+
+
+def test_nothing_runs_longer_than_the_clock(machine: Machine) -> None:
+    machine.waits = {"a": 0}
+    watch = Stopwatch(lambda: machine.waits)
+    machine.now, machine.ran, machine.waits = 101, 90, {"a": 0.5, "known no more": 0}
+    assert watch.seconds() == pytest.approx(1)
 
 
 def test_a_helper_counts_only_as_long_as_it_helps(machine: Machine) -> None:

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
+import sys
+from pathlib import Path
+
 import pytest
 
 from topo_verify.strategies import tree_worlds, worlds
@@ -24,6 +28,17 @@ def test_the_same_seed_draws_the_same_worlds_and_another_others() -> None:
     first, again, other = (sample(worlds(), 20, start=seed) for seed in (3, 3, 4))
     assert first == again
     assert first != other
+
+
+def test_no_module_that_is_loaded_changes_what_is_drawn(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = sample(worlds(), 100, start=5)
+    strings = [bytes([byte]) * length for byte in range(9) for length in range(1, 30)]
+    (tmp_path / "literals.py").write_text(f"BYTES = {strings}\nNUMBERS = {list(range(300))}\n")
+    monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
+    importlib.import_module("literals")
+    assert sample(worlds(), 100, start=5) == before
 
 
 def test_nearly_all_are_different() -> None:

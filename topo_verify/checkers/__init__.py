@@ -9,18 +9,9 @@ darts.py            the two kinds of darts; findings.py: the result of a check
 certificate.py      a log judged by itself, without a world
 """
 
-from topo_verify.checkers.claims import CLAIMS, LARGE, check
+from topo_verify.checkers.claims import CLAIMS, check
 from topo_verify.checkers.entailment import decision_conclusions
 from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.folding import Fold
 
-__all__ = [
-    "CLAIMS",
-    "LARGE",
-    "Finding",
-    "Fold",
-    "Judgement",
-    "Status",
-    "check",
-    "decision_conclusions",
-]
+__all__ = ["CLAIMS", "Finding", "Fold", "Judgement", "Status", "check", "decision_conclusions"]

@@ -17,13 +17,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from topo_verify.checkers import entailment
 from topo_verify.checkers.claims import check, unproved
-from topo_verify.checkers.entailment import decision_conclusions, fold_history, map_conclusion
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
 from topo_verify.checkers.replayed_trace import ReplayedTrace, require_order
 from topo_verify.errors import InputError, InternalError
-from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Reject, Start
+from topo_verify.robot.events import Event, Finish, Move, Start
 from topo_verify.world.rooted_map import World
 
 MOST_DARTS = 2**20
@@ -37,15 +37,15 @@ class JudgedLog(NamedTuple):
         fold: of the log, up to the first event with which no world shows it.
         broken: the first event with which no world shows it, and why; or None.
         map: the one world that shows the log, or None.
-        entailed, decisions: how many of the declared decisions follow from the log before them.
+        conclusions: whether each declared decision follows from the log before it, up to the first
+            that draws a wrong S.
         findings: what is wrong; an incomplete log that declares nothing wrong has none.
     """
 
     fold: Fold
     broken: tuple[int, str] | None
     map: World | None
-    entailed: int
-    decisions: int
+    conclusions: tuple[entailment.Conclusion, ...]
     findings: tuple[Finding, ...]
 
 
@@ -58,25 +58,24 @@ def judge_log(trace: Sequence[Event]) -> JudgedLog:
     Complexity: nearly linear for a plain log; claim 10 looks at every open dart once a decision.
     """
     require_order(trace)
-    fold, broken = fold_history(trace)
+    fold, broken = entailment.fold_history(trace)
     most = max(MOST_DARTS, 16 * len(trace))  # a long patrol has many places, none of them wide
     if (darts := fold.darts()) > most:
         told = f"the places of this log have {darts} doors together: expected at most {most}"
         raise InputError(f"{told}; is a degree wrong?")
-    decisions = sum(isinstance(event, Reject | Confirm | Augment) for event in trace)
-    conclusions = [*decision_conclusions(trace)] if decisions else []
-    counts = sum(not conclusion.why for conclusion in conclusions), decisions
+    decides = any(isinstance(event, entailment.Concluded) for event in trace)
+    conclusions = tuple(entailment.decision_conclusions(trace)) if decides else ()
     if broken is not None:
         when, why = broken
         message = f"no world shows this history: {why}"
         finding = Finding("map-entailed", when, "percepts that some world shows", why, message)
-        return JudgedLog(fold, broken, None, *counts, (finding,))
+        return JudgedLog(fold, broken, None, conclusions, (finding,))
     if fold.open_darts():
-        delivered = [map_conclusion(trace)] if isinstance(trace[-1], Finish) else []
+        delivered = [entailment.map_conclusion(trace)] if isinstance(trace[-1], Finish) else []
         doubts = *unproved("decisions-entailed", conclusions), *unproved("map-entailed", delivered)
-        return JudgedLog(fold, None, None, *counts, doubts)
+        return JudgedLog(fold, None, None, conclusions, doubts)
     world = showing(fold.world(), trace)
-    return JudgedLog(fold, None, world, *counts, _wrong(world, trace))
+    return JudgedLog(fold, None, world, conclusions, _wrong(world, trace))
 
 
 def _wrong(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:

@@ -118,13 +118,12 @@ def map_conclusion(trace: Sequence[Event]) -> Conclusion:
 def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
     """Every declared reject, confirm and augmentation, up to the first that draws a wrong S."""
     assert isinstance(trace[0], Start)
-    fold = Fold(trace[0].percept)
-    on_fold = MapOnFold(fold)
+    on_fold = MapOnFold(Fold(trace[0].percept))
     planar = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     tries = iter(range(FURTHER)) if planar else None
     refuted: set[tuple[int, int]] = set()  # for ever: S and the history only grow
     for when, event in enumerate(trace):
-        if why := followed(fold, event):
+        if why := followed(on_fold.fold, event):
             yield Conclusion(when, f"no world shows this history: {why}")
             return
         if not isinstance(event, Concluded):

@@ -26,7 +26,9 @@ Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite grap
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from array import array
+from collections import deque
+from collections.abc import Generator, Iterator, MutableSequence, Sequence
 from contextlib import contextmanager
 from itertools import combinations
 
@@ -35,6 +37,54 @@ from topo_verify.world.rooted_map import World
 
 Place = tuple[int, int]
 """A dart of the fold: a node and one of its doors. Different places may be one dart."""
+
+Undo = tuple[int, int | None]
+"""What is to be undone: a dart got its other end; or a node got a parent, and None."""
+
+NARROW = 64
+"""A node of at most so many doors has room for the other end of each; a wider one has a table.
+
+A table of two takes about as much memory as the room for so many.
+"""
+
+
+class Ends:
+    """The other end of each dart of each node, as it was put; None where the dart is open.
+
+    A long patrol has many nodes, so a narrow one takes eight bytes a door and no more; and a wide
+    one takes memory only for what was crossed, however many doors a percept tells of.
+    """
+
+    def __init__(self) -> None:
+        self._first = array("q")  # of each narrow node: where its darts begin in `_narrow`
+        self._narrow = array("q")  # the node of the other end in the upper 32 bits, its dart; or -1
+        self._wide: dict[int, dict[int, Place | None]] = {}
+
+    def add(self, degree: int) -> None:
+        """Let there be one more node, all its darts open."""
+        if degree > NARROW:
+            self._wide[len(self._first)] = {}
+        self._first.append(len(self._narrow))
+        self._narrow.extend(array("q", [-1]) * (degree if degree <= NARROW else 0))
+
+    def get(self, node: int, dart: int) -> Place | None:
+        """The other end of a dart, or None."""
+        if node in self._wide:
+            return self._wide[node].get(dart)
+        end = self._narrow[self._first[node] + dart]
+        return None if end < 0 else (end >> 32, end & 0xFFFFFFFF)
+
+    def put(self, node: int, dart: int, end: Place | None) -> None:
+        """Note the other end of a dart, or that it is open."""
+        if node in self._wide:
+            self._wide[node][dart] = end
+        else:
+            self._narrow[self._first[node] + dart] = -1 if end is None else end[0] << 32 | end[1]
+
+    def of(self, node: int, degree: int) -> list[tuple[int, Place]]:
+        """The darts of a node of this degree that are not open, each with its other end."""
+        darts = self._wide.get(node, range(degree))
+        return [(dart, end) for dart in darts if (end := self.get(node, dart)) is not None]
 
 
 class Contradiction(Exception):
@@ -50,11 +100,10 @@ class Fold:
 
     def __init__(self, percept: Percept) -> None:
         self._seen: list[Percept] = []
-        self._parent: list[int] = []
-        self._offset: list[int] = []  # dart d of a node is dart d + offset of its parent
-        self._size: list[int] = []
-        self._partner: list[dict[int, Place]] = []
-        self._undo: list[tuple[int, int | None]] = []
+        # Dart d of a node is dart d + offset of its parent; as many nodes as its size are one.
+        self._parent, self._offset, self._size = array("i"), array("i"), array("i")
+        self._ends = Ends()
+        self._undo: MutableSequence[Undo] = deque(maxlen=0)  # kept only under an assumption
         self._met: set[str] | None = None  # the contradictions so far, while they are listed
         self.at: Place = (self._visit(percept), 0)
 
@@ -64,7 +113,7 @@ class Fold:
         self._parent.append(node)
         self._offset.append(0)
         self._size.append(1)
-        self._partner.append({})
+        self._ends.add(percept.degree)
         return node
 
     def move(self, door: Door, percept: Percept) -> None:
@@ -74,39 +123,33 @@ class Fold:
             raise Contradiction(f"door {door} of {self._seen[here].degree} cannot be crossed")
         if marker is not None and not 0 <= marker < percept.degree:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
-        known = self.partner((here, dart + door))
-        if known is not None:
-            self._require_alike(self._seen[known[0]], percept)
-        self.at = there, entry = known or (self._visit(percept), 0)
+        left = self.find((here, dart + door))
+        known = self._ends.get(*left)
+        self.at = there, entry = self.find(known or (self._visit(percept), 0))
+        self._require_alike(self._seen[there], percept)
+        if known is None:
+            self._ends.put(*left, self.at)
+            self._ends.put(*self.at, left)
         if marker is not None:
             self._identify((there, entry + marker), (0, 0))
-        if known is None:
-            self.join((here, dart + door), (there, 0))
 
     def find(self, place: Place) -> Place:
         """The one place that stands for all that are the same dart."""
         node, dart = place
-        while self._parent[node] != node:
-            dart += self._offset[node]
-            node = self._parent[node]
+        while (parent := self._parent[node]) != node:
+            node, dart = parent, dart + self._offset[node]
         return node, dart % self._seen[node].degree
 
     def partner(self, place: Place) -> Place | None:
         """The other end of a dart's edge, or None: the dart is open."""
-        node, dart = self.find(place)
-        end = self._partner[node].get(dart)
+        end = self._ends.get(*self.find(place))
         return None if end is None else self.find(end)
 
     def join(self, one: Place, other: Place) -> None:
         """Make the two the ends of one edge, and draw what follows. Raises Contradiction."""
         for place, end in ((one, other), (other, one)):
-            node, dart = self.find(place)
-            if (node, dart) == self.find(end):
-                self._meet("a dart would be its own other end")
-            elif dart in self._partner[node]:
-                self._identify(self._partner[node][dart], end)
-            else:
-                self._set(node, dart, end)
+            if known := self._put(self.find(place), end):
+                self._identify(known, end)
 
     def _meet(self, contradiction: str) -> None:
         if self._met is None:
@@ -115,11 +158,10 @@ class Fold:
 
     def _require_alike(self, one: Percept, other: Percept) -> bool:
         """Whether two percepts may be of one place; if not, that is a contradiction."""
-        if one.signature != other.signature:
+        if not (alike := one.is_like(other)):
             clash = "two degrees, or the marker and its absence, at one place"
             self._meet(f"{clash}: {other} and {one}")
-            return False
-        return True
+        return alike
 
     def _identify(self, one: Place, other: Place) -> None:
         """Make the two one dart, and draw what follows. Raises Contradiction."""
@@ -132,26 +174,27 @@ class Fold:
                 continue
             if self._size[a] > self._size[b]:
                 (a, i), (b, j) = (b, j), (a, i)
-            lost, kept = self._seen[a], self._seen[b]
-            if not self._require_alike(lost, kept):
+            if not self._require_alike(self._seen[a], self._seen[b]):
                 continue
             # Paths are never shortened: to undo a union is to cut one link, and unions by size keep
             # the paths logarithmic.
             self._parent[a], self._offset[a] = b, j - i
             self._size[b] += self._size[a]
             self._undo.append((a, None))
-            for dart, end in self._partner[a].items():
-                moved = (dart + j - i) % kept.degree
-                if self.find(end) == (b, moved):
-                    self._meet("a dart would be its own other end")
-                elif moved in self._partner[b]:
-                    pairs.append((self._partner[b][moved], end))
-                else:
-                    self._set(b, moved, end)
+            for dart, end in self._ends.of(a, self.degree(a)):
+                if known := self._put(self.find((a, dart)), end):
+                    pairs.append((known, end))
 
-    def _set(self, node: int, dart: int, end: Place) -> None:
-        self._partner[node][dart] = end
-        self._undo.append((node, dart))
+    def _put(self, place: Place, end: Place) -> Place | None:
+        """Put an end behind an open place; or return what is there, which must be the same dart."""
+        known, end = self._ends.get(*place), self.find(end)
+        if place == end:
+            self._meet("a dart would be its own other end")
+            return None
+        if known is None:
+            self._ends.put(*place, end)
+            self._undo.append(place)
+        return known
 
     @contextmanager
     def assuming(self, one: Place, other: Place, *, same: bool = False) -> Generator[None]:
@@ -161,18 +204,18 @@ class Fold:
             same: they are one dart, instead.
         Raises Contradiction at the head of the block, if there is one; nothing remains of it.
         """
-        mark = len(self._undo)
+        outer, self._undo = self._undo, list[Undo]()
         try:
             (self._identify if same else self.join)(one, other)
             yield
         finally:
-            while len(self._undo) > mark:
-                node, dart = self._undo.pop()
+            for node, dart in reversed(self._undo):
                 if dart is not None:
-                    del self._partner[node][dart]
+                    self._ends.put(node, dart, None)
                 else:
                     self._size[self._parent[node]] -= self._size[node]
                     self._parent[node], self._offset[node] = node, 0
+            self._undo = outer
 
     def contradictions(self, one: Place, other: Place, apart: Sequence[Place] = ()) -> set[str]:
         """The contradictions if the two are ends of one edge, and no two of `apart` one vertex."""
@@ -186,7 +229,7 @@ class Fold:
     def alike(self) -> Iterator[tuple[Place, Place]]:
         """The pairs of places that may be one dart: each two vertices once in every turn."""
         for one, other in combinations(self.roots(), 2):
-            if self._seen[one].signature == self._seen[other].signature:
+            if self._seen[one].is_like(self._seen[other]):
                 yield from (((one, 0), (other, door)) for door in range(self.degree(one)))
 
     def degree(self, node: int) -> int:
@@ -195,7 +238,7 @@ class Fold:
 
     def open_darts(self) -> int:
         """How many darts were never crossed, neither way."""
-        return self.darts() - sum(len(self._partner[node]) for node in self.roots())
+        return sum(self.degree(v) - len(self._ends.of(v, self.degree(v))) for v in self.roots())
 
     def darts(self) -> int:
         """How many darts there are."""
@@ -215,19 +258,13 @@ class Fold:
         for node, start in first.items():
             for dart in range(self.degree(node)):
                 here, end = start + dart, self.partner((node, dart))
-                if end is not None:
-                    there = first[end[0]] + end[1]
-                    if here < there:  # an edge is met at both its ends
-                        edges.append((here, there))
-                    continue
-                edges.append((here, count))
-                for _ in range(pendant_length - 1):
-                    vertices.append((count, count + 1))
-                    edges.append((count + 1, count + 2))
-                    count += 2
-                vertices.append((count,))
-                count += 1
-        if not count:
-            return World.from_rotations(vertices, edges, None)
-        node, dart = self.find((0, 0))  # the robot starts at v0, its reference dart the marked one
-        return World.from_rotations(vertices, edges, first[node] + dart)
+                if end is None:
+                    last = count + 2 * (pendant_length - 1)
+                    vertices += [*((d, d + 1) for d in range(count, last, 2)), (last,)]
+                    edges += [(here, count), *((d + 1, d + 2) for d in range(count, last, 2))]
+                    count = last + 1
+                elif here < (there := first[end[0]] + end[1]):  # an edge is met at both its ends
+                    edges.append((here, there))
+        # The robot starts at v0, its reference dart the marked one; the least world has no dart.
+        node, dart = self.find((0, 0)) if count else (0, 0)
+        return World.from_rotations(vertices, edges, first[node] + dart if count else None)

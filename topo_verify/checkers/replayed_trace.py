@@ -72,7 +72,6 @@ class ReplayedTrace:
         followed: the events up to an illegal move.
         illegal: the first move through a door that is not there, or None.
         spoiled: the first augmentation that is false in this world, or None.
-        rounds: every decision that can be judged: up to the first illegal move or false map.
         crossings: the edges of the world that the robot crossed.
         false_percepts: each event whose percept is not what the world shows: its own, and what is.
     Raises:
@@ -92,7 +91,6 @@ class ReplayedTrace:
         self.false_percepts: list[tuple[int, Percept, Percept]] = []
         self._walk()
         self.followed = trace[: len(self.positions)]
-        self.rounds = tuple(self._rounds())
 
     def _walk(self) -> None:
         """Follow the doors up to the first that is not there, and draw S on the way."""
@@ -115,6 +113,11 @@ class ReplayedTrace:
     def is_history(self) -> bool:
         """Whether the world shows all percepts of the trace and has all its doors."""
         return self.illegal is None and not self.false_percepts
+
+    @cached_property
+    def rounds(self) -> tuple[Round, ...]:
+        """Every decision that can be judged: up to the first illegal move or false map."""
+        return tuple(self._rounds())
 
     def _rounds(self) -> Iterator[Round]:
         pose: ev.Pose | None = None

@@ -7,6 +7,10 @@ World, robot and trace stay here; the mapper's process (serve.py) has a pipe. Wh
 same process would show is not lost: the purpose of its moves, the text of its exceptions with file
 and line, what it prints (on our standard error, each line marked), what it has loaded.
 
+A robot that does not go on (the budget is used up) stops the mapper as it would in this process: by
+an exception from its next move. So the process plays the next world, too, and is not started anew
+for each world in which a mapper fails. One that does not come back in time is ended.
+
 What this does not show: that what the child says about itself is true. Its exceptions, its prints
 and `loaded` are its own words; moves, cost and trace are ours.
 """
@@ -26,15 +30,23 @@ from topo_verify.programs.loader import Target
 from topo_verify.programs.misbehaviour import Misbehaved, crash_report, decoded
 from topo_verify.programs.program import Program
 from topo_verify.programs.reaper_process import ReaperProcess
+from topo_verify.robot.limits import Limits, MapperStopped, helped_by, within
 from topo_verify.robot.simulator import EXPECTED
 
 LOADING = 120.0
 """Seconds that a mapper has to be imported."""
 
+UNWINDING = Limits(move_timeout=0.3, world_timeout=0.3)
+"""How long a mapper has to end a world in which its robot was stopped, or its process is ended."""
+
 LONGEST = 2**26
 """The most bytes of a message: a mapper in Python need not know of the protocol's limit."""
 
 _from_child: msgspec.json.Decoder[ms.FromChild] = msgspec.json.Decoder(ms.FromChild)
+
+_OVER = msgspec.json.encode(ms.OverMessage()) + b"\n"
+
+_WORLD_ENDS = ms.DoneMessage | ms.UndeliveredMessage
 
 
 def _decoded(line: bytes) -> ms.FromChild:
@@ -88,6 +100,22 @@ class Foreign(Program):
         if not isinstance(answer, ms.LoadedMessage):
             raise InputError(f"target {self.text!r}: expected what it has loaded, got {answer!r}")
         return answer.loaded
+
+    def _unwound(self) -> bool:
+        child = self._ready()
+
+        def unwind() -> None:
+            child.write(_OVER)
+            with helped_by(child.process):
+                while not isinstance(self._decode(child.line()), _WORLD_ENDS):
+                    pass
+                self._await_next(child)
+
+        try:
+            within(UNWINDING, lambda: 0, unwind)
+        except (MapperStopped, Ended, TooLong, msgspec.MsgspecError):
+            return False
+        return self._idle
 
     def _started(self, reaper: ReaperProcess) -> Child:
         child = Child(self.command, reaper, longest=self.longest, echo=self.text)

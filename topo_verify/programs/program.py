@@ -6,7 +6,7 @@
 The program receives percepts and answers with doors, never the world. The simulated robot makes,
 checks and counts every move, so the program can hide none. One process plays many worlds. If
 the program misbehaves in a world, or a limit stops it, its process and all descendants are ended,
-and the next world starts a fresh one.
+and the next world starts a fresh one. (Our own child can be told to end a world: foreign.py.)
 
 The limits of moves and time are those of `explore`. They strike here as they do in Python, because
 nothing below blocks for longer than a tick.
@@ -39,7 +39,7 @@ from topo_verify.programs.misbehaviour import (
 )
 from topo_verify.programs.reaper_process import ReaperProcess
 from topo_verify.robot.events import Finish, Robot
-from topo_verify.robot.limits import TimeLimitExceeded, helped_by
+from topo_verify.robot.limits import BudgetExceeded, TimeLimitExceeded, helped_by
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
 from topo_verify.text import shown
 
@@ -84,6 +84,7 @@ class Program:
         self._child: Child | None = None
         self._reaper: ReaperProcess | None = None
         self._idle = True  # the process waits for a world; False while it plays
+        self._halted = False  # the robot does not go on, and the process waits for an answer
         self.misbehaved: Misbehaved | None = None
         self.lines: list[TranscriptLine] = []
         self.validate, self.record = validate, record
@@ -104,7 +105,7 @@ class Program:
         self.settle()
         self.misbehaved, self.lines = None, []
         child = self._ready()
-        self._idle = False
+        self._idle = self._halted = False
         child.beside()
         over = False
         try:
@@ -116,6 +117,10 @@ class Program:
             # Keep a copy: the traceback of `why` refers to this frame and thus to the program, and
             # a program in a circle of references is not ended when its last user drops it.
             self.misbehaved = why.copy()
+            self._halted = why.kind == "bad-declaration"
+            raise
+        except BudgetExceeded:
+            self._halted = True
             raise
         except Misuse as why:
             self.misbehaved = Misbehaved("bad-door", str(why))
@@ -232,10 +237,14 @@ class Program:
         """End the process if it misbehaved in its last world. Call this outside of time limits."""
         if self._child is not None:
             self._child.apart()
-            if not self._idle:
+            if not self._idle and not (self._halted and self._unwound()):
                 self._child.end()
                 self._child = None
         self._idle = True
+
+    def _unwound(self) -> bool:
+        """Have the process end a world in its midst; whether it now waits for the next one."""
+        return False  # protocol 1 has no message for that
 
     def close(self) -> None:
         """Send `stop`, then end a process that does not obey. A later call starts another one."""

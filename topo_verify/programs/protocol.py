@@ -133,6 +133,10 @@ class UndeliveredMessage(_Message, frozen=True):
     why: str
 
 
+class OverMessage(_Message, frozen=True):
+    """To our child, in place of a percept: the robot does not go on. The child ends the world."""
+
+
 class StockMessage(_Message, frozen=True):
     """To our child, between two worlds: say what the mapper has loaded."""
 
@@ -143,7 +147,7 @@ class LoadedMessage(_Message, frozen=True):
     loaded: Loaded
 
 
-ToChild = ToProgram | StockMessage
+ToChild = ToProgram | OverMessage | StockMessage
 FromChild = FromProgram | ReadyMessage | RefusedMessage | UndeliveredMessage | LoadedMessage
 
 

@@ -52,11 +52,12 @@ class RemoteRobot:
         misuse: how the mapper misused the robot, which then never moves again; None: it did not.
     """
 
-    __slots__ = ("_percept", "_reader", "_writer", "misuse")
+    __slots__ = ("_over", "_percept", "_reader", "_writer", "misuse")
 
     def __init__(self, percept: Percept, reader: BinaryIO, writer: BinaryIO) -> None:
         self._percept, self._reader, self._writer = percept, reader, writer
         self.misuse: tuple[Literal["bad-door", "bad-declaration"], Misuse] | None = None
+        self._over: MapperStopped | None = None  # the harness has ended the world
 
     @property
     def percept(self) -> Percept:
@@ -65,7 +66,7 @@ class RemoteRobot:
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
         """Leave by a door; the percept behind it."""
-        self._require_sound()
+        self._require_usable()
         try:
             number = door_number(door, self._percept.degree)
             require_purpose(purpose)
@@ -78,6 +79,9 @@ class RemoteRobot:
         if not line:
             raise MapperStopped("the harness is gone")
         message = _to_child.decode(line)
+        if isinstance(message, ms.OverMessage):
+            self._over = MapperStopped("the harness has ended the world")
+            raise self._over
         if not isinstance(message, ms.PerceptMessage):
             raise InputError(f"expected a percept in answer to a move, got {message!r}")
         self._percept = Percept(message.degree, message.marker)
@@ -85,7 +89,7 @@ class RemoteRobot:
 
     def declare(self, event: Decision | Mapping[str, object]) -> None:
         """Declare a decision; it is sent with the next move."""
-        self._require_sound()
+        self._require_usable()
         try:
             # The harness finds out whether it is a decision.
             line = _encode({"type": "declare", "event": event})
@@ -95,9 +99,11 @@ class RemoteRobot:
             raise why from None
         self._writer.write(line + b"\n")
 
-    def _require_sound(self) -> None:
+    def _require_usable(self) -> None:
         if self.misuse is not None:
             raise self.misuse[1]
+        if self._over is not None:
+            raise self._over
 
 
 Player = Callable[[Mapper, RemoteRobot], object]
@@ -118,6 +124,8 @@ def serve(
             answer = play(mapper, RemoteRobot(message.percept, reader, writer))
         elif isinstance(message, ms.StockMessage):
             answer = ms.LoadedMessage(loaded.loaded(values))
+        elif isinstance(message, ms.OverMessage):
+            continue  # the mapper was done with that world before it would have read this
         else:
             return
         # First what the mapper printed: it belongs to the world that ends now.

@@ -32,6 +32,8 @@ def fresh(text: str) -> None:
     writer.flush()
     for line in reader:
         message = _to_child.decode(line)
+        if isinstance(message, ms.OverMessage):
+            continue  # the mapper was done with that world before it would have read this
         if not isinstance(message, ms.StartMessage):
             return
         played = os.fork()

@@ -95,7 +95,10 @@ class Policies(msgspec.Struct, frozen=True):
 class Start(_Event, frozen=True, kw_only=True):
     """The robot stands at the marker, its reference dart the marked one.
 
-    `world` is the world's id, where it is known and has one.
+    Attributes:
+        world: the world's id, where it is known and has one.
+        stopped: of a run that was over when this was written: why it ended without a map. It
+            stands here, where a reader that does not know it passes over it.
     """
 
     format: Literal["topo-verify/trace"] = TRACE_FORMAT
@@ -104,6 +107,7 @@ class Start(_Event, frozen=True, kw_only=True):
     policies: Policies | None = None
     world: str | None = None
     percept: Percept
+    stopped: str | msgspec.UnsetType = msgspec.UNSET
 
 
 class Move(_Event, frozen=True, gc=False):

@@ -42,6 +42,10 @@ class Percept(msgspec.Struct, frozen=True, gc=False):
         """The degree, and whether the marker is here: equal for all reference darts of a vertex."""
         return self.degree, self.marker is not None
 
+    def is_like(self, other: Percept) -> bool:
+        """Whether the signatures are equal; made for each move of a long log, so without them."""
+        return self.degree == other.degree and (self.marker is None) == (other.marker is None)
+
     def __str__(self) -> str:
         marker = "no marker" if self.marker is None else f"marker at door {self.marker}"
         return f"(degree {self.degree}, {marker})"

@@ -1,8 +1,9 @@
 """Seconds that a mapper has used, whoever else keeps the machine busy.
 
 The stopwatch goes like the wall clock and stands still while the mapper waits in the kernel's queue
-for a processor (second field of /proc/…/schedstat). So a mapper that sleeps uses up seconds, one
-that computes uses up its processor time, and one that others keep from computing uses up none.
+for a processor (second field of /proc/…/schedstat; the first is what it ran). So a mapper that
+sleeps uses up seconds, one that computes uses up its processor time, and one that others keep from
+computing uses up none.
 Neither clock alone would do: processor time lets a mapper sleep for ever, and the wall clock
 convicts a correct mapper on a busy machine.
 
@@ -21,6 +22,7 @@ from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
+from typing import NamedTuple
 
 Tasks = Callable[[], Iterable[str]]
 """Lists the tasks at work; asked at each look, because a program starts threads and children."""
@@ -35,19 +37,24 @@ class Stopwatch:
 
     def __init__(self, helper: Tasks | None = None) -> None:
         self._own = f"self/task/{threading.get_native_id()}"
-        self._used, self._looked, self._queued = 0.0, monotonic(), _queued(self._own)
+        self._used, self._ran = 0.0, 0.0
+        self._looked, self._account = monotonic(), _account(self._own)
         self._helper = _Helper(helper) if helper else None
 
     def seconds(self) -> float:
         """The seconds used so far."""
-        now, queued = monotonic(), _queued(self._own)
-        waited = queued - self._queued
+        now, account = monotonic(), _account(self._own)
+        ran, waited = account.since(self._account)
         # The thread and its helper take turns (one writes, the other reads): their waits add up.
         if (helper := self._helper) is not None:
-            waited += helper.waited()
-        # The kernel books a wait when it ends: the difference may be negative, the sum is right.
-        self._used += now - self._looked - waited
-        self._looked, self._queued = now, queued
+            helper_ran, helper_waited = helper.since()
+            ran, waited = max(ran, helper_ran), waited + helper_waited
+        passed = now - self._looked
+        # The kernel books a wait when it ends: the difference may be negative, the sum is right,
+        # unless both waited at the same time. What ran was used, however long the two waited.
+        self._ran += min(ran, passed)
+        self._used = max(self._used + passed - waited, self._ran)
+        self._looked, self._account = now, account
         return self._used
 
     @contextmanager
@@ -60,19 +67,37 @@ class Stopwatch:
             self._helper = None
 
 
+class _Account(NamedTuple):
+    """What the kernel has booked for a task: seconds on a processor, and ready without one."""
+
+    ran: float
+    waited: float
+
+    def since(self, before: _Account) -> _Account:
+        """What was booked since then."""
+        return _Account(self.ran - before.ran, self.waited - before.waited)
+
+
+NOTHING = _Account(0.0, 0.0)
+
+
 class _Helper:
-    """Remembers how long each task had waited at the last look."""
+    """Remembers the account of each task at the last look."""
 
     def __init__(self, tasks: Tasks) -> None:
         self._tasks = tasks
-        self._queued = {task: _queued(task) for task in tasks()}
+        self._accounts = {task: _account(task) for task in tasks()}
 
-    def waited(self) -> float:
-        """The longest wait of a task since the last look: tasks wait side by side."""
-        before = self._queued
-        self._queued = {task: _queued(task) for task in self._tasks()}
-        waits = (queued - before.get(task, 0.0) for task, queued in self._queued.items())
-        return max(waits, default=0.0)
+    def since(self) -> _Account:
+        """The longest run and the longest wait since the last look: tasks work side by side."""
+        before = self._accounts
+        self._accounts = {task: _account(task) for task in self._tasks()}
+        # Of a task that is new only the wait counts: when it ran is not known.
+        booked = [
+            now.since(before.get(task, _Account(now.ran, 0.0)))
+            for task, now in self._accounts.items()
+        ]
+        return _Account(*map(max, zip(*booked, strict=True))) if booked else NOTHING
 
 
 def tasks_of(process: int) -> Iterator[str]:
@@ -85,10 +110,10 @@ def tasks_of(process: int) -> Iterator[str]:
             todo += _read(f"/proc/{task}/children").split()
 
 
-def _queued(task: str) -> float:
-    """Seconds that a task was ready to run while others ran; 0 if it has ended, or nobody knows."""
+def _account(task: str) -> _Account:
+    """The account of a task; nothing if it has ended, or nobody keeps one."""
     fields = _read(f"/proc/{task}/schedstat").split()
-    return int(fields[1]) / 1e9 if fields else 0.0
+    return _Account(int(fields[0]) / 1e9, int(fields[1]) / 1e9) if fields else NOTHING
 
 
 def _entries(folder: str) -> list[str]:

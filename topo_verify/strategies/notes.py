@@ -23,7 +23,7 @@ from hypothesis import currently_in_test_context, event, note
 from hypothesis.internal.observability import observability_enabled
 
 from topo_verify.robot.events import Augment, Policies, Trace
-from topo_verify.text import shown
+from topo_verify.text import plural, shown
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.rooted_map import World
 
@@ -75,7 +75,7 @@ def describe(run: ObservedRun) -> str:
     world = run.world.id if len(run.world.edges) <= MAX_ID_EDGES else run.world.to_json()
     chosen = run.policies
     how = "" if chosen is None else f" (pick {chosen.pick}, order {chosen.order})"
-    return f"{shown(run.algorithm)}{how} in {world}: {run.cost} edge traversals"
+    return f"{shown(run.algorithm)}{how} in {world}: {plural(run.cost, 'edge traversal')}"
 
 
 def features(run: ObservedRun) -> dict[str, int]:

@@ -10,15 +10,14 @@ Hypothesis may draw other worlds.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Generator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
-from hypothesis.configuration import set_hypothesis_home_dir, storage_directory
-from hypothesis.internal.observability import observability_enabled
+from hypothesis.internal.cache import LRUCache
+from hypothesis.internal.conjecture import providers
+from hypothesis.internal.constants_ast import Constants
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.world.rooted_map import World
@@ -33,7 +32,7 @@ def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> l
         hypothesis.errors.Unsatisfiable: the strategy draws nothing at all.
     """
     drawn: list[World] = []
-    with leaving_no_folder():
+    with drawing_no_literals():
         while len(drawn) < number:
             drawn += _one_run(strategy, number - len(drawn), start)
             start += 1
@@ -41,22 +40,25 @@ def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> l
 
 
 @contextmanager
-def leaving_no_folder() -> Generator[None]:
-    """Within the block Hypothesis writes no `.hypothesis` into the current folder.
+def drawing_no_literals() -> Generator[None]:
+    """Within the block Hypothesis draws no literals of the modules that are loaded.
 
-    Even without a database of examples it keeps the literals of the modules of a source tree there.
-    With its observability switched on, the folder is what the user asks for.
+    Now and then it draws one from the sources of the project, and keeps those it has read in a
+    folder `.hypothesis`. Then what is drawn would depend on the folder that topo-verify is called
+    in, and on what else is loaded. Hypothesis has no setting for this.
     """
-    if observability_enabled():
-        yield
-        return
-    place: Any = storage_directory(intent_to_write=False)
-    # No folder can be made in the null device, and Hypothesis goes on where it cannot write.
-    set_hypothesis_home_dir(Path(os.devnull, "hypothesis"))
+    module: dict[str, Any] = providers.__dict__
+    # The cache remembers the literals, too. A Hypothesis without these names is left as it is.
+    exchanged: dict[str, Any] = {
+        "_get_local_constants": Constants,
+        "CONSTANTS_CACHE": LRUCache(1024),
+    }
+    kept = {name: module[name] for name in exchanged if name in module}
+    module.update({name: exchanged[name] for name in kept})
     try:
         yield
     finally:
-        set_hypothesis_home_dir(getattr(place, "path", place))  # a path in older versions
+        module.update(kept)
 
 
 def _one_run(strategy: SearchStrategy[World], number: int, start: int) -> list[World]:
