@@ -13,6 +13,7 @@ from time import process_time
 from unittest.mock import patch
 
 import drawing
+import long_runs
 import oracle
 import search
 
@@ -93,6 +94,9 @@ def main() -> None:
 
     print()
     oracle.table(row)
+
+    print()
+    long_runs.table(row)
 
     lattice = families.lattice(20, 20, holes=0.2, seed=7)
     vertices, edges = len(lattice.vertices), len(lattice.edges)

@@ -72,6 +72,15 @@ MADE_OF = {
 }
 """Other people's packages that a room may load when it is imported; msgspec may be anywhere."""
 
+LOADED_LATE = {
+    "topo_verify.world.drawing": {"numpy", "networkx", "scipy"},
+    "topo_verify.player.animation": set[str](),
+}
+"""Parts of a room that the rest of the house imports late: what they may load in their turn.
+
+They may load one another.
+"""
+
 HEAVY = ("z3", "networkx", "hypothesis", "numpy", "matplotlib", "numba", "click", "rich", "pytest")
 
 
@@ -137,6 +146,8 @@ def objections(module: str, source: str) -> Iterator[str]:
         if found.target.startswith("."):
             yield f"{where}: write the full name"
         elif found.room is not None:
+            if found.at_load and (part := late_part(found.target)) and not late_part(module):
+                yield f"{where} when it is loaded: {part} is imported where it is used"
             if LATE.get((room, found.scope)) != found.room:
                 yield from objections_inside(room, found, where)
         elif found.top in NEVER.get(room, ()):
@@ -144,8 +155,20 @@ def objections(module: str, source: str) -> Iterator[str]:
         elif found.top not in sys.stdlib_module_names:
             if room in STANDARD_LIBRARY_ALONE:
                 yield f"{where}: {room}/ is made with the standard library alone"
-            elif found.at_load and found.top not in {"msgspec", *MADE_OF.get(room, ())}:
+            elif found.at_load and found.top not in may_load(module):
                 yield f"{where} when it is loaded: import it where it is used"
+
+
+def late_part(module: str) -> str | None:
+    """The part of a room that is imported late and that the module or name belongs to."""
+    return next((part for part in LOADED_LATE if f"{module}.".startswith(f"{part}.")), None)
+
+
+def may_load(module: str) -> set[str]:
+    """Other people's packages that the module may load when it is imported."""
+    part = late_part(module)
+    more = LOADED_LATE[part] if part else MADE_OF.get(room_of(module), set())
+    return {"msgspec", *more}
 
 
 def objections_inside(room: str, found: Import, where: str) -> Iterator[str]:
@@ -201,6 +224,12 @@ def test_every_room_imports_only_what_it_may() -> None:
         ("topo_verify.world.families", "from .formats import load", "full name"),
         ("topo_verify.world.families", "import networkx as nx", "where it is used"),
         ("topo_verify.world.families", "class A:\n    import numpy", "where it is used"),
+        ("topo_verify.world.drawing.svg", "import matplotlib", "where it is used"),
+        (
+            "topo_verify.world.families",
+            "from topo_verify.world.drawing.svg import to_svg",
+            "topo_verify.world.drawing is imported where it is used",
+        ),
         (
             "topo_verify.harness.run",
             "try:\n    import z3\nexcept ImportError: ...",
@@ -238,6 +267,9 @@ def test_the_layer_check_sees_a_planted_breach(module: str, source: str, objecti
     [
         ("topo_verify.world", "from topo_verify.errors import InputError"),
         ("topo_verify.world", "def f():\n    import networkx"),
+        ("topo_verify.world.drawing.svg", "import numpy as np"),
+        ("topo_verify.world.drawing", "from topo_verify.world.drawing.svg import to_svg"),
+        ("topo_verify.cli.world", "def f():\n    from topo_verify.world.drawing import to_svg"),
         ("topo_verify.world", "if TYPE_CHECKING:\n    import numpy"),
         (
             "topo_verify.world",

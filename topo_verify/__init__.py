@@ -16,7 +16,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from topo_verify import strategies
     from topo_verify.algorithms import CATALOGUE, Algorithm
-    from topo_verify.errors import ClaimFailed, InputError, InternalError, TopoVerifyError
+    from topo_verify.errors import (
+        ClaimFailed,
+        ClaimUndecided,
+        InputError,
+        InternalError,
+        TopoVerifyError,
+    )
     from topo_verify.harness.judge import Report, assert_maps, examine
     from topo_verify.harness.log_report import Certificate, certify
     from topo_verify.harness.run import Exploration, explore
@@ -24,6 +30,7 @@ if TYPE_CHECKING:
     from topo_verify.robot.limits import Limits
     from topo_verify.robot.percept import Percept
     from topo_verify.world import families
+    from topo_verify.world.enumeration.listing import worlds
     from topo_verify.world.rooted_map import World
 
 __version__ = "0.1.0"
@@ -33,6 +40,7 @@ __all__ = [
     "Algorithm",
     "Certificate",
     "ClaimFailed",
+    "ClaimUndecided",
     "Exploration",
     "InputError",
     "InternalError",
@@ -50,11 +58,18 @@ __all__ = [
     "explore",
     "families",
     "strategies",
+    "worlds",
 ]
 
 _MODULES = {
     "algorithms": ("CATALOGUE", "Algorithm"),
-    "errors": ("ClaimFailed", "InputError", "InternalError", "TopoVerifyError"),
+    "errors": (
+        "ClaimFailed",
+        "ClaimUndecided",
+        "InputError",
+        "InternalError",
+        "TopoVerifyError",
+    ),
     "robot.limits": ("Limits",),
     "robot.events": ("Policies", "Robot"),
     "robot.percept": ("Percept",),
@@ -62,6 +77,7 @@ _MODULES = {
     "harness.log_report": ("Certificate", "certify"),
     "harness.run": ("Exploration", "explore"),
     "world": ("families",),
+    "world.enumeration.listing": ("worlds",),
     "world.rooted_map": ("World",),
 }
 """The modules of the names of `__all__`."""

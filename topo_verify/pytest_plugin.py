@@ -8,9 +8,10 @@
 The mapper runs once in every world of 1 to N edges (`--topo-edges`), and every claim is judged on
 these runs. The first test of a mapper runs it; the others read the results (with pytest-xdist, once
 in each process). A test passes if its claim holds in every world. It fails if the claim fails in a
-world, and shows the first such world with its replay command. It fails also if a run exceeded its
-time, since the claim is then undecided. It is skipped if there is a world in which the mapper did
-not declare the decisions that the claim is about, since the claim was then not judged there.
+world, and shows the first such world with its replay command. It fails also if the claim is
+undecided: a run exceeded its time, or a decision was neither proved nor refuted. It is skipped if
+there is a world in which the mapper did not declare the decisions that the claim is about, since
+the claim was then not judged there.
 
 The results travel in the `user_properties` of the test reports, so the summary at the end is the
 same with pytest-xdist, and JUnit files hold them.
@@ -372,8 +373,8 @@ def topo_examine() -> Callable[..., Report]:
     """`topo_examine(mapper, world)`: the report on a run, judged by every claim.
 
     As `topo_verify.examine`, but the world may also be an argument of the command line. A report
-    has `ok`, `cost`, `claims`, `findings`; its text lists the violations and the replay command:
-    `assert report.ok, str(report)`.
+    has `ok`, `undecided`, `cost`, `claims`, `findings`; its text lists the violations and the
+    replay command: `assert report.ok and not report.undecided, str(report)`.
     """
 
     def examine(mapper: Mapper | str, world: World | str, **options: Any) -> Report:

@@ -30,11 +30,12 @@ COMMANDS = (
     "record",
     "compare",
     "replay",
+    "play",
     "certify",
 )
 LEAVES = (
     *(command for command in COMMANDS if command not in ("world", "certify")),
-    *(f"world {w}" for w in ("show", "convert", "count", "sample")),
+    *(f"world {w}" for w in ("show", "list", "convert", "count", "sample", "draw")),
 )
 
 

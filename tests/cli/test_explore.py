@@ -222,3 +222,35 @@ def test_replay_lines_are_split_by_a_shell_as_they_were_meant(results: Call, fol
     (entry,) = results(line, code=1)["results"]
     words = shlex.split(entry["findings"][0]["replay"])
     assert words == ["topo-verify", "replay", "my town's.json", "--target", "mappers.py:guesses"]
+
+
+# ---------------------------------------------------------------- the animated SVG
+
+RUN_SVG = "'family:lattice(2,4,holes=0.1,seed=2)' --algorithm enhancement-ii --svg"
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def test_the_animation_in_the_docs_is_remade_byte_for_byte(call: Call) -> None:
+    assert call(f"explore {RUN_SVG} run.svg").exit_code == 0
+    made = Path("run.svg").read_bytes()
+    assert made == (DOCS / "run.svg").read_bytes()
+    assert len(made) < 60_000
+    assert f"topo-verify explore {RUN_SVG} docs/run.svg" in (DOCS / "commands.md").read_text()
+
+
+def test_an_animation_is_of_one_short_run(call: Call) -> None:
+    many = call("explore m3/14 --algorithm basic,folding --svg run.svg")
+    assert many.exit_code == 2
+    assert "--svg run.svg: expected one run, got 2" in many.stderr
+    long = call("explore nyc --algorithm basic --svg run.svg")
+    assert long.exit_code == 2
+    assert "1468 moves; an animated SVG shows at most 500 events" in long.stderr
+    assert not Path("run.svg").exists()
+
+
+def test_the_walk_of_the_first_failing_run_is_shown(call: Call) -> None:
+    text = call("explore m1/0 m1/1 m2/5 --algorithm mappers.py:guesses").stdout
+    _, _, walk = text.partition("The walk of mappers.py:guesses in m1/1:")
+    assert "!! map-isomorphic" in walk
+    assert walk.endswith("  again: topo-verify replay m1/1 --target mappers.py:guesses\n")
+    assert "The walk of" not in call("explore m1/0 --algorithm mappers.py:guesses").stdout

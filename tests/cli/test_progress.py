@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
-import time
+from collections.abc import Callable
 from io import StringIO
+from typing import ClassVar
 
 import pytest
 
@@ -17,14 +18,41 @@ class Terminal(StringIO):
         return True
 
 
+class TimerByHand:
+    """Stands for the timer that shows the bar: its time comes when the test says so."""
+
+    started: ClassVar[list[TimerByHand]] = []
+    daemon = False
+
+    def __init__(self, seconds: float, then: Callable[[], None]) -> None:
+        assert seconds == progress.DELAY
+        self.then = then
+
+    def start(self) -> None:
+        self.started.append(self)
+
+    def cancel(self) -> None:
+        self.started.remove(self)
+
+    def join(self) -> None:
+        pass
+
+
+@pytest.fixture(autouse=True)
+def timers(monkeypatch: pytest.MonkeyPatch) -> list[TimerByHand]:
+    monkeypatch.setattr(TimerByHand, "started", [])
+    monkeypatch.setattr(progress, "Timer", TimerByHand)
+    return TimerByHand.started
+
+
 def shown(monkeypatch: pytest.MonkeyPatch, stderr: StringIO | None, *, quiet: bool = False) -> str:
-    """What one piece of work that takes 0.3 s leaves on stderr, with a delay of 0.05 s."""
+    """What work in two parts leaves on stderr, of which the first takes long."""
     monkeypatch.setattr(sys, "stderr", stderr)
-    monkeypatch.setattr(progress, "DELAY", 0.05)
     monkeypatch.setenv("TERM", "xterm")
     bar = ProgressBar(quiet=quiet)
     bar("first [part]", 0, 2)
-    time.sleep(0.3)
+    for timer in TimerByHand.started:
+        timer.then()
     bar("second part", 1, 2)
     bar.clear()
     return "" if stderr is None else stderr.getvalue()
@@ -45,12 +73,16 @@ def test_quiet_means_no_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     assert shown(monkeypatch, Terminal(), quiet=True) == ""
 
 
-def test_short_work_is_not_worth_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_short_work_is_not_worth_a_bar(
+    monkeypatch: pytest.MonkeyPatch, timers: list[TimerByHand]
+) -> None:
     out = Terminal()
     monkeypatch.setattr(sys, "stderr", out)
     bar = ProgressBar(quiet=False)
     for done in range(5):
         bar("work", done, 5)
+    assert len(timers) == 1
     bar.clear()
+    assert not timers, "its timer was let go"
     bar.clear()
     assert out.getvalue() == ""

@@ -44,6 +44,7 @@ def test_a_trace_is_judged_in_the_world_that_it_names(
     assert entry["trace"] == "basic.jsonl"
     assert call("replay basic.jsonl").stdout == (
         "basic in m5/17, 13 edge traversals: 10 of 10 claims hold\n"
+        "Nothing is wrong; --all shows the walk.\n"
     )
     (piped,) = results("replay -", trace.read_text())["results"]
     assert piped["ok"]
@@ -65,7 +66,7 @@ def test_an_edited_trace_is_refuted(call: Call, trace: Path) -> None:
     trace.write_text(trace.read_text().replace('"cost":13', '"cost":12'))
     done = call("replay basic.jsonl")
     assert done.exit_code == 1
-    assert "cost-honest, event" in done.stdout
+    assert "!! cost-honest: the mapper reports a cost of 12" in done.stdout
 
 
 def test_the_trace_of_a_large_world_needs_the_world(
@@ -138,3 +139,55 @@ def test_a_trace_without_an_algorithm_has_an_unknown_target(results: Call, trace
     del event["algorithm"]
     trace.write_text("\n".join([json.dumps(event), *rest]))
     assert results("replay basic.jsonl")["results"][0]["target"] == "unknown"
+
+
+# ---------------------------------------------------------------- the walk
+
+
+def test_the_walk_to_the_first_finding_is_shown(call: Call) -> None:
+    done = call("replay m2/5 --target mappers.py:ignores_direction")
+    assert done.exit_code == 1
+    assert "!! rejection-justified" in done.stdout
+    assert "S after event" in done.stdout
+    assert "true-hypothesis-kept, event 4" in done.stdout.partition("Also wrong:")[2]
+
+
+def test_the_whole_walk_is_shown_where_it_is_asked_for(call: Call, trace: Path) -> None:
+    done = call(f"replay {trace.name} --all")
+    assert done.exit_code == 0
+    assert "delivers a map" in done.stdout
+    assert "\n    0  start" in done.stdout
+    assert "\n    1 " not in call(f"replay {trace.name} --from 4").stdout
+
+
+def test_the_walk_cannot_begin_behind_its_end(call: Call, trace: Path) -> None:
+    for line in (f"replay {trace.name} --from 999", "replay m5/17 --from 999"):
+        done = call(line)
+        assert done.exit_code == 2
+        assert "--from 999: expected an event of the run, 0 to " in done.stderr
+
+
+def test_the_walk_is_a_block_of_code_in_markdown(call: Call, trace: Path) -> None:
+    assert "```\nv2:7 is dart 7" in call(f"replay {trace.name} --all --format markdown").stdout
+
+
+def test_a_trace_keeps_why_the_run_ended_without_a_map(
+    call: Call, results: Call, folder: Path
+) -> None:
+    call("explore m3/8 --algorithm mappers.py:walks --trace walks.jsonl")
+    line = json.loads((folder / "walks.jsonl").read_text().splitlines()[0])
+    assert line["stopped"] == "the mapper asked for more than 36 moves"
+    (entry,) = results("replay walks.jsonl", code=1)["results"]
+    assert entry["stopped"] == line["stopped"]
+    shown = call("replay walks.jsonl").stdout
+    assert "no map was delivered: the mapper asked for more than 36 moves" in shown
+    assert "Events 1 to 2 repeat to the end of the run, 18 times in all." in shown
+
+
+def test_a_trace_with_a_map_says_nothing_of_a_stop(results: Call, trace: Path) -> None:
+    start, *rest = trace.read_text().splitlines()
+    assert "stopped" not in start
+    event = {**json.loads(start), "stopped": "a lie: it did deliver a map"}
+    trace.write_text("\n".join([json.dumps(event), *rest]))
+    (entry,) = results("replay basic.jsonl")["results"]
+    assert (entry["ok"], entry["stopped"]) == (True, None)

@@ -106,6 +106,7 @@ def test_the_smallest_counterexample_is_shown_with_its_replay_command(call: Call
     assert "REFUTED: 2 of 86 worlds checked, a claim fails in 1" in text
     assert "smallest counterexample: m1/1\n" in text
     assert "  again: topo-verify replay m1/1 --target mappers.py:guesses\n" in text
+    assert "delivers a map" in text.partition("The walk of mappers.py:guesses in m1/1:")[2]
 
 
 def test_keeping_going_shows_the_smallest_world_of_each_claim(call: Call) -> None:

@@ -107,6 +107,9 @@ def test_a_refuted_part_shows_its_smallest_counterexample(call: Call) -> None:
     assert "smallest counterexample: m1/1:" in text
     assert "again: topo-verify replay m1/1 --target mappers.py:guesses\n" in text
     assert "A claim fails" in text
+    _, _, walk = text.partition("The walk of mappers.py:guesses in m1/1:")
+    assert "delivers a map of 2 vertices and 1 edge" in walk
+    assert walk.endswith("  again: topo-verify replay m1/1 --target mappers.py:guesses\n")
 
 
 def test_markdown_is_a_report_with_valid_tables(call: Call) -> None:

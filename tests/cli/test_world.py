@@ -1,15 +1,20 @@
-"""`world show`, `convert`, `count` and `sample`."""
+"""`world show`, `list`, `convert`, `count` and `sample`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import json
+from collections.abc import Callable, Iterator
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+import topo_verify as tv
 from topo_verify import World, families
 from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.enumeration.pruned import ranked_tables
 
 Call = Callable[..., Any]
 
@@ -22,8 +27,38 @@ def test_show_has_the_promised_fields(results: Call) -> None:
     assert entry == {
         "name": "m3/14", "id": "m3/14", "vertices": 3, "edges": 3, "faces": 2, "genus": 0,
         "degrees": [2, 3, 1], "simple": False, "loopless": True, "planar": True, "marker": 0,
-        "least_cost": 4,
+        "least_cost": 4, "rotation": [[0, 1], [2, 3, 4], [5]],
+        "edge_darts": [[0, 2], [1, 3], [4, 5]], "vertex_names": [],
     }  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["m4/41", "nyc", "'family:torus(3,4)'", "m0/0"])
+def test_show_gives_the_rotation_as_the_world_file_does(
+    results: Call, call: Call, name: str
+) -> None:
+    (entry,) = results(f"world show {name}")["results"]
+    file = json.loads(call(f"world convert {name}").stdout)
+    assert entry["rotation"] == file["vertices"]
+    assert entry["edge_darts"] == file["edges"]
+    assert entry["vertex_names"] == file.get("vertex_names", [])
+
+
+def test_show_for_people_lists_each_vertex_with_its_darts_and_where_they_lead(call: Call) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "commands.md").read_text(encoding="utf-8")
+    text = call("world show m4/41").stdout
+    assert text.endswith("     2  6 7              2 5        1 1\n")
+    assert f"$ topo-verify world show m4/41\n{text}```" in page
+    named = World.from_rotations([[0], [1]], [[0, 1]], 0, vertex_names=("the hub", "\x1b[2J"))
+    assert call("world show -", named.to_json()).stdout.endswith("""
+vertex  name     darts clockwise  to darts  at vertices
+     0  the hub  0                1         1
+     1  \\x1b[2J  1                0         0
+""")
+    assert "darts clockwise" not in call("world show m0/0").stdout
+
+
+def test_show_says_one_edge_traversal(call: Call) -> None:
+    assert "least cost  1 edge traversal\n" in call("world show m1/0").stdout
 
 
 def test_a_world_too_large_for_an_id_has_none(results: Call) -> None:
@@ -63,6 +98,25 @@ def test_convert_writes_planar_code_to_a_file(call: Call, folder: Path) -> None:
     assert World.from_json(call("world convert cube.pc").stdout).code == families.cube().code
 
 
+@pytest.mark.parametrize(("to", "ending"), [("graphml", ".graphml"), ("nx-json", ".nx.json")])
+@pytest.mark.parametrize("name", ["m4/41", "nyc", "'family:torus(3,4)'", "m0/0"])
+def test_convert_writes_any_world_for_networkx(
+    call: Call, folder: Path, to: str, ending: str, name: str
+) -> None:
+    text = call(f"world convert {name} --to {to}").stdout
+    done = call(f"world convert {name} --to {to} -o w{ending}")
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert (folder / f"w{ending}").read_text(encoding="utf-8") == text
+    assert call(f"world convert w{ending}").stdout == call(f"world convert {name}").stdout
+
+
+def test_convert_says_how_a_file_is_called_that_can_be_read_again(call: Call) -> None:
+    done = call("world convert m4/41 --to nx-json -o w.json")
+    assert done.stderr == "topo-verify: w.json: to read it again, let its name end in .nx.json\n"
+    assert call("world convert m4/41 --to nx-json -o w.json --quiet").stderr == ""
+    assert "a name that ends in .nx.json" in call("world show w.json").stderr
+
+
 @pytest.mark.parametrize(
     ("line", "sentence"),
     [
@@ -71,16 +125,57 @@ def test_convert_writes_planar_code_to_a_file(call: Call, folder: Path) -> None:
             "--to planar_code: a binary format is written to a file; name one",
         ),
         ("m2/9 --to planar_code -o x.pc", "planar_code holds simple worlds"),
-        ("m0/0 --to nonsense", "'json', 'planar_code'"),
+        ("named.json --to graphml -o x.pc", "GraphML cannot hold the character '\\x1b'"),
+        ("m0/0 --to nonsense", "'json', 'planar_code', 'graphml', 'nx-json'"),
     ],
 )
 def test_convert_refuses_what_it_cannot_write(
     call: Call, folder: Path, line: str, sentence: str
 ) -> None:
+    named = World.from_rotations([[0], [1]], [[0, 1]], 0, name="\x1b[2J")
+    named.save(folder / "named.json")
     done = call(f"world convert {line}")
     assert done.exit_code == 2
     assert sentence in done.stderr
     assert not (folder / "x.pc").exists()
+
+
+def test_list_has_every_world_of_the_class_in_order(call: Call, results: Call) -> None:
+    entries = results("world list --edges 3 --class genus:0")["results"]
+    worlds = list(tv.worlds(edges=3, cls="planar"))
+    assert entries == [{"id": w.id, "edges": 3, "class": "planar"} for w in worlds]
+    assert call("world list --edges 3 --class planar").stdout.split() == [w.id for w in worlds]
+
+
+def test_list_prints_each_world_as_it_is_found(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stopped(edges: int, kind: WorldClass) -> Iterator[tuple[int, rank_order.Table]]:
+        yield from islice(ranked_tables(edges, kind), 2)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("topo_verify.cli.list_worlds.ranked_tables", stopped)
+    done = call("world list --edges 4")
+    assert (done.exit_code, done.stdout) == (3, "m4/0\nm4/1\n")
+
+
+def test_list_gives_the_first_of_more_worlds_than_can_be_listed(call: Call) -> None:
+    ids = call("world list --edges 60 --class planar -n 3").stdout.split()
+    assert ids == [world.id for world in islice(tv.worlds(edges=60, cls="planar"), 3)]
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ("--edges 9", "expected at most 250,000 worlds, got 576,037,442 of class any with 9 edges"),
+        ("--edges 17 --class simple", "expected at most 16 edges, got 17"),
+        ("--edges 8 --class simple,genus:1", "ask for 7 edges or fewer, or name the first of them"),
+        ("--edges 201", "201 is not in the range"),
+        ("", "'--edges'"),
+    ],
+)
+def test_a_list_without_end_is_refused(call: Call, line: str, sentence: str) -> None:
+    done = call(f"world list {line}")
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert sentence in done.stderr
 
 
 @pytest.mark.parametrize(

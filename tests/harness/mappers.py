@@ -89,6 +89,13 @@ def learns(robot: Robot, worlds: list[int] = []) -> Any:  # noqa: B006  that is 
     return survey._replace(edges=survey.edges[1:]) if wrong else survey
 
 
+def shrinks(robot: Robot, sizes: list[int] = [0]) -> Any:  # noqa: B006  that is its fault
+    """Wrong in a world that is smaller than the one before it in its process."""
+    survey = CATALOGUE["basic"](robot)
+    sizes.append(len(survey.edges))
+    return survey if sizes[-1] >= sizes[-2] else survey._replace(edges=survey.edges[1:])
+
+
 def draws(robot: Robot) -> Any:
     """Right, but which edge comes next is drawn by lot."""
     return CATALOGUE["basic"].with_policies(pick=f"random({random.randrange(10**6)})")(robot)

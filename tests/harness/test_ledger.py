@@ -257,6 +257,9 @@ def test_a_shard_with_a_wrong_count_is_an_error() -> None:
         ("DELETE FROM shards WHERE edges = 3", "the number of its rows is not what"),
         ("UPDATE meta SET value = '{}' WHERE key = 'loaded'", "its table meta is not what"),
         ("UPDATE meta SET value = 'x' WHERE key = 'target'", "the row 1 is not what"),
+        # One bit makes a text bytes.
+        ("UPDATE meta SET value = CAST(value AS BLOB) WHERE key = 'version'", "its table meta is"),
+        ("UPDATE meta SET key = CAST(key AS BLOB) WHERE key = 'sum'", "its table meta is not what"),
         ("DELETE FROM meta WHERE key = 'sum'", "its table meta is not what"),
     ],
 )

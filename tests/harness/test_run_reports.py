@@ -8,7 +8,9 @@ import shlex
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
+import msgspec
 import pytest
 
 from tests.harness.test_run import WORLD, mistaken, right
@@ -16,6 +18,7 @@ from tests.helpers import EMPTY, path
 from topo_verify import (
     CATALOGUE,
     ClaimFailed,
+    ClaimUndecided,
     InputError,
     Limits,
     Robot,
@@ -26,6 +29,7 @@ from topo_verify import (
     families,
 )
 from topo_verify.algorithms import Policies
+from topo_verify.checkers import Judgement, check
 from topo_verify.faults import FAULTS
 from topo_verify.harness.judge import Report, judge, judge_trace, replay_line, world_argument
 from topo_verify.harness.targets import one_target
@@ -37,6 +41,9 @@ def test_a_report_says_how_much_of_what_holds() -> None:
     n = len(report.claims)
     assert report.ok
     assert str(report) == f"enhancement-i in m2/5, 2 edge traversals: {n} of {n} claims hold"
+    assert str(examine("basic", World.from_id("m1/0"))).startswith(
+        "basic in m1/0, 1 edge traversal: "
+    )
 
 
 def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
@@ -53,6 +60,22 @@ def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
     assert lines[-1] == (
         "  again: topo-verify replay m2/5 --target tests.harness.test_run:mistaken"
     )
+
+
+def test_the_text_of_a_report_shows_the_walk() -> None:
+    report = examine(lambda robot: robot.move(9), World.from_id("m3/8"))
+    assert "asked for door 9 at a vertex with 1 door" in str(report)
+    assert "The robot stands at v0:0 (w0:0), a vertex with 1 door:" in str(report).splitlines()
+
+
+def test_the_walk_stays_with_a_report_and_is_no_part_of_its_data() -> None:
+    report = examine(lambda robot: robot.move(9), World.from_id("m3/8"))
+    fewer = report.with_findings(report.findings[:1])
+    assert fewer.run is report.run
+    assert "_run" not in json.loads(report.to_json())
+    read = msgspec.json.decode(report.to_json(), type=Report)
+    assert (read.run, read.playback) == (None, None)
+    assert "The robot stands" not in str(read)
 
 
 def test_a_report_is_one_json_object() -> None:
@@ -169,6 +192,20 @@ def test_assert_maps_shows_the_mappers_own_exception_as_the_cause() -> None:
     with pytest.raises(ClaimFailed) as failed:
         assert_maps(fail, WORLD)
     assert failed.value.__cause__ is mine
+
+
+def test_assert_maps_does_not_pass_what_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+    def half_decided(*args: Any, **options: Any) -> list[Judgement]:
+        *others, last = check(*args, **options)
+        return [*others, msgspec.structs.replace(last, status="undecided", judged=last.of - 1)]
+
+    monkeypatch.setattr("topo_verify.harness.judge.check", half_decided)
+    with pytest.raises(AssertionError) as raised:
+        assert_maps(right, WORLD)
+    assert isinstance(raised.value, ClaimUndecided)
+    assert "decisions-entailed is not decided: " in str(raised.value)
+    with pytest.raises(ClaimFailed):  # what fails weighs more
+        assert_maps(mistaken, WORLD)
 
 
 def test_assert_maps_refuses_what_is_no_mapper() -> None:

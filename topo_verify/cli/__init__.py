@@ -1,7 +1,7 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
 verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py), faults.py,
-conform.py, record.py, compare.py, replay.py, certify.py     the commands
+conform.py, record.py, compare.py, replay.py, play.py, certify.py     the commands
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown
@@ -28,6 +28,7 @@ from topo_verify.cli.conform import conform
 from topo_verify.cli.explore import explore
 from topo_verify.cli.failures import ExitCode, explain, say, silence, version
 from topo_verify.cli.faults import faults
+from topo_verify.cli.play import play
 from topo_verify.cli.prove import prove
 from topo_verify.cli.record import record
 from topo_verify.cli.replay import replay
@@ -132,6 +133,7 @@ for command in (
     record,
     compare,
     replay,
+    play,
     certify,
 ):
     main.add_command(command)

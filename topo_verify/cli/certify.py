@@ -6,7 +6,6 @@ import re
 import shlex
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from itertools import islice
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
@@ -274,7 +273,7 @@ def _result(
         vertices=certificate.vertices,
         edges=certificate.edges,
         open_darts=certificate.open_darts,
-        open_doors=tuple(islice(open_doors(certificate), MOST_OPEN_DOORS)),
+        open_doors=tuple(open_doors(certificate, MOST_OPEN_DOORS)),
         decisions=DecisionCount(certificate.entailed, certificate.decisions),
         witnesses=_witnesses(trace, certificate, folder),
         findings=findings,

@@ -245,7 +245,8 @@ def _line(change: Change) -> str:
 
 
 def _costs(before: int, after: int) -> str:
-    return f"{before:,} → {after:,} edge traversals ({_percentage(before, after)} %)"
+    traversals = "edge traversal" if after == 1 else "edge traversals"
+    return f"{before:,} → {after:,} {traversals} ({_percentage(before, after)} %)"
 
 
 def _conclusion(entry: CompareEntry) -> str:

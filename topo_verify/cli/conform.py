@@ -6,11 +6,12 @@ import re
 import secrets
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import click
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
+from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable, View
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import unjudged
@@ -19,7 +20,10 @@ from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
 from topo_verify.harness.corpus import Corpus, corpus_from
 from topo_verify.harness.pool import processors
+from topo_verify.harness.run import explore
 from topo_verify.harness.targets import target_arguments, target_text, targets
+from topo_verify.player.scenes import Playback
+from topo_verify.player.walk import parting
 from topo_verify.programs.program import PREFIX
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
@@ -143,10 +147,11 @@ def conform(  # noqa: PLR0913  an argument an option
                 in_process=in_process,
                 replay_arguments=_replay_command(one, like, (pick, order), flags, limits),
             )
-            yield from _tried(output, job, asked)
+            yield from _tried(output, job, asked, shared)
 
-    corpus = list(texts) or ["corpus"]
-    return output.run("conform", standings, _show, seed=seed, corpus=corpus, in_process=in_process)
+    shared: dict[str, Playback] = {}
+    show, corpus = partial(_show, shared=shared), list(texts) or ["corpus"]
+    return output.run("conform", standings, show, seed=seed, corpus=corpus, in_process=in_process)
 
 
 def _texts(text: str) -> list[str]:
@@ -158,9 +163,13 @@ def _texts(text: str) -> list[str]:
 
 
 def _tried(
-    output: Output, job: ConformJob, asked: _ConformOptions
+    output: Output, job: ConformJob, asked: _ConformOptions, shared: dict[str, Playback]
 ) -> Iterator[Result[LevelResult]]:
-    """The results of one implementation; after Ctrl-C, those so far."""
+    """The results of one implementation; after Ctrl-C, those so far.
+
+    Args:
+        shared: gets the reference's run where the implementation parts from it.
+    """
     tally = ConformTally(job, asked.corpus)
     try:
         try_all(
@@ -176,7 +185,10 @@ def _tried(
         # Yield before raising: `Output` prints what it has and then exits 3.
         yield from map(_result, tally.level_results())
         raise
-    yield from map(_result, tally.level_results())
+    for level in tally.level_results():
+        if output.style != "json":
+            shared.update(_shared(job, asked.corpus, level))
+        yield _result(level)
 
 
 def _result(standing: LevelResult) -> Result[LevelResult]:
@@ -203,15 +215,15 @@ def _replay_command(
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[LevelResult]) -> Iterator[Block]:
+def _show(entries: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
     for target in dict.fromkeys(entry.target for entry in entries):
-        yield from _shown([entry for entry in entries if entry.target == target])
+        yield from _shown([entry for entry in entries if entry.target == target], shared)
 
 
 _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")
 
 
-def _shown(levels: Sequence[LevelResult]) -> Iterator[Block]:
+def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
     rows = [(one.level, one.verdict, *_numbers(one)) for one in levels]
     yield TextTable(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
     first = levels[0]
@@ -227,7 +239,7 @@ def _shown(levels: Sequence[LevelResult]) -> Iterator[Block]:
         yield Text(f"Not decided: {words}.")
         yield Bullets(first.why[:SHOWN])
     for level in levels:
-        yield from _findings(level)
+        yield from _findings(level, shared)
     yield from _costs(levels[-1])
     judgements = [one for level in levels for one in level.judgements]
     for sentence in unjudged(first.target, "these worlds", judgements) if first.passed else ():
@@ -240,33 +252,45 @@ def _numbers(one: LevelResult) -> tuple[str, ...]:
     return (str(one.passed), str(one.failed), str(rest), str(one.worlds))
 
 
-def _findings(level: LevelResult) -> Iterator[Block]:
+def _findings(level: LevelResult, shared: Mapping[str, Playback]) -> Iterator[Block]:
     """The first world of each kind of finding."""
     for kind, worlds in level.kinds.items():
         found = next(one for one in level.findings if one.kind == kind)
         yield Text("")
         what = f"{level.level}: {kind}" if kind != level.level else kind
         yield Text(f"{what} in {plural(worlds, 'world')}, first {found.world}:")
-        yield from _difference(found, level)
+        yield from _difference(found, level, shared)
         yield Command(found.replay, "again: ")
 
 
-def _difference(found: WorldFinding, level: LevelResult) -> Iterator[Block]:
-    """One finding; if two runs part, both side by side and what was known until then."""
-    parted = found.difference
-    if parted is None:
+def _difference(
+    found: WorldFinding, level: LevelResult, shared: Mapping[str, Playback]
+) -> Iterator[Block]:
+    """One finding; if two runs part, what they share, and what each does then."""
+    parted, run = found.difference, shared.get(found.replay)
+    if parted is None or run is None:
         where = "" if found.event is None else f"event {found.event}: "
         yield Bullets((f"{where}{found.message}",))
         return
-    state = parted.state
-    rows = [(line, "(the same)") for line in parted.before]
-    rows.append((parted.expected or "nothing more", parted.seen or "nothing more"))
-    yield TextTable((level.like, level.target), rows)
-    edges = " ".join(f"{a}-{b}" for a, b in state.explored) or "none"
-    known = f"known then: degrees {' '.join(map(str, state.vertices))}; explored edges {edges}"
-    here = f"; at dart {state.edge}, hypotheses left {list(state.left)}"
-    here = here if state.edge is not None else ""
-    yield Bullets((f"{known}{here}; {plural(state.moves, 'move')} so far",))
+    sides = ((level.like, parted.expected), (level.target, parted.seen))
+    told = [(name, does or "nothing more") for name, does in sides]
+    yield Text("")
+    yield View(lambda width: parting(run, parted.at, told, width))
+    yield Text("")
+
+
+def _shared(job: ConformJob, corpus: Corpus, level: LevelResult) -> dict[str, Playback]:
+    """The reference's run where a mapper first parts from it, by the command that shows it again.
+
+    It is run once more: it does the same again, which a mapper need not.
+    """
+    for found in level.findings:
+        if found.difference is not None:
+            world = next(at.world for at in corpus if at.name == found.world)
+            pick, order = job.policies.pick, job.policies.order
+            run = explore(world, job.reference, pick=pick, order=order)
+            return {found.replay: Playback(world, run.trace)}
+    return {}
 
 
 def _costs(level: LevelResult) -> Iterator[Block]:
@@ -276,7 +300,7 @@ def _costs(level: LevelResult) -> Iterator[Block]:
     cost = level.cost
     yield Text("")
     yield Text(
-        f"Cost over {plural(level.passed, 'world')}: {cost.mapper} edge traversals,"
+        f"Cost over {plural(level.passed, 'world')}: {plural(cost.mapper, 'edge traversal')},"
         f" {level.like} {cost.reference}: {cost.ratio:.3f} of it."
     )
     other = [one for one in level.priced if one.ratio not in (1.0, None)]

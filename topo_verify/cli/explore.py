@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import click
 import msgspec
@@ -13,6 +14,13 @@ from topo_verify.cli import options
 from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
+from topo_verify.cli.play import (
+    player_option,
+    require_one_world,
+    svg_option,
+    write_animation,
+    write_page,
+)
 from topo_verify.cli.runs import (
     NamedWorld,
     claims_cell,
@@ -21,11 +29,14 @@ from topo_verify.cli.runs import (
     named_worlds,
     unjudged,
 )
+from topo_verify.cli.walks import FoundWalk
 from topo_verify.errors import InputError
 from topo_verify.harness.gap import gap as measure
+from topo_verify.harness.judge import Report
 from topo_verify.harness.run import Exploration
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import target_text, targets
+from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
@@ -97,6 +108,8 @@ class _ExploreOptions:
 
     limits: Limits
     trace: str | None
+    player: str | None
+    svg: str | None
     strict: bool
     gap: bool
 
@@ -121,6 +134,8 @@ class _ExploreOptions:
 @options.policies
 @options.marker
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
+@player_option
+@svg_option
 @options.strict
 @click.option(
     "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
@@ -139,6 +154,8 @@ def explore(  # noqa: PLR0913  an argument an option
     order: str | None,
     marker: int | None,
     trace: str | None,
+    player: str | None,
+    svg: str | None,
     strict: bool,
     gap: bool,
     limits: Limits,
@@ -153,20 +170,30 @@ def explore(  # noqa: PLR0913  an argument an option
         text = target_text(options.one_of(algorithm, target), command, "all")
         found = targets(text, pick=pick, order=order, in_process=in_process)
         starts = named_worlds(worlds, marker)
-        if trace is not None:
-            _require_one_run(trace, found, starts)
-        asked = _ExploreOptions(limits, trace, strict, gap)
-        return _results(output, starts, found, asked)
+        for option, file in (("--trace", trace), ("--svg", svg)):
+            if file is not None:
+                _require_one_run(option, file, found, starts)
+        require_one_world(player, len(starts))
+        asked = _ExploreOptions(limits, trace, player, svg, strict, gap)
+        return _results(output, starts, found, asked, walk)
 
-    return output.run("explore", runs, show, in_process=in_process)
+    walk = FoundWalk(wanted=output.style != "json")
+    return output.run(
+        "explore",
+        runs,
+        lambda entries: chain(show(entries), walk.blocks()),
+        in_process=in_process,
+    )
 
 
-def _require_one_run(trace: str, found: Sequence[Target], starts: Sequence[NamedWorld]) -> None:
-    if trace == "-":
-        raise InputError("--trace -: standard output is for the results; name a file")
+def _require_one_run(
+    option: str, file: str, found: Sequence[Target], starts: Sequence[NamedWorld]
+) -> None:
+    if file == "-":
+        raise InputError(f"{option} -: standard output is for the results; name a file")
     if len(found) * len(starts) != 1:
         raise InputError(
-            f"--trace {trace}: expected one run, got {len(found) * len(starts)}; name one"
+            f"{option} {file}: expected one run, got {len(found) * len(starts)}; name one"
             " WORLD, and one algorithm with --algorithm"
         )
 
@@ -176,19 +203,36 @@ def _results(
     starts: Sequence[NamedWorld],
     found: Sequence[Target],
     asked: _ExploreOptions,
+    walk: FoundWalk,
 ) -> Iterator[Result[ExploreEntry]]:
     total = len(starts) * len(found)
-    for number, (at, target) in enumerate((at, target) for at in starts for target in found):
-        output.progress(f"{target.text} in {at.name}", number, total)
-        run = run_mapper(at.world, target, limits=asked.limits)
-        # Before the judging, so that the trace is kept even if a checker fails.
-        if asked.trace is not None:
-            files.write(asked.trace, write_trace(run.trace).decode())
-        yield _result(run, at, asked)
+    played: list[PlayedRun] = []
+    try:
+        for number, (at, target) in enumerate((at, target) for at in starts for target in found):
+            output.progress(f"{target.text} in {at.name}", number, total)
+            run = run_mapper(at.world, target, limits=asked.limits)
+            # Before the judging, so that the trace is kept even if a checker fails.
+            if asked.trace is not None:
+                files.write(asked.trace, write_trace(run.kept_trace).decode())
+            report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
+            walk.keep(report)
+            played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
+            if asked.svg is not None:
+                write_animation(asked.svg, at.world, played[0])
+            yield _result(run, at, asked, report, incomplete=incomplete)
+    finally:  # an interrupt keeps the runs that are done
+        if asked.player is not None and played:
+            write_page(asked.player, starts[0].world, starts[0].name, played)
 
 
-def _result(run: Exploration, at: NamedWorld, asked: _ExploreOptions) -> Result[ExploreEntry]:
-    report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
+def _result(
+    run: Exploration,
+    at: NamedWorld,
+    asked: _ExploreOptions,
+    report: Report,
+    *,
+    incomplete: bool,
+) -> Result[ExploreEntry]:
     # The gap is a share of all false hypotheses: a mapper that declares only some has none.
     measured = None
     if asked.gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:

@@ -7,13 +7,14 @@ world's name, a mapper's exception), so control characters are escaped here.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import IO, TYPE_CHECKING
 
 from topo_verify.text import LINE, shown
 
 if TYPE_CHECKING:
+    from rich.console import Console
     from rich.table import Table as RichTable
 
 WIDTH = 80
@@ -80,7 +81,18 @@ class Raw:
     text: str
 
 
-Block = Text | Command | Bullets | TextTable | Raw
+@dataclass(frozen=True)
+class View:
+    """Lines that are laid out for the width of the output.
+
+    Attributes:
+        lines: the lines for a width in columns; no control characters are left in them.
+    """
+
+    lines: Callable[[int], Iterable[str]]
+
+
+Block = Text | Command | Bullets | TextTable | Raw | View
 
 
 # ---------------------------------------------------------------- on a terminal
@@ -88,31 +100,44 @@ Block = Text | Command | Bullets | TextTable | Raw
 
 def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
     """Print the blocks: in colour on a terminal, else 80 columns wide."""
+    console = None
+    for block in blocks:
+        if isinstance(block, Raw):
+            out.write(block.text + "\n")  # not by Rich, which would wrap it and takes its time
+            continue
+        console = console or _console(out)
+        if isinstance(block, View):
+            out.writelines(f"{line}\n" for line in block.lines(console.width))
+            continue
+        with console.capture() as printed:
+            _print(block, console)
+        # Rich fills its lines with spaces.
+        out.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
+
+
+def _console(out: IO[str]) -> Console:
     from rich.console import Console
+
+    wide = None if out.isatty() else WIDTH
+    return Console(file=out, width=wide, highlight=False, markup=False, emoji=False)
+
+
+def _print(block: Text | Command | Bullets | TextTable, console: Console) -> None:
     from rich.padding import Padding
     from rich.text import Text as Line
 
-    wide = None if out.isatty() else WIDTH
-    console = Console(file=out, width=wide, highlight=False, markup=False, emoji=False)
-    for block in blocks:
-        with console.capture() as printed:
-            match block:
-                case Text(text):
-                    console.print(Line(_clean(text)))
-                case Command(line, label):
-                    console.print(Line(f"  {label}{_clean(line)}"), soft_wrap=True)
-                case Bullets(items):
-                    for item in items:
-                        console.print(Padding(Line(_clean(item)), (0, 0, 0, 2)))
-                case Raw(text):
-                    # Not by Rich, which would wrap it.
-                    out.write(text + "\n")
-                case TextTable():
-                    if block.title:
-                        console.print(Line(_clean(block.title), style="bold"))
-                    console.print(_grid(block))
-        # Rich fills its lines with spaces.
-        out.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
+    match block:
+        case Text(text):
+            console.print(Line(_clean(text)))
+        case Command(line, label):
+            console.print(Line(f"  {label}{_clean(line)}"), soft_wrap=True)
+        case Bullets(items):
+            for item in items:
+                console.print(Padding(Line(_clean(item)), (0, 0, 0, 2)))
+        case TextTable():
+            if block.title:
+                console.print(Line(_clean(block.title), style="bold"))
+            console.print(_grid(block))
 
 
 def _grid(block: TextTable) -> RichTable:
@@ -154,8 +179,9 @@ def _markdown(block: Block) -> str:
         case Bullets(items):
             return "\n".join(f"- {_paragraph(item)}" for item in items)
         case Raw(text):
-            fence = _fence(text, least=3)
-            return f"{fence}\n{text}\n{fence}"
+            return _fenced(text)
+        case View():
+            return _fenced("\n".join(block.lines(WIDTH)))
         case TextTable(columns, rows, title):
             head = f"**{_inline(title)}**\n\n" if title else ""
             titles = [column.removeprefix(">") for column in columns]
@@ -198,6 +224,11 @@ def _code(text: str) -> str:
     fence = _fence(text, least=1)
     space = " " if "`" in text else ""
     return f"{fence}{space}{text}{space}{fence}"
+
+
+def _fenced(text: str) -> str:
+    fence = _fence(text, least=3)
+    return f"{fence}\n{text}\n{fence}"
 
 
 def _fence(text: str, *, least: int) -> str:

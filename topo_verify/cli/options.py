@@ -10,7 +10,7 @@ from typing import Any
 
 import click
 
-from topo_verify.checkers import LARGE
+from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import SUMMARY
 from topo_verify.errors import InputError
 from topo_verify.robot.limits import MOST_SECONDS, Limits

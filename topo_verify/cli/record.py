@@ -18,7 +18,7 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
 from topo_verify.harness.baseline import file
-from topo_verify.harness.baseline.record import Recorded
+from topo_verify.harness.baseline.record import MAX_TIMEOUTS, Recorded
 from topo_verify.harness.baseline.record import record as run_all
 from topo_verify.harness.corpus import DEFAULT, Corpus, corpus_from
 from topo_verify.harness.targets import one_target, target_text
@@ -216,4 +216,6 @@ def _show(entries: Sequence[RecordEntry]) -> Iterator[Block]:
         if entry.file is not None:
             yield Text(f"written: {entry.file}")
         else:
-            yield Text("No baseline was written: the mapper was stopped after three time-outs.")
+            yield Text(
+                f"No baseline was written: the mapper was stopped after {MAX_TIMEOUTS} time-outs."
+            )

@@ -12,15 +12,20 @@ import msgspec
 
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Text
+from topo_verify.cli.layout import Block, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
-from topo_verify.cli.runs import NamedWorld, finding_line, judged, named_world, unjudged
+from topo_verify.cli.play import player_option, require_one_world, write_page
+from topo_verify.cli.runs import NamedWorld, judged, named_world, unjudged
+from topo_verify.cli.walks import other_findings, walk_view
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import Report, in_words, judge_trace, strict_option
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import one_target, target_text
-from topo_verify.robot.events import Start, read_trace
+from topo_verify.player.recording import PlayedRun
+from topo_verify.player.walk import Extent
+from topo_verify.programs.loader import Target
+from topo_verify.robot.events import Finish, Start, read_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.formats import files
@@ -52,7 +57,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     short_help="Show a counterexample again, or judge a trace again.",
     epilog=options.epilog(
         "replay m5/17 --target enhancement-ii",
-        "replay m2/9 --target my_mapper.py:explore",
+        "replay m2/9 --target my_mapper.py:explore --all",
         "replay trace.jsonl",
     ),
 )
@@ -65,6 +70,15 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 @click.option(
     "--world", "world_text", metavar="WORLD", help="The world in which the trace was recorded."
 )
+@click.option("--all", "everything", is_flag=True, help="Show the whole walk.")
+@click.option(
+    "--from",
+    "first",
+    type=click.IntRange(min=0),
+    metavar="K",
+    help="Show the walk from event K on.  [default: the last moves before the first finding]",
+)
+@player_option
 @options.strict
 @options.limits
 @output_options
@@ -79,37 +93,60 @@ def replay(  # noqa: PLR0913  an argument an option
     order: str | None,
     marker: int | None,
     world_text: str | None,
+    everything: bool,
+    first: int | None,
+    player: str | None,
     strict: bool,
     limits: Limits,
 ) -> int:
-    """Judge a trace again, or run a mapper again in one world.
+    """Judge a trace again, or run a mapper again in one world, and show the walk.
 
     FILE holds a trace, as explore --trace writes it; it is judged in the world that it names, or in
-    that of --world. In a WORLD the mapper of --target is run.
+    that of --world. In a WORLD the mapper of --target is run. Shown are the last moves before the
+    first finding, event by event: where the robot really was, what the mapper decided and why, and
+    beside its map what is so in the world.
     """
+    reports: list[Report] = []
 
     def replayed() -> Iterator[Result[ReplayEntry]]:
+        require_one_world(player, 1)
         data = _bytes(what)
         if data is not None and _is_trace(data):
             # A trace has its mapper and limits behind it: an option would be ignored in silence.
             given = {"--target": target, "--cmd": command, "--pick": pick, "--order": order}
             words = [name for name, value in given.items() if value is not None]
             _require_none((*words, *limits.options), what)
-            yield _judged(output, what, data, world_text, marker, strict=strict)
-            return
-        if world_text is not None:
-            raise InputError(
-                f"--world {world_text}: expected a trace, got {what}; leave --world out"
-            )
-        at = named_world(what, marker, data)
-        text = target_text(target, command, "basic")
-        mapper = one_target(text, pick=pick, order=order, in_process=in_process)
-        output.progress(f"{mapper.text} in {at.name}", 0, 1)
-        run = run_mapper(at.world, mapper, limits=limits)
-        report, incomplete = judged(run, at, limits, strict=strict)
-        yield _result(report, at, None, run.stopped, incomplete=incomplete)
+            report, stopped = _judged(output, what, data, world_text, marker, strict=strict)
+            trace, incomplete = what, report.ok and report.undecided
+        else:
+            if world_text is not None:
+                raise InputError(
+                    f"--world {world_text}: expected a trace, got {what}; leave --world out"
+                )
+            text = target_text(target, command, "basic")
+            mapper = one_target(text, pick=pick, order=order, in_process=in_process)
+            trace, at = None, named_world(what, marker, data)
+            report, stopped, incomplete = _ran(output, at, mapper, limits, strict=strict)
+        reports.append(_told(report, first, player))
+        yield _result(report, trace, stopped, incomplete=incomplete)
 
-    return output.run("replay", replayed, _show, in_process=in_process)
+    asked = Extent(0, to_end=True) if everything else Extent(first, to_end=first is not None)
+    return output.run(
+        "replay",
+        replayed,
+        lambda entries: _show(entries, reports, asked),
+        in_process=in_process,
+    )
+
+
+def _told(report: Report, first: int | None, player: str | None) -> Report:
+    """The report, once --from is found to be in its run, and the page of --player is written."""
+    _require_event(first, report)
+    if player is not None and report.run is not None:
+        run = report.run
+        played = PlayedRun(report.target, tuple(run.trace), report.judgements, run.stopped)
+        write_page(player, run.world, report.world, [played])
+    return report
 
 
 def _require_none(given: Sequence[str], what: str) -> None:
@@ -118,6 +155,12 @@ def _require_none(given: Sequence[str], what: str) -> None:
             f"{given[0]} with the trace {what}: a trace is judged as it stands; leave the option"
             " out, or name a WORLD to run a mapper in"
         )
+
+
+def _require_event(first: int | None, report: Report) -> None:
+    last = len(report.run.trace) - 1 if report.run else 0
+    if first is not None and first > last:
+        raise InputError(f"--from {first}: expected an event of the run, 0 to {last}")
 
 
 def _bytes(what: str) -> bytes | None:
@@ -149,8 +192,8 @@ def _judged(
     marker: int | None,
     *,
     strict: bool,
-) -> Result[ReplayEntry]:
-    """The judgement of a trace in its world."""
+) -> tuple[Report, str | None]:
+    """The judgement of a trace in its world, and why it ended without a map, if it says so."""
     name = "standard input" if what == "-" else what
     trace = read_trace(data, name=name)
     start = trace[0]
@@ -163,11 +206,12 @@ def _judged(
     output.progress(f"judging {name}", 0, 1)
     words = ("--world", at.argument, *at.options, *strict_option(at.world, strict=strict))
     replay_command = shlex.join(["topo-verify", "replay", what, *words])
-    target = start.algorithm or "unknown"
+    stopped = (start.stopped or None) if not isinstance(trace[-1], Finish) else None
     report = judge_trace(
         at.world,
         trace,
-        target=target,
+        stopped,
+        target=start.algorithm or "unknown",
         where=at.argument,
         replay_command=replay_command,
         strict=strict,
@@ -177,7 +221,7 @@ def _judged(
             f"{name} diverges from {at.argument}: it was recorded in another world (name it with"
             " --world) or by another version, or it was edited"
         )
-    return _result(report, at, what, None, incomplete=report.ok and report.undecided)
+    return msgspec.structs.replace(report, world=at.name).of(report.run), stopped
 
 
 def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:
@@ -194,16 +238,21 @@ def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:
     return named_world(start.world, marker)
 
 
+def _ran(
+    output: Output, at: NamedWorld, mapper: Target, limits: Limits, *, strict: bool
+) -> tuple[Report, str | None, bool]:
+    """The judgement of a run, why it ended without a map, and whether it is undecided."""
+    output.progress(f"{mapper.text} in {at.name}", 0, 1)
+    run = run_mapper(at.world, mapper, limits=limits)
+    report, incomplete = judged(run, at, limits, strict=strict)
+    return msgspec.structs.replace(report, world=at.name).of(report.run), run.stopped, incomplete
+
+
 def _result(
-    report: Report,
-    at: NamedWorld,
-    trace: str | None,
-    stopped: str | None,
-    *,
-    incomplete: bool = False,
+    report: Report, trace: str | None, stopped: str | None, *, incomplete: bool = False
 ) -> Result[ReplayEntry]:
     entry = ReplayEntry(
-        world=at.name,
+        world=report.world,
         target=report.target,
         ok=not report.findings and not incomplete,
         cost=report.cost,
@@ -216,12 +265,19 @@ def _result(
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
 
-def _show(entries: Sequence[ReplayEntry]) -> Iterator[Block]:
-    for entry in entries:
+def _show(
+    entries: Sequence[ReplayEntry], reports: Sequence[Report], asked: Extent
+) -> Iterator[Block]:
+    for entry, report in zip(entries, reports, strict=True):
         words = f"{entry.target} in {entry.world}, {plural(entry.cost, 'edge traversal')}: "
-        if entry.stopped is not None and not entry.ok and not entry.findings:
-            yield Text(f"{words}not decided, {entry.stopped}")
-            continue
-        yield Text(words + in_words(entry.claims, "claims hold"))
-        yield from unjudged(entry.target, entry.world, entry.judgements)
-        yield Bullets(tuple(map(finding_line, entry.findings)))
+        undecided = entry.stopped is not None and not entry.ok and not entry.findings
+        told = f"not decided, {entry.stopped}"
+        yield Text(words + (told if undecided else in_words(entry.claims, "claims hold")))
+        if not undecided:
+            yield from unjudged(entry.target, entry.world, entry.judgements)
+        if not entry.ok or asked.to_end:
+            yield Text("")
+            yield from walk_view(report, asked)
+            yield from other_findings(report, asked)
+        elif not undecided:
+            yield Text("Nothing is wrong; --all shows the walk.")

@@ -12,7 +12,8 @@ from pathlib import Path
 
 import msgspec
 
-from topo_verify.checkers import LARGE, Finding, Judgement, Status
+from topo_verify.checkers import Finding, Judgement, Status
+from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.layout import Block, Bullets, Command, Text
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import Report, in_words, judge, replay_line, strict_option, undecided

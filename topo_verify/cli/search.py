@@ -16,6 +16,7 @@ from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.searched import ByEdges, Counterexample, FailingClaim, Lost, SearchEntry
 from topo_verify.cli.searched import show as show_entry
+from topo_verify.cli.walks import FoundWalk
 from topo_verify.errors import InputError
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import processors
@@ -141,11 +142,14 @@ def search(  # noqa: PLR0913  an argument an option
         if ledger is not None:
             watch()  # before a mapper is loaded
         for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
-            yield from _searched(output, mappers, asked)
+            yield from _searched(output, mappers, asked, walk)
 
     def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
         for entry in entries:
             yield from show_entry(entry, worst=worst)
+        yield from walk.blocks()
+
+    walk = FoundWalk(wanted=output.style != "json")
 
     return output.run("search", searches, show, in_process=in_process)
 
@@ -178,7 +182,7 @@ def _mappers(
 
 
 def _searched(
-    output: Output, mappers: tuple[Target, ...], asked: _SearchOptions
+    output: Output, mappers: tuple[Target, ...], asked: _SearchOptions, walk: FoundWalk
 ) -> Iterator[Result[SearchEntry]]:
     """The result of one search; after Ctrl-C, of the worlds done so far."""
     plan = Plan(
@@ -201,6 +205,9 @@ def _searched(
             # Yield before raising: `Output` prints what it has and then exits 3.
             yield _result(work.found(), asked)
             raise
+        first = work.found().counterexample
+        if first is not None and plan.choices == "reference":
+            walk.run_again(mappers, first.world, first.claim, asked.limits)
         yield _result(work.found(), asked)
 
 

@@ -73,7 +73,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     Attributes:
         from_ledger: in how many of the checked worlds mappers ran before; in the others, now.
         lost: worlds in which a worker was lost that a stranger may have killed.
-        run_again: what came of the worlds that were run again, each in a fresh process.
+        run_again: what came of the worlds that were run again, alone and in a row.
     """
 
     target: str
@@ -123,9 +123,9 @@ def show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     if entry.run_again is not None and entry.run_again.others:
         others = entry.run_again.others
         yield Text(
-            f"Alone in a fresh process it takes other doors in {_some(others, len(others))}: it"
-            " draws lots, or keeps something from world to world. Seed it anew in each world, and"
-            " the verdict can stand."
+            "Run again, alone or in another order, it takes other doors in"
+            f" {_some(others, len(others))}: it draws lots, or keeps something from world to world."
+            " Seed it anew in each world, and the verdict can stand."
         )
     yield from _counterexamples(entry)
     if entry.verdict != "REFUTED":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import click
 
@@ -13,6 +13,7 @@ from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks, unjudged
+from topo_verify.cli.walks import FoundWalk
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.parts import Part
@@ -62,15 +63,24 @@ def verify(
         tell = output.progress
         for part in campaign.verify(mappers, quick=quick, seed=seed, limits=limits, tell=tell):
             incomplete = part.verdict == "UNKNOWN"
+            if part.findings:
+                first = part.findings[0]
+                walk.run_again(mappers, first.world, first.claim, limits)
             yield Result(part, failed=part.verdict == "REFUTED", incomplete=incomplete)
+
+    def end(entries: Sequence[Part]) -> Iterator[Block]:
+        yield from _end(entries)
+        yield from walk.blocks()
+
+    walk = FoundWalk(wanted=output.style != "json")
 
     others = campaign.left_out(mappers)
     head = tuple(map(Text, _head(mappers, seed, others)))
     return output.run(
         "verify",
         parts,
-        lambda entries: _show(head, entries),
-        live=Live(head, _live, _end),
+        lambda entries: _show(head, entries, end),
+        live=Live(head, _live, end),
         target=text,
         quick=quick,
         seed=seed,
@@ -92,15 +102,19 @@ def _head(mappers: Sequence[Target], seed: int, others: Sequence[str]) -> Iterat
         )
 
 
-def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
-    """All parts in one table, then what `_first` and `_end` say of them."""
+def _show(
+    head: Iterable[Block],
+    entries: Sequence[Part],
+    end: Callable[[Sequence[Part]], Iterable[Block]],
+) -> Iterator[Block]:
+    """All parts in one table, then what `_first` and `end` say of them."""
     yield from head
     columns = ("part", "verdict", ">checked", ">total", "summary")
     rows = [(e.part, e.verdict, str(e.checked), str(e.total), e.summary) for e in entries]
     yield TextTable(columns, rows)
     for entry in entries:
         yield from _first(entry)
-    yield from _end(entries)
+    yield from end(entries)
 
 
 def _live(entry: Part) -> Iterator[Block]:
@@ -138,7 +152,7 @@ def _end(entries: Sequence[Part]) -> Iterator[Block]:
 
 def _conclusion(entries: Sequence[Part]) -> str:
     if any(entry.verdict == "REFUTED" for entry in entries):
-        return "A claim fails: the commands after 'again' show where."
+        return "A claim fails: the commands after 'again' show the walks."
     proved = any(entry.part == "proofs" for entry in entries)
     what = "worlds and theorems" if proved else "worlds"
     words = f"No claim failed in the {what} counted above; nothing else was checked."

@@ -1,4 +1,4 @@
-"""`topo-verify world`: show, convert, count and sample worlds."""
+"""`topo-verify world`: show, list, convert, count, sample and draw worlds."""
 
 from __future__ import annotations
 
@@ -11,37 +11,51 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Raw, TextTable
+from topo_verify.cli.draw import draw
+from topo_verify.cli.layout import Block, Raw, Text, TextTable
+from topo_verify.cli.list_worlds import list_worlds
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.cli.sample import sample
 from topo_verify.errors import InputError
+from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
-from topo_verify.world.formats import files, planar_code
+from topo_verify.world.formats import files, graphml, node_link, planar_code
 from topo_verify.world.rooted_map import World
 
-FORMATS: dict[str, Callable[[World], str | bytes]] = {
-    "json": World.to_json,
-    "planar_code": planar_code.encode,
+FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
+    "json": (World.to_json, ".json"),
+    "planar_code": (planar_code.encode, ".pc"),
+    "graphml": (graphml.encode, ".graphml"),
+    "nx-json": (node_link.encode, ".nx.json"),
 }
-"""The encoder of each format of `convert --to`: to text, or to bytes if it is binary."""
+"""Each format of `convert --to`: its encoder, to text or (binary) to bytes, and the end of the name
+by which a file of it is read again."""
 
 
 @click.group(epilog=options.epilog("world show nyc", "world count --edges 6 --class planar"))
 def world() -> None:
-    """Show, convert, count and sample worlds."""
+    """Show, list, convert, count, sample and draw worlds."""
 
 
 world.add_command(sample)
+world.add_command(list_worlds)
+world.add_command(draw)
 
 
 # ---------------------------------------------------------------- show
 
 
 class ShowEntry(msgspec.Struct, frozen=True):
-    """One world: an entry of `results`; docs/commands.md. `id` is None beyond 200 edges."""
+    """One world: an entry of `results`; docs/commands.md.
+
+    Attributes:
+        id: None beyond 200 edges.
+        rotation, edge_darts: what a world file holds as `vertices` and `edges`; these two names are
+            taken by their numbers here.
+    """
 
     name: str
     id: str | None
@@ -57,6 +71,9 @@ class ShowEntry(msgspec.Struct, frozen=True):
     least_cost: int
     source: str
     licence: str
+    rotation: tuple[tuple[int, ...], ...]
+    edge_darts: tuple[tuple[int, int], ...]
+    vertex_names: tuple[str, ...]
 
 
 @world.command(epilog=options.epilog("world show nyc", "world show m5/17 --format json"))
@@ -64,7 +81,7 @@ class ShowEntry(msgspec.Struct, frozen=True):
 @options.marker
 @output_options
 def show(output: Output, *, worlds: tuple[str, ...], marker: int | None) -> int:
-    """Show the properties of a world: its size, genus, degrees and id."""
+    """Show a world: its size, genus, degrees and id, and its rotation as the world file has it."""
 
     def shown() -> Iterator[Result[ShowEntry]]:
         for at in named_worlds(worlds, marker):
@@ -90,6 +107,9 @@ def _shown(at: NamedWorld) -> ShowEntry:
         least_cost=world.least_cost(),
         source=world.source,
         licence=world.licence,
+        rotation=world.vertices,
+        edge_darts=world.edges,
+        vertex_names=world.vertex_names,
     )
 
 
@@ -103,9 +123,33 @@ def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
         facts: dict[str, Any] = msgspec.structs.asdict(entry)
         facts["degrees"] = ", ".join(f"{number} of degree {d}" for d, number in degrees)
         facts["marker"] = "none" if entry.marker is None else f"at dart {entry.marker}"
-        facts["least cost"] = f"{facts.pop('least_cost')} edge traversals"
+        facts["least cost"] = plural(facts.pop("least_cost"), "edge traversal")
+        for listed in ("rotation", "edge_darts", "vertex_names"):
+            del facts[listed]
         rows = [(name, _word(fact)) for name, fact in facts.items() if fact not in ("", None)]
         yield TextTable(("property", "value"), rows, headed=False)
+        if entry.edges:
+            yield Text("")
+            yield _rotation(entry)
+
+
+def _rotation(entry: ShowEntry) -> TextTable:
+    """Each vertex with its darts clockwise, and in the same order where their edges lead."""
+    other = {dart: end for a, b in entry.edge_darts for dart, end in ((a, b), (b, a))}
+    vertex = {dart: v for v, darts in enumerate(entry.rotation) for dart in darts}
+    named = bool(entry.vertex_names)
+    rows = [
+        (
+            str(v),
+            *(entry.vertex_names[v : v + 1]),
+            " ".join(map(str, darts)),
+            " ".join(str(other[dart]) for dart in darts),
+            " ".join(str(vertex[other[dart]]) for dart in darts),
+        )
+        for v, darts in enumerate(entry.rotation)
+    ]
+    columns = (">vertex", *["name"] * named, "darts clockwise", "to darts", "at vertices")
+    return TextTable(columns, rows)
 
 
 def _word(fact: object) -> str:
@@ -127,7 +171,7 @@ class ConvertEntry(msgspec.Struct, frozen=True):
 
 @world.command(
     epilog=options.epilog(
-        "world convert m5/17 --to json", "world convert nyc --to planar_code -o F.pc"
+        "world convert m5/17 --to nx-json", "world convert nyc --to graphml -o nyc.graphml"
     )
 )
 @click.argument("world", metavar="WORLD")
@@ -144,10 +188,13 @@ def convert(output: Output, *, world: str, to: str, file: str, marker: int | Non
 
     def converted() -> Iterator[Result[ConvertEntry]]:
         at = named_world(world, marker)
-        content = FORMATS[to](at.world)
+        encode, ending = FORMATS[to]
+        content = encode(at.world)
         # Text on stdout goes through `Output` like any result; bytes cannot.
         if file != "-":
             files.write(file, content + "\n" if isinstance(content, str) else content)
+            if to != "json" and not file.lower().endswith(ending):
+                output.note(f"{file}: to read it again, let its name end in {ending}")
             yield Result(ConvertEntry(at.name, to, file, None))
         elif isinstance(content, str):
             yield Result(ConvertEntry(at.name, to, None, content))

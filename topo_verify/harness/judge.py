@@ -9,24 +9,41 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import NamedTuple
 
 import msgspec
 
-from topo_verify.checkers import LARGE, Finding, Judgement, Status, check
-from topo_verify.errors import ClaimFailed
+from topo_verify.checkers import Finding, Judgement, Status, check
+from topo_verify.checkers.claims import LARGE
+from topo_verify.errors import ClaimFailed, ClaimUndecided
 from topo_verify.harness.mapper_names import is_found_again
 from topo_verify.harness.run import Exploration, explore
+from topo_verify.player import cards, walk
+from topo_verify.player.scenes import Playback
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import PREFIX
 from topo_verify.robot.events import Event, Move, Policies
 from topo_verify.robot.limits import Limits
-from topo_verify.text import LINE, shown
+from topo_verify.text import LINE, plural, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 
-class Report(msgspec.Struct, frozen=True):
-    """The judgement of every claim on one run.
+class JudgedRun(NamedTuple):
+    """What a report judges: a world, a trace, and why it ended without a map, if it did."""
+
+    world: World
+    trace: Sequence[Event]
+    stopped: str | None
+
+
+_RUN = "_run"
+"""The attribute of a report that holds its `JudgedRun`."""
+
+
+class Report(msgspec.Struct, frozen=True, dict=True):
+    """The judgement of every claim on one run; its text shows the walk to the first finding.
 
     Attributes:
         world, target: the world and the mapper, as the command line names them.
@@ -50,6 +67,24 @@ class Report(msgspec.Struct, frozen=True):
         """Whether a claim was neither proved nor refuted."""
         return "undecided" in self.claims.values()
 
+    @property
+    def run(self) -> JudgedRun | None:
+        """The run that is judged; None for a report that was read from a file."""
+        return self.__dict__.get(_RUN)
+
+    @cached_property
+    def playback(self) -> Playback | None:
+        """The run, event by event, with what is wrong; None where `run` is."""
+        if self.run is None:
+            return None
+        return Playback(self.run.world, self.run.trace, self.judgements, self.run.stopped)
+
+    def of(self, run: JudgedRun | None) -> Report:
+        """This report, with the run that it judges."""
+        # No field: JSON and equality leave it out, and the trace may be long.
+        vars(self)[_RUN] = run
+        return self
+
     def with_findings(self, findings: Sequence[Finding]) -> Report:
         """The report with other findings for those that it has."""
         judgements = tuple(
@@ -58,19 +93,32 @@ class Report(msgspec.Struct, frozen=True):
             )
             for one in self.judgements
         )
-        return msgspec.structs.replace(self, findings=tuple(findings), judgements=judgements)
+        changed = msgspec.structs.replace(self, findings=tuple(findings), judgements=judgements)
+        return changed.of(self.run)
 
     def to_json(self) -> str:
         """The report as one JSON object."""
         return msgspec.json.encode(self).decode()
 
+    @property
+    def head(self) -> str:
+        """What ran where, at what cost, and how many claims hold."""
+        ran = f"{self.target} in {self.world}, {plural(self.cost, 'edge traversal')}"
+        return f"{ran}: {in_words(self.claims, 'claims hold')}"
+
+    def _repr_html_(self) -> str:
+        again = self.findings[0].replay if self.findings else ""
+        playback = self.playback if self.findings else None
+        return cards.report_card(self.head, self.judgements, playback, again)
+
     def __str__(self) -> str:
-        head = f"{self.target} in {self.world}, {self.cost} edge traversals: "
-        lines = [head + in_words(self.claims, "claims hold")]
+        lines = [self.head]
         lines += [f"  {line}" for line in shortfalls(self.judgements)]
         for finding in self.findings:
             place = "" if finding.event is None else f" (event {finding.event})"
             lines.append(f"  {finding.claim}{place}: {finding.message}")
+        if self.findings and self.playback is not None:
+            lines += ["", *walk.lines(self.playback), ""]
         if self.findings and self.findings[0].replay:
             lines.append(f"  again: {self.findings[0].replay}")
         return "\n".join(shown(line, limit=LINE) for line in lines)
@@ -141,12 +189,18 @@ def assert_maps(
     Raises:
         ClaimFailed: a claim fails. It is an AssertionError whose text is the report; its cause is
             the exception that the mapper raised, if it did.
+        ClaimUndecided: no claim fails, but one is undecided. It is an AssertionError, too.
         InputError: there is no such mapper or policy.
     """
     run = explore(world, mapper, pick=pick, order=order, limits=limits)
     report = judge(run, options=limits.options if limits else (), strict=strict)
     if not report.ok:
-        raise ClaimFailed(str(report)) from run.error
+        # The report and not its text, which is made when somebody reads it: Hypothesis has an
+        # example fail many times, and counts the seconds.
+        raise ClaimFailed(report) from run.error
+    if report.undecided:
+        names = ", ".join(name for name, status in report.claims.items() if status == "undecided")
+        raise ClaimUndecided(f"nothing is refuted, and {names} is not decided: {report}")
 
 
 def judge(
@@ -216,7 +270,7 @@ def judge_trace(
     cost = sum(isinstance(event, Move) for event in trace)
     statuses: dict[str, Status] = {judgement.claim: judgement.status for judgement in judgements}
     report = Report(where, target, not findings, cost, statuses, (), tuple(judgements))
-    return report.with_findings(findings)
+    return report.of(JudgedRun(world, trace, stopped)).with_findings(findings)
 
 
 def _with_count(report: Report, made: int, replay_command: str) -> Report:
@@ -239,7 +293,7 @@ def _with_count(report: Report, made: int, replay_command: str) -> Report:
     changed = msgspec.structs.replace(
         report, ok=False, cost=made, claims=claims, judgements=judgements
     )
-    return changed.with_findings([wrong, *report.findings])
+    return changed.of(report.run).with_findings([wrong, *report.findings])
 
 
 def undecided(run: Exploration, report: Report) -> bool:

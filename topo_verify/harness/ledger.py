@@ -223,6 +223,9 @@ class Ledger:
         else:
             self._require_ours()
             known: dict[str, str] = dict(self._base.execute("SELECT key, value FROM meta"))
+            # SQLite gives what it finds: the type of a value stands beside it in the file.
+            if not all(type(word) is str for pair in known.items() for word in pair):
+                raise changed(self.path, "its table meta")
             self._require_version(known)
             self._require_sums(known)
             self._require_same(known, meta)

@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from topo_verify.checkers.certificate import judge_log, showing
+from topo_verify.checkers.entailment import Concluded
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
 from topo_verify.robot.events import Event
@@ -89,8 +90,8 @@ def certify(trace: Sequence[Event]) -> Certificate:
         open_darts=left,
         vertices=len(fold.roots()) + left if shown else 0,
         edges=(fold.darts() + left) // 2 if shown else 0,
-        entailed=judged.entailed,
-        decisions=judged.decisions,
+        entailed=sum(not conclusion.why for conclusion in judged.conclusions),
+        decisions=sum(isinstance(event, Concluded) for event in trace),
         findings=judged.findings,
         log=trace,
         fold=fold if shown else None,

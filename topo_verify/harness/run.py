@@ -18,7 +18,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from itertools import pairwise
 
+import msgspec
+
 from topo_verify.algorithms import Algorithm
+from topo_verify.checkers import check
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.delivery import Undelivered, deliver
 from topo_verify.programs.loader import Mapper, Target
@@ -73,6 +76,14 @@ class Exploration:
     misbehaved: Misbehaved | None = field(default=None, repr=False)
 
     @property
+    def kept_trace(self) -> Trace:
+        """The trace for a file: its `start` says why the run ended without a map, if it did."""
+        start, *rest = self.trace
+        if self.stopped is None or not isinstance(start, Start):
+            return self.trace
+        return (msgspec.structs.replace(start, stopped=self.stopped), *rest)
+
+    @property
     def declined(self) -> bool:
         """Whether a program skipped the world or gave it up, as the protocol lets it."""
         return self.misbehaved is not None and self.misbehaved.kind in ("skip", "error")
@@ -97,6 +108,14 @@ class Exploration:
     def confirmed(self) -> int:
         """How many hypotheses were confirmed."""
         return sum(isinstance(e, Confirm) for e in self.trace)
+
+    def _repr_html_(self) -> str:
+        """The run as a page in a frame, for notebooks: the player."""
+        from topo_verify.player.page import framed
+        from topo_verify.player.recording import PlayedRun
+
+        judgements = check(self.world, self.trace, self.stopped)
+        return framed(self.world, PlayedRun(self.algorithm, self.trace, judgements, self.stopped))
 
 
 def explore(

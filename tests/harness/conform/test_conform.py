@@ -12,6 +12,7 @@ from topo_verify.errors import InputError
 from topo_verify.harness.conform.conform import MAX_TIMEOUTS, ConformTally, LevelResult, conform
 from topo_verify.harness.conform.outcome import ConformJob
 from topo_verify.harness.corpus import corpus_from
+from topo_verify.robot.events import Start, read_trace
 from topo_verify.robot.limits import Limits
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -234,6 +235,13 @@ def test_of_a_python_mapper_the_trace_is_kept(tmp_path: Path) -> None:
     assert names[0] == "family-path(4)-" + names[0].split("-")[-1]
     assert names[1] == "m2-0.jsonl"
     assert '"type":"start"' in (tmp_path / names[1]).read_text()
+
+
+def test_a_trace_that_is_kept_says_why_the_run_ended(tmp_path: Path) -> None:
+    standings(ConformJob(target=f"{MAPPERS}:walks", transcript=str(tmp_path)), "m2/0")
+    start = read_trace((tmp_path / "m2-0.jsonl").read_bytes())[0]
+    assert isinstance(start, Start)
+    assert start.stopped == "the mapper asked for more than 30 moves"
 
 
 # ---------------------------------------------------------------- the examples

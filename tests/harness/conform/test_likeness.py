@@ -51,6 +51,7 @@ def test_the_smallest_world_in_which_two_algorithms_part() -> None:
             left=(4, 5),
             doors=(1, 3),
         ),
+        at=11,
     )
 
 

@@ -5,18 +5,22 @@ from __future__ import annotations
 import shlex
 from pathlib import Path
 
+import msgspec
 import pytest
 
+from tests.helpers import worlds
 from tests.programs.programs import served
 from topo_verify.cli import main
 from topo_verify.harness.search import again
 from topo_verify.harness.search.exhaustive import SearchResult, search
+from topo_verify.harness.search.plan import Plan
 from topo_verify.programs.foreign import Foreign
 
 
 @pytest.fixture(autouse=True)
 def as_many_as_usual(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(again, "MOST", 50)
+    monkeypatch.setattr(again, "ROW", 1000)
 
 
 def searched(name: str, edges: int = 3, *, keep_going: bool = False) -> SearchResult:
@@ -56,7 +60,41 @@ def test_a_world_that_passes_after_others_only_is_a_finding() -> None:
 
 
 @pytest.mark.usefixtures("folder")
-def test_a_mapper_that_draws_lots_leaves_the_verdict_open() -> None:
+def test_a_mapper_that_is_right_alone_and_in_the_order_of_the_search_is_tried_in_another() -> None:
+    found = searched("shrinks")
+    first = found.counterexample
+    assert first is not None
+    assert (found.verdict, found.checked, first.claim) == ("REFUTED", 86, "not-deterministic")
+    assert first.message.startswith("it passed in the search, and fails as number ")
+    words = shlex.split(first.replay)
+    assert words[:2] == ["topo-verify", "explore"]
+    assert len(words) == 2 + 2 + 2  # one world before it is enough
+    assert exit_code(first.replay) == 1
+    assert found.again is not None
+    assert found.again.row < 86
+
+
+@pytest.mark.usefixtures("folder")
+def test_the_row_has_every_world_once_and_an_order_drawn_by_the_seed() -> None:
+    plan = Plan(targets=("mappers.py:right",), edges=3)
+    rows = [
+        [one.world for one in again.row_of(msgspec.structs.replace(plan, seed=seed))]
+        for seed in (0, 0, 1)
+    ]
+    assert rows[0] == rows[1] != rows[2]
+    every = [world.id for world in worlds([1, 2, 3])]
+    assert sorted(rows[0]) == sorted(rows[2]) == sorted(every)
+    of_three = [[name for name in row if name.startswith("m3/")] for row in (rows[0], every)]
+    assert of_three[0] != of_three[1]
+
+
+@pytest.mark.usefixtures("folder")
+@pytest.mark.parametrize(("alone", "row"), [(9, 0), (0, 30)])
+def test_a_mapper_that_draws_lots_leaves_the_verdict_open(
+    monkeypatch: pytest.MonkeyPatch, alone: int, row: int
+) -> None:
+    monkeypatch.setattr(again, "MOST", alone)
+    monkeypatch.setattr(again, "ROW", row)
     found = searched("draws")
     assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 86, None)
     assert found.again is not None
@@ -69,7 +107,8 @@ def test_a_mapper_that_does_the_same_each_time_is_judged_as_before(name: str, ve
     found = searched(name, keep_going=True)
     assert found.verdict == verdict
     failing = sum(size.failing for size in found.by_edges)
-    assert found.again == again.RunAgain(min(50, failing) + min(50, 86 - failing))
+    row = 0 if failing else 86
+    assert found.again == again.RunAgain(min(50, failing) + min(50, 86 - failing), row)
     assert "not-deterministic" not in found.claims
 
 

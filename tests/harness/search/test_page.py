@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import re
 import shlex
-from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
+from tests.pages import ROOT, commands_on
 from topo_verify.cli import main
 from topo_verify.harness.search.exhaustive import search
 from topo_verify.world.enumeration.classes import WorldClass
 
-ROOT = Path(__file__).resolve().parents[3]
-PAGE = (ROOT / "docs" / "search.md").read_text()
-COMMAND = r"^    \.venv/bin/topo-verify ([^\n]*)\n\n```\n(.*?)```$"
-SHOWN: list[tuple[str, str]] = re.findall(COMMAND, PAGE, re.MULTILINE | re.DOTALL)
+SHOWN = commands_on("search.md")
 
 
 @pytest.mark.parametrize(("line", "text"), SHOWN, ids=[line for line, _ in SHOWN])

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
+import msgspec
 import pytest
 
-from topo_verify import CATALOGUE, Robot
-from topo_verify.checkers import CLAIMS
+from topo_verify import CATALOGUE, Robot, World
+from topo_verify.checkers import CLAIMS, Judgement, Status, check
 from topo_verify.errors import InputError
 from topo_verify.harness.targets import one_target, targets
 from topo_verify.harness.verify.by_claim import ClaimResults, by_claim
@@ -42,6 +44,7 @@ def test_each_claim_that_fails_has_its_own_first_world() -> None:
     assert outcome.first["map-isomorphic"].world == "m1/1"
     assert outcome.first["cost-within-bound"].world == "m2/0"
     told = outcome.text("cost-within-bound")
+    assert "!! cost-within-bound: a cost of 1 is outside 2 … 30" in told  # the walk in m2/0
     assert told.startswith("cost-within-bound fails in 84 of 86 worlds of 1 to 3 edges, first in ")
     assert told.endswith(f"again: topo-verify replay m2/0 --target {MAPPERS}:guesses")
 
@@ -94,6 +97,21 @@ def test_a_mapper_out_of_time_is_undecided() -> None:
     assert statuses(outcome) == {"undecided": set(CLAIMS)}
     assert "3 runs out of time" in outcome.text("map-isomorphic")
     assert not outcome.first
+
+
+def test_what_a_checker_leaves_undecided_in_one_world_does_not_hold(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def once_undecided(world: World, *args: Any, **options: Any) -> list[Judgement]:
+        *others, last = check(world, *args, **options)
+        status: Status = "undecided" if world.id == "m2/3" else last.status
+        return [*others, msgspec.structs.replace(last, status=status)]
+
+    monkeypatch.setattr("topo_verify.harness.judge.check", once_undecided)
+    outcome = of("right")
+    assert statuses(outcome)["undecided"] == {"decisions-entailed"}
+    assert "decisions-entailed is undecided: 12 of 12 worlds" in outcome.text("decisions-entailed")
+    assert outcome.part.verdict == "UNKNOWN"
 
 
 def test_a_mapper_that_hangs_fails_where_it_did_and_is_undecided_elsewhere() -> None:

@@ -109,7 +109,7 @@ def keep(
     """Write a transcript of one world: the messages of a program, or the trace of a mapper."""
     path = Path(folder) / f"{file_name(at.name)}.jsonl"
     if lines is None:
-        text = write_trace(run.trace)
+        text = write_trace(run.kept_trace)
     else:
         head = {**TRANSCRIPT, "world": at.name, "target": run.algorithm, "stopped": run.stopped}
         rows: list[object] = [head]

@@ -57,6 +57,7 @@ class Difference(msgspec.Struct, frozen=True):
 
     Attributes:
         event: its index in the mapper's trace.
+        at: the index of the reference's event.
         expected, seen: the reference's event and the mapper's, in words; None: no more events.
         before: the last events in which they agree.
         state: the knowledge at this point.
@@ -67,6 +68,7 @@ class Difference(msgspec.Struct, frozen=True):
     seen: str | None
     before: tuple[str, ...]
     state: KnownState
+    at: int
 
 
 def declares(trace: Iterable[Event]) -> bool:
@@ -95,6 +97,7 @@ def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
                 seen=None if seen is None else event_text(seen),
                 before=tuple(event_text(event) for _, event in ours[max(0, place - SHOWN) : place]),
                 state=_state(reference[:upto]),
+                at=upto,
             )
     return None
 

@@ -209,13 +209,12 @@ def examples_to_detection(
     """After how many examples a property test with this seed fails, and how many were undecided.
 
     None: after `most` it has not failed. Hypothesis's default settings, but for the seed, no
-    example database and no shrinking. Now and then Hypothesis draws a literal of the project's
-    modules that are loaded: in a source tree one seed in twenty depends on which these are.
+    example database, no shrinking, and no literals of the modules that are loaded.
     """
     import hypothesis
 
     from topo_verify.strategies.resolve import resolve_strategy
-    from topo_verify.strategies.sample import leaving_no_folder
+    from topo_verify.strategies.sample import drawing_no_literals
 
     tried = undecided = 0
     found: int | None = None
@@ -246,7 +245,7 @@ def examples_to_detection(
             found, failing = found or tried, world
             raise _Failed
 
-    with leaving_no_folder(), suppress(_Failed):
+    with drawing_no_literals(), suppress(_Failed):
         every_claim_holds()
     return found, undecided
 

@@ -1,16 +1,19 @@
-"""Worlds run again, each in a fresh process: does the mapper remember the worlds before?
+"""Worlds run again, alone and in another order: does the mapper remember the worlds before?
 
 A mapper that keeps something from world to world (a default that it changes, a cache, a drawn
 number) may be right or wrong for reasons that no one world shows. So the counterexample, up to
-`MOST` more failing worlds and `MOST` others, drawn by a seed, are run again.
+`MOST` more failing worlds and `MOST` others, drawn by a seed, are run again, each in a fresh
+process. If none fails, `ROW` worlds, or all, are run in a row by one process, in an order
+drawn by the seed: for workers share the worlds of a search, and none of them meets as many.
 
     a failing world passes alone    `not-deterministic`: only after other worlds
-    another world fails alone       `not-deterministic`, too
+    another world fails alone       `not-deterministic`, too; and so in the row
     other doors, another cost       no finding, for a mapper may draw lots; but the verdict is open
 
 What this does not show: a memory that none of the drawn worlds tells of. If a share p of the worlds
 would come out otherwise alone, it is noticed with a probability of 1 - (1 - p)^MOST: of a tenth in
-99.5 of 100 searches, of a hundredth in 39.
+99.5 of 100 searches, of a hundredth in 39. A mapper that fails in its k-th world is noticed for
+sure if k is at most the length of the row.
 """
 
 from __future__ import annotations
@@ -19,6 +22,7 @@ import shlex
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from itertools import islice
+from random import Random
 
 import msgspec
 
@@ -40,6 +44,9 @@ from topo_verify.world.rooted_map import World
 MOST = 50
 """How many failing worlds, and how many others, are run again."""
 
+ROW = 1000
+"""So many worlds stand in the row; where there are fewer, all of them."""
+
 LONGEST = 64
 """So many worlds before a failing one are tried to make it fail again."""
 
@@ -53,12 +60,14 @@ class RunAgain(msgspec.Struct, frozen=True):
     """What came of the worlds that were run again.
 
     Attributes:
-        worlds: how many they were.
+        worlds: how many were run alone, each in a fresh process.
+        row: how many were run one after the other, in one process.
         failures: those with another verdict, in their order.
         others: those in which only doors or costs were other ones.
     """
 
     worlds: int = 0
+    row: int = 0
     failures: tuple[Failure, ...] = ()
     others: tuple[str, ...] = ()
 
@@ -69,7 +78,7 @@ def can_run_again(mappers: Sequence[Target]) -> bool:
 
 
 def run_again(plan: Plan, tally: Tally, beat: Callable[[int], None] | None = None) -> RunAgain:
-    """Run some of the worlds of a search again, each in a fresh process.
+    """Run some of the worlds of a search again, each in a fresh process, and then in a row.
 
     Args:
         tally: of the whole search.
@@ -91,7 +100,46 @@ def run_again(plan: Plan, tally: Tally, beat: Callable[[int], None] | None = Non
                 failures.append(_failure(plan, seen, report, tally, look=not failures))
             elif seen.runs and made != seen.runs:
                 others.append(seen.world)
-    return RunAgain(worlds, tuple(failures), tuple(others))
+    if tally.failures or failures:  # refuted already
+        return RunAgain(worlds, 0, tuple(failures), tuple(others))
+    return _in_a_row(plan, tally, RunAgain(worlds, others=tuple(others)), beat)
+
+
+def _in_a_row(
+    plan: Plan, tally: Tally, alone: RunAgain, beat: Callable[[int], None] | None
+) -> RunAgain:
+    """What came of the worlds alone, and of others in a row, which ends where a claim fails."""
+    known = {one.world: one for one in tally.sample}
+    row = row_of(plan)
+    others = list(alone.others)
+    failures: tuple[Failure, ...] = ()
+    place = 0
+    with _program(plan.targets[0]) as program:
+        program.start()
+        for place, seen in enumerate(row, 1):
+            if beat is not None:
+                beat(alone.worlds + place - 1)
+            report, made = _run(plan, program.target, seen)
+            if report is not None and not report.ok:
+                failures = (_failure_in_row(plan, row[:place], report),)
+                break
+            if report is not None and seen.world in known and made != known[seen.world].runs:
+                others += [seen.world] if seen.world not in others else []
+    return RunAgain(alone.worlds, place, failures, tuple(others))
+
+
+def row_of(plan: Plan) -> list[Observation]:
+    """Worlds of the class, in an order of their own."""
+    lots = Random(f"{plan.seed} row")
+    shards = list(plan.shards())
+    row: list[Observation] = []
+    for shard in lots.sample(shards, len(shards)):
+        if len(row) >= ROW:
+            break
+        listed = ranked_tables(shard.edges, plan.world_class, shard.start, shard.stop)
+        row += [Observation("", shard.edges, rank, fails=False, runs="") for rank, _ in listed]
+    lots.shuffle(row)
+    return row[:ROW]
 
 
 def with_run_again(tally: Tally, again: RunAgain) -> Tally:
@@ -164,7 +212,7 @@ def _failure(plan: Plan, seen: Observation, report: Report, tally: Tally, *, loo
         known = (one for one in tally.failures if (one.edges, one.rank) == (seen.edges, seen.rank))
         was = next((f": {one.claim}, {one.message}" for one in known), "")
         message = f"a claim fails here only after other worlds, and alone none does{was}"
-        replay = _reproduced(plan, seen) if look else None
+        replay = _reproduced(plan, seen.world, _before(plan, seen)) if look else None
         if look and replay is None:
             message += f". No row of up to {LONGEST} worlds before it made it fail again"
         replay = replay or _searching(plan)
@@ -174,16 +222,32 @@ def _failure(plan: Plan, seen: Observation, report: Report, tally: Tally, *, loo
             f"it passed after other worlds, and alone it fails: {finding.claim}, {finding.message}"
         )
         replay = finding.replay
+    return _unlike(plan, seen, message, replay)
+
+
+def _failure_in_row(plan: Plan, row: Sequence[Observation], report: Report) -> Failure:
+    """The finding in the last world of a row."""
+    seen, finding = row[-1], report.findings[0]
+    message = (
+        f"it passed in the search, and fails as number {len(row)} of a row of worlds that one"
+        f" process played: {finding.claim}, {finding.message}"
+    )
+    replay = _reproduced(plan, seen.world, [one.world for one in row[:-1]])
+    if replay is None:
+        message += f". The last {LONGEST} worlds before it did not make it fail again"
+    return _unlike(plan, seen, message, replay or _searching(plan))
+
+
+def _unlike(plan: Plan, seen: Observation, message: str, replay: str) -> Failure:
     found = Finding(CLAIM, None, "the same each time", None, message, None, seen.world, replay)
     return Failure(seen.edges, seen.rank, plan.targets[0], (found,))
 
 
-def _reproduced(plan: Plan, seen: Observation) -> str | None:
+def _reproduced(plan: Plan, world: str, before: Sequence[str]) -> str | None:
     """A command that makes a world fail behind others in one process; None if none was found."""
-    before = _before(plan, seen)
     number = 1
     while before and number <= LONGEST:
-        row = [*before[-number:], seen.world]
+        row = [*before[-number:], world]
         if _fails_last(plan, row):
             words = ["topo-verify", "explore", *row]
             target = target_arguments(plan.targets[0])
@@ -209,14 +273,15 @@ def _before(plan: Plan, seen: Observation) -> list[str]:
 
 def _fails_last(plan: Plan, row: Sequence[str]) -> bool:
     """Whether a claim fails in the last of some worlds, played one after the other."""
-    text = plan.targets[0]
-    program = (
-        Program(split(text.removeprefix(PREFIX))) if text.startswith(PREFIX) else Foreign(text)
-    )
-    with program:
+    with _program(plan.targets[0]) as program:
         program.start()
         runs = [explore(World.from_id(w), program.target, limits=plan.limits) for w in row]
         return not judge(runs[-1]).ok
+
+
+def _program(text: str) -> Program:
+    """The mapper in one process for all worlds."""
+    return Program(split(text.removeprefix(PREFIX))) if text.startswith(PREFIX) else Foreign(text)
 
 
 def _searching(plan: Plan) -> str:

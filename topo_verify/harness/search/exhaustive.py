@@ -25,6 +25,7 @@ from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress, ProgressRate
 from topo_verify.harness.search.again import (
     MOST,
+    ROW,
     RunAgain,
     can_run_again,
     run_again,
@@ -199,7 +200,7 @@ class Search:
     def run_again(self, tell: Progress | None = None) -> None:
         """Run some worlds again, each in a fresh process, if there is a TARGET to start it from."""
         if can_run_again(self.mappers):
-            rate = ProgressRate(f"{self.plan.targets[0]}, again", 2 * MOST + 1, tell)
+            rate = ProgressRate(f"{self.plan.targets[0]}, again", 2 * MOST + 1 + ROW, tell)
             self.again = run_again(self.plan, self._tally(), rate.in_flight)
 
     def _tally(self) -> Tally:

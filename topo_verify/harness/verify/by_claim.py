@@ -24,6 +24,7 @@ from topo_verify.harness.judge import Report, undecided
 from topo_verify.harness.run import Exploration
 from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import Trials
+from topo_verify.player import walk
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import LINE, shown
@@ -40,12 +41,14 @@ class ClaimResults:
         part: the results of all claims together.
         first: the first finding of each claim that fails.
         raised: by the world of such a finding: the line at which the mapper raised an exception.
+        reports: by the world of such a finding: the report, which has the walk.
     """
 
     edges: int
     part: Part
     first: dict[str, Finding]
     raised: dict[str, str]
+    reports: dict[str, Report]
 
     def verdict(self, claim: str) -> ClaimVerdict:
         """The verdict on one claim."""
@@ -100,6 +103,8 @@ class ClaimResults:
         if finding.world in self.raised:
             lines.append(f"  raised at: {self.raised[finding.world]}")
         lines.append(f"  world: {finding.world}")
+        playback = self.reports[finding.world].playback
+        lines += ["", *walk.lines(playback), ""] if playback is not None else []
         lines += [f"  again: {finding.replay}"] * bool(finding.replay)
         return "\n".join(shown(line, limit=LINE) for line in lines)
 
@@ -127,12 +132,15 @@ def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
     corpus = corpus_from([f"edges<={edges}"])
     first: dict[str, Finding] = {}
     raised: dict[str, str] = {}
+    reports: dict[str, Report] = {}
 
     def note(run: Exploration, report: Report) -> None:
         # Worlds come smallest first, so the first finding of a claim is in a smallest world.
         for finding in () if undecided(run, report) else report.findings:
-            if first.setdefault(finding.claim, finding) is finding and run.error is not None:
-                raised[finding.world] = _place(run.error)
+            if first.setdefault(finding.claim, finding) is finding:
+                reports.setdefault(finding.world, report)
+                if run.error is not None:
+                    raised[finding.world] = _place(run.error)
 
     trials = Trials(
         name=target.text,
@@ -145,7 +153,7 @@ def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
         note=note,
     )
     trials.work(lambda _name, _done, _total: None)
-    return ClaimResults(edges, trials.part(), first, raised)
+    return ClaimResults(edges, trials.part(), first, raised, reports)
 
 
 def _place(error: BaseException) -> str:

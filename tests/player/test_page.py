@@ -1,0 +1,107 @@
+"""The page as a file: self-contained, the same bytes each time, and what it is told stays text."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+
+from tests.player.played import page_of, played
+from topo_verify import families
+from topo_verify.checkers import Finding, Judgement
+from topo_verify.harness.run import explore
+from topo_verify.player.page import SCRIPTS, part, player_page
+
+HOSTILE = "</script><script>alert(1)</script>\"'\x1b[31m{script}&lt;\ud800"
+"""Text that would end a script, an attribute or a colour, or stand in for a part of the page."""
+
+
+class Parts(HTMLParser):
+    """The tags of a page with their attributes, and the text of each script and style."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.texts: dict[str, list[str]] = {"script": [], "style": [], "title": []}
+        self._within = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        self._within = tag
+
+    def handle_endtag(self, tag: str) -> None:  # noqa: ARG002  the name of the base class
+        self._within = ""
+
+    def handle_data(self, data: str) -> None:
+        if self._within in self.texts:
+            self.texts[self._within].append(data)
+
+
+def recorded(page: str) -> dict[str, object]:
+    """The data in a page."""
+    data: dict[str, object] = json.loads(Parts(page).texts["script"][0])
+    return data
+
+
+def test_the_policy_allows_nothing_but_its_own_script_and_style() -> None:
+    page = Parts(page_of(families.lattice(2, 2), "basic"))
+    policy = next(a["content"] for _, a in page.tags if a.get("http-equiv"))
+    assert policy is not None
+    rules = dict(rule.split(None, 1) for rule in policy.split("; "))
+    assert rules.keys() == {"default-src", "style-src", "script-src", "base-uri", "form-action"}
+    for name, text in (("style", page.texts["style"][0]), ("script", page.texts["script"][1])):
+        digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+        assert rules[f"{name}-src"] == f"'sha256-{digest}'"
+    assert {rules[name] for name in rules if not name.startswith(("style", "script"))} == {"'none'"}
+
+
+def test_the_page_names_no_address_and_has_no_inline_style_or_handler() -> None:
+    text = page_of(families.lattice(2, 2), "basic")
+    assert set(re.findall(r"\w+://[^'\"\s]+", text)) == {"http://www.w3.org/2000/svg"}
+    for _, attributes in Parts(text).tags:
+        assert not [name for name in attributes if name in ("src", "href", "style")]
+        assert not [name for name in attributes if name.startswith("on")]
+
+
+def test_two_pages_of_one_run_are_equal_byte_for_byte() -> None:
+    world = families.lattice(3, 3)
+    assert page_of(world, "folding") == page_of(world, "folding")
+
+
+def test_hostile_names_and_findings_stay_data() -> None:
+    world = families.lattice(2, 2)
+    world = replace(world, name=HOSTILE, vertex_names=(HOSTILE,) * len(world.vertices))
+    finding = Finding("map-isomorphic", 2, None, None, HOSTILE)
+    run = played(world, "basic", name=HOSTILE)
+    run = replace(run, judgements=[Judgement("map-isomorphic", "failed", 1, 1, (finding,))])
+    page = player_page(world, [run])
+    clean = page_of(families.lattice(2, 2), "basic")
+    assert [tag for tag, _ in Parts(page).tags] == [tag for tag, _ in Parts(clean).tags]
+    assert "\x1b" not in page
+    assert "</script><script>" in str(recorded(page)["name"])
+    assert Parts(page).texts["script"][1] == Parts(clean).texts["script"][1]
+
+
+def test_every_part_of_the_page_is_written_into_it() -> None:
+    page = page_of(families.lattice(2, 2), "basic")
+    for name in (*SCRIPTS, "page.css"):
+        assert part(name) in page
+
+
+def test_the_street_network_with_1468_moves_takes_less_than_150_kilobytes() -> None:
+    from topo_verify.world.resolve import resolve_world
+
+    page = page_of(resolve_world("nyc"), "basic")
+    assert len(page.encode()) < 150_000
+
+
+def test_a_notebook_shows_a_run_in_a_frame_that_may_run_scripts_and_nothing_else() -> None:
+    run = explore(families.lattice(2, 2), "basic")
+    ((tag, attributes),) = Parts(run._repr_html_()).tags  # pyright: ignore[reportPrivateUsage]
+    assert (tag, attributes["sandbox"]) == ("iframe", "allow-scripts")
+    page = attributes["srcdoc"]
+    assert page == page_of(run.world, "basic")

@@ -1,0 +1,34 @@
+"""docs/replay.md: each walk on the page is what the command prints, and shows the mistake."""
+
+from __future__ import annotations
+
+import shlex
+
+import pytest
+from click.testing import CliRunner
+
+from tests.pages import ROOT, commands_on
+from topo_verify.cli import main
+
+SHOWN = dict(commands_on("replay.md"))
+
+
+@pytest.mark.parametrize("line", SHOWN)
+def test_a_command_prints_what_the_page_shows(line: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    assert CliRunner().invoke(main, shlex.split(line)).stdout == SHOWN[line]
+
+
+@pytest.mark.parametrize(
+    ("mapper", "mistake"),
+    [
+        ("a", "it came here by v1:4 and back by v1:2, so door 1 is door 3"),
+        ("b", "the way home from v1:3 is by door 1; the robot took no door"),
+        ("c", "who comes in by v0:1 sees (3, marker 2); the robot saw (3, marker 1)"),
+        ("d", "it leaves out 6, unexplored too, at the vertex that edge 5 leaves"),
+        ("astray", "asked for door 4 at a vertex with 4 doors"),
+    ],
+)
+def test_the_walk_says_the_mistake(mapper: str, mistake: str) -> None:
+    (text,) = [text for line, text in SHOWN.items() if line.endswith(f":{mapper}")]
+    assert mistake in " ".join(text.split())

@@ -1,0 +1,149 @@
+"""`topo-verify play`: runs to look at in the browser; and `--player`, `--svg` of others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import click
+import msgspec
+
+from topo_verify.cli import options
+from topo_verify.cli.layout import Block, Text
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.runs import judged, named_world
+from topo_verify.errors import InputError
+from topo_verify.harness.run import explore as run_mapper
+from topo_verify.harness.targets import target_text, targets
+from topo_verify.player.recording import PlayedRun
+from topo_verify.robot.limits import Limits
+from topo_verify.text import plural
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import World
+
+
+class PlayEntry(msgspec.Struct, frozen=True):
+    """A page that was written: the one entry of `results`; docs/commands.md.
+
+    Attributes:
+        algorithms: whose runs it shows, in this order.
+        findings: how many findings are marked in it, of all runs.
+    """
+
+    world: str
+    file: str
+    algorithms: tuple[str, ...]
+    findings: int
+
+
+player_option = click.option(
+    "--player", metavar="FILE", help="Write a page that shows the run in a browser, step by step."
+)
+
+
+svg_option = click.option(
+    "--svg", metavar="FILE", help="Write an animated SVG of the run (one short run only)."
+)
+
+
+def require_one_world(file: str | None, number: int) -> None:
+    """Raise InputError unless a page of so many worlds can be written to this file, if any."""
+    if file is None:
+        return
+    if file == "-":
+        raise InputError("--player -: standard output is for the results; name a file")
+    if number != 1:
+        raise InputError(f"--player {file}: expected one WORLD, got {number}; name one")
+
+
+def write_page(file: str, world: World, name: str, runs: Sequence[PlayedRun]) -> None:
+    """Write the page that shows these runs in a world of this name.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
+    from topo_verify.player.page import player_page
+
+    files.write(file, player_page(world, runs, name=name))
+
+
+def write_animation(file: str, world: World, run: PlayedRun) -> None:
+    """Write the run as an animated SVG.
+
+    Raises:
+        InputError: the run is too long, or the file cannot be written.
+    """
+    from topo_verify.player.animation import animated_svg
+    from topo_verify.player.scenes import Playback
+
+    playback = Playback(world, run.trace, run.judgements, run.stopped)
+    files.write(file, animated_svg(playback, name=run.name))
+
+
+@click.command(
+    short_help="Show runs in a browser, step by step, two side by side.",
+    epilog=options.epilog(
+        "play nyc -o nyc.html",
+        "play 'family:lattice(6,6)' --algorithm basic,enhancement-ii -o two.html",
+        "play m5/17 --algorithm my_mapper.py:explore",
+    ),
+)
+@click.argument("world", metavar="WORLD")
+@click.option(
+    "--algorithm",
+    metavar="TARGET",
+    help="Whose runs to show; of several, two stand side by side.  [default: enhancement-ii]",
+)
+@click.option("--target", metavar="TARGET", help="The same as --algorithm.")
+@options.program
+@options.in_process
+@options.policies
+@options.marker
+@click.option("-o", "file", metavar="FILE", default="player.html", show_default=True)
+@options.strict
+@options.limits
+@output_options
+def play(  # noqa: PLR0913  an argument an option
+    output: Output,
+    *,
+    world: str,
+    algorithm: str | None,
+    target: str | None,
+    command: str | None,
+    in_process: bool,
+    pick: str | None,
+    order: str | None,
+    marker: int | None,
+    file: str,
+    strict: bool,
+    limits: Limits,
+) -> int:
+    """Write one page that shows runs in a browser: the world, the robot, its map, each decision.
+
+    The page needs no network and no other file. It opens at the first finding, if there is one;
+    what is wrong in a run is shown and does not change the exit code (explore and replay do that).
+    """
+
+    def played() -> Iterator[Result[PlayEntry]]:
+        text = target_text(options.one_of(algorithm, target), command, "enhancement-ii")
+        found = targets(text, pick=pick, order=order, in_process=in_process)
+        at = named_world(world, marker)
+        require_one_world(file, 1)
+        runs: list[PlayedRun] = []
+        for number, mapper in enumerate(found):
+            output.progress(f"{mapper.text} in {at.name}", number, len(found))
+            run = run_mapper(at.world, mapper, limits=limits)
+            report, _ = judged(run, at, limits, strict=strict)
+            runs.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
+        write_page(file, at.world, at.name, runs)
+        findings = sum(len(one.findings) for run in runs for one in run.judgements)
+        yield Result(PlayEntry(at.name, file, tuple(run.name for run in runs), findings))
+
+    return output.run("play", played, _show, in_process=in_process)
+
+
+def _show(entries: Sequence[PlayEntry]) -> Iterator[Block]:
+    for entry in entries:
+        runs = ", ".join(entry.algorithms)
+        found = f"; {plural(entry.findings, 'finding')}" if entry.findings else ""
+        yield Text(f"{entry.file}: {runs} in {entry.world}{found}. Open it in a browser.")

@@ -1,0 +1,322 @@
+"""A short run as one animated SVG: CSS alone, so that it plays inside an `<img>`.
+
+    animated_svg(Playback(world, trace, judgements), name="basic")
+
+The world is dotted, and becomes solid where S has it. The robot is a blue disc with a notch towards
+its reference dart; e is blue; hypotheses are numbered badges. While the robot validates one, a ring
+goes the same doors on S from there on: that is where the robot would be if it were right. At a
+rejection both turn red, and two glyphs of spokes say what is seen, and what would be.
+
+Without animation (reduced motion, a still picture by librsvg) the last moment is shown: each
+element's own attributes are those of the end, and only keyframes say otherwise. Colours are
+literal, since librsvg ignores CSS variables; a media query has those for dark.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import accumulate
+from textwrap import wrap
+from typing import TypeVar
+
+from topo_verify.errors import InputError
+from topo_verify.player.animation.captions import Caption, captions, glyph
+from topo_verify.player.animation.tracks import Leg, Tracks, timed
+from topo_verify.player.scenes import Moment, Playback
+from topo_verify.robot import events as ev
+from topo_verify.text import plural, shown
+from topo_verify.world.drawing import lay_out
+from topo_verify.world.drawing.curves import number
+from topo_verify.world.drawing.svg import FONT, arrow, text
+
+T = TypeVar("T")
+
+MOST_EVENTS = 500
+"""A longer run is for the player: nobody watches ten minutes of an animation."""
+
+WIDTH, MARGIN, FOOT = 560, 14, 84
+"""Of the picture; the words stand below the world."""
+
+SECONDS = {
+    ev.Start: 2.0,
+    ev.Move: 0.75,
+    ev.Pose: 1.7,
+    ev.Reject: 2.6,
+    ev.Confirm: 2.0,
+    ev.Augment: 0.9,
+    ev.Finish: 5.0,
+}
+
+STYLE = (
+    ".card,.place,.far-place{fill:#fdfcf9}text{fill:#22282e}.soft{fill:#626b74}"
+    ".far,.far-place{stroke:#aab2b9}.road{stroke:#79828b}.place{stroke:#22282e}"
+    ".halo{stroke:#fdfcf9}.e{stroke:#1f6feb}.tv-mark{stroke:#b3261e}.tv-tip,.bad{fill:#b3261e}"
+    ".robot{fill:#1f6feb;stroke:#fdfcf9}.notch{fill:#fdfcf9}.guess{fill:#c2510c}"
+    ".ghost{stroke:#c2510c}.ring{stroke:#b3261e}.ok{fill:#1a7f4b}.on{fill:#fdfcf9}.ask{fill:#1f6feb}"
+    "@media(prefers-color-scheme:dark){.card,.place,.far-place{fill:#14181c}text{fill:#e8eaec}"
+    ".soft{fill:#9aa4ae}.far,.far-place{stroke:#56606a}.road{stroke:#8a949e}.place{stroke:#e8eaec}"
+    ".halo{stroke:#14181c}.e{stroke:#6cb0ff}.tv-mark{stroke:#ff8078}.tv-tip,.bad{fill:#ff8078}"
+    ".robot{fill:#6cb0ff;stroke:#14181c}.notch{fill:#14181c}.guess{fill:#ff9d5c}"
+    ".ghost{stroke:#ff9d5c}.ring{stroke:#ff8078}.ok{fill:#56d090}.on{fill:#14181c}.ask{fill:#6cb0ff}}"
+)
+
+STILL = "@media(prefers-reduced-motion:reduce){*{animation:none!important}}"
+
+
+Keyframe = tuple[float, float, float, float | None]
+"""A time, a place, and the degrees by which something is turned, clockwise."""
+
+
+@dataclass
+class Stage:
+    """The time line, and the keyframes that were asked for so far.
+
+    Attributes:
+        begins: when each moment begins, in seconds, and when the last one ends.
+    """
+
+    begins: Sequence[float]
+    rules: list[str] = field(default_factory=list[str])
+    _names: dict[str, str] = field(default_factory=dict[str, str])
+
+    def percent(self, seconds: float) -> str:
+        """The moment as a share of the whole, as keyframes name it."""
+        return f"{number(100 * seconds / self.begins[-1])}%"
+
+    def during(self, *spans: tuple[int, int]) -> str:
+        """Attributes that show an element from one moment to before another, and else hide it."""
+        end = len(self.begins) - 1
+        spans = tuple(span for span in spans if span[0] < span[1])
+        if spans == ((0, end),):
+            return ""
+        keys = ["" if any(first == 0 for first, _ in spans) else "0%{opacity:0}"]
+        for first, last in spans:
+            keys += [f"{self.percent(self.begins[first])}{{opacity:1}}"]
+            keys += [f"{self.percent(self.begins[last])}{{opacity:0}}"] if last < end else []
+        at_end = "" if spans and spans[-1][1] == end else ' opacity="0"'
+        return f' class="t {self._animation("".join(keys))}"{at_end}'
+
+    def moving(self, way: Sequence[Keyframe]) -> str:
+        """Attributes that let an element be at these places at these times; between, it goes."""
+        # The place is said again before it changes: without that, the way there would begin early.
+        keys = "".join(
+            f"{self.percent(pose[0])}{{transform:{_at(pose, 'px', 'deg')}}}" for pose in way
+        )
+        return f' class="t m {self._animation(keys)}" transform="{_at(way[-1])}"'
+
+    def _animation(self, keys: str) -> str:
+        if keys not in self._names:
+            name = self._names[keys] = f"k{len(self._names)}"
+            self.rules.append(f"@keyframes {name}{{{keys}}}.{name}{{animation-name:{name}}}")
+        return self._names[keys]
+
+
+def _at(pose: Keyframe, length: str = "", angle: str = "") -> str:
+    _, x, y, turn = pose
+    moved = f"translate({number(x)}{length},{number(y)}{length})"
+    return moved if turn is None else f"{moved} rotate({number(turn)}{angle})"
+
+
+def animated_svg(playback: Playback, *, name: str = "") -> str:
+    """The run as an animated SVG, the same bytes for the same run.
+
+    Args:
+        name: what the mapper is called.
+    Raises:
+        InputError: the run is too long to be watched.
+    """
+    if len(playback.moments) > MOST_EVENTS:
+        events = f"this run has {len(playback.moments)} events and {playback.cost} moves"
+        raise InputError(
+            f"{events}; an animated SVG shows at most {MOST_EVENTS} events: write the player"
+            " instead (--player FILE.html)"
+        )
+    stage, layout = Stage(times(playback)), lay_out(playback.world)
+    tracks = Tracks(playback, layout)
+    scale = min((WIDTH - 2 * MARGIN) / layout.width, 280 / layout.height, 26 / layout.radius)
+    wide, high = scale * layout.width, scale * layout.height
+    box = f'x="{number((WIDTH - wide) / 2)}" y="{MARGIN}"'
+    box += f' width="{number(wide)}" height="{number(high)}"'
+    box += f' viewBox="0 0 {number(layout.width)} {number(layout.height)}"'
+    body = [
+        f'<svg {box} overflow="visible">',
+        *_world(tracks, stage),
+        *_questions(tracks, stage),
+        *_walkers(tracks, stage),
+        "</svg>",
+        *_words(playback, stage, high + MARGIN),
+    ]
+    height = number(high + MARGIN + FOOT)
+    return "\n".join([*_head(playback, name, height, stage), *body, "</svg>\n"])
+
+
+def times(playback: Playback) -> list[float]:
+    """When each moment begins, in seconds, and when the last one ends."""
+    lengths = [_seconds(moment) for moment in playback.moments]
+    if not isinstance(playback.trace[-1], ev.Finish):
+        lengths[-1] += SECONDS[ev.Finish]
+    return [0.0, *accumulate(lengths)]
+
+
+def _seconds(moment: Moment) -> float:
+    if moment.findings:
+        return SECONDS[ev.Finish]
+    if isinstance(moment.event, ev.Pose) and not moment.event.hypotheses:
+        return 0.9
+    return SECONDS[type(moment.event)]
+
+
+def _head(playback: Playback, name: str, height: str, stage: Stage) -> Iterator[str]:
+    world = playback.world
+    size = (
+        f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')}"
+    )
+    mapper = f"{name} in " if name else ""
+    title = text(f"{mapper}{shown(world.name or 'a world')} ({size}): {playback.cost} moves")
+    timing = f".t{{animation:{number(stage.begins[-1])}s step-end infinite}}"
+    timing += ".m{animation-timing-function:linear}"
+    yield (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}"'
+        f' height="{height}" role="img" aria-label="{title}" font-family="{FONT}">'
+    )
+    yield f"<title>{title}</title><style>{STYLE}{timing}{''.join(stage.rules)}{STILL}</style>"
+    yield f'<rect class="card" fill="#fdfcf9" width="{WIDTH}" height="{height}" rx="12"/>'
+
+
+def _world(tracks: Tracks, stage: Stage) -> Iterator[str]:
+    """Edges and vertices: dotted, and solid from the moment on that S has them."""
+    layout, end = tracks.layout, len(tracks.moments)
+    r = layout.radius
+    vertices, edges = tracks.known_from()
+    dots = f'stroke-dasharray="0.1 {number(0.45 * r)}"'
+    thin = f'stroke-width="{number(0.15 * r)}"'
+    yield (
+        '<g fill="none" stroke-linecap="round" stroke-linejoin="round"'
+        f' stroke-width="{number(0.2 * r)}">'
+    )
+    for edge, parts in enumerate(layout.paths):
+        data = "".join(parts)
+        yield f'<path class="far" {thin} {dots} d="{data}"/>'
+        yield f'<g{stage.during((edges[edge], end))}><path class="road" d="{data}"/></g>'
+    for bridge in layout.bridges:
+        yield f'<path class="halo" stroke-width="{number(0.62 * r)}" d="{bridge.path}"/>'
+        yield f'<path class="far" {thin} {dots} d="{bridge.path}"/>'
+        known = stage.during((edges[bridge.over], end))
+        yield f'<g{known}><path class="road" d="{bridge.path}"/></g>'
+    for edge, spans in tracks.asked().items():
+        data = "".join(layout.paths[edge])
+        yield (
+            f'<g{stage.during(*spans)}><path class="e" stroke-width="{number(0.28 * r)}"'
+            f' d="{data}"/></g>'
+        )
+    yield "</g>"
+    yield f'<g stroke-width="{number(0.13 * r)}">'
+    for vertex, (x, y) in enumerate(layout.centres):
+        if vertex in layout.hidden:
+            continue
+        at = f'cx="{number(x)}" cy="{number(y)}" r="{number(r)}"'
+        known = stage.during((vertices[vertex], end))
+        yield f'<circle class="far-place" {dots} stroke-linecap="round" {at}/>'
+        yield f'<g{known}><circle class="place" {at}/></g>'
+    yield "</g>"
+    if tracks.world.root is not None:
+        yield from arrow(tracks.world, layout, tracks.world.root)
+
+
+def _questions(tracks: Tracks, stage: Stage) -> Iterator[str]:
+    """The hypotheses as numbered badges, from the pose to their rejection or the decision."""
+    size = 0.5 * tracks.layout.radius
+    yield f'<g font-size="{number(1.25 * size)}" font-weight="700" text-anchor="middle">'
+    for badge in tracks.badges():
+        x, y = badge.at
+        for first, last, kind, words in badge.faces:
+            yield (
+                f'<g{stage.during((first, last))}><circle class="{kind}" cx="{number(x)}"'
+                f' cy="{number(y)}" r="{number(size)}"/><text class="on" x="{number(x)}"'
+                f' y="{number(y + 0.44 * size)}">{words}</text></g>'
+            )
+    yield "</g>"
+
+
+def _walkers(tracks: Tracks, stage: Stage) -> Iterator[str]:
+    """The robot, the ring that goes where it would be, and both in red at a rejection."""
+    r = tracks.layout.radius
+    line = f'fill="none" stroke-width="{number(0.2 * r)}"'
+    for (x, y), spans in tracks.clashes().items():
+        at = f'cx="{number(x)}" cy="{number(y)}" r="{number(1.6 * r)}"'
+        yield f'<g{stage.during(*spans)}><circle class="ring" {line} {at}/></g>'
+    dots = f'stroke-dasharray="{number(0.5 * r)}"'
+    for ghost in tracks.ghosts():
+        ring = f'<circle class="ghost" {line} {dots} r="{number(1.3 * r)}"/>'
+        going = stage.moving(_places(ghost.steps, stage))
+        yield f"<g{stage.during(ghost.span)}><g{going}>{ring}</g></g>"
+    size = 0.74 * r
+    notch = f"M{number(0.9 * size)} 0L{number(0.05 * size)} {number(0.5 * size)}"
+    yield (
+        f'<g{stage.moving(list(_turned(tracks, stage)))}><circle class="robot"'
+        f' stroke-width="{number(0.12 * r)}" r="{number(size)}"/>'
+        f'<path class="notch" d="{notch}V{number(-0.5 * size)}Z"/></g>'
+    )
+
+
+def _places(steps: Sequence[Leg], stage: Stage) -> list[Keyframe]:
+    return [(at, *points[-1], None) for at, points in timed(steps, stage.begins)]
+
+
+def _turned(tracks: Tracks, stage: Stage) -> Iterator[Keyframe]:
+    """Where the robot is at which time, its notch towards the dart by which it came."""
+    turn, begun = tracks.first_turn(), 0.0
+    for at, points in timed(tracks.robot(), stage.begins):
+        if len(points) == 1:
+            begun = at
+        else:
+            (x, y), before = points[-1], points[-2]
+            back = math.degrees(math.atan2(before[1] - y, before[0] - x))
+            back = turn + (back - turn + 180) % 360 - 180  # the short way round
+            if len(points) == 2:  # it turns where it stands, and then goes
+                yield begun + 0.15 * (at - begun), *before, back
+            turn = back
+        yield at, *points[-1], turn
+
+
+def _words(playback: Playback, stage: Stage, top: float) -> Iterator[str]:
+    """What happens, in a sentence; more about it below; what is seen; and the moves so far."""
+    told = captions(playback)
+    for first, last, caption in _spans(told):
+        yield f"<g{stage.during((first, last))}>{_caption(caption, top)}</g>"
+    costs = [moment.spent.cost for moment in playback.moments]
+    x, y = number(WIDTH - MARGIN - 6), number(MARGIN + 8)
+    yield '<g font-size="13" text-anchor="end">'
+    for first, last, cost in _spans(costs):
+        words = plural(cost, "move")
+        seen = stage.during((first, last))
+        yield f'<g{seen}><text class="soft" x="{x}" y="{y}">{words}</text></g>'
+    yield "</g>"
+
+
+def _caption(caption: Caption, top: float) -> str:
+    x, kind = MARGIN + 8, f' class="{caption.kind}"' if caption.kind else ""
+    words = (
+        f'<text{kind} x="{x}" y="{number(top + 34)}" font-size="17" font-weight="700">'
+        f"{text(caption.words, limit=64)}</text>"
+    )
+    for row, line in enumerate(wrap(caption.detail, 78, max_lines=2, placeholder=" …")):
+        words += f'<text class="soft" x="{x}" y="{number(top + 56 + 18 * row)}" font-size="14">'
+        words += f"{text(line)}</text>"
+    if caption.seen is None or caption.expected is None:
+        return words
+    right = WIDTH - MARGIN
+    unequal = f'<text class="bad" x="{right - 90}" y="{number(top + 34)}" font-size="22">≠</text>'
+    seen = glyph(caption.seen, right - 124, top + 26, "it sees")
+    return words + seen + unequal + glyph(caption.expected, right - 42, top + 26, "it should")
+
+
+def _spans(values: Sequence[T]) -> Iterator[tuple[int, int, T]]:
+    """The stretches of equal values: the first, the one behind the last, the value."""
+    first = 0
+    for place in range(1, len(values) + 1):
+        if place == len(values) or values[place] != values[first]:
+            yield first, place, values[first]
+            first = place

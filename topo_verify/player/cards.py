@@ -1,0 +1,142 @@
+"""Reports and findings as HTML for notebooks: a table of claims, a picture, the walk's text.
+
+Whatever a mapper, a file or a name brings is escaped. A picture is an image of its own (`<img>`),
+so neither its names nor its styles meet those of the page. No script, no request; colours are the
+page's own, light or dark, and no statement rests on colour.
+"""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterator, Sequence
+from html import escape
+
+from topo_verify.checkers.findings import Finding, Judgement, Status
+from topo_verify.errors import InputError
+from topo_verify.player import walk
+from topo_verify.player.scenes import Playback
+from topo_verify.text import LINE, plural, shown
+from topo_verify.world.rooted_map import World
+
+MOST_DRAWN = 80
+"""The most edges of a world that a card draws: a larger one takes seconds."""
+
+_SIGNS: dict[Status, str] = {"ok": "✓", "failed": "✗", "undecided": "?"}
+"""What stands before a status, so that it is seen at a glance."""
+
+
+def report_card(
+    head: str, judgements: Sequence[Judgement], playback: Playback | None, again: str
+) -> str:
+    """The report of a run: its claims with their coverage; with a finding the world and the walk.
+
+    Args:
+        head: what ran where, and how many claims hold.
+        playback: the run; None if it is not known.
+        again: the command line that shows it again, if there is one.
+    """
+    findings = [finding for one in judgements for finding in one.findings]
+    parts = [f"<p><strong>{_text(head)}</strong></p>", _claims(judgements)]
+    if findings:
+        parts += [f"<ul>{''.join(f'<li>{_sentence(one)}</li>' for one in findings)}</ul>"]
+        if playback is not None:
+            parts += [_picture(playback.world, "the world"), _walk(playback)]
+        parts += _again(again)
+    return _card(parts)
+
+
+def finding_card(finding: Finding) -> str:
+    """A finding: its sentence, what was expected and seen, its world and its witness."""
+    rows = [
+        (name, _value(value))
+        for name, value in (("expected", finding.expected), ("seen", finding.seen))
+        if value is not None
+    ]
+    parts = [f"<p>{_sentence(finding)}</p>"]
+    if rows:
+        cells = (f"<tr><th {_LEFT}>{name}</th><td {_LEFT}>{text}</td></tr>" for name, text in rows)
+        parts.append(f"<table>{''.join(cells)}</table>")
+    pictures = [
+        _picture(world, what)
+        for text, what in (
+            (finding.world, "the world"),
+            (finding.witness, "the witness, with the same history:"),
+        )
+        if (world := _named(text)) is not None and (what == "the world" or text != finding.world)
+    ]
+    return _card([*parts, *pictures, *_again(finding.replay)])
+
+
+# ---------------------------------------------------------------- parts
+
+_LEFT = 'style="text-align:left"'
+
+
+def _card(parts: Sequence[str]) -> str:
+    return f'<div style="max-width:60em">{"".join(parts)}</div>'
+
+
+def _text(text: str) -> str:
+    return escape(shown(text, limit=LINE))
+
+
+def _value(value: object) -> str:
+    return f"<code>{_text(str(value))}</code>"
+
+
+def _sentence(finding: Finding) -> str:
+    place = "" if finding.event is None else f" (event {finding.event})"
+    return f"<strong>{_text(finding.claim)}</strong>{place}: {_text(finding.message)}"
+
+
+def _claims(judgements: Sequence[Judgement]) -> str:
+    """The table of claims: the status of each, and how much of the run it rests on."""
+    rows = (
+        f"<tr><td {_LEFT}>{_text(one.claim)}</td>"
+        f"<td {_LEFT}>{_SIGNS.get(one.status, '–')} {_text(one.status)}</td>"
+        f"<td>{one.judged} of {one.of}</td></tr>"
+        for one in judgements
+    )
+    head = f"<tr><th {_LEFT}>claim</th><th {_LEFT}>status</th><th>judged</th></tr>"
+    return f"<table><thead>{head}</thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _picture(world: World, what: str) -> str:
+    """A small picture of the world above its name."""
+    name = f" {world.name}" if world.name else ""
+    size = (
+        f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')}"
+    )
+    caption = _text(f"{what}{name}: {size}")
+    if len(world.edges) > MOST_DRAWN:
+        return f"<p>{caption}</p>"
+    drawn = b64encode(world.draw().encode()).decode()
+    return (
+        '<figure style="display:inline-block;margin:0 1em 1em 0;vertical-align:top">'
+        f'<img alt="{caption}" style="max-width:100%;max-height:16em"'
+        f' src="data:image/svg+xml;base64,{drawn}">'
+        f"<figcaption>{caption}</figcaption></figure>"
+    )
+
+
+def _walk(playback: Playback) -> str:
+    """The last moves before the first finding, as `replay` prints them."""
+    lines = (escape(shown(line, limit=LINE)) for line in walk.lines(playback))
+    return f'<pre style="overflow-x:auto">{chr(10).join(lines)}</pre>'
+
+
+def _again(command: str) -> Iterator[str]:
+    if command:
+        yield f"<p>again: <code>{_text(command)}</code></p>"
+
+
+def _named(text: str | None) -> World | None:
+    """The world that an id or world JSON names; no file is opened for a picture."""
+    try:
+        return World.from_text(text) if text else None
+    except InputError:
+        return None
+
+
+# The checkers know nothing of pictures, so that a finding has one is said here.
+setattr(Finding, "_repr_html_", finding_card)  # noqa: B010  the class does not declare it

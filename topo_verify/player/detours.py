@@ -1,0 +1,121 @@
+"""What the moves of a run show when they are read together: turns, ways home, circles.
+
+None of it is a judgement; it explains what the checkers found.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from topo_verify.checkers.darts import KnownDart, WorldDart
+from topo_verify.player.scenes import Playback
+from topo_verify.robot import events as ev
+from topo_verify.robot.percept import Door
+
+
+class Turn(NamedTuple):
+    """A robot that came back to a place leaves it by another dart: its doors count from elsewhere.
+
+    Attributes:
+        entry: the dart of the world by which it came to the place.
+        stands: its reference dart now: the one by which it came back.
+        door: the door that it takes, if it were counted from `entry`.
+    """
+
+    entry: WorldDart
+    stands: WorldDart
+    door: Door
+
+
+class Circle(NamedTuple):
+    """Moves that repeat to the end of the run.
+
+    Attributes:
+        first, last: the events of the first and of the last move of the first round.
+        period: the number of moves of a round.
+        moves: how many moves there are from `first` on.
+    """
+
+    first: int
+    last: int
+    period: int
+    moves: int
+
+
+def turns(playback: Playback) -> dict[int, Turn]:
+    """By event, the moves whose door is not counted from the dart by which the robot came.
+
+    Not those that only retrace: back through the dart by which it came, to where it set out.
+    """
+    found: dict[int, Turn] = {}
+    positions = playback.replayed.positions
+    entries = [positions[0]]  # of the places on its way, each by the dart by which it came
+    asked = 1  # how many there were when an edge was asked about
+    for moment in playback.moments[1 : len(positions)]:
+        number, out = moment.number, moment.left_by
+        if isinstance(moment.event, ev.Augment) and _sees_marker(playback, positions[number]):
+            entries = [positions[number]]  # the marker tells its reference dart: a fresh start
+        if isinstance(moment.event, ev.Pose):
+            asked = len(entries)
+        if out is None:
+            continue
+        stands, entry = positions[number - 1], entries[-1]
+        back = out == entry and len(entries) > 1
+        if stands != entry and not (back and len(entries) > asked):
+            found[number] = Turn(entry, stands, playback.door(entry, out))
+        if back:
+            entries.pop()  # its reference dart there is now the other end of `out`
+        else:
+            entries.append(positions[number])
+    return found
+
+
+def _sees_marker(playback: Playback, dart: WorldDart) -> bool:
+    return playback.map.seen_at(dart).marker is not None
+
+
+def circle(playback: Playback) -> Circle | None:
+    """The circle in which the robot walks at the end of a run without a map; None: in none.
+
+    It is the longest end of the run in which places and doors repeat, twice at least; and it takes
+    a third of the run or more: any two equal moves at the end of a run would be a circle, too.
+    Linear: what a prefix of the reversed run begins and ends with makes its period.
+    """
+    if isinstance(playback.trace[-1], ev.Finish) or playback.replayed.illegal is not None:
+        return None
+    moves = [moment for moment in playback.moments if isinstance(moment.event, ev.Move)]
+    steps = [(moment.left_by, moment.position) for moment in reversed(moves)]
+    best = period = 0
+    border = [0] * len(steps)
+    for place in range(1, len(steps)):
+        k = border[place - 1]
+        while k and steps[k] != steps[place]:
+            k = border[k - 1]
+        border[place] = k + (steps[k] == steps[place])
+        if 2 * (place + 1 - border[place]) <= place + 1:
+            best, period = place + 1, place + 1 - border[place]
+    if 3 * best < len(steps) or not best:
+        return None
+    start = len(moves) - best
+    return Circle(moves[start].number, moves[start + period - 1].number, period, best)
+
+
+def way_home(playback: Playback, dart: KnownDart, number: int) -> tuple[Door, ...]:
+    """The doors of a shortest way on S, as it is before an event, from a dart to v0.
+
+    The way that docs/semantics.md, section 6, describes; a mapper may choose another.
+    """
+    came: dict[int, KnownDart | None] = {0: None}  # by vertex: its dart towards v0
+    for vertex in (queue := [0]):
+        for a in playback.darts(vertex):
+            if playback.map.joined.get(a, number) < number:
+                far = playback.map.alpha[a]
+                if playback.vertex(far) not in came:
+                    came[playback.vertex(far)] = far
+                    queue.append(playback.vertex(far))
+    doors: list[Door] = []
+    at = dart
+    while (out := came[playback.vertex(at)]) is not None:
+        doors.append(playback.door(playback.map.phi[at], playback.map.phi[out]))
+        at = playback.map.alpha[out]
+    return tuple(doors)

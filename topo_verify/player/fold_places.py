@@ -1,0 +1,124 @@
+"""Where in the world a fold identifies visits, and where a rejection by folding contradicts itself.
+
+`checkers.folding` proves; this fold does the same and keeps in mind which visits were involved, so
+that a picture can ring them. Nothing is judged here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import NamedTuple
+
+from topo_verify.checkers.darts import WorldDart
+from topo_verify.checkers.entailment import followed
+from topo_verify.checkers.folding import Contradiction, Fold, Place, Undo
+from topo_verify.checkers.map_on_fold import MapOnFold
+from topo_verify.player.scenes import Moment
+from topo_verify.robot.events import Augment, Reject, Start
+from topo_verify.robot.percept import Percept
+
+
+class FoldPlaces(NamedTuple):
+    """What the fold of a history shows on the way.
+
+    Attributes:
+        identified: by event, reference darts of the world at visits that were found to be at a
+            place that was seen before. (That a visit sees the marker is no news.)
+        clashes: by rejection, the reference darts at two visits that would be one place.
+    """
+
+    identified: dict[int, tuple[WorldDart, ...]]
+    clashes: dict[int, tuple[WorldDart, WorldDart]]
+
+
+class _WatchedFold(Fold):
+    """A fold that tells which visits it identified, and which two are not alike."""
+
+    def __init__(self, percept: Percept) -> None:
+        self.apart: tuple[int, int] | None = None
+        self._whose: dict[int, int] = {}  # by identity: the visit that has a percept
+        super().__init__(percept)
+        self._undo = list[Undo]()  # of all that is identified, not under an assumption alone
+
+    def _visit(self, percept: Percept) -> int:
+        # A percept of its own for each visit, so that `_require_alike` can tell whose it is.
+        node = super()._visit(Percept(percept.degree, percept.marker))
+        self._whose[id(self._seen[node])] = node
+        return node
+
+    def _require_alike(self, one: Percept, other: Percept) -> bool:
+        if one.signature != other.signature:
+            # A percept that was just sensed belongs to no visit yet.
+            nodes = sorted(self._whose.get(id(percept), -1) for percept in (one, other))
+            self.apart = nodes[0], nodes[1]
+        return super()._require_alike(one, other)
+
+    @property
+    def visits(self) -> int:
+        """How many nodes there are."""
+        return len(self._seen)
+
+    @property
+    def mark(self) -> int:
+        """What `identified` counts from."""
+        return len(self._undo)
+
+    def identified(self, mark: int) -> list[int]:
+        """The nodes that were found to be another one since `mark`, but for those of v0."""
+        lost = [node for node, dart in self._undo[mark:] if dart is None]
+        return [node for node in lost if self.find((node, 0))[0] != self.find((0, 0))[0]]
+
+    def clash(self, one: Place, other: Place) -> tuple[int, int] | None:
+        """Two nodes that would be one place if these were the ends of one edge, and differ."""
+        self.apart = None
+        with suppress(Contradiction), self.assuming(one, other):
+            pass
+        return self.apart
+
+
+LONGEST = 20_000
+"""The most events of a run whose fold is shown: rings at each of more would fill megabytes."""
+
+
+def fold_places(moments: Sequence[Moment]) -> FoldPlaces:
+    """Fold the history of a run up to the first illegal move, lie or false augmentation."""
+    found = FoldPlaces({}, {})
+    if len(moments) > LONGEST:
+        return found
+    if not moments or moments[0].position is None:
+        return found
+    start, first = moments[0].event, moments[0].position
+    assert isinstance(start, Start)
+    fold = _WatchedFold(start.percept)
+    on_fold = MapOnFold(fold)
+    visited = [first]
+    for number, moment in enumerate(moments):
+        mark = fold.mark
+        if moment.position is None or followed(fold, moment.event):
+            break
+        visited += [moment.position] * (fold.visits - len(visited))
+        if nodes := fold.identified(mark):
+            found.identified[number] = tuple(dict.fromkeys(visited[node] for node in nodes))
+        match moment.event:
+            case Reject(e, h, "folding") if on_fold.is_open(e) and on_fold.is_open(h):
+                if clash := fold.clash(on_fold.place(e), on_fold.place(h)):
+                    found.clashes[number] = visited[clash[0]], visited[clash[1]]
+            case Augment() if not _grown(on_fold, moment):
+                break
+            case _:
+                pass
+    return found
+
+
+def _grown(on_fold: MapOnFold, moment: Moment) -> bool:
+    """Let S grow by an augmentation, if it is true and its edge was crossed."""
+    event = moment.event
+    assert isinstance(event, Augment)
+    true = moment.growth is not None and moment.growth.true is True
+    if not (true and on_fold.is_open(event.edge)):
+        return False
+    if on_fold.fold.partner(on_fold.place(event.edge)) is None:
+        return False
+    on_fold.grow(event)
+    return True

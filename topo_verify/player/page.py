@@ -1,0 +1,98 @@
+"""The player: a run in the browser, as ONE self-contained file that makes no request.
+
+The parts lie in `page/`: a template, a style sheet and small scripts that are written one behind
+the other. A content security policy allows exactly these, by their hashes. Whatever a mapper, a
+world or a file name brings is data in JSON, with `<` escaped, and becomes text nodes.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+import json
+import re
+from collections.abc import Sequence
+from functools import cache
+from importlib import resources
+
+from topo_verify.player.recording import PlayedRun, recording
+from topo_verify.text import shown
+from topo_verify.world.rooted_map import World
+
+SCRIPTS = (
+    "geometry.js",
+    "model.js",
+    "panes.js",
+    "world_pane.js",
+    "question.js",
+    "map_pane.js",
+    "words.js",
+    "chart.js",
+    "frame.js",
+    "player.js",
+    "fold.js",
+    "walk_world.js",
+    "walk_model.js",
+    "sketch.js",
+    "build.js",
+    "walk.js",
+    "start.js",
+)
+"""The parts of the script, in the order in which they are written."""
+
+
+def player_page(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> str:
+    """The page that shows these runs in this world, the first one first; two: side by side.
+
+    Args:
+        name: of the world, as the user calls it; default: its own.
+    """
+    data = recording(world, runs, name=name)
+    # Only "<" can end or open anything in a script; the JSON stays the same.
+    text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    style = part("page.css") + part("walk.css")
+    script = "".join(["'use strict';\n", *map(part, SCRIPTS)])
+    policy = (
+        f"default-src 'none'; style-src {_hash(style)}; script-src {_hash(script)};"
+        " base-uri 'none'; form-action 'none'"
+    )
+    title = " beside ".join(shown(run.name) for run in runs[:2]) + f" in {data['name']}"
+    values = {
+        "policy": policy,
+        "title": html.escape(title),
+        "style": style,
+        "recording": text,
+        "script": script,
+    }
+    # In one pass: what is put in is not searched.
+    return re.sub(r"\{([a-z]+)\}", lambda found: values[found[1]], part("page.html"))
+
+
+def framed(world: World, run: PlayedRun) -> str:
+    """The page of a run in a frame of its own, for notebooks: scripts run, nothing else may."""
+    page = html.escape(player_page(world, [run]))
+    return (
+        f'<iframe sandbox="allow-scripts" srcdoc="{page}" title="A run, step by step"'
+        ' width="100%" height="640" style="border: 0"></iframe>'
+    )
+
+
+@cache
+def part(name: str) -> str:
+    """The text of a file in `page/`, without its comments and idle spaces.
+
+    No text of a script goes over a line end, or has two slashes with spaces around them.
+    """
+    text = (resources.files("topo_verify.player") / "page" / name).read_text(encoding="utf-8")
+    if name.endswith((".js", ".css")):
+        text = re.sub(r"^\s*/\*.*?\*/$\n?", "", text, flags=re.MULTILINE | re.DOTALL)
+        text = re.sub(r"(^|[ \t]+)//[ \t].*", "", text, flags=re.MULTILINE)
+    if name.endswith(".css"):
+        text = re.sub(r"\s*([{};,])\s*", r"\1", text)
+    return re.sub(r"^\s+", "", text, flags=re.MULTILINE)
+
+
+def _hash(text: str) -> str:
+    digest = hashlib.sha256(text.encode()).digest()
+    return f"'sha256-{base64.b64encode(digest).decode()}'"

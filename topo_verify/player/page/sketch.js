@@ -1,0 +1,142 @@
+/* A quick picture of any rotation system: every dart leaves its vertex at its own angle, clockwise
+   in the order of the rotation, so the order at each vertex is true. Roads may cross each other.
+
+   Where vertices stand is found by pulling: each road wants to be straight and one long, each
+   vertex turns to face its neighbours. What stood before hardly moves, so a growing map keeps its
+   shape. */
+
+const LONG = 100; // a road
+const ROUND = 17; // the radius of a vertex
+
+class Sketch {
+  /** @param before a sketch of the same map when it was smaller; its vertices stay about there. */
+  constructor(vertices, alpha, before = null) {
+    Object.assign(this, { vertices, alpha, spots: [] });
+    this.owner = new Map();
+    vertices.forEach((rotation, v) => rotation.forEach((dart, place) => this.owner.set(dart, [v, place])));
+    vertices.forEach((rotation, v) => this.spots.push({ ...(before?.spots[v] ?? this.beside(v)) }));
+    for (let round = 0; round < 160; round += 1) this.pull(0.35 * (1 - round / 200));
+  }
+
+  /** Where a new vertex stands: at the end of its first road to one that stands already. */
+  beside(v) {
+    const dart = this.vertices[v].find((one) => this.alpha.has(one) && this.owner.get(this.alpha.get(one))[0] < v);
+    if (dart === undefined) return { x: 0, y: 0, turn: 0 };
+    const from = this.alpha.get(dart), angle = this.angle(from), spot = this.spots[this.owner.get(from)[0]];
+    const place = this.owner.get(dart)[1];
+    const turn = angle + Math.PI - (2 * Math.PI * place) / this.vertices[v].length;
+    return { x: spot.x + LONG * Math.cos(angle), y: spot.y + LONG * Math.sin(angle), turn };
+  }
+
+  /** The direction in which a dart leaves its vertex; y grows downwards, so this is clockwise. */
+  angle(dart) {
+    const [v, place] = this.owner.get(dart);
+    return this.spots[v].turn + (2 * Math.PI * place) / this.vertices[v].length;
+  }
+
+  pull(strength) {
+    const moves = this.spots.map(() => ({ x: 0, y: 0, n: 0, sin: 0, cos: 0 }));
+    for (const [dart, other] of this.alpha) {
+      const [v] = this.owner.get(dart), [w] = this.owner.get(other);
+      if (v === w) continue;
+      const [a, b] = [this.angle(dart), this.angle(other)];
+      const [one, two] = [this.spots[v], this.spots[w]];
+      // Half from where it is wanted by this dart, half by the other one.
+      const [x, y] = [Math.cos(a) - Math.cos(b), Math.sin(a) - Math.sin(b)];
+      const far = Math.atan2(two.y - one.y, two.x - one.x);
+      const wanted = Math.hypot(x, y) < 0.9 ? far : Math.atan2(y, x);
+      moves[w].x += one.x + LONG * Math.cos(wanted) - two.x;
+      moves[w].y += one.y + LONG * Math.sin(wanted) - two.y;
+      moves[w].n += 1;
+      moves[v].sin += Math.sin(far - a);
+      moves[v].cos += Math.cos(far - a);
+    }
+    this.spots.forEach((one, v) => {
+      const { x, y, n, sin, cos } = moves[v];
+      if (v && n) one.x += (strength * x) / n, one.y += (strength * y) / n;
+      if (n) one.turn += 0.5 * strength * Math.atan2(sin, cos);
+      for (const other of this.spots) {
+        const [dx, dy] = [one.x - other.x, one.y - other.y], gap = Math.hypot(dx, dy);
+        if (other === one || gap > 0.85 * LONG) continue;
+        const push = (0.85 * LONG - gap) / 2, away = gap > 1 ? Math.atan2(dy, dx) : v;
+        if (v) one.x += push * Math.cos(away), one.y += push * Math.sin(away);
+      }
+    });
+  }
+
+  /** A point at this distance from the centre of a dart's vertex, along the dart. */
+  out(dart, distance, turn = 0) {
+    const { x, y } = this.spots[this.owner.get(dart)[0]], angle = this.angle(dart) + turn;
+    return [x + distance * Math.cos(angle), y + distance * Math.sin(angle)];
+  }
+
+  /** Path data of the road of a dart. */
+  road(dart) {
+    const other = this.alpha.get(dart);
+    const [v, place] = this.owner.get(dart), [w, there] = this.owner.get(other);
+    const gap = Math.hypot(this.spots[v].x - this.spots[w].x, this.spots[v].y - this.spots[w].y);
+    if (v === w) return this.loop(dart, other, there - place, this.vertices[v].length);
+    const bow = ROUND + Math.max(0.36 * gap, 32);
+    const [p, q, r, s] = [this.out(dart, ROUND), this.out(dart, bow), this.out(other, bow), this.out(other, ROUND)];
+    return `M${pair(p)}C${pair(q)} ${pair(r)} ${pair(s)}`;
+  }
+
+  /** Path data of a loop: out, around the shorter way, and back; larger around more darts. */
+  loop(dart, other, places, degree) {
+    const ahead = (places + degree) % degree, way = 2 * ahead <= degree ? 1 : -1;
+    const half = (Math.PI * Math.min(ahead, degree - ahead)) / degree, far = ROUND + 20 + 26 * half;
+    const [x, y] = this.out(dart, far, way * half), tangent = this.angle(dart) + way * (half + Math.PI / 2);
+    const reach = 0.75 * far * Math.min(half, 1.2);
+    const [dx, dy] = [reach * Math.cos(tangent), reach * Math.sin(tangent)];
+    const [p, q, r, s] = [this.out(dart, ROUND), this.out(dart, 0.8 * far), this.out(other, 0.8 * far), this.out(other, ROUND)];
+    return `M${pair(p)}C${pair(q)} ${pair([x - dx, y - dy])} ${pair([x, y])}C${pair([x + dx, y + dy])} ${pair(r)} ${pair(s)}`;
+  }
+
+  /** Draw it into an SVG element; returns what was drawn of each dart and vertex. */
+  show(svg, { marker = null, kinds = new Map() } = {}) {
+    svg.replaceChildren();
+    const drawn = { roads: new Map(), stubs: new Map(), vertices: [] };
+    for (const [dart, other] of this.alpha) {
+      if (dart > other) continue;
+      const road = draw('path', { class: `road ${kinds.get(dart) ?? kinds.get(other) ?? ''}`, d: this.road(dart) }, svg);
+      road.dataset.darts = `${dart} ${other}`;
+      drawn.roads.set(dart, road).set(other, road);
+    }
+    for (const dart of this.owner.keys()) {
+      if (this.alpha.has(dart)) continue;
+      const group = draw('g', { class: 'stub', 'data-dart': dart }, svg);
+      draw('path', { d: `M${pair(this.out(dart, ROUND))}L${pair(this.out(dart, 2 * ROUND))}` }, group);
+      const [cx, cy] = this.out(dart, 2.35 * ROUND);
+      draw('circle', { cx, cy, r: 6 }, group);
+      drawn.stubs.set(dart, { group, at: [cx, cy] });
+    }
+    if (marker !== null) this.arrow(svg, marker);
+    this.spots.forEach(({ x, y }, v) => {
+      const group = draw('g', { class: 'vertex' }, svg);
+      drawn.vertices.push(draw('circle', { cx: x, cy: y, r: ROUND, 'data-vertex': v }, group));
+    });
+    const [xs, ys] = ['x', 'y'].map((c) => this.spots.map((spot) => spot[c]));
+    const room = 4.2 * ROUND, [left, top] = [Math.min(...xs) - room, Math.min(...ys) - room];
+    const [wide, high] = [Math.max(...xs) + room - left, Math.max(...ys) + room - top];
+    const [width, height] = [Math.max(wide, 4 * LONG), Math.max(high, 2.4 * LONG)];
+    svg.setAttribute('viewBox', [left - (width - wide) / 2, top - (height - high) / 2, width, height].map(short).join(' '));
+    return drawn;
+  }
+
+  arrow(svg, dart) {
+    const [a, b, tip] = [1, 1.3, 1.98].map((far) => this.out(dart, far * ROUND));
+    const [x, y] = [tip[0] - b[0], tip[1] - b[1]].map((d) => 0.55 * d);
+    const group = draw('g', { class: 'marker' }, svg);
+    draw('path', { class: 'shaft', d: `M${pair(a)}L${pair(b)}` }, group);
+    draw('path', { class: 'tip', d: `M${pair(tip)}L${pair([b[0] - y, b[1] + x])}L${pair([b[0] + y, b[1] - x])}Z` }, group);
+  }
+}
+
+const pair = ([x, y]) => `${short(x)} ${short(y)}`;
+
+/** The sketch of a world as in its file. */
+const sketchOf = ({ vertices, edges }, before = null) => {
+  const alpha = new Map();
+  for (const [a, b] of edges) alpha.set(a, b).set(b, a);
+  return new Sketch(vertices, alpha, before);
+};

@@ -1,0 +1,342 @@
+/* Walk it yourself: the reader is the robot, sees percepts only, and is told at the end what
+   followed from the walk and what was luck. */
+
+const LETTERS = 'abcdefghijklmopqrstvwxyz'; // n and u are keys of their own
+
+/** Why a true declaration does not follow; the witness shows it. */
+const WHY = {
+  new: 'the road might as well end at an unexplored exit of the map',
+  loop: 'the road might as well end elsewhere',
+};
+
+class WalkMode {
+  constructor(recording) {
+    this.recording = recording;
+    const { vertices, edges, root, name } = recording.worlds[0];
+    this.page = { name: recording.name, world: new WalkWorld({ vertices, edges, marker: root }) };
+    this.gallery = recording.gallery.map((one) => ({ name: one.name, world: new WalkWorld(one) }));
+    this.seed = 1;
+    const button = html('button', '', document.querySelector('.choices'), 'Walk it yourself');
+    button.id = 'walk-it';
+    button.title = 'Be the robot: see only what it sees, choose doors, draw the map';
+    button.addEventListener('click', () => {
+      this.open();
+      this.head.focus();
+    });
+    addEventListener('keydown', (event) => this.key(event), { capture: true });
+  }
+
+  // ---------------------------------------------------------------- the frame
+
+  open() {
+    this.outside = [...document.body.children].filter((one) => one.id !== 'walk' && !one.inert);
+    for (const one of this.outside) one.inert = true;
+    this.section ??= this.frame();
+    document.body.append(this.section);
+    if (!this.section.classList.contains('begun')) this.choose('page');
+    this.section.classList.add('begun');
+  }
+
+  close() {
+    this.section.remove();
+    for (const one of this.outside) one.inert = false;
+    byId('walk-it').focus();
+  }
+
+  frame() {
+    const section = html('section');
+    section.id = 'walk';
+    section.setAttribute('aria-label', 'Walk it yourself');
+    const bar = html('div', 'bar', section);
+    this.head = html('h1', '', bar, 'Walk it yourself');
+    this.head.tabIndex = -1; // not the section: a browser would focus what the address names
+    const label = html('label', '', bar, 'world ');
+    this.select = html('select', '', label);
+    const names = [['page', 'that of this page'], ...this.gallery.map(({ name }, k) => [`${k}`, name]), ['random', 'drawn by lot'], ['own', 'build one']];
+    for (const [value, text] of names) html('option', '', this.select, text).value = value;
+    this.select.addEventListener('change', () => {
+      this.choose(this.select.value);
+      this.head.focus();
+    });
+    this.lot = html('label', '', bar, 'roads ');
+    this.roads = html('input', '', this.lot);
+    Object.assign(this.roads, { type: 'number', min: 1, max: 40, value: 6 });
+    this.roads.addEventListener('change', () => this.choose('random'));
+    this.button(this.lot, 'another', '', () => ((this.seed += 1), this.choose('random')));
+    const hint = html('label', 'end', bar);
+    this.atOnce = html('input', '', hint);
+    this.atOnce.type = 'checkbox';
+    hint.append(' say at once what follows');
+    this.atOnce.addEventListener('change', () => this.show());
+    this.button(bar, 'Back to the run', 'esc', () => this.close());
+    const panes = html('div', 'panes', section);
+    [this.left, this.right] = [0, 1].map(() => {
+      const pane = html('div', 'card pane', panes);
+      const head = html('h2', '', pane);
+      return { title: html('span', '', head), note: html('small', '', head), svg: draw('svg', { role: 'group' }, pane) };
+    });
+    this.says = html('div', 'card says', section);
+    this.says.setAttribute('aria-live', 'polite');
+    return section;
+  }
+
+  button(parent, text, key, action) {
+    const button = html('button', '', parent, text);
+    if (key) html('kbd', '', button, key);
+    button.dataset.key = key;
+    button.addEventListener('click', action);
+    return button;
+  }
+
+  /** Keys: digits are doors, letters are exits of the map; nothing reaches the player below. */
+  key(event) {
+    if (!this.section?.isConnected) return;
+    event.stopPropagation();
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest('select, input[type=number]')) {
+      if (event.key === 'Escape') this.close();
+      return;
+    }
+    const name = { Escape: 'esc', Enter: '↵', Backspace: 'u' }[event.key] ?? event.key.toLowerCase();
+    const onTarget = (event.key === 'Enter' || event.key === ' ') && event.target.closest('[role=button], button, input');
+    const goal = onTarget || [...this.section.querySelectorAll('[data-key]')].find((one) => one.dataset.key === name && !one.disabled);
+    if (!goal || onTarget && goal.tagName !== 'g') return;
+    event.preventDefault();
+    goal.dispatchEvent(new MouseEvent('click'));
+  }
+
+  /** A part of a picture that one can press. */
+  press(parent, className, label, key, action) {
+    const group = draw('g', { class: className, role: 'button', tabindex: 0, 'aria-label': label, 'data-key': key }, parent);
+    draw('title', {}, group, label);
+    group.addEventListener('click', action);
+    return group;
+  }
+
+  // ---------------------------------------------------------------- which world
+
+  choose(value) {
+    this.select.value = value;
+    this.lot.hidden = value !== 'random';
+    this.walk = null;
+    if (value === 'own') return void new Builder(this);
+    const edges = Math.max(1, Math.min(40, Math.round(+this.roads.value) || 6));
+    const world = value === 'page' ? this.page.world : value === 'random' ? randomWorld(this.seed, edges) : this.gallery[+value].world;
+    this.begin(world);
+  }
+
+  begin(world) {
+    this.walk = new Walk(world);
+    this.sketch = null;
+    this.ended = null;
+    this.show();
+  }
+
+  // ---------------------------------------------------------------- on the way
+
+  show() {
+    if (!this.walk) return; // a world is being built
+    if (this.ended) return this.verdict();
+    this.percept();
+    this.map();
+    this.sentence();
+  }
+
+  act(action) {
+    const focused = document.activeElement?.dataset?.key;
+    action();
+    this.show();
+    this.section.querySelector(`[data-key="${focused}"]`)?.focus?.();
+  }
+
+  /** What is seen: the place with its doors, the way back below. */
+  percept() {
+    const { svg, title, note } = this.left, { degree, marker } = this.walk.percept;
+    title.textContent = 'What you see';
+    note.textContent = degree ? `${seenAs(this.walk.percept)}; the way you came is below` : 'no exit';
+    svg.replaceChildren();
+    svg.setAttribute('viewBox', '-150 -125 300 250');
+    const size = Math.min(14, 260 / Math.max(degree, 1));
+    for (let door = 0; door < degree; door += 1) {
+      const angle = Math.PI / 2 + (2 * Math.PI * door) / degree;
+      const at = (far) => [far * Math.cos(angle), far * Math.sin(angle)];
+      const words = `Door ${door}${door ? '' : ', the way you came'}${door === marker ? ', at which the marker points' : ''}`;
+      const group = this.press(svg, `door ${door ? '' : 'in'}`, words, `${door}`, () => this.act(() => this.walk.move(door)));
+      draw('path', { d: `M${pair(at(30))}L${pair(at(78))}` }, group);
+      if (door === marker) {
+        const [dx, dy] = [8 * Math.cos(angle + Math.PI / 2), 8 * Math.sin(angle + Math.PI / 2)], [x, y] = at(52);
+        const arrow = draw('g', { class: 'marker' }, group);
+        draw('path', { class: 'shaft', d: `M${pair(at(30))}L${pair(at(54))}` }, arrow);
+        draw('path', { class: 'tip', d: `M${pair(at(74))}L${pair([x + dx, y + dy])}L${pair([x - dx, y - dy])}Z` }, arrow);
+      }
+      const [cx, cy] = at(96);
+      draw('circle', { cx, cy, r: size }, group);
+      draw('text', { x: cx, y: cy }, group, door).style.fontSize = `${1.1 * size}px`;
+    }
+    draw('g', { class: 'vertex' }, svg).append(draw('circle', { r: 30 }));
+    const bot = draw('g', { class: 'bot', transform: 'rotate(90)' }, svg);
+    draw('circle', { class: 'body', r: 20 }, bot);
+    draw('path', { class: 'nose', d: 'M17 0L3 8V-8Z' }, bot);
+  }
+
+  /** S as declared, with the robot where it is on it, and the exits where e may end. */
+  map() {
+    const { walk } = this, { svg, title, note } = this.right;
+    title.textContent = 'Your map';
+    note.textContent = walk.open().length ? `${walk.open().length} unexplored exit${walk.open().length === 1 ? '' : 's'}` : 'no unexplored exit';
+    this.sketch = this.sketchOfMap();
+    const drawn = this.sketch.show(svg, { marker: walk.size ? 0 : null, kinds: this.atOnce.checked ? this.kinds(walk.judged().found) : undefined });
+    const stand = walk.here ?? null;
+    if (stand !== null || !walk.size) {
+      const { x, y } = this.sketch.spots[walk.size ? walk.vertices.indexOf(walk.vertexOf(stand)) : 0];
+      const turn = walk.size ? (this.sketch.angle(stand) * 180) / Math.PI : 0;
+      const bot = draw('g', { class: 'bot', transform: `translate(${short(x)} ${short(y)}) rotate(${short(turn)})` }, svg);
+      draw('circle', { class: 'body', r: 11 }, bot);
+      draw('path', { class: 'nose', d: 'M9 0L1.5 4.5V-4.5Z' }, bot);
+    }
+    if (!walk.pending) return;
+    const { group, at } = drawn.stubs.get(walk.pending.edge);
+    group.setAttribute('class', 'asked');
+    group.querySelector('path').setAttribute('class', 'e');
+    draw('circle', { class: 'unknown', cx: at[0], cy: at[1], r: 12 }, svg);
+    draw('text', { class: 'what', x: at[0], y: at[1] }, svg, '?');
+    walk.hypotheses().forEach((dart, k) => {
+      const letter = LETTERS[k] ?? '', [cx, cy] = drawn.stubs.get(dart).at;
+      const badge = this.press(svg, 'badge', `The road ends at exit ${letter} of your map`, letter || '-', () => this.act(() => walk.declare(dart)));
+      badge.dataset.dart = dart;
+      draw('circle', { cx, cy, r: 12 }, badge);
+      draw('text', { x: cx, y: cy }, badge, letter);
+    });
+  }
+
+  sketchOfMap() {
+    const rotation = ({ first, degree }) => Array.from({ length: degree }, (_, k) => first + k);
+    const before = this.sketch && this.sketch.vertices.length <= this.walk.vertices.length ? this.sketch : null;
+    return new Sketch(this.walk.vertices.map(rotation), this.walk.alpha, before);
+  }
+
+  /** By dart of S, what became of the declaration about it. */
+  kinds(found) {
+    return new Map(found.map(({ event, fate }) => [event.edge, fate]));
+  }
+
+  sentence() {
+    const { walk, says } = this, { pending } = walk;
+    says.className = 'card says';
+    says.replaceChildren();
+    const [head, body] = this.told();
+    html('h3', '', says, head);
+    html('p', '', says, body);
+    const row = html('div', 'bar', says);
+    this.button(row, 'It is a new place', 'n', () => this.act(() => walk.declare(null))).disabled = !walk.mayBeNew();
+    const declared = walk.events.some(({ type }) => type === 'augment');
+    this.button(row, 'Take back', 'u', () => this.act(() => walk.takeBack())).disabled = !declared;
+    const done = this.button(row, walk.complete ? 'The map is complete' : 'Stop and judge', '↵', () => this.end());
+    done.classList.toggle('main', walk.complete);
+    html('span', 'end', row, `${walk.moves} move${walk.moves === 1 ? '' : 's'}`);
+    if (walk.surprise) says.classList.add('bad');
+    else if (walk.complete) says.classList.add('good');
+    if (pending && walk.hypotheses().length > LETTERS.length) html('p', '', says, 'Not all exits have a letter: click them.');
+  }
+
+  told() {
+    const { walk } = this, { pending } = walk, last = this.atOnce.checked && walk.judged().found.at(-1);
+    const fate = !last ? '' : { followed: 'Your last declaration followed. ', luck: `Your last declaration is true, but did not follow: ${WHY[last.event.kind]}. `, wrong: 'Your last declaration is wrong. ' }[last.fate];
+    if (walk.surprise) return ['Something on your map is wrong', `${walk.surprise} Take back a declaration, or stop and see which one.`];
+    if (walk.complete) return ['Nothing on your map is unexplored', `${fate}Is every declaration certain? Walk on, or have it judged.`];
+    if (!pending) return ['You know where you are', `${fate}Choose a door, by click or by its number. Door 0 leads back; the others count clockwise.`];
+    if (pending.word.length) return [`${pending.word.length} door${pending.word.length === 1 ? '' : 's'} behind the end of the new road`, `${fate}If you know now where the road (?) ends, say so: it is a new place, or an exit of your map.`];
+    const guesses = walk.hypotheses().length;
+    const places = guesses ? `or ${guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`}` : 'and no unexplored exit of your map looks like it';
+    return ['A new road: where does it end?', `${fate}It may be a new place, ${places}. Walk on to find out, or say so.`];
+  }
+
+  // ---------------------------------------------------------------- the end
+
+  end() {
+    this.ended = { ...this.walk.judged(), other: null };
+    this.show();
+    this.says.querySelector('button').focus();
+  }
+
+  /** What was right, what followed, what was luck: in words and in both pictures. */
+  verdict() {
+    const { walk, ended, says } = this, { found } = ended;
+    const luck = found.filter(({ fate }) => fate === 'luck'), wrong = found.find(({ fate }) => fate === 'wrong');
+    this.reveal();
+    const kinds = this.kinds(found);
+    this.sketch.show(this.right.svg, { marker: walk.size ? 0 : null, kinds });
+    says.replaceChildren();
+    const good = !wrong && !luck.length && ended.proved && walk.complete;
+    says.className = `card says ${wrong ? 'bad' : good ? 'good' : ''}`;
+    html('h3', '', says, this.headline(wrong, luck, good));
+    html('p', '', says, this.cost());
+    const list = html('ol', '', says);
+    for (const one of found) html('li', one.fate, list, this.fate(one));
+    if (wrong && walk.events.slice(wrong.when + 1).some(({ type }) => type === 'augment')) html('p', '', says, 'What came later is not judged: it stands on a wrong map.');
+    const key = html('p', '', says);
+    for (const [kind, text] of [['followed', 'followed'], ['luck', 'true by luck'], ['wrong', 'wrong']]) {
+      html('i', `swatch ${kind === 'wrong' ? 'false' : kind}`, key);
+      key.append(` ${text}  `);
+    }
+    const row = html('div', 'bar', says);
+    this.button(row, 'Walk it again', 'w', () => this.begin(walk.world));
+    if (walk.moves && !wrong) this.button(row, 'Walk on', 'o', () => ((this.ended = null), this.show()));
+    const witness = luck.at(-1)?.witness ?? (wrong ? null : ended.witness);
+    if (witness) this.button(row, ended.other ? 'Show this world' : 'Show another world with this walk', 's', () => this.act(() => (ended.other = ended.other ? null : witness)));
+  }
+
+  headline(wrong, luck, good) {
+    const { walk, ended } = this, left = walk.open().length;
+    if (wrong) return 'A declaration is wrong';
+    if (good) return 'All of it followed: your walk proves this map';
+    const part = walk.complete ? 'The map is right' : `So far it is right, and ${left} exit${left === 1 ? ' is' : 's are'} unexplored`;
+    if (luck.length) return `${part}, but ${luck.length} of ${ended.found.length} declarations ${luck.length === 1 ? 'was' : 'were'} luck`;
+    return walk.complete ? `${part}, but the walk does not prove it` : part;
+  }
+
+  cost() {
+    const { walk } = this, least = walk.world.leastCost();
+    const runs = walk.world !== this.page.world ? [] : this.recording.runs.map((run) => `${run.name} takes ${run.events.filter((event) => typeof event === 'string' && event !== 's').length}`);
+    const proof = this.ended.proved ? 'The history proves the world.' : `The history does not prove the world: ${this.ended.open} exit${this.ended.open === 1 ? '' : 's'} of it may lead anywhere.`;
+    return `You made ${walk.moves} move${walk.moves === 1 ? '' : 's'}. With the map in hand, a proof of this world takes ${least}${runs.length ? `; ${runs.join(', ')}` : ''}. ${proof}`;
+  }
+
+  fate({ event, fate, truth, given }) {
+    const said = event.kind === 'new' ? 'A new place' : 'A road between places known';
+    if (fate === 'followed') return `${said}: it followed${given ? ', if what was luck is taken for true' : ''}.`;
+    if (fate === 'luck') return `${said}: luck, for ${WHY[event.kind]}.`;
+    return truth === null ? `${said}: wrong, the place behind it was new.` : event.kind === 'new' ? `${said}: wrong, you had been there.` : `${said}: wrong, it ends elsewhere.`;
+  }
+
+  /** The world as it is, or the other one; what was declared, in colours. */
+  reveal() {
+    const { walk, ended } = this, { svg, title, note } = this.left, { phi } = ended;
+    const kinds = new Map(ended.found.map(({ event, fate }) => [phi.get(event.edge), fate]));
+    const { vertices, edges, marker } = ended.other ?? walk.world;
+    title.textContent = ended.other ? 'Another world' : 'The world';
+    note.textContent = ended.other ? 'the same doors show the same there' : `${vertices.length} place${vertices.length === 1 ? '' : 's'}, ${edges.length} road${edges.length === 1 ? '' : 's'}, genus ${walk.world.genus()}`;
+    if (!ended.other && walk.world === this.page.world) return this.picture(svg, kinds);
+    sketchOf({ vertices, edges }).show(svg, { marker, kinds: ended.other ? new Map() : kinds });
+  }
+
+  /** The world of the page, as the page draws it. */
+  picture(svg, kinds) {
+    const drawn = new Picture(this.recording.worlds[0]);
+    svg.replaceChildren();
+    svg.setAttribute('viewBox', `0 0 ${drawn.width} ${drawn.height}`);
+    drawn.fit(svg.clientWidth || 600, svg.clientHeight || 400);
+    const inside = draw('g', {}, svg);
+    inside.style.setProperty('--u', drawn.unit);
+    drawn.edges.forEach(([a, b]) => {
+      const road = draw('path', { class: `road ${kinds.get(a) ?? kinds.get(b) ?? ''}`, d: drawn.trail(a).data }, inside);
+      road.style.strokeWidth = `${(kinds.has(a) || kinds.has(b) ? 5 : 3) * drawn.unit}px`;
+    });
+    if (drawn.root !== null) {
+      const trail = drawn.trail(drawn.root), [base, tip] = [1.7, 2.5].map((far) => trail.at(Math.min(far * drawn.radius, 0.45 * trail.length)));
+      const [x, y] = [tip.x - base.x, tip.y - base.y].map((d) => 0.55 * d), marker = draw('g', { class: 'marker' }, inside);
+      draw('path', { class: 'shaft', d: trail.piece(0, 1.7 * drawn.radius) }, marker);
+      draw('path', { class: 'tip', d: `M${tip.x} ${tip.y}L${base.x - y} ${base.y + x}L${base.x + y} ${base.y - x}Z` }, marker);
+    }
+    for (const [cx, cy] of drawn.centres) draw('g', { class: 'vertex' }, inside).append(draw('circle', { cx, cy, r: drawn.radius }));
+  }
+}

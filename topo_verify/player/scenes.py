@@ -1,0 +1,352 @@
+"""What each event of a run means, beside the world: the model behind every view of a run.
+
+    playback = Playback(world, trace, judgements)
+    for moment in playback.moments:      # one an event
+        moment.position                  # where the robot really stands: a dart of the world
+        moment.known                     # the same dart on S, where S has it
+        moment.edge, moment.hypotheses   # the question of this moment, and what is left of it
+        moment.growth                    # what S grows by
+        moment.mismatch                  # where the evidence of a rejection lies
+        moment.findings                  # what is wrong here
+
+Where the robot stood follows from the doors (`checkers.replayed_trace`). S is kept twice: as the
+mapper declares it (`Playback.map_at`, `Moment.growth`), and as far as that is true (`Playback.map`,
+which knows for each dart of S the dart of the world). Two kinds of darts never mix: `WorldDart` and
+`KnownDart`; a plain `int` is a dart of S as the mapper declares it, which S need not have.
+
+What this does not show: what a mapper thinks. It shows what it did and said, and what was so.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+from topo_verify.checkers import Finding, Judgement
+from topo_verify.checkers.darts import KnownDart, WorldDart
+from topo_verify.checkers.excursions import Word
+from topo_verify.checkers.map_in_world import MapInWorld
+from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
+from topo_verify.robot import events as ev
+from topo_verify.robot.percept import Door
+from topo_verify.robot.simulator import exit_dart
+from topo_verify.world.rooted_map import World
+
+
+class Spent(NamedTuple):
+    """Edge traversals by the purpose that the mapper stated; `unsaid`: without one."""
+
+    walk: int = 0
+    cross: int = 0
+    validate: int = 0
+    retrace: int = 0
+    unsaid: int = 0
+
+    @property
+    def cost(self) -> int:
+        """Edge traversals for all purposes together."""
+        return sum(self)
+
+
+class Growth(NamedTuple):
+    """What S grows by, as it is declared.
+
+    Attributes:
+        edge, dart: the two ends of the edge that is explored now.
+        kind: `new`: the vertex of `dart` is new, and `dart` is its first; or `loop`.
+        degree: of the vertex behind `edge`.
+        true: whether it is so in the world; None where that is not judged any more, behind an
+            illegal move or a false map.
+    """
+
+    edge: int
+    kind: Literal["new", "loop"]
+    dart: int
+    degree: int
+    true: bool | None
+
+
+class Mismatch(NamedTuple):
+    """Where the evidence of a rejection lies, in the world and on S.
+
+    Attributes:
+        sequence: which sequence of this edge shows it, counted from 0; None: the moves just made,
+            or none at all.
+        doors: the doors from vu to there.
+        trail: the reference dart in the world at vu and behind each of the doors. What was observed
+            was observed at the last one.
+        traced: the same on S, if the hypothesis were true: from the hypothesis on, as far as S
+            goes. What was expected is expected at the last one, unless `leaves`.
+        leaves: the unexplored dart of S by which the doors lead out of S, or None. Then a record
+            gave the expectation.
+        evidence: as the mapper cites it.
+    """
+
+    sequence: int | None
+    doors: tuple[Door, ...]
+    trail: tuple[WorldDart, ...]
+    traced: tuple[KnownDart, ...]
+    leaves: KnownDart | None
+    evidence: ev.Evidence
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """One event, and how things are after it.
+
+    Attributes:
+        number: the index of the event in the trace.
+        event: the event itself.
+        position: the reference dart in the world; None from an illegal move on.
+        known: the reference dart on S, or None where S does not know the place.
+        left_by: of a move: the dart of the world by which the robot left.
+        through: of a move: the same dart on S, or None.
+        spent: edge traversals so far.
+        edge: the dart of S whose other end is in question; None: no question is open.
+        hypotheses: the darts that were posed for it and neither rejected nor confirmed so far.
+        growth: of an augmentation: what S grows by.
+        recorded: of an augmentation: what is known from now on behind unexplored darts of S.
+        mismatch: of a rejection that can be judged: where its evidence lies.
+        word: of a decision that can be judged: the doors from vu to where the robot stands now, and
+            what is seen behind each.
+        findings: what is wrong at this event.
+    """
+
+    number: int
+    event: ev.Event
+    position: WorldDart | None
+    known: KnownDart | None
+    left_by: WorldDart | None
+    through: KnownDart | None
+    spent: Spent
+    edge: int | None
+    hypotheses: tuple[int, ...]
+    growth: Growth | None
+    recorded: tuple[tuple[KnownDart, Word], ...]
+    mismatch: Mismatch | None
+    word: Word
+    findings: tuple[Finding, ...]
+
+
+class DeclaredMap(NamedTuple):
+    """S as the mapper declares it.
+
+    Attributes:
+        vertices: the first dart of each vertex, and its degree. (A declared degree may be any
+            number: so darts are not listed.)
+        edges: the explored edges, in the order in which they were explored.
+    """
+
+    vertices: tuple[tuple[int, int], ...]
+    edges: tuple[tuple[int, int], ...]
+
+
+class Playback:
+    """A run, event by event.
+
+    Args:
+        world: where the run took place.
+        trace: what happened; begins with its only `start`, and may end with `finish`.
+        judgements: of the claims on this run; their findings are marked.
+        stopped: why the mapper ended without a map, if it did.
+    Attributes:
+        replayed: the trace replayed by the checkers.
+        moments: one an event, in order.
+        findings: all that is wrong, in the order of the claims.
+    Raises:
+        InputError: the trace does not begin with its only `start`, or goes on after `finish`.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        trace: Sequence[ev.Event],
+        judgements: Iterable[Judgement] = (),
+        stopped: str | None = None,
+    ) -> None:
+        self.world, self.trace, self.stopped = world, tuple(trace), stopped
+        self.replayed = ReplayedTrace(world, self.trace, stopped)
+        self.findings = tuple(one for judgement in judgements for one in judgement.findings)
+        self.moments = tuple(self._moments())
+
+    @property
+    def map(self) -> MapInWorld:
+        """S as far as it is true: its `phi` says which dart of the world a dart of S is."""
+        return self.replayed.map
+
+    @property
+    def cost(self) -> int:
+        """Edge traversals in all."""
+        return self.replayed.cost
+
+    @cached_property
+    def first_finding(self) -> Finding | None:
+        """The finding with the earliest event; if none has an event, the first; None: no finding.
+
+        Findings about the run as a whole come last: what went wrong at an event explains them.
+        """
+        last = len(self.trace)
+        when = {id(f): last if f.event is None else f.event for f in self.findings}
+        return min(self.findings, key=lambda finding: when[id(finding)], default=None)
+
+    @property
+    def about_the_run(self) -> tuple[Finding, ...]:
+        """The findings that are about the run as a whole."""
+        return tuple(finding for finding in self.findings if finding.event is None)
+
+    def map_at(self, number: int) -> DeclaredMap:
+        """S after this event, as it is declared."""
+        start = self.trace[0]
+        assert isinstance(start, ev.Start)
+        vertices, edges = [(0, start.percept.degree)], list[tuple[int, int]]()
+        for event in self.trace[: number + 1]:
+            if isinstance(event, ev.Augment):
+                edges.append((event.edge, event.dart))
+                if event.kind == "new":
+                    vertices.append((event.dart, event.degree))
+        return DeclaredMap(tuple(vertices), tuple(edges))
+
+    def known(self, dart: WorldDart, number: int) -> KnownDart | None:
+        """This dart of the world on S, as S is after an event; None where S does not have it."""
+        known = self.map.number.get(dart)
+        return known if known is not None and self.map.born[known] <= number else None
+
+    def vertex(self, dart: KnownDart) -> int:
+        """The vertex of a dart of S: 0 is v0, the others follow as they were discovered."""
+        return bisect_right(self._firsts, dart) - 1
+
+    def door(self, stands: WorldDart, out: WorldDart) -> Door:
+        """The door that means the dart `out` to a robot with this reference dart, at its vertex."""
+        places, degree = self.world.place_of, self.map.seen_at(stands).degree
+        return (places[out] - places[stands]) % degree
+
+    @cached_property
+    def _firsts(self) -> list[KnownDart]:
+        """The first dart of each vertex of S."""
+        darts = sorted(self.map.phi)
+        return [dart for dart in darts if dart == 0 or not self._same_vertex(dart)]
+
+    def _same_vertex(self, dart: KnownDart) -> bool:
+        """Whether the dart of S before this one is at the same vertex."""
+        place = self.world.vertex_of
+        phi = self.map.phi
+        return place[phi[dart]] == place[phi[KnownDart(dart - 1)]]
+
+    def darts(self, vertex: int) -> Iterator[KnownDart]:
+        """The darts of a vertex of S, ascending."""
+        first = self._firsts[vertex]
+        degree = self.map.seen_at(self.map.phi[first]).degree
+        return map(KnownDart, range(first, first + degree))
+
+    # ------------------------------------------------------------ how it is made
+
+    def _moments(self) -> Iterator[Moment]:
+        rounds = {one.when: one for one in self.replayed.rounds}
+        marks: dict[int | None, tuple[Finding, ...]] = {}
+        for finding in self.findings:
+            marks[finding.event] = (*marks.get(finding.event, ()), finding)
+        spent, edge = Spent(), None
+        left: tuple[int, ...] = ()
+        for number, event in enumerate(self.trace):
+            left_by = through = None
+            if isinstance(event, ev.Move):
+                spent = _after(spent, event)
+                left_by, through = self._left_by(number, event)
+            else:
+                edge, left = _question(event, edge, left)
+            position = self._position(number)
+            one = rounds.get(number)
+            yield Moment(
+                number=number,
+                event=event,
+                position=position,
+                known=None if position is None else self.known(position, number),
+                left_by=left_by,
+                through=through,
+                spent=spent,
+                edge=edge,
+                hypotheses=left,
+                growth=self._growth(number, event) if isinstance(event, ev.Augment) else None,
+                recorded=() if one is None else tuple(self._recorded(one)),
+                mismatch=None if one is None else self._mismatch(one),
+                word=() if one is None else one.word,
+                findings=marks.get(number, ()),
+            )
+
+    def _position(self, number: int) -> WorldDart | None:
+        return self.replayed.positions[number] if number < len(self.replayed.followed) else None
+
+    def _left_by(self, number: int, move: ev.Move) -> tuple[WorldDart | None, KnownDart | None]:
+        before = self._position(number - 1)
+        if before is None or not 0 <= move.door < self.map.seen_at(before).degree:
+            return None, None
+        dart = WorldDart(exit_dart(self.world, before, move.door))
+        return dart, self.known(dart, number)
+
+    def _growth(self, number: int, event: ev.Augment) -> Growth:
+        spoiled = self.replayed.spoiled
+        judged = number < len(self.replayed.followed) and (spoiled is None or number <= spoiled)
+        true = number != spoiled if judged else None
+        return Growth(event.edge, event.kind, event.dart, event.degree, true)
+
+    def _recorded(self, one: Round) -> Iterator[tuple[KnownDart, Word]]:
+        if one.when == self.replayed.spoiled or not (
+            isinstance(one.event, ev.Augment) and one.pose
+        ):
+            return
+        for sequence in one.sequences:
+            dart = KnownDart(one.event.dart)  # S has it: the augmentation is true
+            at, rest = self.replayed.records.trace(dart, sequence, one.when + 1)
+            if rest:
+                yield at, rest
+
+    def _mismatch(self, one: Round) -> Mismatch | None:
+        """Where the evidence of a rejection lies; None where it cites what is not there."""
+        event, drawn = one.event, self.map
+        if not isinstance(event, ev.Reject) or one.pose is None:
+            return None
+        if not drawn.is_open(event.edge, one.when) or not drawn.is_open(event.hypothesis, one.when):
+            return None
+        cited = event.evidence
+        words = (one.word,) if cited.sequence is None else one.sequences
+        if event.rule in ("folding", "planar"):
+            words = ((),)
+        place = cited.sequence or 0
+        if not (0 <= place < len(words) and 0 <= cited.step <= len(words[place])):
+            return None
+        doors = tuple(step.door for step in words[place][: cited.step])
+        trail = [drawn.end(event.edge)]
+        for door in doors:
+            trail.append(drawn.beyond(trail[-1], door))
+        traced, leaves = [KnownDart(event.hypothesis)], None
+        for door in doors:
+            out = drawn.turn(traced[-1], door)
+            if drawn.is_open(out, one.when):
+                leaves = out
+                break
+            traced.append(drawn.alpha[out])
+        return Mismatch(cited.sequence, doors, tuple(trail), tuple(traced), leaves, cited)
+
+
+def _after(spent: Spent, move: ev.Move) -> Spent:
+    """What is spent after a move."""
+    purpose = move.purpose or "unsaid"
+    return spent._replace(**{purpose: getattr(spent, purpose) + 1})
+
+
+def _question(
+    event: ev.Event, edge: int | None, left: tuple[int, ...]
+) -> tuple[int | None, tuple[int, ...]]:
+    """The edge in question after an event, and its hypotheses that are left."""
+    match event:
+        case ev.Pose():
+            return event.edge, event.hypotheses
+        case ev.Reject(hypothesis=h) | ev.Confirm(hypothesis=h):
+            return edge, tuple(one for one in left if one != h)
+        case ev.Augment():
+            return None, ()
+        case _:
+            return edge, left

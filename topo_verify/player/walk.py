@@ -1,0 +1,282 @@
+"""A run as text: the moves and decisions before a finding, and S beside the truth.
+
+One view, for every command that shows what went wrong. It holds at any width from 50 columns on.
+What a mapper or a file said stays text: control characters are escaped, and lines are cut.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+
+from topo_verify.checkers import Finding
+from topo_verify.player import walk_map
+from topo_verify.player.detours import circle, turns
+from topo_verify.player.scenes import Moment, Playback
+from topo_verify.player.walk_words import (
+    decision_words,
+    either_place,
+    percept_words,
+    remarks,
+    world_place,
+)
+from topo_verify.robot import events as ev
+from topo_verify.text import LINE, plural, shown
+from topo_verify.world.rooted_map import World
+
+WIDTH = 80
+"""The columns of a view whose reader is not known."""
+
+NARROW = 50
+"""The fewest columns for which the view is laid out."""
+
+MOVES = 10
+"""So many moves before the finding are shown by default."""
+
+_LEGEND = (
+    "v2:7 is dart 7 of the map S, at its vertex v2; w1:4 is dart 4 of the world, at its vertex 1. A"
+    " place is named by the dart by which the robot came in, of S where S has it. sees: the degree,"
+    " and the door of the marker."
+)
+
+_WIDE = ("event", "door", "out by", "sees", "arrives by", "in world", "cost", "for")
+_FEW = ("event", "door", "out by", "sees", "by", "cost")
+_LEFT = {"out by", "sees", "arrives by", "by", "in world", "for"}
+"""The columns that are flush left; the others hold numbers."""
+
+_LONG = 60
+"""The name of a world that is longer is left out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """What of a run is shown.
+
+    Attributes:
+        first: the first event; None: some moves before the finding.
+        to_end: whether the events behind the finding are shown, too.
+    """
+
+    first: int | None = None
+    to_end: bool = False
+
+
+BRIEF = Extent()
+"""The last moves before the finding."""
+
+
+def lines(playback: Playback, width: int = WIDTH, extent: Extent = BRIEF) -> Iterator[str]:
+    """The view of a run: its last moves before the first finding, and S there beside the truth.
+
+    Args:
+        width: the columns that a line may take.
+        extent: what is shown; by default the moves before the finding.
+    """
+    view = _View(playback, max(width, NARROW))
+    end = len(playback.trace) - 1
+    last = end if extent.to_end else view.focus
+    first = view.first if extent.first is None else min(extent.first, last)
+    yield from view.wrapped(_LEGEND)
+    yield ""
+    yield from view.table(playback.moments[first : last + 1])
+    yield from view.more(last)
+    yield from view.end(at_end=last == end)
+    if playback.first_finding is not None:
+        yield ""
+        yield from view.map()
+
+
+def parting(
+    playback: Playback, at: int, sides: Sequence[tuple[str, str]], width: int = WIDTH
+) -> Iterator[str]:
+    """The view of two runs that part: what they share, what each does then, and S at that moment.
+
+    Args:
+        playback: one of the runs; of what comes before event `at` both have the same.
+        sides: the name of each mapper, and what it does.
+    """
+    view = _View(playback, max(width, NARROW), focus=at - 1)
+    yield from view.wrapped(_LEGEND)
+    yield ""
+    yield from view.table(playback.moments[view.first : at])
+    yield "Here they part:"
+    for name, does in sides:
+        yield from view.wrapped(f"{name}: {does}", "  ", "    ")
+    yield ""
+    yield from view.map()
+
+
+def is_shown(playback: Playback, finding: Finding, extent: Extent = BRIEF) -> bool:
+    """Whether the view holds this finding."""
+    first = playback.first_finding
+    return finding.event is None or extent.to_end or (first and first.event) == finding.event
+
+
+class _View:
+    """The parts of the view of one run at one width."""
+
+    def __init__(self, playback: Playback, width: int, focus: int | None = None) -> None:
+        self.playback, self.width = playback, width
+        self.turns, self.circle = turns(playback), circle(playback)
+        self.focus = self._focus() if focus is None else focus
+
+    def _focus(self) -> int:
+        """The event that the view is about: that of the first finding, else where the run ends.
+
+        A run that ends in a circle ends, for people, with the first round of it.
+        """
+        finding = self.playback.first_finding
+        if finding is not None and finding.event is not None:
+            return finding.event
+        return len(self.playback.trace) - 1 if self.circle is None else self.circle.last
+
+    @property
+    def first(self) -> int:
+        """The event from which on there are `MOVES` moves up to the focus."""
+        left = MOVES
+        for number in range(self.focus, 3, -1):  # to leave out fewer would save nothing
+            left -= isinstance(self.playback.trace[number], ev.Move)
+            if not left:
+                return number
+        return 0
+
+    # ------------------------------------------------------------ the table
+
+    def table(self, moments: Sequence[Moment]) -> Iterator[str]:
+        """The events, a row a move; what is decided, remarked and found stands between the rows."""
+        columns, gap, rows = self._laid_out(moments)
+        widths = [max(map(len, column)) for column in zip(columns, *rows.values(), strict=True)]
+        yield _line(columns, columns, widths, gap)
+        indent = " " * (widths[0] + len(gap))
+        if moments and moments[0].number:
+            yield from self.wrapped(f"… {self._before(moments[0])}", indent)
+        for moment in moments:
+            number = f"{moment.number:>{widths[0]}}{gap}"
+            if moment.number in rows:
+                yield _line(columns, rows[moment.number], widths, gap)
+            else:
+                yield from self.wrapped(decision_words(self.playback, moment), number, indent)
+            for remark in remarks(self.playback, moment, self.turns.get(moment.number)):
+                yield from self.wrapped(f"({remark})", indent, f"{indent} ")
+            for finding in moment.findings:
+                yield from self.wrapped(
+                    _found(finding, self.playback.world), indent, f"{indent}   "
+                )
+
+    def _laid_out(
+        self, moments: Sequence[Moment]
+    ) -> tuple[Sequence[str], str, dict[int, tuple[str, ...]]]:
+        """The columns, the gap between them, and the rows by event: fewer where it is narrow."""
+        has_row = (ev.Start, ev.Move)
+        rows = {m.number: self._row(m) for m in moments if isinstance(m.event, has_row)}
+        wide = _WIDE if any(row[-1] for row in rows.values()) else _WIDE[:-1]
+        cut = {number: row[: len(wide)] for number, row in rows.items()}
+        need = sum(max(map(len, column)) for column in zip(wide, *cut.values(), strict=True))
+        if need + 2 * (len(wide) - 1) <= self.width:
+            return wide, "  ", cut
+        return _FEW, " ", {number: (*row[:5], row[6]) for number, row in rows.items()}
+
+    def _row(self, moment: Moment) -> tuple[str, ...]:
+        event, door, out, purpose = moment.event, "start", "", ""
+        assert isinstance(event, ev.Start | ev.Move)
+        if isinstance(event, ev.Move):
+            door, purpose = str(event.door), event.purpose or ""
+            out = either_place(self.playback, moment.through, moment.left_by)
+        return (
+            str(moment.number),
+            door,
+            out,
+            percept_words(event.percept),
+            either_place(self.playback, moment.known, moment.position),
+            world_place(self.playback, moment.position),
+            str(moment.spent.cost),
+            purpose,
+        )
+
+    def _before(self, moment: Moment) -> str:
+        """What was before the first event that is shown."""
+        before = self.playback.moments[moment.number - 1]
+        words = f"{plural(moment.number, 'event')} before, {plural(before.spent.cost, 'move')}"
+        return words if before.edge is None else f"{words}; it asks where edge {before.edge} leads"
+
+    # ------------------------------------------------------------ below the table
+
+    def more(self, last: int) -> list[str]:
+        """How many events follow the last one that is shown."""
+        left, words, found = len(self.playback.trace) - 1 - last, "", self.circle
+        if found is not None and last == found.last:
+            times = f"{found.moves / found.period:.3g} times in all"
+            words = f"Events {found.first} to {last} repeat to the end of the run, {times}."
+        elif left:
+            words = f"{plural(left, 'more event')}: topo-verify replay --all shows them."
+            if found is not None:
+                moves = plural(found.period, "move")
+                words += f" From event {found.first} on the robot walks in a circle of {moves}."
+        return self.wrapped(words)
+
+    def end(self, *, at_end: bool) -> Iterator[str]:
+        """What is wrong with the run as a whole; and where it stood, if it delivered no map.
+
+        Args:
+            at_end: the end of the run is shown.
+        """
+        for finding in self.playback.about_the_run:
+            yield from self.wrapped(_found(finding, self.playback.world), "", "   ")
+        illegal = self.playback.replayed.illegal
+        if illegal is not None and (at_end or self.focus == illegal):
+            stands: int | None = illegal - 1
+        else:
+            finished = isinstance(self.playback.trace[-1], ev.Finish)
+            if at_end and finished and illegal is None:
+                yield from self._delivered()
+            ends_here = at_end and not finished and illegal is None and self.circle is None
+            stands = len(self.playback.trace) - 1 if ends_here else None
+        if stands is not None:
+            listed = walk_map.doors_of(self.playback, stands)
+            yield from chain.from_iterable(self.wrapped(line, "", "    ") for line in listed)
+
+    def _delivered(self) -> Iterator[str]:
+        """What is wrong with the map that was delivered."""
+        last = len(self.playback.trace) - 1
+        claims = {finding.claim for finding in self.playback.findings if finding.event == last}
+        if "map-isomorphic" in claims:
+            yield from self.wrapped(walk_map.difference_of_maps(self.playback) or "")
+        if "map-entailed" in claims:
+            yield from self.wrapped(walk_map.never_crossed(self.playback) or "")
+
+    def map(self) -> Iterator[str]:
+        """S at the event that the view is about, with the truth in brackets."""
+        if not any(isinstance(event, ev.Augment) for event in self.playback.trace):
+            yield "The mapper does not declare how its map S grows."
+            return
+        head = f"S after event {self.focus}, vertex by vertex, clockwise; in brackets what is so"
+        yield from self.wrapped(f"{head} in the world, where S does not say it:")
+        for line in walk_map.known_map(self.playback, self.playback.moments[self.focus]):
+            yield from self.wrapped(line, "  ", "      ")
+
+    def wrapped(self, text: str, indent: str = "", further: str | None = None) -> list[str]:
+        """The text in lines of the view's width, its control characters escaped."""
+        return textwrap.wrap(
+            shown(text, limit=LINE),
+            self.width,
+            initial_indent=indent,
+            subsequent_indent=indent if further is None else further,
+            break_on_hyphens=False,
+        )
+
+
+def _line(columns: Sequence[str], cells: Sequence[str], widths: Sequence[int], gap: str) -> str:
+    padded: Iterable[str] = (
+        cell.ljust(width) if column in _LEFT else cell.rjust(width)
+        for column, cell, width in zip(columns, cells, widths, strict=True)
+    )
+    return gap.join(padded).rstrip()
+
+
+def _found(finding: Finding, world: World) -> str:
+    words, witness = f"!! {finding.claim}: {finding.message}", finding.witness
+    if not witness or witness in words or len(witness) > _LONG or witness == world.text:
+        return words
+    return f"{words} (in {witness} the same is seen so far, and it is false there)"
