@@ -7,6 +7,7 @@
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
 #   make mutants                    the checkers with one thing changed: each must fail a test
 #   make torture                    hostile input, programs and signals: minutes, seeded
+#   make docs                       the site: pages, reference, gallery, links, examples
 #   make lint types                 ruff; mypy and pyright, both strict
 #   make bench                      the speeds that the README quotes
 #
@@ -37,10 +38,10 @@ CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help verify test long nightly coq lint types bench mutants torture constraints oldest clean
+.PHONY: help verify test long nightly coq docs lint types bench mutants torture constraints oldest clean
 
 help:
-	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 14
+	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 15
 
 verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
@@ -62,6 +63,13 @@ nightly: $(VENV)/.dev
 coq: $(VENV)/.dev
 	$(BIN)/topo-verify prove --kind mechanised
 	$(PYTEST) $(PARALLEL) $(EVERY) tests/proofs/mechanised tests/cli/test_certify_kernel.py $(call report,coq)
+
+# Into build/docs; a warning is an error. The examples in docstrings run; no network is used.
+SPHINX := $(BIN)/python -m sphinx --quiet --nitpicky --fail-on-warning --keep-going -d build/doctrees docs
+docs: $(VENV)/.dev
+	$(SPHINX) build/docs -b html
+	$(SPHINX) build/doctest -b doctest
+	@echo "The site is in build/docs: open build/docs/index.html"
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .

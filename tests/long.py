@@ -119,6 +119,7 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_the_mapper_passes_its_tests",
         "test_the_steps_of_the_workflow_work",
     ),
+    "docs/test_pages.py": (r"test_what_a_page_says_can_be_done_and_prints_what_it_shows\[.*\]",),
     "harness/baseline/test_compare.py": (
         "test_classes_of_the_extremes_have_names",
         "test_the_worlds_are_those_of_the_file",

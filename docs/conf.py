@@ -1,0 +1,92 @@
+"""How Sphinx builds the site of docs/: make docs.
+
+Every page reads well on GitHub, too. So the pages use links and lists of plain Markdown, and what
+makes a site of them is done by the extensions in docs/site/, one file each:
+
+    contents.py    the table of contents, read from the lists of index.md
+    glossary.py    links from the words on every page to glossary.md
+    players.py     commands whose page is made by the build and shown below them
+    codelines.py   the line numbers of the code that explanation/paper.md names
+    checked.py     every link and anchor of the finished pages
+"""
+
+import sys
+from pathlib import Path
+
+import topo_verify
+
+sys.path.insert(0, str(Path(__file__).parent / "site"))
+
+project = "topo-verify"
+author = "the maintainers of topo-verify"
+version = release = topo_verify.__version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.doctest",
+    "sphinx.ext.napoleon",
+    "sphinx_click",
+    "contents",
+    "glossary",
+    "players",
+    "codelines",
+    "checked",
+]
+exclude_patterns = ["site"]
+
+# --- strictness: with -W a warning ends the build ----------------------------------------------
+
+nitpicky = True
+# What other projects define is not on this site; intersphinx would need a network. Names of
+# topo_verify itself must be found.
+nitpick_ignore_regex = [(r"py:.*", r"(?!topo_verify\.).*")]
+# Types inside the rooms that stand in public signatures, where nobody needs to make one.
+nitpick_ignore = [
+    ("py:class", f"topo_verify.{name}")
+    for name in (
+        "algorithms.exploration.Rule",
+        "algorithms.motion.Choice",
+        "algorithms.motion.Executed",
+        "algorithms.motion.Hypothesis",
+        "checkers.folding.Fold",
+        "harness.judge.JudgedRun",
+        "harness.ledger.Ledger",
+        "harness.observed.Observation",
+        "harness.observed.Sampler",
+        "harness.search.identity.Identity",
+        "harness.search.plan.Shard",
+        "player.scenes.Playback",
+        "programs.loader.Target",
+        "programs.misbehaviour.Misbehaved",
+        "strategies.notes.ObservedRun",
+        "world.rooted_map._Formats",
+    )
+]
+
+# --- Markdown ----------------------------------------------------------------------------------
+
+myst_heading_anchors = 4  # GitHub's anchors of headings
+myst_enable_extensions = []
+suppress_warnings = ["myst.header"]  # a page that another one includes may begin anywhere
+
+# --- Python ------------------------------------------------------------------------------------
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+napoleon_google_docstring = True
+napoleon_numpy_docstring = False
+napoleon_use_ivar = True
+doctest_test_doctest_blocks = "default"
+# Examples use the names of their modules, as pytest runs them.
+doctest_global_setup = "from topo_verify import *; from topo_verify.strategies import *"
+
+# --- looks -------------------------------------------------------------------------------------
+
+html_theme = "furo"
+html_title = f"topo-verify {release}"
+html_show_sphinx = False
+html_copy_source = False
+html_static_path = ["site/static"]
+html_css_files = ["site.css"]

@@ -1,0 +1,136 @@
+"""docs/explanation/paper.md: every name on the page exists, and says what the page says it does."""
+
+from __future__ import annotations
+
+import ast
+import re
+from functools import cache
+
+import pytest
+
+from tests.algorithms.test_listings import LINES, cited
+from tests.pages import ROOT
+from topo_verify.checkers import CLAIMS
+from topo_verify.proofs.catalogue import catalogue
+
+Row = tuple[str, ...]
+
+PAGE = (ROOT / "docs" / "explanation" / "paper.md").read_text(encoding="utf-8")
+
+
+def rows(page: str, heading: str) -> list[Row]:
+    """The rows of the table under a heading, without its head."""
+    section = page.split(f"## {heading}\n")[1].split("\n## ")[0]
+    lines = [line for line in section.splitlines() if line.startswith("| ")]
+    return [tuple(cell.strip() for cell in line.split("|")[1:-1]) for line in lines[2:]]
+
+
+SENTENCES = rows(PAGE, "Sentence by sentence")
+LISTINGS = rows(PAGE, "The listings, line by line")
+
+
+@cache
+def source(path: str) -> str:
+    """The text of a file of the repository; empty if there is none."""
+    file = ROOT / path
+    return file.read_text(encoding="utf-8") if file.is_file() else ""
+
+
+def definition(path: str, name: str) -> ast.stmt | None:
+    """What a file defines by this dotted name: a function, class, method or constant."""
+    scope: list[ast.stmt] = ast.parse(source(path)).body
+    found = None
+    for part in name.split("."):
+        found = next((node for node in scope if part in names(node)), None)
+        scope = found.body if isinstance(found, ast.ClassDef) else []
+    return found
+
+
+def names(node: ast.stmt) -> list[str]:
+    """The names that a statement defines."""
+    match node:
+        case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
+            return [name]
+        case ast.Assign(targets=targets):
+            return [target.id for target in targets if isinstance(target, ast.Name)]
+        case ast.AnnAssign(target=ast.Name(id=name)):
+            return [name]
+        case _:
+            return []
+
+
+def text_of(path: str, name: str) -> str:
+    """The lines of what a file defines by this name."""
+    node = definition(path, name)
+    assert node is not None, f"{path} has no {name}"
+    return "\n".join(source(path).splitlines()[node.lineno - 1 : node.end_lineno])
+
+
+def lost(row: Row) -> list[str]:
+    """The names in a row of the first table that do not exist."""
+    _, _, code, claims, z3, coq, tests = (re.findall(r"`([^`]+)`", cell) for cell in row)
+    theorems = {theorem.name for theorem in catalogue()}
+    return [
+        *(name for name in code if not _defined("topo_verify/", name)),
+        *(name for name in claims if name not in CLAIMS),
+        *(name for name in z3 if name not in theorems),
+        *(name for name in coq if not _in_coq(name)),
+        *(name for name in tests if not _defined("tests/", name)),
+    ]
+
+
+def _defined(folder: str, name: str) -> bool:
+    path, _, what = name.partition(":")
+    return definition(folder + path, what) is not None
+
+
+def _in_coq(name: str) -> bool:
+    file, _, theorem = name.partition(".")
+    kinds = "Theorem|Example|Lemma|Corollary|Definition|Fixpoint|Inductive|Record"
+    text = source(f"topo_verify/proofs/coq/{file}.v")
+    return re.search(rf"^\s*(?:{kinds}) {re.escape(theorem)}\b", text, re.MULTILINE) is not None
+
+
+def test_every_name_of_a_sentence_exists() -> None:
+    assert {row[1]: names for row in SENTENCES if (names := lost(row))} == {}
+
+
+def test_each_sentence_has_code_and_a_test() -> None:
+    assert len(SENTENCES) >= 25
+    assert all("`" in row[2] and "`" in row[6] for row in SENTENCES)
+
+
+@pytest.mark.parametrize("column", [2, 3, 4, 5, 6])
+def test_a_name_that_was_changed_is_seen(column: int) -> None:
+    row = next(row for row in SENTENCES if all("`" in cell for cell in row[2:]))
+    changed = [re.sub(r"`$", "x`", cell) if at == column else cell for at, cell in enumerate(row)]
+    assert not lost(row)
+    assert len(lost(tuple(changed))) == 1
+
+
+@pytest.mark.parametrize("listing", LINES)
+def test_every_line_of_a_listing_is_on_the_page_once(listing: int) -> None:
+    lines = [int(line) for row in LISTINGS for line in re.findall(r"\d+", row[listing - 1])]
+    assert sorted(lines) == list(range(1, LINES[listing] + 1))
+
+
+def test_the_code_of_a_line_carries_its_number() -> None:
+    for *numbers, _, code in LISTINGS:
+        path, _, name = code.strip("`").partition(":")
+        found = set(cited(_whole(text_of(f"topo_verify/{path}", name))))
+        for listing, cell in enumerate(numbers, 1):
+            said = {(listing, int(line)) for line in re.findall(r"\d+", cell)}
+            assert said <= found, f"{code} has no comment for {said - found}"
+
+
+def test_a_line_under_the_wrong_function_is_seen() -> None:
+    found = set(cited(_whole(text_of("topo_verify/algorithms/exploration.py", "execute"))))
+    assert (1, 20) not in found
+    assert (1, 9) in found
+
+
+def _whole(text: str) -> str:
+    """A definition as a file of its own: a method has its indent taken away."""
+    lines = text.splitlines()
+    indent = len(lines[0]) - len(lines[0].lstrip())
+    return "\n".join(line[indent:] for line in lines) + "\n"

@@ -1,0 +1,140 @@
+"""What makes a site of docs/: contents, links from words, checked links, and the gallery.
+
+`make docs` builds the site itself; these tests try its parts on small inputs that must fail.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from tests.pages import ROOT
+from topo_verify.world.drawing.read_back import read, untruths
+from topo_verify.world.families import FAMILIES
+from topo_verify.world.resolve import resolve_world
+
+DOCS = ROOT / "docs"
+
+
+def part(path: str) -> ModuleType:
+    """A Python file of docs/, which is no package."""
+    spec = importlib.util.spec_from_file_location(Path(path).stem, DOCS / path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules.setdefault(f"docs_{Path(path).stem}", module)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_every_page_stands_once_in_the_contents() -> None:
+    parts = list(part("site/contents.py").parts((DOCS / "index.md").read_text()))
+    entries = [page for _, pages in parts for _, page in pages]
+    pages = {page.relative_to(DOCS).with_suffix("").as_posix() for page in DOCS.rglob("*.md")}
+    assert sorted(entries) == sorted(pages - {"index"})
+
+
+def test_the_contents_are_the_lists_of_the_page() -> None:
+    index = "# T\n\n## One\n\n- [A](a.md): why\n- [B](b/c.md)\n\n## Two\n\nno list\n"
+    assert part("site/contents.py").toctrees(index) == (
+        "\n```{toctree}\n:hidden:\n:caption: One\n\nA <a>\nB <b/c>\n```\n"
+    )
+
+
+def test_words_are_found_whole_in_the_singular_and_the_plural() -> None:
+    glossary = part("site/glossary.py")
+    words = ("dart", "hypothesis", "reference dart", "policy", "genus")
+    text = "Darts, the reference dart, hypotheses and policies; a darter. Genus"
+    found = [(text[start:end], word) for start, end, word in glossary.uses(text, words)]
+    assert found == [
+        ("Darts", "dart"),
+        ("reference dart", "reference dart"),
+        ("hypotheses", "hypothesis"),
+        ("policies", "policy"),
+        ("Genus", "genus"),
+    ]
+
+
+def test_the_glossary_has_no_word_twice() -> None:
+    words = part("site/glossary.py").words_of((DOCS / "glossary.md").read_text())
+    assert len(words) == len(set(words)) > 30
+
+
+@pytest.mark.parametrize(
+    ("link", "why"),
+    [
+        ("b.html", "names a file that is not there"),
+        ("#nowhere", "names an anchor that is not there"),
+        ("a.html#nowhere", "names an anchor that is not there"),
+        ("http://nowhere", "is no address of the web"),
+        ("javascript:alert(1)", "is no address of the web"),
+    ],
+)
+def test_a_broken_link_is_seen(link: str, why: str, tmp_path: Path) -> None:
+    checked = part("site/checked.py")
+    page = tmp_path / "a.html"
+    page.write_text(
+        '<p id="here"><a href="#here"><a href="https://example.org/x"><a href="a.html">'
+    )
+    assert list(checked.broken(tmp_path)) == []
+    page.write_text(f'<p id="here"><a href="{link}">')
+    assert list(checked.broken(tmp_path)) == [f"a.html: {link} {why}"]
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "topo-verify replay m1/0 --target basic --player right.html",  # no counterexample
+        "topo-verify play m1/0 -o FILE --algorithm basic",  # the page does not stand last
+        "topo-verify play m9/x -o wrong.html",
+    ],
+)
+def test_a_player_that_shows_nothing_ends_the_build(command: str, tmp_path: Path) -> None:
+    players = part("site/players.py")
+    with pytest.raises(players.ExtensionError):
+        players.make(command, tmp_path)
+
+
+def test_the_line_of_a_definition_is_found() -> None:
+    line_of = part("site/codelines.py").line_of
+    source = "X: int = 1\n\n\nclass A:\n    def f(self): ...\n"
+    assert [line_of(source, name) for name in ("X", "A", "A.f", "f")] == [1, 4, 5, None]
+
+
+def test_the_gallery_has_every_family_and_the_first_genera() -> None:
+    pictures = part("gallery.py").PICTURES
+    assert FAMILIES.keys() <= pictures.keys()
+    assert {resolve_world(world).genus for world in pictures.values()} >= {0, 1, 2, 3}
+
+
+def test_every_stored_picture_shows_its_world_and_stands_on_a_page() -> None:
+    pictures = part("gallery.py").PICTURES
+    stored = {path.stem: path.read_text() for path in (DOCS / "gallery").glob("*.svg")}
+    pages = "".join(page.read_text() for page in DOCS.rglob("*.md"))
+    assert stored.keys() == pictures.keys()
+    for name, svg in stored.items():
+        assert untruths(read(svg), resolve_world(pictures[name])) == [], name
+        assert f"gallery/{name}.svg)" in pages
+
+
+def test_a_picture_of_another_world_is_seen() -> None:
+    svg = (DOCS / "gallery" / "m2-7.svg").read_text()
+    assert untruths(read(svg), resolve_world("m2/8"))
+
+
+def test_every_core_dependency_has_its_row() -> None:
+    spec = importlib.util.spec_from_file_location("weights", ROOT / "benchmarks/dependencies.py")
+    assert spec is not None
+    assert spec.loader is not None
+    weights = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(weights)
+    page = (DOCS / "reference" / "dependencies.md").read_text()
+    assert sorted(weights.core()) == sorted(weights.PURPOSES)
+    for name, purpose in weights.PURPOSES.items():
+        assert f"| {name} | {purpose} | " in page
+    assert weights.size("click") > 100_000
+    assert {"click", "numpy"} <= weights.needs("scipy") | weights.needs("click")
