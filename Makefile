@@ -9,7 +9,7 @@
 #   make torture                    hostile input, programs and signals: minutes, seeded
 #   make docs                       the site: pages, reference, gallery, links, examples
 #   make lint types                 ruff; mypy and pyright, both strict
-#   make bench                      the speeds that the README quotes
+#   make bench                      the speeds of benchmarks/README.md
 #
 #   make test PYTHON=python3.12     another Python (give it another VENV, too, to keep both)
 #   make test INSTALLER=uv          uv in the place of venv and pip

@@ -32,6 +32,7 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_the_page_shows_what_is_printed",
         "test_two_comparisons_are_equal_but_for_the_time",
     ),
+    "cli/test_completion.py": ("test_bash_offers_commands_options_and_values",),
     "cli/test_conform.py": (
         "test_a_program_meets_the_worlds_in_an_order_that_is_drawn_anew",
         "test_an_entry_a_level_with_every_promised_field",
@@ -103,6 +104,9 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_time_outs_leave_a_part_undecided",
         "test_what_does_not_concern_a_mapper_of_ones_own_is_left_out_and_said",
     ),
+    "docs/test_pages.py": (r"test_what_a_page_says_can_be_done_and_prints_what_it_shows\[.*\]",),
+    "docs/test_site.py": (r"test_a_player_that_shows_nothing_ends_the_build\[.*\]",),
+    "examples/test_every_example.py": ("test_the_pytest_file_beside_the_python_mapper_passes",),
     "examples/test_first_look.py": (
         "test_a_run_is_a_page_in_a_frame",
         "test_the_catalogue_holds_what_is_claimed",
@@ -119,7 +123,6 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_the_mapper_passes_its_tests",
         "test_the_steps_of_the_workflow_work",
     ),
-    "docs/test_pages.py": (r"test_what_a_page_says_can_be_done_and_prints_what_it_shows\[.*\]",),
     "harness/baseline/test_compare.py": (
         "test_classes_of_the_extremes_have_names",
         "test_the_worlds_are_those_of_the_file",
@@ -336,8 +339,17 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_a_thousand_draws_of_74_worlds_are_spread_evenly",
         "test_they_have_the_edges_that_were_asked_for_and_shrink_towards_rank_0",
     ),
+    "test_action.py": (
+        "test_a_wheel_is_installed_and_the_mapper_checked_with_it",
+        "test_an_input_cannot_become_a_command",
+        r"test_the_search_fails_the_step_just_as_it_should\[.*\]",
+    ),
     "test_house.py": ("test_the_rooms_and_their_arrows_can_be_drawn_from_memory",),
     "test_layers.py": ("test_every_room_imports_only_what_it_may",),
+    "test_packaging.py": (
+        "test_the_command_of_the_wheel_works_on_its_own",
+        "test_the_tests_in_the_sdist_run_where_it_is_unpacked",
+    ),
     "test_pytest_plugin.py": (
         "test_a_junit_file_has_the_worlds_and_the_line",
         "test_a_mapper_that_hangs_fails_and_leaves_the_rest_undecided",

@@ -20,7 +20,7 @@ PAGE = (ROOT / "docs" / "explanation" / "paper.md").read_text(encoding="utf-8")
 
 def rows(page: str, heading: str) -> list[Row]:
     """The rows of the table under a heading, without its head."""
-    section = page.split(f"## {heading}\n")[1].split("\n## ")[0]
+    section = page.split(f"## {heading}\n")[1].split("\n## ", maxsplit=1)[0]
     lines = [line for line in section.splitlines() if line.startswith("| ")]
     return [tuple(cell.strip() for cell in line.split("|")[1:-1]) for line in lines[2:]]
 
