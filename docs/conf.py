@@ -38,6 +38,7 @@ exclude_patterns = ["site"]
 # --- strictness: with -W a warning ends the build ----------------------------------------------
 
 nitpicky = True
+smartquotes = False  # two hyphens begin an option
 # What other projects define is not on this site; intersphinx would need a network. Names of
 # topo_verify itself must be found.
 nitpick_ignore_regex = [(r"py:.*", r"(?!topo_verify\.).*")]
@@ -87,6 +88,7 @@ doctest_global_setup = "from topo_verify import *; from topo_verify.strategies i
 html_theme = "furo"
 html_title = f"topo-verify {release}"
 html_show_sphinx = False
+html_show_copyright = False
 html_copy_source = False
 html_static_path = ["site/static"]
 html_css_files = ["site.css"]

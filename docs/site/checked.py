@@ -1,5 +1,7 @@
 """Every link of the finished pages: files and anchors exist, addresses elsewhere are well formed.
 
+Nor does a page name a folder of the machine that built it.
+
 Whether another server answers is not asked, since the build uses no network.
 """
 
@@ -12,6 +14,8 @@ from urllib.parse import unquote, urlsplit
 
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
+
+ROOT = str(Path(__file__).resolve().parents[2])
 
 
 class Page(HTMLParser):
@@ -34,6 +38,10 @@ class Page(HTMLParser):
 
 def broken(folder: Path) -> Iterator[str]:
     """What is wrong with the links of the pages in a folder, a sentence each."""
+    for path in sorted(folder.rglob("*.html")):
+        if ROOT in path.read_text(encoding="utf-8"):
+            name = path.relative_to(folder)
+            yield f"{name}: names the folder {ROOT}, which a reader does not have"
     pages = {path: Page(path.read_text(encoding="utf-8")) for path in folder.rglob("*.html")}
     for path, page in sorted(pages.items()):
         for link in page.links:

@@ -27,6 +27,9 @@ _CLOSED = (
 )
 """In these nothing is linked."""
 
+_NAMES = {"Hypothesis"}
+"""Written so, a word is the name of something else: here of the library. (WORLD is an argument.)"""
+
 
 def words_of(glossary: str) -> list[str]:
     """The words that the glossary explains."""
@@ -58,7 +61,8 @@ def uses(text: str, words: tuple[str, ...]) -> Iterator[tuple[int, int, str]]:
     """Where words of the glossary stand in a text: start, end, the word."""
     pattern, forms = _forms(words)
     for match in pattern.finditer(text):
-        yield match.start(), match.end(), forms[match[0].lower()]
+        if match[0] not in _NAMES and not match[0].isupper():
+            yield match.start(), match.end(), forms[match[0].lower()]
 
 
 def _link(app: Sphinx, doctree: nodes.document, page: str) -> None:

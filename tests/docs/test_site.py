@@ -48,7 +48,8 @@ def test_the_contents_are_the_lists_of_the_page() -> None:
 def test_words_are_found_whole_in_the_singular_and_the_plural() -> None:
     glossary = part("site/glossary.py")
     words = ("dart", "hypothesis", "reference dart", "policy", "genus")
-    text = "Darts, the reference dart, hypotheses and policies; a darter. Genus"
+    text = "Darts, the reference dart, hypotheses and policies; a darter. Genus."
+    text += " Hypothesis draws a WORLD."
     found = [(text[start:end], word) for start, end, word in glossary.uses(text, words)]
     assert found == [
         ("Darts", "dart"),
@@ -83,6 +84,12 @@ def test_a_broken_link_is_seen(link: str, why: str, tmp_path: Path) -> None:
     assert list(checked.broken(tmp_path)) == []
     page.write_text(f'<p id="here"><a href="{link}">')
     assert list(checked.broken(tmp_path)) == [f"a.html: {link} {why}"]
+
+
+def test_a_folder_of_this_machine_is_seen(tmp_path: Path) -> None:
+    (tmp_path / "a.html").write_text(f"<code>{ROOT}/topo_verify/world/io.py</code>")
+    (seen,) = part("site/checked.py").broken(tmp_path)
+    assert "which a reader does not have" in seen
 
 
 @pytest.mark.parametrize(
