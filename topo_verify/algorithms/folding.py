@@ -124,14 +124,12 @@ class PartialFold:
                 if k != n:
                     return "a vertex would be itself, turned"
                 continue
-            least, most = self._size(small), self._size(large)
-            if least > most:  # keeps every chain of leaders short
+            if self._size(small) > self._size(large):  # keeps every chain of leaders short
                 small, k, large, n = large, n, small, k
             if wrong := self._clash(small, large):
                 return wrong
-            # Door k of `small` is door k + turned of `large`, which is now the leader of both.
-            degree, turned = self.signatures[small][0], n - k
-            leader[small], self.weight[large] = (large, turned), least + most
+            self._merge(small, large, n - k)
+            turned, degree = leader[small][1], self.signatures[small][0]
             doors = self._doors(large)
             for door, end in self._doors(small).items():
                 moved = large, (door + turned) % degree
@@ -147,14 +145,18 @@ class PartialFold:
         return ""
 
     def _clash(self, small: int, large: int) -> str:
-        """Why two nodes cannot be one vertex, by what was seen and is known; "" if they can."""
+        """Why two nodes cannot be one vertex, judged by what was seen at them; "" if they can."""
         if self.signatures[small] != self.signatures[large]:
             return "two degrees, or the marker and its absence, at one place"
+        both = self.is_known(small) and self.is_known(large)
+        return "two vertices of S would be one" if both else ""
+
+    def _merge(self, small: int, large: int, turned: Door) -> None:
+        """Make `large` the leader of `small`, whose door k is door k + turned of `large`."""
+        self.weight[large] = self._size(small) + self._size(large)
+        self.leader[small] = large, turned
         if self.is_known(small):
-            if self.is_known(large):
-                return "two vertices of S would be one"
             self.known.add(large)
-        return ""
 
     def _size(self, node: int) -> int:
         """How many nodes a leader stands for."""
