@@ -5,7 +5,6 @@ conform.py, record.py, compare.py, replay.py, play.py, certify.py     the comman
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown
-layout.py     tables and paragraphs
 progress.py   the bar on stderr
 failures.py   exit codes, and the sentences that go with them
 """

@@ -10,7 +10,6 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.record import MapperOpener, mapper_options
@@ -18,6 +17,7 @@ from topo_verify.harness.baseline import file
 from topo_verify.harness.baseline.compare import KINDS, Change, ChangeKind, Comparison, Group
 from topo_verify.harness.baseline.compare import compare as run_all
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.robot.events import Policies
 from topo_verify.text import plural
 

@@ -11,7 +11,6 @@ from functools import partial
 import click
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable, View
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import unjudged
@@ -25,6 +24,7 @@ from topo_verify.harness.targets import target_arguments, target_text, targets
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
 from topo_verify.programs.program import PREFIX
+from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, View
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural

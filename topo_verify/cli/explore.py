@@ -11,7 +11,6 @@ import msgspec
 
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.play import (
@@ -38,6 +37,7 @@ from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural

@@ -8,7 +8,6 @@ import click
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.errors import InputError
@@ -23,6 +22,7 @@ from topo_verify.harness.faults.detection import (
     try_faults,
 )
 from topo_verify.harness.pool import processors
+from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.text import plural
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")

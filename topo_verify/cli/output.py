@@ -23,11 +23,11 @@ from typing import IO, Any, Concatenate, Generic, ParamSpec, TypeVar
 import click
 import msgspec
 
-from topo_verify.cli import layout
 from topo_verify.cli.failures import exit_code, say, silence, version
-from topo_verify.cli.layout import Block, Text
 from topo_verify.cli.progress import ProgressBar
 from topo_verify.errors import InputError
+from topo_verify.report import blocks as layout
+from topo_verify.report.blocks import Block, Text
 from topo_verify.text import plural
 
 P = ParamSpec("P")

@@ -12,10 +12,10 @@ import click
 
 from topo_verify.cli import options
 from topo_verify.cli import theorems as shown
-from topo_verify.cli.layout import Block, Text
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.errors import InputError, InternalError
+from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.limits import MOST_SECONDS
 
 if TYPE_CHECKING:

@@ -11,7 +11,6 @@ import click
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.searched import ByEdges, Counterexample, FailingClaim, Lost, SearchEntry
@@ -27,6 +26,7 @@ from topo_verify.harness.tally import CostTotals, Failure, joint_judgements
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.classes import WorldClass
 

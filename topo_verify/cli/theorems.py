@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from topo_verify.cli.layout import Block, Bullets, Text, TextTable
+from topo_verify.report.blocks import Block, Bullets, Text, TextTable
 from topo_verify.text import plural
 
 if TYPE_CHECKING:

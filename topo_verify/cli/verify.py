@@ -9,7 +9,6 @@ import click
 from topo_verify.checkers import CLAIMS
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks, unjudged
@@ -18,6 +17,7 @@ from topo_verify.harness.targets import target_text, targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.parts import Part
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from topo_verify.cli.layout import Block, Bullets, Command, Text, View
 from topo_verify.cli.runs import NamedWorld, finding_line, judged
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import Report
 from topo_verify.harness.run import explore
 from topo_verify.player import walk
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block, Bullets, Command, Text, View
 from topo_verify.robot.limits import Limits
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World

@@ -6,7 +6,16 @@ from io import StringIO
 
 import pytest
 
-from topo_verify.cli.layout import Block, Bullets, Command, Raw, Text, TextTable, markdown, pretty
+from topo_verify.report.blocks import (
+    Block,
+    Bullets,
+    Command,
+    Raw,
+    Text,
+    TextTable,
+    markdown,
+    pretty,
+)
 
 
 class Terminal(StringIO):
