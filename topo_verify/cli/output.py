@@ -26,8 +26,9 @@ import msgspec
 from topo_verify.cli.failures import exit_code, say, silence, version
 from topo_verify.cli.progress import ProgressBar
 from topo_verify.errors import InputError
-from topo_verify.report import blocks as layout
 from topo_verify.report.blocks import Block, Text
+from topo_verify.report.markdown import markdown
+from topo_verify.report.terminal import pretty
 from topo_verify.text import plural
 
 P = ParamSpec("P")
@@ -183,11 +184,11 @@ class Output:
                 # One object, written at the end: a script never reads half a result.
                 out.write(json.dumps(envelope) + "\n")
             else:
-                out.write(layout.markdown(show(done.entries)))
+                out.write(markdown(show(done.entries)))
 
     def _pretty(self, blocks: Iterable[Block]) -> None:
         with _reader(self.stdout) as out:
-            layout.pretty(blocks, out)
+            pretty(blocks, out)
 
 
 @contextmanager
