@@ -28,7 +28,7 @@ from topo_verify.cli.runs import (
     named_worlds,
     unjudged,
 )
-from topo_verify.cli.walks import FoundWalk
+from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
 from topo_verify.harness.gap import gap as measure
 from topo_verify.harness.judge import Report
@@ -177,7 +177,7 @@ def explore(  # noqa: PLR0913  an argument an option
         asked = _ExploreOptions(limits, trace, player, svg, strict, gap)
         return _results(output, starts, found, asked, walk)
 
-    walk = FoundWalk(wanted=output.style != "json")
+    walk = FoundRuns(output)
     return output.run(
         "explore",
         runs,
@@ -203,7 +203,7 @@ def _results(
     starts: Sequence[NamedWorld],
     found: Sequence[Target],
     asked: _ExploreOptions,
-    walk: FoundWalk,
+    walk: FoundRuns,
 ) -> Iterator[Result[ExploreEntry]]:
     total = len(starts) * len(found)
     played: list[PlayedRun] = []
