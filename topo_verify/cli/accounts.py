@@ -217,7 +217,9 @@ def prove_account(
     kinds = [(kind, [entry for entry in entries if entry.kind == kind]) for kind in KINDS]
     cases = [_theorem_case(entry, options) for entry in entries]
     right = sum(case.outcome == "passed" for case in cases)
-    positive = joint_verdict([e.verdict for e in entries if e.expected != "REFUTED"] or ["PROVED"])
+    positive = joint_verdict(
+        [e.verdict for e in entries if e.expected != "REFUTED"] or ["EXHAUSTED"]
+    )
     verdict: Verdict = "PROVED" if positive == "PROVED" else "EXHAUSTED"
     if any(case.outcome == "undecided" for case in cases) or not cases:
         verdict = "UNKNOWN"

@@ -90,6 +90,7 @@ class Ending:
         code: the exit code.
         finished: whether the work came to its end.
         seconds, timing: how long it took, and what else differs from run to run.
+        by_result: how long each result took.
     """
 
     command: str
@@ -97,6 +98,7 @@ class Ending:
     finished: bool
     seconds: float
     timing: dict[str, Any]
+    by_result: tuple[float, ...]
 
 
 class _ReaderGone(Exception):
@@ -161,7 +163,12 @@ class Output:
             pass  # what was asked for in files is written all the same
         if self.report is not None and account is not None:
             ending = Ending(
-                command, int(done.code), done.finished, perf_counter() - begin, self.timing
+                command,
+                int(done.code),
+                done.finished,
+                perf_counter() - begin,
+                self.timing,
+                tuple(done.seconds),
             )
             self.report(account(done.entries), ending)
         return done.code

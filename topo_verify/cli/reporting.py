@@ -167,6 +167,7 @@ def _run(ending: Ending, again: str, now: datetime) -> JunitRun:
         finished=ending.finished,
         date=f"{now:%Y-%m-%dT%H:%M:%S}",
         seconds=ending.seconds,
+        by_suite=ending.by_result,
     )
 
 

@@ -104,7 +104,10 @@ def _who(mappers: Sequence[Target]) -> str:
 
 def _first_of_each(part: Part) -> Iterator[Finding]:
     """The first finding of each run of a part, smallest worlds first."""
-    yield from {(one.world, one.replay): one for one in reversed(part.findings)}.values()
+    first: dict[tuple[str, str], Finding] = {}
+    for finding in part.findings:
+        first.setdefault((finding.world, finding.replay), finding)
+    yield from first.values()
 
 
 def _head(mappers: Sequence[Target], seed: int, others: Sequence[str]) -> Iterator[str]:

@@ -77,22 +77,25 @@ def _lines(lines: Iterable[str]) -> str:
 
 
 def _table(table: TextTable) -> str:
-    sides = [' class="number"' if column.startswith(">") else "" for column in table.columns]
-    titles = (
-        f"<th{side}>{xml_text(clean(column.removeprefix('>')))}</th>"
-        for column, side in zip(table.columns, sides, strict=True)
+    titles = [xml_text(clean(column.removeprefix(">"))) for column in table.columns]
+    right = [column.startswith(">") for column in table.columns]
+    head = "".join(
+        f'<th class="number">{title}</th>' if number else f"<th>{title}</th>"
+        for title, number in zip(titles, right, strict=True)
     )
-    rows = (f"<tr>{''.join(map(_cell, row, sides))}</tr>" for row in table.rows)
+    rows = "\n".join(f"<tr>{''.join(map(_cell, row, titles, right))}</tr>" for row in table.rows)
     caption = f"<caption>{xml_text(clean(table.title))}</caption>" if table.title else ""
+    prose = ' class="prose"' if 'class="say"' in rows else ""
     return (
-        f'<div class="wide" tabindex="0"><table>{caption}'
-        f"<thead><tr>{''.join(titles)}</tr></thead>\n"
-        f"<tbody>{chr(10).join(rows)}</tbody></table></div>"
+        f'<div class="wide" tabindex="0"><table{prose}>{caption}<thead><tr>{head}</tr></thead>\n'
+        f"<tbody>{rows}</tbody></table></div>"
     )
 
 
-def _cell(cell: str | Cell, side: str) -> str:
+def _cell(cell: str | Cell, title: str, right: bool) -> str:  # noqa: FBT001  given by map
     tone, text = cell_tone(cell), xml_text(cell_text(cell))
     if tone:
         return f'<td class="{tone}">{text}</td>'
-    return f'<td class="say">{text}</td>' if len(text) > LONG_CELL else f"<td{side}>{text}</td>"
+    if right:
+        return f'<td class="number" data-title="{title}">{text}</td>'
+    return f'<td class="say">{text}</td>' if len(text) > LONG_CELL else f"<td>{text}</td>"

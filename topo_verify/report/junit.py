@@ -7,7 +7,9 @@
 | undecided | `error` | a time-out or an UNKNOWN is no pass, and `skipped` counts as one |
 | not judged | `skipped` | the mapper declares nothing about it, or it was not asked for |
 
-The elements and attributes are those of the schema that Jenkins publishes, in its order.
+The file is valid against the schema of Ant's JUnit task (tests/report/test_junit.py), the narrowest
+of those in use. It wants a time of every case: a case has that of its suite where it is alone in
+it, else 0; `seconds` among the properties is that of the whole run. The host is not named.
 """
 
 from __future__ import annotations
@@ -30,7 +32,8 @@ class JunitRun:
         command: of topo-verify, as `verify`.
         again: the command line that repeats the run.
         finished: whether the work came to its end; if not, a case says so.
-        date, seconds: when the work ended (ISO 8601), and how long it took.
+        date, seconds: when the work ended (ISO 8601, UTC), and how long it took.
+        by_suite: how long each suite took, if that is known.
     """
 
     command: str
@@ -38,21 +41,20 @@ class JunitRun:
     finished: bool
     date: str
     seconds: float
+    by_suite: Sequence[float] = ()
 
 
 def junit(account: Account, run: JunitRun) -> str:
     """The account as JUnit XML."""
     suites = list(account.suites)
-    if not run.finished:
-        suites.append(JudgedSuite("the run", (UNFINISHED,)))
-    total = _counts([case for suite in suites for case in suite.cases])
-    name = xml_text(f"topo-verify {run.command}: {account.about}")
-    lines = [
-        '<?xml version="1.0" encoding="UTF-8"?>',
-        f'<testsuites name="{name}" {total} time="{run.seconds:.3f}">',
-    ]
-    for suite in suites:
-        lines += _suite(suite, run)
+    times = list(run.by_suite) if len(run.by_suite) == len(suites) else [0.0] * len(suites)
+    if not run.finished or not suites:
+        case = UNFINISHED if not run.finished else NOTHING
+        suites.append(JudgedSuite("the run", (case,)))
+        times.append(0.0)
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>"]
+    for number, (suite, seconds) in enumerate(zip(suites, times, strict=True)):
+        lines += _suite(number, suite, seconds, account, run)
     return "\n".join([*lines, "</testsuites>", ""])
 
 
@@ -61,23 +63,39 @@ UNFINISHED = JudgedCase(
 )
 """The case of a run that was interrupted."""
 
-
-def _counts(cases: Sequence[JudgedCase]) -> str:
-    count = Counter(case.outcome for case in cases)
-    return f'tests="{len(cases)}" failures="{count["failed"]}" errors="{count["undecided"]}"'
+NOTHING = JudgedCase("judged something", "UNKNOWN", "undecided", message="nothing was judged")
+"""The case of a run without results."""
 
 
-def _suite(suite: JudgedSuite, run: JunitRun) -> Iterator[str]:
-    skipped = sum(case.outcome == "not-judged" for case in suite.cases)
+def _suite(
+    number: int, suite: JudgedSuite, seconds: float, account: Account, run: JunitRun
+) -> Iterator[str]:
+    count = Counter(case.outcome for case in suite.cases)
+    place = xml_text(f"topo-verify.{run.command}")
     yield (
-        f'<testsuite name="{xml_text(suite.name)}" {_counts(suite.cases)} skipped="{skipped}"'
-        f' timestamp="{run.date}">'
+        f'<testsuite id="{number}" package="{place}" name="{xml_text(suite.name)}"'
+        f' tests="{len(suite.cases)}" failures="{count["failed"]}" errors="{count["undecided"]}"'
+        f' skipped="{count["not-judged"]}" hostname="localhost" timestamp="{run.date}"'
+        f' time="{seconds:.3f}">'
     )
-    place = xml_text(f"topo-verify.{run.command}.{suite.name}")
+    told = {
+        "about": account.about,
+        "verdict": account.extent.verdict,
+        "checked": account.extent.words,
+        "command": run.again,
+        "seconds": f"{run.seconds:.3f}",
+    }
+    rows = (f'<property name="{k}" value="{xml_text(v)}"/>' for k, v in told.items())
+    yield f"<properties>{''.join(rows)}</properties>"
+    alone = seconds if len(suite.cases) == 1 else 0.0
     for case in suite.cases:
-        opened = f'<testcase name="{xml_text(case.name)}" classname="{place}"'
+        opened = (
+            f'<testcase name="{xml_text(case.name)}"'
+            f' classname="{place}.{xml_text(suite.name)}" time="{alone:.3f}"'
+        )
         inner = _inner(case, case.again or suite.again or run.again)
         yield f"{opened}>{inner}</testcase>" if inner else f"{opened}/>"
+    yield "<system-out/><system-err/>"
     yield "</testsuite>"
 
 

@@ -16,6 +16,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from itertools import count
 
 from topo_verify.player.page import PageShell, json_in_page, page_shell, source_hash, squeezed
 from topo_verify.player.recording import recording
@@ -104,9 +105,8 @@ def _header(account: Account, facts: PageFacts) -> str:
     extent = account.extent
     tone = TONES[extent.verdict]
     unfinished = "" if facts.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
-    links = {"judged": "What was judged", "results": "Results"}
-    if account.exhibits:
-        links["counterexamples"] = "Counterexamples"
+    links = {"counterexamples": "Counterexamples"} if account.exhibits else {}
+    links |= {"judged": "What was judged", "results": "Results"}
     links |= {"versions": "Versions", "timing": "Timing"}
     menu = " ".join(f'<a href="#{name}">{title}</a>' for name, title in links.items())
     return (
@@ -123,13 +123,17 @@ def _again(line: str) -> str:
 
 
 def _sections(account: Account, facts: PageFacts) -> Iterator[str]:
+    found = [*map(_exhibit, count(1), account.exhibits)]
+    if account.left_out:
+        found.append(f"<p>{account.left_out} more are not shown here.</p>")
+    # Where something is wrong, one looks there first; elsewhere they were expected.
+    wrong = account.extent.verdict == "REFUTED"
+    if found and wrong:
+        yield _section("counterexamples", "Counterexamples", found)
     yield _section("judged", "What was judged", map(_suite, account.suites))
     yield _section("results", "Results", blocks_as_html(account.blocks))
-    if account.exhibits:
-        shown = [_exhibit(number, one) for number, one in enumerate(account.exhibits, 1)]
-        if account.left_out:
-            shown.append(f"<p>{account.left_out} more are not shown here.</p>")
-        yield _section("counterexamples", "Counterexamples", shown)
+    if found and not wrong:
+        yield _section("counterexamples", "Counterexamples, as expected", found)
     for name, title, told in (
         ("versions", "Versions", facts.versions),
         ("timing", "Timing", facts.timing),
@@ -154,8 +158,8 @@ def _suite(suite: JudgedSuite) -> str:
     rows = "\n".join(map(_case, suite.cases))
     return (
         f"<h3>{xml_text(clean(suite.name))}</h3>\n{_again(suite.again)}"
-        f'<div class="wide" tabindex="0"><table><thead>{head}</thead>\n<tbody>{rows}</tbody>'
-        "</table></div>"
+        f'<div class="wide" tabindex="0"><table class="cases"><thead>{head}</thead>\n'
+        f"<tbody>{rows}</tbody></table></div>"
     )
 
 
