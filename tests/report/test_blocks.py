@@ -111,6 +111,16 @@ def test_no_number_and_no_verdict_is_broken_at_any_width(
     assert text.count("word") == 60
 
 
+def test_a_row_with_fixed_widths_becomes_a_list_where_the_rest_is_too_narrow(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    live = TextTable(("part", "verdict", "summary"), [("p", "PROVED", "s " * 9)], widths=(16, 9, 0))
+    for width, lines in ((49, 1), (48, 3)):
+        monkeypatch.setenv("COLUMNS", str(width))
+        bare = TextTable(live.columns, live.rows, widths=live.widths, headed=False)
+        assert len(printed(bare).splitlines()) == lines
+
+
 def test_a_row_without_room_becomes_a_list(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "30")
     table = TextTable((">edges", "verdict", ">worlds"), [("7", "REFUTED", "1234567890")])

@@ -220,7 +220,7 @@ def prove_account(
     positive = joint_verdict(
         [e.verdict for e in entries if e.expected != "REFUTED"] or ["EXHAUSTED"]
     )
-    verdict: Verdict = "PROVED" if positive == "PROVED" else "EXHAUSTED"
+    verdict: Verdict = "PROVED" if joint_verdict(positive) == "PROVED" else "EXHAUSTED"
     if any(case.outcome == "undecided" for case in cases) or not cases:
         verdict = "UNKNOWN"
     if any(case.outcome == "failed" for case in cases):

@@ -8,8 +8,9 @@
 | not judged | `skipped` | the mapper declares nothing about it, or it was not asked for |
 
 The file is valid against the schema of Ant's JUnit task (tests/report/test_junit.py), the narrowest
-of those in use. It wants a time of every case: a case has that of its suite where it is alone in
-it, else 0; `seconds` among the properties is that of the whole run. The host is not named.
+of those in use. It wants times: a suite has its own where that is known, a case that of its suite
+where it is alone in it; else they are 0. `seconds` among the properties is the time of the whole
+run. The host is not named.
 """
 
 from __future__ import annotations
@@ -47,7 +48,9 @@ class JunitRun:
 def junit(account: Account, run: JunitRun) -> str:
     """The account as JUnit XML."""
     suites = list(account.suites)
-    times = list(run.by_suite) if len(run.by_suite) == len(suites) else [0.0] * len(suites)
+    times = [run.seconds] if len(suites) == 1 else list(run.by_suite)
+    if len(times) != len(suites):
+        times = [0.0] * len(suites)
     if not run.finished or not suites:
         case = UNFINISHED if not run.finished else NOTHING
         suites.append(JudgedSuite("the run", (case,)))
