@@ -80,7 +80,9 @@ LONG: dict[str, tuple[str, ...]] = {
     "cli/test_replay.py": ("test_the_trace_of_a_large_world_needs_the_world",),
     "cli/test_reporting.py": (
         r"test_each_command_gives_an_account_in_three_forms\[(faults|conform|compare|prove) .*\]",
+        r"test_fifty_columns_break_no_number_and_no_verdict\[(faults|prove|search|verify) .*\]",
         "test_two_runs_have_one_page_but_for_the_timing",
+        "test_what_is_printed_is_the_same_with_a_report_and_without",
         "test_verify_has_a_suite_a_part_and_a_case_a_claim",
     ),
     "cli/test_search.py": (

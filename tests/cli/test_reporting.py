@@ -13,6 +13,7 @@ from click.testing import Result
 
 from tests.report.test_junit import objections
 from topo_verify.cli.reporting import command_line
+from topo_verify.report.style import VERDICTS
 
 Call = Callable[..., Result]
 
@@ -140,3 +141,38 @@ def test_after_an_interrupt_the_report_says_so(call: Call, monkeypatch: pytest.M
 def test_the_command_line_leaves_out_how_results_are_shown() -> None:
     given = ["search", "a b.py:c", "--report", "r", "--junit=x", "--edges", "3", "--quiet"]
     assert command_line(given) == "topo-verify search 'a b.py:c' --edges 3"
+
+
+def test_a_summary_opens_with_the_verdict_on_all(call: Call) -> None:
+    lines = call("search basic --edges 2 --workers 0 --format markdown").stdout.splitlines()
+    assert lines[0] == "**EXHAUSTED**: basic, 12 of 12 worlds"
+
+
+NARROW = (
+    "search basic --edges 3 --worst --workers 0",
+    "search --compare enhancement-ii,enhancement-i --edges 3 --workers 0",
+    "conform basic --like enhancement-ii --worlds m4/41 --workers 0 --seed 0:0",
+    "prove percept none-any",
+    "faults assumes-a-plane-world forgets-that-vu-may-be-new --by proofs --workers 0",
+    "explore m4/41 m3/14 --algorithm basic,folding",
+    "explore m4/41 --gap",
+    "world show m4/41",
+    "world count --edges 1..7",
+    "world list --edges 2 -n 3",
+    "record basic --worlds edges<=2 --out b.gz",
+    "verify mappers.py:guesses --quick",
+)
+
+
+@pytest.mark.parametrize("line", NARROW)
+def test_fifty_columns_break_no_number_and_no_verdict(
+    line: str, call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    printed: dict[int, str] = {}
+    for columns in (400, 50):
+        monkeypatch.setenv("COLUMNS", str(columns))
+        printed[columns] = call(f"{line} --quiet").stdout
+    wide = [one for one in printed[50].splitlines() if len(one) > 50 and "again: " not in one]
+    assert wide == []
+    words = {word for word in printed[400].split() if word.isdigit() or word in VERDICTS}
+    assert words - set(printed[50].split()) == set()

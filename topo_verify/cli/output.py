@@ -156,6 +156,8 @@ class Output:
             if live is not None:
                 self._pretty(live.head)
             self._collect(done, results(), live)
+            if account is not None and self.style == "markdown":
+                last = _with_verdict(last, account)
             self._print(command, done, last, perf_counter() - begin, more)
             if not done.finished:
                 say(f"topo-verify: interrupted after {plural(len(done.results), 'result')}")
@@ -259,6 +261,19 @@ def _with_remark(
         if in_process:
             yield Text("")
             yield Text("In process: a mapper of your own could see what judges it.")
+
+    return shown
+
+
+def _with_verdict(
+    show: Callable[[Sequence[E]], Iterable[Block]], account: Callable[[Sequence[E]], Account]
+) -> Callable[[Sequence[E]], Iterable[Block]]:
+    """Show the verdict on all above the entries: a summary is read from its first line."""
+
+    def shown(entries: Sequence[E]) -> Iterator[Block]:
+        made = account(entries)
+        yield Text(f"{made.extent.verdict}: {made.about}, {made.extent.words}")
+        yield from show(entries)
 
     return shown
 
