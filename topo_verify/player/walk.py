@@ -23,7 +23,7 @@ from topo_verify.player.walk_words import (
     world_place,
 )
 from topo_verify.robot import events as ev
-from topo_verify.text import LINE, plural, shown
+from topo_verify.text import LINE, plural, shortened, shown
 from topo_verify.world.rooted_map import World
 
 WIDTH = 80
@@ -37,8 +37,8 @@ MOVES = 10
 
 _LEGEND = (
     "v2:7 is dart 7 of the map S, at its vertex v2; w1:4 is dart 4 of the world, at its vertex 1. A"
-    " place is named by the dart by which the robot came in, of S where S has it. sees: the degree,"
-    " and the door of the marker."
+    " place is named by the dart by which the robot came in, of S where S has it. Edge 7 is the"
+    " edge of dart 7 of S. sees: the degree, and the door of the marker."
 )
 
 _WIDE = ("event", "door", "out by", "sees", "arrives by", "in world", "cost", "for")
@@ -259,7 +259,7 @@ class _View:
     def wrapped(self, text: str, indent: str = "", further: str | None = None) -> list[str]:
         """The text in lines of the view's width, its control characters escaped."""
         return textwrap.wrap(
-            shown(text, limit=LINE),
+            shortened(shown(text, limit=LINE)),
             self.width,
             initial_indent=indent,
             subsequent_indent=indent if further is None else further,
