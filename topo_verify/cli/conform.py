@@ -12,7 +12,7 @@ import click
 
 from topo_verify.cli import options
 from topo_verify.cli.accounts import conform_account
-from topo_verify.cli.differing import exhibits
+from topo_verify.cli.differing import exhibits, failing_run
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import report_options
@@ -155,8 +155,8 @@ def conform(  # noqa: PLR0913  an argument an option
             yield from _tried(output, job, asked, shared, found)
 
     shared: dict[str, Playback] = {}
-    show, corpus = partial(_show, shared=shared), list(texts) or ["corpus"]
-    found = FoundRuns(output)
+    found, corpus = FoundRuns(output), list(texts) or ["corpus"]
+    show = partial(_show, shared=shared, found=found)
     return output.run(
         "conform",
         standings,
@@ -204,6 +204,8 @@ def _tried(
         yield from map(_result, tally.level_results())
         raise
     levels = tuple(tally.level_results())
+    if output.style != "json" and not asked.batch:
+        found.walk(failing_run(job, asked.corpus, levels))
     if output.exhibits:
         for exhibit in exhibits(job, asked.corpus, levels, batch=asked.batch):
             found.show(exhibit)
@@ -237,9 +239,12 @@ def _replay_command(
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
+def _show(
+    entries: Sequence[LevelResult], shared: Mapping[str, Playback], found: FoundRuns
+) -> Iterator[Block]:
     for target in dict.fromkeys(entry.target for entry in entries):
         yield from _shown([entry for entry in entries if entry.target == target], shared)
+    yield from found.blocks()
 
 
 _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import click
@@ -19,8 +20,10 @@ from topo_verify.cli.searched import ByEdges, Counterexample, FailingClaim, Lost
 from topo_verify.cli.searched import show as show_entry
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
+from topo_verify.harness.judge import Report
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import processors
+from topo_verify.harness.search.choices import examinations
 from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
@@ -31,6 +34,7 @@ from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import Block
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.rooted_map import World
 
 
 @dataclass(frozen=True)
@@ -218,14 +222,19 @@ def _searched(
             yield _result(work.found(), asked)
             raise
         result = work.found()
-        # With other policies the run is not that of the mapper alone.
-        alone = plan.choices != "reference"
+        reports = None if plan.choices == "reference" else partial(_reports, plan)
         for one in (result.counterexample, *(claim.smallest for claim in result.claims.values())):
             if one is not None:
                 found.run_again(
-                    mappers, one.world, one.claim, asked.limits, one.message, alone=alone
+                    mappers, one.world, one.claim, asked.limits, one.message, reports=reports
                 )
         yield _result(work.found(), asked)
+
+
+def _reports(plan: Plan, target: Target, world: World) -> Iterator[Report]:
+    """The reports of a mapper's runs in a world, one for each way of choosing."""
+    for tried in examinations(target, plan, world, lambda: None):
+        yield tried.report
 
 
 @contextmanager
