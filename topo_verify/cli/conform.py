@@ -7,6 +7,7 @@ import secrets
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import click
 
@@ -158,7 +159,7 @@ def conform(  # noqa: PLR0913  an argument an option
     shared: dict[str, Playback] = {}
     show, corpus = partial(_show, shared=shared), list(texts) or ["corpus"]
     found = FoundRuns(output)
-    more = {"seed": seed, "corpus": corpus, "in_process": in_process}
+    more: dict[str, Any] = {"seed": seed, "corpus": corpus, "in_process": in_process}
     account = partial(_account, show=show, found=found)
     return output.run("conform", standings, show, account=account, **more)
 
