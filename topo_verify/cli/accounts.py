@@ -254,7 +254,7 @@ def _theorem_case(entry: ProveEntry, options: str) -> JudgedCase:
         verdict=entry.verdict,
         outcome=outcome,
         judged=f"{entry.checked:,} of {entry.total:,}" if whole else "",
-        message=f"{entry.words}; {entry.note}" if entry.note else entry.words,
+        message=f"{entry.words.removesuffix('.')}; {entry.note}" if entry.note else entry.words,
         again=f"topo-verify prove {entry.name}{options}",
     )
 
