@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 import secrets
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import click
 
@@ -28,6 +29,7 @@ from topo_verify.harness.targets import target_arguments, target_text, targets
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
 from topo_verify.programs.program import PREFIX
+from topo_verify.report.account import Account
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, View
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
@@ -157,15 +159,17 @@ def conform(  # noqa: PLR0913  an argument an option
     shared: dict[str, Playback] = {}
     found, corpus = FoundRuns(output), list(texts) or ["corpus"]
     show = partial(_show, shared=shared, found=found)
-    return output.run(
-        "conform",
-        standings,
-        show,
-        account=lambda entries: conform_account(entries, show(entries), found),
-        seed=seed,
-        corpus=corpus,
-        in_process=in_process,
-    )
+    more: dict[str, Any] = {"seed": seed, "corpus": corpus, "in_process": in_process}
+    account = partial(_account, show=show, found=found)
+    return output.run("conform", standings, show, account=account, **more)
+
+
+def _account(
+    levels: Sequence[LevelResult],
+    show: Callable[[Sequence[LevelResult]], Iterable[Block]],
+    found: FoundRuns,
+) -> Account:
+    return conform_account(levels, show(levels), found)
 
 
 def _texts(text: str) -> list[str]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 from pathlib import Path
 
 import click
@@ -31,6 +32,7 @@ from topo_verify.harness.tally import CostTotals, Failure, joint_judgements
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
+from topo_verify.report.account import Account
 from topo_verify.report.blocks import Block
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.classes import WorldClass
@@ -152,22 +154,24 @@ def search(  # noqa: PLR0913  an argument an option
             yield from _searched(output, mappers, asked, found)
 
     def body(entries: Sequence[SearchEntry]) -> Iterator[Block]:
-        for entry in entries:
-            yield from show_entry(entry, worst=worst)
+        return chain.from_iterable(show_entry(entry, worst=worst) for entry in entries)
 
-    def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
-        yield from body(entries)
-        yield from found.blocks()
+    def account(entries: Sequence[SearchEntry]) -> Account:
+        return search_account(entries, body(entries), found)
 
     found = FoundRuns(output)
+    show = partial(_with_walk, body=body, found=found)
+    return output.run("search", searches, show, account=account, in_process=in_process)
 
-    return output.run(
-        "search",
-        searches,
-        show,
-        account=lambda entries: search_account(entries, body(entries), found),
-        in_process=in_process,
-    )
+
+def _with_walk(
+    entries: Sequence[SearchEntry],
+    body: Callable[[Sequence[SearchEntry]], Iterable[Block]],
+    found: FoundRuns,
+) -> Iterator[Block]:
+    """What is said of the entries, then the walk of the first counterexample."""
+    yield from body(entries)
+    yield from found.blocks()
 
 
 def _mappers(
