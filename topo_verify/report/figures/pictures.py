@@ -84,7 +84,12 @@ def picture(figure: Figure, points: Sequence[FigurePoint], kind: Literal["svg", 
 def _draw(axes: Any, figure: Figure, points: Sequence[FigurePoint]) -> None:
     axes.set_facecolor(CARD)
     axes.set_yscale("log")
-    axes.set_title(f"Figure {figure.name}: {figure.title}", loc="left", fontsize=11)
+    title = f"Figure {figure.name}: {figure.title}"
+    pairs = {point.pair for point in points} - {None}
+    if len(pairs) > 1:
+        title += f"\nthick bars: lowest to highest mean over {len(pairs)} pairs of policies"
+        _spread(axes, figure.lines, points)
+    axes.set_title(title, loc="left", fontsize=11)
     axes.set_xlabel(figure.setting.measure)
     axes.set_ylabel("cost (edge traversals)")
     axes.grid(visible=True, which="major", color=GRID, linewidth=0.6)
@@ -95,7 +100,6 @@ def _draw(axes: Any, figure: Figure, points: Sequence[FigurePoint]) -> None:
     for name in (*figure.lines, *YARDSTICKS):
         line = [point for point in points if point.algorithm == name and point.mean > 0]
         drawn = [point for point in line if point.is_reference]
-        _band(axes, name, line)
         if drawn:
             _line(axes, name, drawn)
             ends[name] = (drawn[-1].size, drawn[-1].mean)
@@ -120,16 +124,22 @@ def _line(axes: Any, name: str, line: Sequence[FigurePoint]) -> None:
     )
 
 
-def _band(axes: Any, name: str, line: Sequence[FigurePoint]) -> None:
-    """The spread of the means over policies, behind the line."""
-    means: dict[int, list[float]] = {}
-    for point in line:
-        means.setdefault(point.size, []).append(point.mean)
-    if all(len(values) == 1 for values in means.values()):
-        return
-    sizes = sorted(means)
-    low, high = ([pick(means[size]) for size in sizes] for pick in (min, max))
-    axes.fill_between(sizes, low, high, color=LINES[name].colour, alpha=0.13, linewidth=0)
+def _spread(axes: Any, names: Sequence[str], points: Sequence[FigurePoint]) -> None:
+    """A thick bar a point, from the lowest to the highest mean over policies; side by side."""
+    sizes = [point.size for point in points]
+    step = 0.011 * (max(sizes) - min(sizes))
+    for k, name in enumerate(names):
+        means: dict[int, list[float]] = {}
+        for point in points:
+            if point.algorithm == name:
+                means.setdefault(point.size, []).append(point.mean)
+        axes.vlines(
+            [size + (k - (len(names) - 1) / 2) * step for size in means],
+            *([pick(values) for values in means.values()] for pick in (min, max)),
+            color=LINES[name].colour,
+            linewidth=4,
+            alpha=0.35,
+        )
 
 
 def _stated(axes: Any, points: Sequence[FigurePoint]) -> None:
