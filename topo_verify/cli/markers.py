@@ -93,8 +93,12 @@ def results(
                 output.progress(f"{target.text} in {at.name}", done, total)
                 entries.append(result.entry)
                 yield result
-            if svg is not None:
+            if svg is None:
+                continue
+            if all(entry.ok for entry in entries):
                 _write_heat(svg, at, entries)
+            else:
+                output.note(f"--svg {svg}: not written, since not every run delivered a true map")
 
 
 def _of_each_dart(
@@ -122,11 +126,8 @@ def _of_each_dart(
 
 
 def _write_heat(svg: str, at: NamedWorld, entries: Sequence[ExploreEntry]) -> None:
-    """Write the heat map, unless a run was not decided or convicts its mapper."""
     from topo_verify.world.drawing.heat import heat_svg
 
-    if not all(entry.ok for entry in entries):
-        raise InputError(f"--svg {svg}: no heat map, since not every run delivered a true map")
     costs = [entry.cost for entry in entries]
     files.write(svg, heat_svg(at.world, costs, title=f"{entries[0].algorithm} in {at.name}"))
 
