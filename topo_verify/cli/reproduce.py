@@ -132,7 +132,14 @@ def reproduce(  # noqa: PLR0913  an argument an option
                 incomplete = point.undecided > 0
                 yield Result(point, failed=bool(point.findings), incomplete=incomplete)
 
-    return output.run("reproduce", points, lambda entries: _show(entries, out))
+    return output.run(
+        "reproduce",
+        points,
+        lambda entries: _show(entries, out, seed),
+        seed=seed,
+        quick=quick,
+        graphs=extent.graphs,
+    )
 
 
 def _make(output: Output, store: RunStore, planned: Sequence[PlannedRun], workers: int) -> None:
@@ -187,7 +194,7 @@ def _draw(folder: Path, figure: Figure, points: Sequence[FigurePoint]) -> bool:
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[FigurePoint], out: str) -> Iterator[Block]:
+def _show(entries: Sequence[FigurePoint], out: str, seed: int) -> Iterator[Block]:
     """A table and a paragraph a figure, the growth of every line, and what was judged."""
     for name in dict.fromkeys(point.figure for point in entries):
         figure = FIGURES[name]
@@ -203,7 +210,7 @@ def _show(entries: Sequence[FigurePoint], out: str) -> Iterator[Block]:
     yield Text(judged_sentence(entries))
     for point in entries:
         yield from finding_blocks(point.findings, f"{point.algorithm} in figure {point.figure}")
-    yield Text(f"CSV, pictures and {PAGE} are in {out}.")
+    yield Text(f"CSV, pictures and {PAGE} are in {out}; seed {seed}.")
 
 
 def _table(figure: Figure, points: Sequence[FigurePoint]) -> TextTable:

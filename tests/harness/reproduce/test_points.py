@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from topo_verify.harness.reproduce.figures import FIGURES, PAIRS, FigureExtent, chosen_figures
+from topo_verify.harness.reproduce.figures import FIGURES, PAIRS, FigureExtent
 from topo_verify.harness.reproduce.measuring import (
     MeasuredRun,
     PlannedRun,
@@ -18,6 +18,9 @@ from topo_verify.harness.reproduce.measuring import (
 from topo_verify.harness.reproduce.points import figure_points, growth, growth_csv, points_csv
 
 DOCS = Path(__file__).resolve().parents[3] / "docs" / "figures"
+
+KEPT = {"lattice": (DOCS / "lattices", 30), "dense": (DOCS / "dense", 10)}
+"""Where the files of each family of graphs are, and with how many graphs a point they were made."""
 
 FIGURE = FIGURES["3"]
 EXTENT = FigureExtent(graphs=3, quick=True)
@@ -105,37 +108,33 @@ def test_csv_has_a_row_a_point() -> None:
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_the_points_in_docs_are_those_that_this_code_makes(name: str) -> None:
-    """The smallest size of each line, recomputed; the files were made with 30 graphs a point."""
-    extent = FigureExtent()
+    """The smallest size of each line, recomputed and compared to the byte."""
     figure = FIGURES[name]
-    size = min(figure.setting.sizes)
-    worlds = set(extent.worlds(figure.setting, size))
-    # Of the dense graphs, two lines: all take seconds.
-    lines = figure.lines if figure.setting.name == "lattice" else ("enhancement-ii+i", "folding")
-    runs = {
-        run: measured(run)
-        for run in planned_runs([figure], extent)
-        if run.world in worlds and run.algorithm in lines
-    }
-    made = points_csv(figure_points(figure, extent, runs)).splitlines()[1:]
-    kept = (DOCS / f"figure-{name}.csv").read_text().splitlines()
-    mine = [line for line in made if line.split(",")[1] in lines]
-    assert len(mine) == len({line.split(",")[1] for line in mine}) > 0
-    assert {*mine} <= {*kept}
+    folder, graphs = KEPT[figure.setting.name]
+    extent = FigureExtent(graphs)
+    worlds = {*extent.worlds(figure.setting, min(figure.setting.sizes))}
+    planned = [run for run in planned_runs([figure], extent) if run.world in worlds]
+    made = points_csv(figure_points(figure, extent, {run: measured(run) for run in planned}))
+    lines = made.splitlines()[1:]
+    assert len(lines) == len(figure.lines) + 2
+    assert {*lines} <= {*(folder / f"figure-{name}.csv").read_text().splitlines()}
 
 
-def test_the_growth_in_docs_is_that_of_the_points_in_docs() -> None:
-    kept = list(csv.DictReader((DOCS / "growth.csv").read_text().splitlines()))
-    assert len(kept) == 2 * 11  # nine algorithms and two yardsticks, two families
-    for figure in chosen_figures("all"):
-        points = list(csv.DictReader((DOCS / f"figure-{figure.name}.csv").read_text().splitlines()))
-        for fit in kept:
-            line = [p for p in points if p["algorithm"] == fit["algorithm"]]
-            if line and fit["graphs_of"] == figure.setting.name:
-                found = growth([(float(p["edges"]), float(p["mean"])) for p in line])
-                assert found is not None
-                assert f"{found.exponent:.4f}" == fit["exponent"]
-                assert f"{found.stderr:.4f}" == fit["stderr"]
+@pytest.mark.parametrize("setting", KEPT)
+def test_the_growth_in_docs_is_that_of_the_points_in_docs(setting: str) -> None:
+    folder, _ = KEPT[setting]
+    kept = list(csv.DictReader((folder / "growth.csv").read_text().splitlines()))
+    assert len(kept) == 11  # nine algorithms and two yardsticks
+    points = [
+        point
+        for path in folder.glob("figure-*.csv")
+        for point in csv.DictReader(path.read_text().splitlines())
+    ]
+    for fit in kept:
+        line = {p["size"]: p for p in points if p["algorithm"] == fit["algorithm"]}.values()
+        found = growth([(float(p["edges"]), float(p["mean"])) for p in line])
+        assert found is not None
+        assert (f"{found.exponent:.4f}", f"{found.stderr:.4f}") == (fit["exponent"], fit["stderr"])
 
 
 def test_growth_csv_has_each_line_once() -> None:
