@@ -81,6 +81,12 @@ BOTH_TWO = "both are pairs"
 ONLY_QUICKER = "what was rejected need not be tried again, and would be rejected again"
 ONLY_ROOM = "it changes how much memory a node takes, and no answer"
 BELOW_0 = "every number below 0 says that there is no other end"
+ANY_DART = "any dart of a node may be its dart 0: what matters is the turn from one to another"
+NO_TRY_LEFT = "where no try is left for a pair, none is left for the pairs behind it"
+NO_OTHER_ORDER = "one event is not both an augmentation and a rejection"
+ANY_NUMBER = "a world may be given with any numbers for its darts"
+BOTH_FALSE = "None is false, too"
+BACKWARDS = "each face is then walked backwards, past the same unexplored darts"
 NO_DART = "a world without a dart has no marked dart, whatever its place"
 
 SAME = {
@@ -88,6 +94,8 @@ SAME = {
     "entailment.py decision_conclusions: refuted.add((event.edge, event.hypothesis)) -> pass": (
         ONLY_QUICKER
     ),
+    "entailment.py _planar_folding: break -> continue": NO_TRY_LEFT,
+    "excursions.py Records.behind: since < when -> since <= when": NO_OTHER_ORDER,
     "folding.py : 64 -> 65": ONLY_ROOM,
     "folding.py Ends.add: degree > NARROW -> degree >= NARROW": ONLY_ROOM,
     "folding.py Ends.add: 0 -> 1": ONLY_ROOM,
@@ -99,6 +107,11 @@ SAME = {
     "entailment.py _doubt: assert_never(event) -> pass": "no event comes there, as mypy proves",
     "folding.py Fold._visit: 0 -> 1": AT_A_ROOT,
     "folding.py Fold._visit: 1 -> 2": BY_SIZE,
+    "folding.py Fold.move: 0 -> 1 (3)": ANY_DART,
+    "folding.py Fold._identify: if self._size[a] > self._size[b]: -> if not self._size[a] >"
+    " self._size[b]:": BY_SIZE,
+    "folding.py Fold._identify: self._size[a] > self._size[b] -> self._size[a] >="
+    " self._size[b]": BY_SIZE,
     "folding.py Fold._identify: self._size[b] += self._size[a] -> pass": BY_SIZE,
     "folding.py Fold.assuming: self._size[self._parent[node]] -= self._size[node] -> pass": BY_SIZE,
     "folding.py Fold.assuming: 0 -> 1": AT_A_ROOT,
@@ -106,9 +119,14 @@ SAME = {
     " := (first[end[0]] + end[1])):": EITHER_END,
     "folding.py Fold.world: here < (there := (first[end[0]] + end[1])) -> here <= (there :="
     " (first[end[0]] + end[1]))": EITHER_END,
+    "folding.py Fold.world: 1 -> 2 (5)": ANY_NUMBER,
     "folding.py Fold.world: 0 -> 1 (5)": NO_DART,
     "folding.py Fold.world: 0 -> 1 (6)": NO_DART,
     "folding.py Fold.world: first[node] + dart -> first[node] - dart": FIRST,
+    "map_in_world.py MapInWorld.grow: return False -> return None": BOTH_FALSE,
+    "map_in_world.py MapInWorld.grow: return False -> return None (2)": BOTH_FALSE,
+    "map_on_fold.py MapOnFold._add_vertex: door + 1 -> door - 1": BACKWARDS,
+    "replayed_trace.py ReplayedTrace._walk: self.world.root or 0 -> self.world.root": NO_DART,
 }
 """Mutants that change nothing that anybody can see, by their text; and why."""
 

@@ -5,7 +5,18 @@ from __future__ import annotations
 import pytest
 
 from tests.checkers.example import LOOP, TRACE, WORLD, inserted
-from tests.helpers import EIGHT, EMPTY, PAPER, edited, failing, fits, statuses, trace_of, worlds
+from tests.helpers import (
+    EIGHT,
+    EMPTY,
+    PAPER,
+    edited,
+    failing,
+    fits,
+    place,
+    statuses,
+    trace_of,
+    worlds,
+)
 from topo_verify import CATALOGUE, InputError, World
 from topo_verify.checkers import CLAIMS, Finding, check
 from topo_verify.checkers.darts import KnownDart
@@ -145,6 +156,12 @@ def test_a_replayed_trace_knows_where_the_robot_was_and_what_s_was() -> None:
     assert run.map.alpha[KnownDart(2)] == 5
     assert run.map.truth(2, LOOP) == 5
     assert run.map.truth(2, LOOP + 1) is None
+
+
+def test_a_trace_with_a_door_that_is_not_there_is_no_history() -> None:
+    run = ReplayedTrace(WORLD, edited(TRACE, place(TRACE, Move), door=99))
+    assert run.false_percepts == []
+    assert not run.is_history
 
 
 @pytest.mark.parametrize("degree", [-1, 0, 2**62])

@@ -131,6 +131,20 @@ def test_an_assumption_leaves_no_trace() -> None:
             assert (fold.open_darts(), fold.world(1).code, fold.world(2).code) == before
 
 
+def test_an_assumption_within_another_leaves_that_one_as_it_was() -> None:
+    """And the outer one leaves no trace, whatever was assumed within it."""
+    fold = Fold(Percept(6, 0))
+    fold.move(1, Percept(2, None))
+    before = fold.world(2)
+    with fold.assuming((0, 2), (0, 3)):
+        within = fold.world(2)
+        with fold.assuming((0, 4), (0, 5)):
+            assert fold.open_darts() == 2
+        assert fold.world(2) == within
+        fold.join((1, 1), (0, 4))
+    assert fold.world(2) == before
+
+
 @pytest.mark.parametrize("degree", [4, 1000])
 def test_a_place_takes_few_bytes_and_no_more_where_it_has_more_doors(degree: int) -> None:
     start, beyond = Start(percept=Percept(degree, 0)), Move(1, Percept(degree, None))
@@ -187,3 +201,13 @@ def test_two_vertices_of_s_that_an_assumption_makes_one_are_a_contradiction() ->
     fold.move(1, Percept(2, None))
     met = fold.contradictions((0, 0), fold.at, [(0, 0), first, fold.at])
     assert met == {"a vertex would be itself, turned", "two vertices of S would be one"}
+
+
+def test_every_contradiction_of_an_assumption_is_listed_not_only_those_up_to_the_first() -> None:
+    fold = Fold(Percept(1, 0))
+    for door in (0, 1, 2, 2):
+        fold.move(door, Percept(3, None))
+    assert fold.contradictions((1, 0), (4, 0)) == {
+        "two degrees, or the marker and its absence, at one place",
+        "a vertex would be itself, turned",
+    }

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import pytest
 
-from tests.checkers.example import inserted
+from tests.checkers.example import LOOP, TRACE, inserted
 from tests.checkers.test_folding import shows
 from tests.helpers import edited, of_type, place, statuses, trace_of, worlds
 from topo_verify import World, certify
@@ -228,6 +228,12 @@ def test_a_loop_of_s_is_no_new_vertex_in_any_world(rule: RuleName | None) -> Non
     assert (when, why) == (loop, "the edge leads to another vertex")
     assert witness is not None
     assert witness.is_isomorphic(World.from_id("m2/8")) or shows(witness, lie[:loop])
+
+
+def test_a_vertex_of_s_is_no_new_vertex_where_s_has_others_too() -> None:
+    lie = edited(TRACE, LOOP, kind="new", dart=8)
+    (*_, last) = decision_conclusions(lie)
+    assert (last.when, last.why) == (LOOP, "the edge leads to another vertex")
 
 
 @pytest.mark.parametrize(("degree", "witness"), [(1, "m2/0"), (2, "m1/0"), (3, "m1/0")])

@@ -13,6 +13,7 @@ from tests.helpers import trace_of, worlds
 from topo_verify import CATALOGUE, Percept, Robot, World
 from topo_verify.checkers import Finding, Judgement, check
 from topo_verify.checkers.darts import KnownDart
+from topo_verify.faults.hypotheses import leaves_out_the_darts_of_vk
 from topo_verify.faults.motion import goes_on_as_if_just_come_in, sets_out_unturned
 from topo_verify.harness.run import explore
 from topo_verify.player.detours import circle, turns, way_home
@@ -220,6 +221,16 @@ def test_a_confirmation_against_what_was_seen_says_what_it_should_have_been() ->
 
     shown = text(played("m2/5", "basic", edit=confirms_dart_1))
     assert "(who comes in by v0:1 sees (3, marker 2); the robot saw (3, marker 1))" in shown
+    assert "(v0:1 is at v0: the way home has no door, so this percept decides)" in shown
+
+
+def test_behind_a_false_augmentation_nothing_is_held_against_the_true_map() -> None:
+    wrong = played("m4/204", leaves_out_the_darts_of_vk.mapper)
+    shown = text(wrong, extent=ALL)
+    spoiled = wrong.replayed.spoiled
+    assert shown.count("(from here on the mapper's map is false;") == 1
+    assert f"which is not looked for: the mapper's map is false since event {spoiled}" in shown
+    assert "it leaves out" not in shown[shown.index("from here on") :]
 
 
 def test_a_right_confirmation_needs_no_remark() -> None:

@@ -201,7 +201,7 @@ def _may_lead_to(on_fold: MapOnFold, e: KnownDart, ends: list[KnownDart], tries:
         with suppress(Contradiction), fold.assuming(on_fold.place(e), on_fold.place(end)):
             if tries is None:
                 return "the edge may well lead there", fold.world()
-            if witness := _planar_folding(fold, tuple(islice(fold.alike(), FURTHER + 1)), tries):
+            if witness := _planar_folding(fold, tuple(islice(fold.alike(), FURTHER)), tries):
                 return "the edge may well lead there", witness
             if next(tries, None) is None:
                 doubt = UNDECIDED

@@ -37,8 +37,8 @@ MOVES = 10
 
 _LEGEND = (
     "v2:7 is dart 7 of the map S, at its vertex v2; w1:4 is dart 4 of the world, at its vertex 1. A"
-    " place is named by the dart by which the robot came in, of S where S has it. sees: the degree,"
-    " and the door of the marker."
+    " place is named by the dart by which the robot came in, of S where S has it. Edge 7 is the"
+    " edge of dart 7 of S. sees: the degree, and the door of the marker."
 )
 
 _WIDE = ("event", "door", "out by", "sees", "arrives by", "in world", "cost", "for")

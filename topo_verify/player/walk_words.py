@@ -66,7 +66,7 @@ def decision_words(playback: Playback, moment: Moment) -> str:
             to = f"to {listed(hypotheses)} or" if hypotheses else "no hypothesis, so"
             words = f"asks where edge {edge} leads: {to} to a new vertex"
         case ev.Reject():
-            words = _rejects(playback, moment.event, moment.mismatch)
+            words = _rejects(playback, moment.number, moment.event, moment.mismatch)
         case ev.Confirm(edge, hypothesis, rule):
             words = f"confirms that edge {edge} leads to {hypothesis} (by {rule})"
         case ev.Augment(edge, "loop", dart):
@@ -85,7 +85,7 @@ def decision_words(playback: Playback, moment: Moment) -> str:
     return words
 
 
-def _rejects(playback: Playback, event: ev.Reject, found: Mismatch | None) -> str:
+def _rejects(playback: Playback, number: int, event: ev.Reject, found: Mismatch | None) -> str:
     """A rejection with its evidence, and where that lies."""
     cited = event.evidence
     words = f"rejects that edge {event.edge} leads to {event.hypothesis} (by {event.rule}): "
@@ -93,7 +93,11 @@ def _rejects(playback: Playback, event: ev.Reject, found: Mismatch | None) -> st
         return f"{words}{cited.contradiction}"
     told = f"expects {_told(cited.expected)}, saw {_told(cited.observed)}"
     if found is None:
-        return f"{words}{told} at step {cited.step}, which cannot be found in the walk"
+        spoiled = playback.replayed.spoiled
+        why = "cannot be found in the walk"
+        if spoiled is not None and spoiled < number:
+            why = f"is not looked for: the mapper's map is false since event {spoiled}"
+        return f"{words}{told} at step {cited.step}, which {why}"
     behind = f"behind {_doors(found)} from {map_place(playback, found.traced[0])}"
     behind = behind if found.doors else "behind the edge"
     of = "" if found.sequence is None else f" (sequence {found.sequence})"
@@ -117,8 +121,12 @@ def remarks(playback: Playback, moment: Moment, turn: Turn | None = None) -> Ite
     Args:
         turn: of a move, if its door is not counted from the dart by which the robot came.
     """
+    if playback.replayed.spoiled == moment.number:
+        yield "from here on the mapper's map is false; places are named by what was true of it"
     match moment.event:
-        case ev.Pose():
+        case ev.Pose() if playback.replayed.spoiled is None or moment.number < (
+            playback.replayed.spoiled
+        ):
             yield from _about_pose(playback, moment, moment.event)
         case ev.Reject() if moment.mismatch is not None:
             found, leaves = moment.mismatch, moment.mismatch.leaves
@@ -154,6 +162,8 @@ def _about_confirm(playback: Playback, moment: Moment, edge: int, h: int) -> Ite
             behind = f", behind {_door_words(doors[:step])}" if step else ""
             words = f"who comes in by {start} sees {_told(expected)}{behind}"
             yield f"{words}; the robot saw {_told(percept)}"
+            if not way_home(playback, h, number):
+                yield f"{start} is at v0: the way home has no door, so this percept decides"
             return
         out = drawn.turn(at, doors[step]) if step < len(doors) else at
         if step < len(doors) and drawn.is_open(out, number):

@@ -17,7 +17,7 @@ from topo_verify.checkers.excursions import Excursion, Word
 from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.world.drawing import Layout, curves
-from topo_verify.world.drawing.svg import leaving, place
+from topo_verify.world.drawing.labels import leaving
 from topo_verify.world.formats.embedding import Point
 from topo_verify.world.rooted_map import Dart
 
@@ -187,9 +187,9 @@ class Tracks:
         yield Face(posed, len(self.moments), "guess", str(number))
 
     def _beside(self, dart: Dart) -> Point:
-        along = leaving(self.world, self.layout, dart)
-        assert along is not None, "the edge is drawn"
-        x, y = place(along, min(1.3 * self.layout.radius, 0.26 * curves.length(along))).tolist()
+        along = leaving(self.world, self.layout)[dart]
+        away = min(1.3 * self.layout.radius, 0.26 * curves.length(along))
+        x, y = curves.place(along, away).tolist()
         return x, y
 
     def clashes(self) -> dict[Point, list[Span]]:

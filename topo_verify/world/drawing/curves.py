@@ -95,6 +95,13 @@ def length(points: Floats) -> float:
     return float(np.hypot(*np.diff(points, axis=0).T).sum())
 
 
+def place(points: Floats, distance: float) -> Floats:
+    """The point at this distance along the polyline."""
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    return np.array([np.interp(distance, along, points[:, k]) for k in (0, 1)])
+
+
 def piece(points: Floats, middle: float, half: float) -> str:
     """Path data of the part of the polyline within `half` of the place `middle` along it."""
     steps = np.hypot(*np.diff(points, axis=0).T)

@@ -12,8 +12,8 @@ import numpy as np
 
 from topo_verify.text import plural, shown
 from topo_verify.world.drawing import curves
-from topo_verify.world.drawing.arrays import Floats
 from topo_verify.world.drawing.curves import number
+from topo_verify.world.drawing.labels import leaving, places
 from topo_verify.world.drawing.layout import Layout
 from topo_verify.world.formats.embedding import Point
 from topo_verify.world.rooted_map import Dart, World
@@ -124,7 +124,7 @@ def _cell(cell: tuple[Point, Point, Point], radius: float) -> Iterator[str]:
 
 def arrow(world: World, layout: Layout, dart: Dart) -> Iterator[str]:
     """The marker: an arrow along the beginning of its dart."""
-    along = leaving(world, layout, dart)
+    along = leaving(world, layout).get(dart)
     if along is None:
         return
     radius = layout.radius
@@ -133,30 +133,13 @@ def arrow(world: World, layout: Layout, dart: Dart) -> Iterator[str]:
     reach = min(2.5 * radius, (0.3 if loop else 0.66) * curves.length(along))
     tip = 0.5 * reach
     shaft = curves.piece(along, 0.0, reach - 0.8 * tip)
-    base, end = place(along, reach - tip), place(along, reach)
+    base, end = curves.place(along, reach - tip), curves.place(along, reach)
     ahead = (end - base) / max(float(np.hypot(*(end - base))), 1e-9)
     side = np.array([-ahead[1], ahead[0]]) * 0.42 * tip
     head = "L".join(f"{number(x)} {number(y)}" for x, y in (base + side, end, base - side))
     width = number(0.32 * min(radius, reach))
     yield f'<path class="tv-mark" stroke-width="{width}" d="{shaft}"/>'
     yield f'<path class="tv-tip" d="M{head}Z"/>'
-
-
-def leaving(world: World, layout: Layout, dart: Dart) -> Floats | None:
-    """The points of the dart's edge, from the dart on, up to the end of the first part."""
-    a = min(dart, world.alpha[dart])
-    parts = layout.paths[[edge[0] for edge in world.edges].index(a)]
-    if parts:
-        return curves.flatten(parts[0]) if dart == a else curves.flatten(parts[-1])[::-1]
-    stub = dict(layout.stubs).get(dart)
-    return None if stub is None else curves.flatten(stub)
-
-
-def place(points: Floats, distance: float) -> Floats:
-    """The point at this distance along the polyline."""
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    return np.array([np.interp(distance, along, points[:, k]) for k in (0, 1)])
 
 
 def _vertices(world: World, layout: Layout) -> Iterator[str]:
@@ -185,21 +168,15 @@ def _vertices(world: World, layout: Layout) -> Iterator[str]:
 def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
     """Numbers beside the darts where they leave their circles: `door`, `dart`, or `door:dart`."""
     radius = layout.radius
+    words = {
+        dart: ":".join([str(door)] * doors + [str(dart)] * darts)
+        for rotation in world.vertices
+        for door, dart in enumerate(rotation)
+    }
     yield f'<g font-family="{FONT}" text-anchor="middle" font-size="{number(0.7 * radius)}">'
-    for vertex, rotation in enumerate(world.vertices):
-        for door, dart in enumerate(rotation):
-            along = None if vertex in layout.hidden else leaving(world, layout, dart)
-            if along is None:
-                continue
-            words = ":".join([str(door)] * doors + [str(dart)] * darts)
-            # Many darts: staggered, so that neighbours do not cover each other.
-            away = 0.75 + 0.8 * (door % 2 if len(rotation) > 8 else 0)
-            x, y = place(along, min(away * radius, 0.4 * curves.length(along))).tolist()
-            if dart == world.root:  # beside the arrow
-                ahead = along[1] - along[0]
-                x, y = (x, y) + 0.8 * radius * np.array([ahead[1], -ahead[0]]) / np.hypot(*ahead)
-            at = f'cx="{number(x)}" cy="{number(y)}"'
-            yield f'<circle class="tv-back" {at} r="{number(0.5 * radius)}"/>'
-            at = f'x="{number(x)}" y="{number(y + 0.25 * radius)}"'
-            yield f'<text class="tv-soft" {at}>{words}</text>'
+    for dart, (x, y) in places(world, layout, words).items():
+        at = f'cx="{number(x)}" cy="{number(y)}"'
+        yield f'<circle class="tv-back" {at} r="{number(0.5 * radius)}"/>'
+        at = f'x="{number(x)}" y="{number(y + 0.25 * radius)}"'
+        yield f'<text class="tv-soft" {at}>{words[dart]}</text>'
     yield "</g>"
