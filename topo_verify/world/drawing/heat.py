@@ -23,8 +23,9 @@ from topo_verify.errors import InternalError
 from topo_verify.world.drawing import curves, read_back
 from topo_verify.world.drawing.choice import lay_out
 from topo_verify.world.drawing.curves import number
+from topo_verify.world.drawing.labels import leaving
 from topo_verify.world.drawing.layout import Layout
-from topo_verify.world.drawing.svg import FONT, leaving, text, to_svg
+from topo_verify.world.drawing.svg import FONT, text, to_svg
 from topo_verify.world.rooted_map import Dart, World
 
 SCALE = (
@@ -88,10 +89,10 @@ def _strokes(world: World, layout: Layout, costs: Sequence[int], best: Dart) -> 
     """A stroke along the beginning of each dart; that of the best lies under the arrow."""
     width = 0.42 * layout.radius
     yield f'<g fill="none" stroke-linecap="butt" stroke-width="{number(width)}">'
-    for dart, cost in enumerate(costs):
-        along = leaving(world, layout, dart)
-        if along is None or world.vertex_of[dart] in layout.hidden or dart == best:
+    for dart, along in sorted(leaving(world, layout).items()):
+        if world.vertex_of[dart] in layout.hidden or dart == best:
             continue
+        cost = costs[dart]
         reach = min(1.4 * layout.radius, 0.4 * curves.length(along))
         data = curves.piece(along, 0.0, reach)
         yield f'<path class="tv-halo" stroke-width="{number(1.5 * width)}" d="{data}"/>'
