@@ -78,6 +78,13 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_the_default_corpus_is_recorded",
     ),
     "cli/test_replay.py": ("test_the_trace_of_a_large_world_needs_the_world",),
+    "cli/test_reporting.py": (
+        r"test_each_command_gives_an_account_in_three_forms\[(faults|conform|compare|prove) .*\]",
+        r"test_fifty_columns_break_no_number_and_no_verdict\[(faults|prove|search|verify) .*\]",
+        "test_two_runs_have_one_page_but_for_the_timing",
+        "test_what_is_printed_is_the_same_with_a_report_and_without",
+        "test_verify_has_a_suite_a_part_and_a_case_a_claim",
+    ),
     "cli/test_reproduce.py": (
         "test_the_same_bytes_however_many_workers_and_however_often_interrupted",
     ),
@@ -204,6 +211,7 @@ LONG: dict[str, tuple[str, ...]] = {
         r"test_the_page_and_the_checkers_agree_on_wrong_mappers\[.*\]",
     ),
     "player/test_player.py": (
+        "test_in_a_frame_that_is_hidden_at_first_it_waits_for_its_room",
         "test_a_notebook_s_frame_plays_on_its_own",
         "test_both_panes_pan_and_zoom_together",
         "test_decisions_are_found_from_either_side",
@@ -297,6 +305,10 @@ LONG: dict[str, tuple[str, ...]] = {
         r"test_a_stronger_rule_never_rejects_less_at_the_same_state\[tree_worlds-prefix-history\]",
     ),
     "properties/test_stateful.py": ("test_whatever_is_explored_in_whatever_order_s_stays_true",),
+    "report/test_page.py": (
+        r"test_a_player_opens_at_a_click_and_is_shown_whole\[1600\]",
+        "test_a_page_can_be_read_in_the_dark",
+    ),
     "strategies/test_arguments.py": (
         "test_strategies_compose_as_strategies_do",
         r"test_the_default_bounds_are_the_widest\[.*\]",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from os import PathLike
 
 LINE = 4000
@@ -18,3 +19,14 @@ def shown(text: str | PathLike[str], *, limit: int = 200) -> str:
 def plural(number: int, thing: str, things: str = "") -> str:
     """The number with its noun: `1 world`, `2 worlds`."""
     return f"{number} {thing if number == 1 else things or thing + 's'}"
+
+
+_LONG_ID = re.compile(r"\b(m[0-9]+/[0-9]{5})[0-9]{5,}([0-9]{5})\b")
+
+
+def shortened(text: str) -> str:
+    """The text with long world ids cut in the middle: `m30/13579…86420`.
+
+    For reading only: commands to copy, and JSON, have them whole.
+    """
+    return _LONG_ID.sub(r"\1…\2", text)

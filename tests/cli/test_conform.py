@@ -91,7 +91,7 @@ def test_the_report_shows_where_two_runs_diverge(call: Call) -> None:
     done = call("conform basic --like enhancement-ii --worlds m4/41 --workers 0")
     assert done.exit_code == 1
     for words in (
-        "decisions  REFUTED",
+        "decisions  ! REFUTED",
         "decisions in 1 world, first m4/41:",
         "rejects that edge 7 leads to 3 (by motion)",  # both do, before they part
         "Here they part:\n  enhancement-ii: reject 4 for dart 7 by history",

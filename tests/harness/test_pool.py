@@ -412,6 +412,13 @@ def test_the_item_that_kills_is_found_and_the_others_are_done(attempts: int) -> 
 
 
 @pytest.mark.usefixtures("toy")
+def test_a_task_that_lost_its_workers_has_one_result() -> None:
+    tasks = [[1], [-1], [2, -1], [3]]
+    with Pool(toy_work(), 2) as pool:
+        assert sorted(pool.run(tasks)) == [([-1], [-5]), ([1], [1]), ([2, -1], [2, -5]), ([3], [3])]
+
+
+@pytest.mark.usefixtures("toy")
 def test_the_item_that_hangs_is_found() -> None:
     assert results(toy_work(silence=3.0, attempts=1), [1, -2, 3]) == [[1, -9, 3]]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -284,6 +285,18 @@ def test_a_rejection_by_folding_rings_the_two_places_that_would_be_one(show: Ope
     assert page.locator(".world .ring").count() == 2
     assert page.inner_text(".compared b") == "≠"
     assert page.locator("figcaption").all_inner_texts() == ["one place", "the other"]
+
+
+def test_in_a_frame_that_is_hidden_at_first_it_waits_for_its_room(show: Open) -> None:
+    world = families.lattice(2, 2)
+    inside = html.escape(player_page(world, [played(world, "basic")]))
+    frame = f'<iframe style="display: none" width="900" height="700" srcdoc="{inside}"></iframe>'
+    page = show(frame)
+    page.wait_for_timeout(200)
+    page.eval_on_selector("iframe", "frame => frame.style.display = 'block'")
+    layers = page.frame_locator("iframe").locator(".layers").first
+    layers.locator("svg").first.wait_for()
+    assert 0 < layers.evaluate("e => parseFloat(e.style.getPropertyValue('--u'))") < 5
 
 
 def test_a_notebook_s_frame_plays_on_its_own(show: Open) -> None:

@@ -45,7 +45,8 @@ class PartialFold:
     """Nodes, their identifications so far, and what lies behind their doors.
 
     A fold may be a **layer** above another one: it reads through to the fold below and leaves it as
-    it is. So to undo is to drop the layer.
+    it is. So to undo is to drop the layer. A layer copies the doors of a node when it first puts an
+    end there; of what is joined below afterwards it learns by `follow`.
 
     Every method that identifies returns "" or the contradiction it met. After a contradiction the
     fold is of no more use.
@@ -53,7 +54,7 @@ class PartialFold:
 
     def __init__(self, below: PartialFold | None = None) -> None:
         # As seen at each node with door 0 as the reference dart; a layer adds no nodes.
-        self.percepts: list[Percept] = [] if below is None else below.percepts
+        self.signatures: list[tuple[int, bool]] = [] if below is None else below.signatures
         # Of an identified node: the leader, and by how many doors it is turned against it.
         self.leader: dict[int, tuple[int, Door]] = {}
         self.weight: dict[int, int] = {}  # how many nodes a leader stands for, if more than one
@@ -74,18 +75,21 @@ class PartialFold:
 
     def add(self, percept: Percept, *, known: bool = False) -> int:
         """Add a node with this percept at its door 0. Returns the node."""
-        self.percepts.append(percept)
+        node = len(self.signatures)
+        self.signatures.append(percept.signature)
         if known:
-            self.known.add(len(self.percepts) - 1)
-        return len(self.percepts) - 1
+            self.known.add(node)
+        self.behind[node] = {}
+        return node
 
     def resolve(self, place: NodeDart) -> NodeDart:
         """The pair that stands for all pairs that are the same dart."""
         node, door = place
-        while (up := self.leader.get(node) or self._leader.get(node)) is not None:
+        leader, below = self.leader, self._leader
+        while (up := leader.get(node) or below.get(node)) is not None:
             node, turned = up
             door += turned
-        return node, door % self.percepts[node].degree
+        return node, door % self.signatures[node][0]
 
     def is_known(self, node: int) -> bool:
         """Whether a leader is a vertex of S."""
@@ -93,14 +97,8 @@ class PartialFold:
 
     def across(self, place: NodeDart) -> NodeDart | None:
         """The other end of a dart's edge; None if nothing was seen behind it."""
-        return self._across(*self.resolve(place))
-
-    def _across(self, node: int, door: Door) -> NodeDart | None:
-        """The other end of the edge of a leader's dart."""
-        for behind in (self.behind, self._behind):
-            if node in behind and (other := behind[node].get(door)) is not None:
-                return other
-        return None
+        node, door = self.resolve(place)
+        return self._doors(node).get(door)
 
     def join(self, one: NodeDart, other: NodeDart) -> str:
         """Join two darts to one edge, and fold."""
@@ -108,7 +106,7 @@ class PartialFold:
         one, other = self.resolve(one), self.resolve(other)
         if one == other:
             return "a dart would be its own other end"
-        had, has = self._across(*one), self._across(*other)
+        had, has = self.across(one), self.across(other)
         if had is None:
             self._put(one, other)
         if has is None:
@@ -117,10 +115,11 @@ class PartialFold:
 
     def identify(self, one: NodeDart, other: NodeDart) -> str:
         """Make two darts one, and fold."""
+        resolve, leader, below = self.resolve, self.leader, self._leader
         waiting = [(one, other)]
         while waiting:
             one, other = waiting.pop()
-            (small, k), (large, n) = self.resolve(one), self.resolve(other)
+            (small, k), (large, n) = resolve(one), resolve(other)
             if small == large:
                 if k != n:
                     return "a vertex would be itself, turned"
@@ -130,34 +129,27 @@ class PartialFold:
             if wrong := self._clash(small, large):
                 return wrong
             self._merge(small, large, n - k)
-            turned, degree = self.leader[small][1], self.percepts[small].degree
-            for door, place in self._edges(small):
+            turned, degree = leader[small][1], self.signatures[small][0]
+            doors = self._doors(large)
+            for door, end in self._doors(small).items():
                 moved = large, (door + turned) % degree
-                beyond = self._across(*moved)
-                if self.resolve(place) == moved:
+                # Ends were resolved when they were put, so most of them stand for themselves.
+                place = resolve(end) if end[0] in leader or end[0] in below else end
+                if place == moved:
                     return "a dart would be its own other end"
+                beyond = doors.get(moved[1])
                 if beyond is None:
-                    self._put(moved, place)
-                else:
+                    doors = self._put(moved, place)
+                elif beyond != place:
                     waiting.append((beyond, place))
         return ""
 
     def _clash(self, small: int, large: int) -> str:
         """Why two nodes cannot be one vertex, judged by what was seen at them; "" if they can."""
-        one, other = self.percepts[small], self.percepts[large]
-        if one.degree != other.degree or (one.marker is None) != (other.marker is None):
+        if self.signatures[small] != self.signatures[large]:
             return "two degrees, or the marker and its absence, at one place"
         both = self.is_known(small) and self.is_known(large)
         return "two vertices of S would be one" if both else ""
-
-    def _edges(self, node: int) -> list[tuple[Door, NodeDart]]:
-        """The doors of a node with something behind them, and the other ends."""
-        edges = [*self._behind[node].items()] if node in self._behind else []
-        return [*edges, *self.behind[node].items()] if node in self.behind else edges
-
-    def _size(self, node: int) -> int:
-        """How many nodes a leader stands for."""
-        return self.weight.get(node) or self._weight.get(node, 1)
 
     def _merge(self, small: int, large: int, turned: Door) -> None:
         """Make `large` the leader of `small`, whose door k is door k + turned of `large`."""
@@ -166,9 +158,22 @@ class PartialFold:
         if self.is_known(small):
             self.known.add(large)
 
-    def _put(self, place: NodeDart, beyond: NodeDart) -> None:
-        """Note one end of an edge behind the other."""
-        self.behind.setdefault(place[0], {})[place[1]] = beyond
+    def _size(self, node: int) -> int:
+        """How many nodes a leader stands for."""
+        return self.weight.get(node) or self._weight.get(node, 1)
+
+    def _doors(self, node: int) -> dict[Door, NodeDart]:
+        """The doors of a leader with something behind them, and the other ends, as they came."""
+        doors = self.behind.get(node)
+        return self._behind[node] if doors is None else doors
+
+    def _put(self, place: NodeDart, beyond: NodeDart) -> dict[Door, NodeDart]:
+        """Note one end of an edge behind the other. Returns the doors there."""
+        node, door = place
+        if node not in self.behind:  # of the fold below, which stays as it is
+            self.behind[node] = self._behind[node].copy()
+        self.behind[node][door] = beyond
+        return self.behind[node]
 
     def follow(self) -> bool:
         """Fold in what was joined below since this layer was made or last followed.

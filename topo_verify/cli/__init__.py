@@ -5,7 +5,8 @@ conform.py, record.py, compare.py, replay.py, play.py, certify.py, reproduce.py 
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown
-layout.py     tables and paragraphs
+reporting.py  --report, --junit, --badge; accounts.py: what results come to, for them
+walks.py      the walks and worlds of counterexamples
 progress.py   the bar on stderr
 failures.py   exit codes, and the sentences that go with them
 """
@@ -78,8 +79,8 @@ class CommandLine(click.Group):
 
     def _code(self, arguments: list[str], name: str, extra: dict[str, Any]) -> int:
         try:
-            # A copy, because click empties the list and `explain` prints the arguments.
-            with self.make_context(name, arguments.copy(), **extra) as context:
+            # A copy, because click empties the list, and `explain` and reports need the arguments.
+            with self.make_context(name, arguments.copy(), obj=arguments, **extra) as context:
                 code = self.invoke(context)
         except click.exceptions.Exit as done:
             code = done.exit_code

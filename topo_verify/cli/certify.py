@@ -14,7 +14,6 @@ import msgspec
 
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
@@ -22,6 +21,7 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.log_report import Certificate
 from topo_verify.harness.log_report import certify as judge
 from topo_verify.harness.open_doors import OpenDoor, open_doors
+from topo_verify.report.blocks import Block, Bullets, Text, TextTable
 from topo_verify.robot.events import Trace, read_events
 from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.text import plural

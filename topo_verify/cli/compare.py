@@ -4,22 +4,31 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 import click
 import msgspec
 
+from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
+from topo_verify.cli.accounts import extent, worlds
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.record import MapperOpener, mapper_options
+from topo_verify.cli.reporting import report_options
+from topo_verify.cli.walks import FoundRuns, exhibit_of
 from topo_verify.harness.baseline import file
 from topo_verify.harness.baseline.compare import KINDS, Change, ChangeKind, Comparison, Group
 from topo_verify.harness.baseline.compare import compare as run_all
+from topo_verify.harness.judge import judge
+from topo_verify.harness.run import explore
 from topo_verify.programs.loader import Target
+from topo_verify.report.account import Account, JudgedCase, JudgedSuite, Outcome
+from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.robot.events import Policies
 from topo_verify.text import plural
+from topo_verify.world.rooted_map import World
 
 TITLES: dict[ChangeKind, str] = {
     "wrong": "a claim fails",
@@ -118,6 +127,7 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
     help="How much dearer each world may be; a larger increase is a regression.",
 )
 @output_options
+@report_options
 def compare(
     output: Output, *, baseline: str, mapper: MapperOpener, in_process: bool, tolerance: str
 ) -> int:
@@ -137,11 +147,33 @@ def compare(
                 name=baseline,
                 tell=output.progress,
             )
+            if output.exhibits:
+                _run_again(then, target, found, runs)
         entry = _entry(found, target, then.header, baseline, tolerance)
         regressed = found.kinds["wrong"] > 0 or found.beyond > 0
         yield Result(entry, failed=regressed, incomplete=entry.undecided > 0)
 
-    return output.run("compare", compared, _show, in_process=in_process)
+    runs = FoundRuns(output)
+    return output.run(
+        "compare",
+        compared,
+        _show,
+        account=lambda entries: _account(entries, runs),
+        in_process=in_process,
+    )
+
+
+def _run_again(then: file.Baseline, target: Target, found: Comparison, runs: FoundRuns) -> None:
+    """Keep the runs of the mapper where a claim fails, and where it is dearer than allowed."""
+    texts = {entry.called: entry.world for entry in then.entries}
+    for change in found.examples:
+        if change.kind == "wrong" or change.beyond:
+            run = explore(World.from_text(texts[change.world]), target, limits=then.header.limits)
+            report = judge(run, where=change.world)
+            exhibit = exhibit_of(report)
+            if exhibit is not None:
+                note = (_line(change),) if change.beyond else exhibit.notes
+                runs.show(replace(exhibit, notes=note, again=change.replay))
 
 
 def _entry(
@@ -259,3 +291,49 @@ def _conclusion(entry: CompareEntry) -> str:
         return f"A regression: {', '.join(bad)}."
     rest = f"; {plural(entry.undecided, 'world')} not decided" if entry.undecided else ""
     return f"No regression in {entry.worlds - entry.undecided:,} of {entry.worlds:,} worlds{rest}."
+
+
+# ---------------------------------------------------------------- for page, JUnit and badge
+
+
+def _account(entries: Sequence[CompareEntry], runs: FoundRuns) -> Account:
+    """The account of a comparison: a suite a baseline, a case for each question."""
+    checked = sum(entry.worlds - entry.undecided for entry in entries)
+    total = sum(entry.worlds for entry in entries)
+    regressed = sum(entry.wrong + entry.beyond for entry in entries)
+    verdict: Verdict = "SAMPLED" if checked == total and entries else "UNKNOWN"
+    if regressed:
+        verdict = "REFUTED"
+    things = f"{worlds(total)} without regression" if verdict == "SAMPLED" else ""
+    said = extent(verdict, checked, total, regressed, things)
+    if regressed:
+        said = replace(said, words=f"a regression in {regressed:,} of {checked:,} worlds")
+    return Account(
+        about=", ".join(f"{entry.target} against {entry.baseline.file}" for entry in entries),
+        extent=said,
+        suites=tuple(JudgedSuite(entry.baseline.file, tuple(_cases(entry))) for entry in entries),
+        blocks=tuple(_show(entries)),
+        exhibits=runs.exhibits,
+        left_out=runs.left_out,
+    )
+
+
+def _cases(entry: CompareEntry) -> Iterator[JudgedCase]:
+    decided = entry.worlds - entry.undecided
+    wrong = next((one for one in entry.examples if one.kind == "wrong"), None)
+    dearer = next((one for one in entry.examples if one.beyond), None)
+    late = next((one for one in entry.examples if one.kind == "undecided"), None)
+    for name, number, of, first, bad in (
+        ("no claim fails", entry.wrong, decided, wrong, "failed"),
+        (f"no world dearer by over {entry.tolerance} %", entry.beyond, decided, dearer, "failed"),
+        ("every world decided", entry.undecided, entry.worlds, late, "undecided"),
+    ):
+        outcome: Outcome = "passed" if not number else "failed" if bad == "failed" else "undecided"
+        yield JudgedCase(
+            name=name,
+            verdict="ok" if outcome == "passed" else outcome,
+            outcome=outcome,
+            judged=f"{of - number:,} of {of:,}",
+            message="" if first is None else _line(first),
+            again="" if first is None else first.replay,
+        )

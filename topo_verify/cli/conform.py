@@ -11,10 +11,13 @@ from functools import partial
 import click
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable, View
+from topo_verify.cli.accounts import conform_account
+from topo_verify.cli.differing import exhibits
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
+from topo_verify.cli.reporting import report_options
 from topo_verify.cli.runs import unjudged
+from topo_verify.cli.walks import FoundRuns
 from topo_verify.harness.conform.conform import ConformTally, LevelResult
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
@@ -25,6 +28,7 @@ from topo_verify.harness.targets import target_arguments, target_text, targets
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
 from topo_verify.programs.program import PREFIX
+from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, View
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -97,6 +101,7 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
 )
 @options.limits
 @output_options
+@report_options
 def conform(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
@@ -147,11 +152,20 @@ def conform(  # noqa: PLR0913  an argument an option
                 in_process=in_process,
                 replay_arguments=_replay_command(one, like, (pick, order), flags, limits),
             )
-            yield from _tried(output, job, asked, shared)
+            yield from _tried(output, job, asked, shared, found)
 
     shared: dict[str, Playback] = {}
     show, corpus = partial(_show, shared=shared), list(texts) or ["corpus"]
-    return output.run("conform", standings, show, seed=seed, corpus=corpus, in_process=in_process)
+    found = FoundRuns(output)
+    return output.run(
+        "conform",
+        standings,
+        show,
+        account=lambda entries: conform_account(entries, show(entries), found),
+        seed=seed,
+        corpus=corpus,
+        in_process=in_process,
+    )
 
 
 def _texts(text: str) -> list[str]:
@@ -163,7 +177,11 @@ def _texts(text: str) -> list[str]:
 
 
 def _tried(
-    output: Output, job: ConformJob, asked: _ConformOptions, shared: dict[str, Playback]
+    output: Output,
+    job: ConformJob,
+    asked: _ConformOptions,
+    shared: dict[str, Playback],
+    found: FoundRuns,
 ) -> Iterator[Result[LevelResult]]:
     """The results of one implementation; after Ctrl-C, those so far.
 
@@ -185,8 +203,12 @@ def _tried(
         # Yield before raising: `Output` prints what it has and then exits 3.
         yield from map(_result, tally.level_results())
         raise
-    for level in tally.level_results():
-        if output.style != "json":
+    levels = tuple(tally.level_results())
+    if output.exhibits:
+        for exhibit in exhibits(job, asked.corpus, levels, batch=asked.batch):
+            found.show(exhibit)
+    for level in levels:
+        if output.style != "json" or output.exhibits:
             shared.update(_shared(job, asked.corpus, level))
         yield _result(level)
 

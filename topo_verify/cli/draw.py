@@ -8,10 +8,10 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Raw, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import named_world
+from topo_verify.report.blocks import Block, Raw, TextTable
 from topo_verify.world.formats import files
 
 

@@ -11,7 +11,6 @@ import click
 
 from topo_verify.cli import markers, options
 from topo_verify.cli.explored import ExploreEntry, explore_result
-from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.play import (
@@ -29,12 +28,13 @@ from topo_verify.cli.runs import (
     named_worlds,
     unjudged,
 )
-from topo_verify.cli.walks import FoundWalk
+from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -121,7 +121,7 @@ def explore(  # noqa: PLR0913  an argument an option
         asked = _ExploreOptions(limits, trace, player, svg, strict, gap)
         return _results(output, starts, found, asked, walk)
 
-    walk = FoundWalk(wanted=output.style != "json")
+    walk = FoundRuns(output)
     return output.run(
         "explore",
         runs,
@@ -147,7 +147,7 @@ def _results(
     starts: Sequence[NamedWorld],
     found: Sequence[Target],
     asked: _ExploreOptions,
-    walk: FoundWalk,
+    walk: FoundRuns,
 ) -> Iterator[Result[ExploreEntry]]:
     total = len(starts) * len(found)
     played: list[PlayedRun] = []

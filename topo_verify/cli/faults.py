@@ -7,13 +7,15 @@ from collections.abc import Iterator, Sequence
 import click
 
 from topo_verify.cli import options
+from topo_verify.cli.accounts import faults_account
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
+from topo_verify.cli.reporting import report_options
+from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS, Fault
-from topo_verify.harness.faults.checks import EXAMPLES, LARGEST, STRATEGIES
+from topo_verify.harness.faults.checks import A_SECOND, EXAMPLES, LARGEST, STRATEGIES
 from topo_verify.harness.faults.detection import (
     CHECKS,
     LARGEST_HARMLESS,
@@ -23,6 +25,8 @@ from topo_verify.harness.faults.detection import (
     try_faults,
 )
 from topo_verify.harness.pool import processors
+from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.text import plural
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")
@@ -60,6 +64,7 @@ WIDTHS = (29, 21, 13, 5, 3)
     f" worlds of {LARGEST_THOROUGH} edges: an hour.",
 )
 @output_options
+@report_options
 def faults(
     output: Output, *, names: tuple[str, ...], checks: str, workers: int | None, thorough: bool
 ) -> int:
@@ -70,6 +75,7 @@ def faults(
     difference. A theorem with the same mistake must be refuted by the solver. NAME is a fault; by
     default all are tried.
     """
+    found = FoundRuns(output)
 
     def tried() -> Iterator[Result[Caught]]:
         processes = processors() if workers is None else workers
@@ -80,6 +86,8 @@ def faults(
             chosen, by=_checks(checks), workers=processes, thorough=thorough, tell=output.progress
         )
         for done, entry in enumerate(entries, 1):
+            if output.exhibits and entry.search is not None and entry.search.world is not None:
+                _run_again(entry, entry.search.world, found)
             yield Result(entry, failed=not (entry.ok or entry.undecided), incomplete=not entry.ok)
             output.progress(entry.name, done, len(chosen))
 
@@ -94,7 +102,23 @@ def faults(
         yield TextTable(COLUMNS, [_row(entry)], widths=WIDTHS, headed=False)
 
     head = (Text(_head(names, thorough=thorough)), TextTable(COLUMNS, [], widths=WIDTHS))
-    return output.run("faults", tried, _show, live=Live(head, live, _end), by=checks)
+    return output.run(
+        "faults",
+        tried,
+        _show,
+        live=Live(head, live, _end),
+        account=lambda entries: faults_account(entries, checks, _show(entries), found),
+        by=checks,
+    )
+
+
+def _run_again(entry: Caught, world: str, found: FoundRuns) -> None:
+    """Keep the run of a fault in the smallest world in which it fails."""
+    assert entry.search is not None
+    target = Target(entry.target, FAULTS[entry.name].mapper)
+    for claim in entry.search.claims:
+        found.run_again((target,), world, claim, A_SECOND, entry.search.message)
+        return
 
 
 def _part(entry: Caught) -> str:

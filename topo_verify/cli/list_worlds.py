@@ -9,10 +9,10 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Raw
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.errors import InputError
+from topo_verify.report.blocks import Block, Raw
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, Table

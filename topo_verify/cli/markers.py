@@ -15,13 +15,13 @@ import click
 import msgspec
 
 from topo_verify.cli.explored import ExploreEntry, explore_result
-from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import NamedWorld, claims_cell, finding_blocks, judged
-from topo_verify.cli.walks import FoundWalk
+from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
 from topo_verify.harness.run import explore
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.formats import files
@@ -65,7 +65,7 @@ def results(
     starts: Sequence[NamedWorld],
     found: Sequence[Target],
     limits: Limits,
-    walk: FoundWalk,
+    walk: FoundRuns,
     *,
     strict: bool,
     svg: str | None,
@@ -102,7 +102,7 @@ def results(
 
 
 def _of_each_dart(
-    at: NamedWorld, target: Target, limits: Limits, walk: FoundWalk, *, strict: bool
+    at: NamedWorld, target: Target, limits: Limits, walk: FoundRuns, *, strict: bool
 ) -> Iterator[Result[ExploreEntry]]:
     known: dict[Code, Result[ExploreEntry]] = {}
     for dart in range(len(at.world.alpha)):

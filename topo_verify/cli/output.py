@@ -23,11 +23,13 @@ from typing import IO, Any, Concatenate, Generic, ParamSpec, TypeVar
 import click
 import msgspec
 
-from topo_verify.cli import layout
 from topo_verify.cli.failures import exit_code, say, silence, version
-from topo_verify.cli.layout import Block, Text
 from topo_verify.cli.progress import ProgressBar
 from topo_verify.errors import InputError
+from topo_verify.report.account import Account
+from topo_verify.report.blocks import Block, Text
+from topo_verify.report.markdown import markdown
+from topo_verify.report.terminal import pretty
 from topo_verify.text import plural
 
 P = ParamSpec("P")
@@ -79,6 +81,26 @@ class Live(Generic[E]):
     end: Callable[[Sequence[E]], Iterable[Block]]
 
 
+@dataclass(frozen=True)
+class Ending:
+    """How the work of a command ended.
+
+    Attributes:
+        command: its name, as `verify`.
+        code: the exit code.
+        finished: whether the work came to its end.
+        seconds, timing: how long it took, and what else differs from run to run.
+        by_result: how long each result took.
+    """
+
+    command: str
+    code: int
+    finished: bool
+    seconds: float
+    timing: dict[str, Any]
+    by_result: tuple[float, ...]
+
+
 class _ReaderGone(Exception):
     """The reader of stdout has closed it, as `| head` does: stop printing."""
 
@@ -88,10 +110,14 @@ class Output:
 
     Attributes:
         timing: what differs from run to run, for `timing` in the JSON; a command may add to it.
+        report: writes the files that --report, --junit and --badge ask for; None: none does.
+        exhibits: whether a page is asked for, which shows the counterexamples.
     """
 
     def __init__(self, style: str, *, quiet: bool) -> None:
         self.timing: dict[str, Any] = {}
+        self.report: Callable[[Account, Ending], None] | None = None
+        self.exhibits = False
         self.style, self.quiet = style, quiet
         self.stdout: IO[str] = sys.stdout or _nowhere()
         self.progress = ProgressBar(quiet=quiet)
@@ -109,6 +135,7 @@ class Output:
         show: Callable[[Sequence[E]], Iterable[Block]],
         *,
         live: Live[E] | None = None,
+        account: Callable[[Sequence[E]], Account] | None = None,
         **more: Any,
     ) -> int:
         """Do the command's work, print its results and return the exit code.
@@ -117,6 +144,7 @@ class Output:
             results: does the work and yields one entry after the other.
             show: turns all entries into blocks, for people.
             live: prints the entries one by one in `pretty` form, in place of `show`.
+            account: says what the entries come to, if the command can be asked for a report.
             more: further fields of the JSON envelope.
         """
         done: _Done[E] = _Done()
@@ -128,11 +156,23 @@ class Output:
             if live is not None:
                 self._pretty(live.head)
             self._collect(done, results(), live)
+            if account is not None and self.style == "markdown":
+                last = _with_verdict(last, account)
             self._print(command, done, last, perf_counter() - begin, more)
+            if not done.finished:
+                say(f"topo-verify: interrupted after {plural(len(done.results), 'result')}")
         except _ReaderGone:
-            return done.code
-        if not done.finished:
-            say(f"topo-verify: interrupted after {plural(len(done.results), 'result')}")
+            pass  # what was asked for in files is written all the same
+        if self.report is not None and account is not None:
+            ending = Ending(
+                command,
+                int(done.code),
+                done.finished,
+                perf_counter() - begin,
+                self.timing,
+                tuple(done.seconds),
+            )
+            self.report(account(done.entries), ending)
         return done.code
 
     def _collect(
@@ -183,11 +223,11 @@ class Output:
                 # One object, written at the end: a script never reads half a result.
                 out.write(json.dumps(envelope) + "\n")
             else:
-                out.write(layout.markdown(show(done.entries)))
+                out.write(markdown(show(done.entries)))
 
     def _pretty(self, blocks: Iterable[Block]) -> None:
         with _reader(self.stdout) as out:
-            layout.pretty(blocks, out)
+            pretty(blocks, out)
 
 
 @contextmanager
@@ -221,6 +261,19 @@ def _with_remark(
         if in_process:
             yield Text("")
             yield Text("In process: a mapper of your own could see what judges it.")
+
+    return shown
+
+
+def _with_verdict(
+    show: Callable[[Sequence[E]], Iterable[Block]], account: Callable[[Sequence[E]], Account]
+) -> Callable[[Sequence[E]], Iterable[Block]]:
+    """Show the verdict on all above the entries: a summary is read from its first line."""
+
+    def shown(entries: Sequence[E]) -> Iterator[Block]:
+        made = account(entries)
+        yield Text(f"{made.extent.verdict}: {made.about}, {made.extent.words}")
+        yield from show(entries)
 
     return shown
 

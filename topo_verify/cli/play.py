@@ -8,7 +8,6 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import judged, named_world
@@ -16,6 +15,7 @@ from topo_verify.errors import InputError
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.player.recording import PlayedRun
+from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.formats import files

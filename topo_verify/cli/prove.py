@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -12,11 +12,16 @@ import click
 
 from topo_verify.cli import options
 from topo_verify.cli import theorems as shown
-from topo_verify.cli.layout import Block, Text
+from topo_verify.cli.accounts import prove_account
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
+from topo_verify.cli.reporting import report_options
+from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError, InternalError
+from topo_verify.report.account import Account, Exhibit
+from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.limits import MOST_SECONDS
+from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Budget, Theorem
@@ -67,6 +72,7 @@ if TYPE_CHECKING:
 @click.option("--smt2", "folder", metavar="DIR", help="Write each question to DIR as SMT-LIB 2.")
 @options.seed("Seed of the solver.")
 @output_options
+@report_options
 def prove(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
@@ -116,7 +122,38 @@ def prove(  # noqa: PLR0913  an argument an option
         return shown.live(entry, seconds[entry.name])
 
     live = Live((Text(shown.head(theorems, budget)),), one, shown.end)
-    return output.run("prove", proved, shown.show, live=live, seed=seed, deep=deep)
+    found = FoundRuns(output)
+
+    def account(entries: Sequence[shown.ProveEntry]) -> Account:
+        # What is not as expected comes first.
+        for entry in sorted(entries, key=lambda one: (one.ok, one.kind != "negative")):
+            found.show(_exhibit(entry))
+        return prove_account(entries, _again(solver, timeout, seed), shown.show(entries), found)
+
+    return output.run("prove", proved, shown.show, live=live, account=account, seed=seed, deep=deep)
+
+
+def _again(solver: str, timeout: int, seed: int) -> str:
+    """The options of a command that proves one theorem again, as this one did."""
+    given = {"--solver": (solver, "z3"), "--timeout": (timeout, 60), "--seed": (seed, 0)}
+    return "".join(f" {name} {value}" for name, (value, usual) in given.items() if value != usual)
+
+
+def _exhibit(entry: shown.ProveEntry) -> Exhibit | None:
+    """The world that refutes a statement, and the walk in it that shows it; None if none does."""
+    if entry.verdict != "REFUTED" or entry.counterexample is None or entry.history is None:
+        return None
+    try:
+        world = World.from_id(entry.counterexample)
+    except InputError:
+        return None  # a structure that is no world
+    return Exhibit(
+        title=f"{entry.name} in {entry.counterexample}",
+        world=world,
+        name=entry.counterexample,
+        notes=(entry.words, f"shown by the doors {' '.join(map(str, entry.history))}"),
+        again=f"topo-verify prove {entry.name}",
+    )
 
 
 def _require(*, second: bool, certify: bool) -> None:

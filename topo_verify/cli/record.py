@@ -13,7 +13,6 @@ import msgspec
 from topo_verify.algorithms import Algorithm
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
@@ -24,6 +23,7 @@ from topo_verify.harness.corpus import DEFAULT, Corpus, corpus_from
 from topo_verify.harness.targets import one_target, target_text
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
+from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural

@@ -12,7 +12,6 @@ import msgspec
 
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Text
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.play import player_option, require_one_world, write_page
@@ -25,6 +24,7 @@ from topo_verify.harness.targets import one_target, target_text
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.walk import Extent
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.events import Finish, Start, read_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural

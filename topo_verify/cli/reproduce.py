@@ -9,7 +9,6 @@ from pathlib import Path
 import click
 
 from topo_verify.cli import options
-from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
@@ -34,6 +33,7 @@ from topo_verify.harness.reproduce.points import (
     points_csv,
 )
 from topo_verify.harness.reproduce.store import RunStore
+from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.report.figures.names import SHORT
 from topo_verify.report.figures.page import PAGE, judged_sentence, page, stem
 from topo_verify.report.figures.words import paragraph

@@ -14,10 +14,10 @@ import msgspec
 
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
-from topo_verify.cli.layout import Block, Bullets, Command, Text
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import Report, in_words, judge, replay_line, strict_option, undecided
 from topo_verify.harness.run import Exploration
+from topo_verify.report.blocks import Block, Bullets, Command, Text
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES

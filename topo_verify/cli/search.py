@@ -10,13 +10,14 @@ from pathlib import Path
 import click
 
 from topo_verify.cli import options
+from topo_verify.cli.accounts import search_account
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
+from topo_verify.cli.reporting import report_options
 from topo_verify.cli.searched import ByEdges, Counterexample, FailingClaim, Lost, SearchEntry
 from topo_verify.cli.searched import show as show_entry
-from topo_verify.cli.walks import FoundWalk
+from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import processors
@@ -27,6 +28,7 @@ from topo_verify.harness.tally import CostTotals, Failure, joint_judgements
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -96,6 +98,7 @@ class _SearchOptions:
 @options.seed("Seed of the worlds that are run again.")
 @options.limits
 @output_options
+@report_options
 def search(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
@@ -142,16 +145,25 @@ def search(  # noqa: PLR0913  an argument an option
         if ledger is not None:
             watch()  # before a mapper is loaded
         for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
-            yield from _searched(output, mappers, asked, walk)
+            yield from _searched(output, mappers, asked, found)
 
-    def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
+    def body(entries: Sequence[SearchEntry]) -> Iterator[Block]:
         for entry in entries:
             yield from show_entry(entry, worst=worst)
-        yield from walk.blocks()
 
-    walk = FoundWalk(wanted=output.style != "json")
+    def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
+        yield from body(entries)
+        yield from found.blocks()
 
-    return output.run("search", searches, show, in_process=in_process)
+    found = FoundRuns(output)
+
+    return output.run(
+        "search",
+        searches,
+        show,
+        account=lambda entries: search_account(entries, body(entries), found),
+        in_process=in_process,
+    )
 
 
 def _mappers(
@@ -182,7 +194,7 @@ def _mappers(
 
 
 def _searched(
-    output: Output, mappers: tuple[Target, ...], asked: _SearchOptions, walk: FoundWalk
+    output: Output, mappers: tuple[Target, ...], asked: _SearchOptions, found: FoundRuns
 ) -> Iterator[Result[SearchEntry]]:
     """The result of one search; after Ctrl-C, of the worlds done so far."""
     plan = Plan(
@@ -205,9 +217,14 @@ def _searched(
             # Yield before raising: `Output` prints what it has and then exits 3.
             yield _result(work.found(), asked)
             raise
-        first = work.found().counterexample
-        if first is not None and plan.choices == "reference":
-            walk.run_again(mappers, first.world, first.claim, asked.limits)
+        result = work.found()
+        # With other policies the run is not that of the mapper alone.
+        alone = plan.choices != "reference"
+        for one in (result.counterexample, *(claim.smallest for claim in result.claims.values())):
+            if one is not None:
+                found.run_again(
+                    mappers, one.world, one.claim, asked.limits, one.message, alone=alone
+                )
         yield _result(work.found(), asked)
 
 

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 import msgspec
 
 from topo_verify.checkers import Judgement
-from topo_verify.cli.layout import Block, Bullets, Command, Text, TextTable
 from topo_verify.cli.runs import unjudged
 from topo_verify.harness.search.again import RunAgain
 from topo_verify.harness.tally import CostComparison
+from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.text import plural
 
 SHOWN = 3

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from topo_verify.cli.layout import Block, Bullets, Text, TextTable
+from topo_verify.report.blocks import Block, Bullets, Cell, Text, TextTable
+from topo_verify.report.style import Tone
 from topo_verify.text import plural
 
 if TYPE_CHECKING:
@@ -156,11 +157,19 @@ def head(theorems: Sequence[Theorem], budget: Budget) -> str:
     return f"{z3_solver.name()}, seed {budget.seed}: {many} ({counts})"
 
 
-def _row(entry: ProveEntry) -> tuple[str, ...]:
+def _verdict(entry: ProveEntry) -> Cell:
+    """The verdict, with the tone of a pass where a REFUTED was expected."""
+    return Cell(entry.verdict, "held" if entry.ok else _TONE.get(entry.verdict, "failed"))
+
+
+_TONE: dict[str, Tone] = {"UNKNOWN": "open"}
+
+
+def _row(entry: ProveEntry) -> tuple[str | Cell, ...]:
     return (
         entry.name,
         entry.kind,
-        entry.verdict,
+        _verdict(entry),
         "ok" if entry.ok else "not ok",
         _evidence(entry),
     )
@@ -212,7 +221,7 @@ def show(entries: Sequence[ProveEntry]) -> Iterator[Block]:
 def live(entry: ProveEntry, seconds: float) -> Iterator[Block]:
     """The row of one theorem."""
     evidence = _evidence(entry) if entry.ok else f"NOT OK ({entry.kind}): {_evidence(entry)}"
-    row = (entry.name, entry.verdict, f"{seconds:.2f} s", evidence)
+    row = (entry.name, _verdict(entry), f"{seconds:.2f} s", evidence)
     columns = ("theorem", "verdict", ">time", "what stands behind it")
     yield TextTable(columns, [row], widths=(28, 9, 7, 0), headed=False)
 

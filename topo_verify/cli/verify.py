@@ -6,18 +6,20 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import click
 
-from topo_verify.checkers import CLAIMS
+from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.cli import options
+from topo_verify.cli.accounts import verify_account
 from topo_verify.cli.failures import version
-from topo_verify.cli.layout import Block, Text, TextTable
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
+from topo_verify.cli.reporting import report_options
 from topo_verify.cli.runs import finding_blocks, unjudged
-from topo_verify.cli.walks import FoundWalk
+from topo_verify.cli.walks import FoundRuns
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.harness.verify import verify as campaign
 from topo_verify.harness.verify.parts import Part
 from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 
@@ -40,6 +42,7 @@ from topo_verify.text import plural
 )
 @options.limits
 @output_options
+@report_options
 def verify(
     output: Output,
     *,
@@ -64,15 +67,15 @@ def verify(
         for part in campaign.verify(mappers, quick=quick, seed=seed, limits=limits, tell=tell):
             incomplete = part.verdict == "UNKNOWN"
             if part.findings:
-                first = part.findings[0]
-                walk.run_again(mappers, first.world, first.claim, limits)
+                for first in _first_of_each(part):
+                    found.run_again(mappers, first.world, first.claim, limits, first.message)
             yield Result(part, failed=part.verdict == "REFUTED", incomplete=incomplete)
 
     def end(entries: Sequence[Part]) -> Iterator[Block]:
         yield from _end(entries)
-        yield from walk.blocks()
+        yield from found.blocks()
 
-    walk = FoundWalk(wanted=output.style != "json")
+    found = FoundRuns(output)
 
     others = campaign.left_out(mappers)
     head = tuple(map(Text, _head(mappers, seed, others)))
@@ -81,6 +84,9 @@ def verify(
         parts,
         lambda entries: _show(head, entries, end),
         live=Live(head, _live, end),
+        account=lambda entries: verify_account(
+            _who(mappers), entries, _show(head, entries, _end), found
+        ),
         target=text,
         quick=quick,
         seed=seed,
@@ -92,9 +98,20 @@ def verify(
 # ---------------------------------------------------------------- for people
 
 
+def _who(mappers: Sequence[Target]) -> str:
+    return mappers[0].text if len(mappers) == 1 else plural(len(mappers), "mapper")
+
+
+def _first_of_each(part: Part) -> Iterator[Finding]:
+    """The first finding of each run of a part, smallest worlds first."""
+    first: dict[tuple[str, str], Finding] = {}
+    for finding in part.findings:
+        first.setdefault((finding.world, finding.replay), finding)
+    yield from first.values()
+
+
 def _head(mappers: Sequence[Target], seed: int, others: Sequence[str]) -> Iterator[str]:
-    who = mappers[0].text if len(mappers) == 1 else plural(len(mappers), "mapper")
-    yield f"topo-verify {version()}: {who}, {len(CLAIMS)} claims, seed {seed}"
+    yield f"topo-verify {version()}: {_who(mappers)}, {len(CLAIMS)} claims, seed {seed}"
     if others:
         yield (
             f"Left out: {' and '.join(others)}, which do not depend on the mapper; without a"

@@ -8,13 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from topo_verify.cli.layout import Block, Bullets, Command, Text, View
+from topo_verify.cli.output import Output
 from topo_verify.cli.runs import NamedWorld, finding_line, judged
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import Report
 from topo_verify.harness.run import explore
 from topo_verify.player import walk
+from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
+from topo_verify.report.account import Exhibit
+from topo_verify.report.blocks import Block, Bullets, Command, Text, View
 from topo_verify.robot.limits import Limits
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
@@ -47,47 +50,91 @@ def other_findings(report: Report, extent: walk.Extent) -> Iterator[Block]:
         yield Bullets(tuple(lines))
 
 
-class FoundWalk:
-    """The walk to the first counterexample that a command meets; lives for one call.
+MOST_EXHIBITS = 12
+"""So many counterexamples stand in a page; the others are counted."""
+
+
+class FoundRuns:
+    """The counterexamples that a command meets: the walk of the first, and exhibits for a page.
 
     Args:
-        wanted: whether it is shown at all.
+        output: of the command. People see a walk; a page shows all, up to `MOST_EXHIBITS`.
     """
 
-    def __init__(self, *, wanted: bool = True) -> None:
-        self._wanted = wanted
+    def __init__(self, output: Output) -> None:
+        self._people = output.style != "json"
+        self._most = MOST_EXHIBITS if output.exhibits else int(self._people)
+        self._alone = output.exhibits
         self._report: Report | None = None
+        self._exhibits: dict[tuple[str, str], Exhibit] = {}
+        self._seen: set[tuple[str, str]] = set()
+        self._late = False
 
     def keep(self, report: Report) -> None:
-        """Keep the report of a run, if it is the first in which something is wrong."""
-        if self._wanted and self._report is None and report.findings:
-            self._report = report
+        """Keep the report of a run, if something is wrong in it."""
+        if self._most and report.findings:
+            self._report = self._report or report
+            self.show(exhibit_of(report))
 
-    def run_again(self, targets: Sequence[Target], world: str, claim: str, limits: Limits) -> None:
+    def show(self, exhibit: Exhibit | None) -> None:
+        """Keep an exhibit for the page, if there is one."""
+        if exhibit is not None:
+            place = (exhibit.title, exhibit.name)
+            self._seen.add(place)
+            if len(self._exhibits) < self._most:
+                self._exhibits.setdefault(place, exhibit)
+
+    def run_again(
+        self,
+        targets: Sequence[Target],
+        world: str,
+        claim: str,
+        limits: Limits,
+        message: str = "",
+        *,
+        alone: bool = False,
+    ) -> None:
         """Run the mappers in the world of a counterexample; keep a run in which the claim fails.
 
-        A mapper that draws lots may do well this time; then there is nothing to show.
+        A mapper that draws lots may do well this time; then the world is shown without a run.
 
         Args:
             world: an id, or `nyc`. Any other world is passed over: a file may have changed since.
+            message: what was wrong there.
+            alone: nothing is run; the world is shown to the page's reader.
         """
-        if not self._wanted or self._report is not None:
+        if not self._most or (self._report is not None and not self._alone):
             return
         try:
             there = resolve_world(world) if world == "nyc" else World.from_id(world)
         except InputError:
             return
-        for target in targets:
-            report, _ = judged(
-                explore(there, target, limits=limits), NamedWorld(there, world), limits
-            )
-            if any(finding.claim == claim for finding in report.findings):
-                self.keep(report)
-                return
+        if len(self._exhibits) < self._most and not (self._late or alone):
+            for target in targets:
+                if (target_title(target.text, world), world) in self._exhibits:
+                    continue
+                run = explore(there, target, limits=limits)
+                self._late = run.limit in ("move-timeout", "world-timeout")  # once is enough
+                report, _ = judged(run, NamedWorld(there, world), limits)
+                if any(finding.claim == claim for finding in report.findings):
+                    self.keep(report)
+                    return
+        who = ",".join(target.text for target in targets)
+        self.show(Exhibit(target_title(who, world), there, world, (f"{claim}: {message}",)))
+
+    @property
+    def exhibits(self) -> tuple[Exhibit, ...]:
+        """The counterexamples for the page."""
+        return tuple(self._exhibits.values()) if self._alone else ()
+
+    @property
+    def left_out(self) -> int:
+        """How many more there were."""
+        return len(self._seen) - len(self._exhibits)
 
     def blocks(self) -> Iterator[Block]:
         """The walk with its title, and the command that shows it again; none if there is none."""
-        if self._report is None:
+        if self._report is None or not self._people:
             return
         yield Text("")
         yield Text(f"The walk of {self._report.target} in {self._report.world}:")
@@ -97,3 +144,27 @@ class FoundWalk:
         replay_command = self._report.findings[0].replay
         if replay_command:
             yield Command(replay_command, "again: ")
+
+
+def target_title(target: str, world: str) -> str:
+    """The title of an exhibit: who, in which world."""
+    return f"{target} in {world}"
+
+
+def exhibit_of(report: Report, *others: PlayedRun) -> Exhibit | None:
+    """A run with its findings, to be looked at; None if the run is not known.
+
+    Args:
+        others: runs to be shown beside it.
+    """
+    if report.run is None:
+        return None
+    run = PlayedRun(report.target, tuple(report.run.trace), report.judgements, report.run.stopped)
+    return Exhibit(
+        title=target_title(report.target, report.world),
+        world=report.run.world,
+        name=report.world,
+        notes=tuple(map(finding_line, report.findings[:OTHERS])),
+        runs=(run, *others),
+        again=report.findings[0].replay if report.findings else "",
+    )

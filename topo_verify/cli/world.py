@@ -12,13 +12,13 @@ import msgspec
 
 from topo_verify.cli import options
 from topo_verify.cli.draw import draw
-from topo_verify.cli.layout import Block, Raw, Text, TextTable
 from topo_verify.cli.list_worlds import list_worlds
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.cli.sample import sample
 from topo_verify.errors import InputError
+from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
 from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
@@ -126,7 +126,11 @@ def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
         facts["least cost"] = plural(facts.pop("least_cost"), "edge traversal")
         for listed in ("rotation", "edge_darts", "vertex_names"):
             del facts[listed]
-        rows = [(name, _word(fact)) for name, fact in facts.items() if fact not in ("", None)]
+        rows = [
+            (name, Cell(_word(fact), whole=True))  # here one comes for the whole id
+            for name, fact in facts.items()
+            if fact not in ("", None)
+        ]
         yield TextTable(("property", "value"), rows, headed=False)
         if entry.edges:
             yield Text("")

@@ -13,6 +13,7 @@ import html
 import json
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 
@@ -42,6 +43,49 @@ SCRIPTS = (
 """The parts of the script, in the order in which they are written."""
 
 
+@dataclass(frozen=True)
+class PageShell:
+    """The page around a recording, which is the same for every run.
+
+    Attributes:
+        before, after: what stands before the recording and behind it.
+        style, script: the sources that its content security policy names.
+    """
+
+    before: str
+    after: str
+    style: str
+    script: str
+
+
+def page_shell(title: str = "A run, step by step") -> PageShell:
+    """The page without a run, for a page that holds several of them."""
+    style = part("page.css") + part("walk.css")
+    script = "".join(["'use strict';\n", *map(part, SCRIPTS)])
+    policy = (
+        f"default-src 'none'; style-src {source_hash(style)}; script-src {source_hash(script)};"
+        " base-uri 'none'; form-action 'none'"
+    )
+    values = {
+        "policy": policy,
+        "title": html.escape(title),
+        "style": style,
+        "script": script,
+    }
+    before, after = (
+        # In one pass: what is put in is not searched.
+        re.sub(r"\{([a-z]+)\}", lambda found: values[found[1]], half)
+        for half in part("page.html").split("{recording}")
+    )
+    return PageShell(before, after, source_hash(style), source_hash(script))
+
+
+def json_in_page(data: object) -> str:
+    """The data as JSON that can stand in a script element of a page."""
+    # Only "<" can end or open anything in a script; the JSON stays the same.
+    return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+
+
 def player_page(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> str:
     """The page that shows these runs in this world, the first one first; two: side by side.
 
@@ -49,24 +93,8 @@ def player_page(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> s
         name: of the world, as the user calls it; default: its own.
     """
     data = recording(world, runs, name=name)
-    # Only "<" can end or open anything in a script; the JSON stays the same.
-    text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    style = part("page.css") + part("walk.css")
-    script = "".join(["'use strict';\n", *map(part, SCRIPTS)])
-    policy = (
-        f"default-src 'none'; style-src {_hash(style)}; script-src {_hash(script)};"
-        " base-uri 'none'; form-action 'none'"
-    )
-    title = " beside ".join(shown(run.name) for run in runs[:2]) + f" in {data['name']}"
-    values = {
-        "policy": policy,
-        "title": html.escape(title),
-        "style": style,
-        "recording": text,
-        "script": script,
-    }
-    # In one pass: what is put in is not searched.
-    return re.sub(r"\{([a-z]+)\}", lambda found: values[found[1]], part("page.html"))
+    shell = page_shell(" beside ".join(shown(run.name) for run in runs[:2]) + f" in {data['name']}")
+    return shell.before + json_in_page(data) + shell.after
 
 
 def framed(world: World, run: PlayedRun) -> str:
@@ -80,11 +108,19 @@ def framed(world: World, run: PlayedRun) -> str:
 
 @cache
 def part(name: str) -> str:
-    """The text of a file in `page/`, without its comments and idle spaces.
+    """The text of a file in `page/`, squeezed."""
+    path = resources.files("topo_verify.player") / "page" / name
+    return squeezed(path.read_text(encoding="utf-8"), name)
+
+
+def squeezed(text: str, name: str) -> str:
+    """The text of a part of a page without its comments and idle spaces.
 
     No text of a script goes over a line end, or has two slashes with spaces around them.
+
+    Args:
+        name: of its file, whose ending says what it is.
     """
-    text = (resources.files("topo_verify.player") / "page" / name).read_text(encoding="utf-8")
     if name.endswith((".js", ".css")):
         text = re.sub(r"^\s*/\*.*?\*/$\n?", "", text, flags=re.MULTILINE | re.DOTALL)
         text = re.sub(r"(^|[ \t]+)//[ \t].*", "", text, flags=re.MULTILINE)
@@ -93,6 +129,7 @@ def part(name: str) -> str:
     return re.sub(r"^\s+", "", text, flags=re.MULTILINE)
 
 
-def _hash(text: str) -> str:
+def source_hash(text: str) -> str:
+    """The source by which a content security policy allows a style or a script."""
     digest = hashlib.sha256(text.encode()).digest()
     return f"'sha256-{base64.b64encode(digest).decode()}'"

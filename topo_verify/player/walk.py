@@ -23,7 +23,7 @@ from topo_verify.player.walk_words import (
     world_place,
 )
 from topo_verify.robot import events as ev
-from topo_verify.text import LINE, plural, shown
+from topo_verify.text import LINE, plural, shortened, shown
 from topo_verify.world.rooted_map import World
 
 WIDTH = 80
@@ -259,7 +259,7 @@ class _View:
     def wrapped(self, text: str, indent: str = "", further: str | None = None) -> list[str]:
         """The text in lines of the view's width, its control characters escaped."""
         return textwrap.wrap(
-            shown(text, limit=LINE),
+            shortened(shown(text, limit=LINE)),
             self.width,
             initial_indent=indent,
             subsequent_indent=indent if further is None else further,

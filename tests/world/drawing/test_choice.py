@@ -12,6 +12,9 @@ import pytest
 from tests.world.drawing.pictures import drawn
 from topo_verify.world import families
 from topo_verify.world.drawing import choice, lay_out, read_back, to_svg
+from topo_verify.world.drawing.fit import Sketch, fitted
+from topo_verify.world.drawing.given import given
+from topo_verify.world.drawing.layout import Layout
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -103,6 +106,24 @@ def test_an_edge_that_comes_back_elsewhere_in_a_cell_is_seen() -> None:
     assert read_back.untruths(picture, world) == [
         f"edge {edge} does not come back where it left the cell"
     ]
+
+
+def test_a_sketch_whose_vertices_coincide_is_given_up_after_one_look(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    world = families.cycle(4)
+    looks = list[float]()
+
+    def looked(sketch: Sketch, rounding: float) -> Layout:
+        looks.append(rounding)
+        return fitted(sketch, rounding)
+
+    monkeypatch.setattr(choice, "fitted", looked)
+    heap = replace(world, positions=((0.0, 0.0), (1e-6, 0.0), (1.0, 0.0), (1.0, 1.0)))
+    sketch = given(heap)
+    assert sketch is not None
+    assert choice._true(heap, sketch) is None  # pyright: ignore[reportPrivateUsage]
+    assert looks == [0.0]
 
 
 @pytest.fixture

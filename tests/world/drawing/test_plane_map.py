@@ -10,6 +10,7 @@ import pytest
 from topo_verify.world import families
 from topo_verify.world.drawing import mesh, packing, polish
 from topo_verify.world.drawing.arrays import Floats
+from topo_verify.world.drawing.planar import outer_faces
 from topo_verify.world.drawing.plane_map import MOST_CROSSINGS, PlaneMap, best_plane_map, planarise
 from topo_verify.world.rooted_map import World
 
@@ -34,6 +35,13 @@ def test_a_plane_map_is_a_sphere_that_keeps_every_order(world: World) -> None:
     assert (plane.crossings > 0) == (world.genus > 0)
     for number in range(len(world.edges)):
         assert {plane.edge[half] for half in plane.chain(number)} == {number}
+
+
+@pytest.mark.parametrize("world", [*SMALL[::3], *OTHERS])
+def test_no_face_is_tried_twice_as_the_outer_one(world: World) -> None:
+    plane = plane_map(world)
+    outers = outer_faces(plane)
+    assert len(outers) == len({plane.face[half] for half in outers}) == len(plane.faces())
 
 
 def test_the_faces_have_names_of_their_own() -> None:

@@ -2,6 +2,19 @@
 
 const recording = JSON.parse(byId('recording').textContent);
 const asked = location.hash; // the player writes its step there
-new Player(recording);
-const walkMode = new WalkMode(recording);
-if (asked === '#walk') walkMode.open();
+
+function begin() {
+  new Player(recording);
+  const walkMode = new WalkMode(recording);
+  if (asked === '#walk') walkMode.open();
+}
+
+// In a frame that has just been made the pictures may have no room yet to be fitted into.
+if (byId('panes').clientWidth) begin();
+else {
+  new ResizeObserver((_, watch) => {
+    if (!byId('panes').clientWidth) return;
+    watch.disconnect();
+    begin();
+  }).observe(byId('panes'));
+}

@@ -22,6 +22,9 @@ ROUNDINGS = (0.5, 0.35, 0.2, 0.1, 0.0)
 ROOMY = 0.025
 """The radius, as a share of the picture's longer side, with which anybody is content."""
 
+CRAMPED = 0.0003
+"""The same, at which vertices have no room; `fit` makes no radius smaller than 0.0002."""
+
 READABLE = 250
 """The vertices of a random map beyond which only a ball is shown."""
 
@@ -82,6 +85,9 @@ def _ball(world: World, centre: Dart) -> Layout:
 
 def _true(world: World, sketch: Sketch) -> Layout | None:
     """The layout of the sketch, with corners as round as they may be; None if none is true."""
+    straight = fitted(sketch, 0.0)
+    if _share(straight) < CRAMPED and untrue(world, straight, sketch.bridges):
+        return None  # vertices coincide, and rounder corners give them no more room
     best: Layout | None = None
     for rounding in ROUNDINGS:
         layout = fitted(sketch, rounding)

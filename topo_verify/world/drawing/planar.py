@@ -32,12 +32,16 @@ def planar(world: World) -> Iterator[Sketch]:
     if not world.edges:
         yield Sketch("planar", np.zeros((1, 2)), ())
         return
+    tried = set[tuple[int, int]]()
     for attempt in range(ATTEMPTS if len(world.edges) <= 100 else LARGE_ATTEMPTS):
         plane = best_plane_map(world, seed=attempt // 2)
         if plane is None:
             return
         outers = outer_faces(plane)
-        outer = outers[attempt % 2 if attempt < 4 else min(attempt - 2, len(outers) - 1)]
+        outer = outers[min(attempt % 2 if attempt < 4 else attempt - 2, len(outers) - 1)]
+        if (attempt // 2, outer) in tried:  # there are fewer faces than attempts
+            continue
+        tried.add((attempt // 2, outer))
         points = 2 if len(plane.other) < 600 else 1
         mesh = meshes.over(plane, outer, points=points)
         places = packed(mesh)
@@ -53,7 +57,7 @@ def planar(world: World) -> Iterator[Sketch]:
 
 
 def outer_faces(plane: PlaneMap) -> list[int]:
-    """A half-edge of each face, the best for the outer face first."""
+    """A half-edge of each face, each face once, the best for the outer face first."""
     faces = plane.faces()
 
     def worth(face: list[int]) -> tuple[int, int]:
@@ -65,7 +69,9 @@ def outer_faces(plane: PlaneMap) -> list[int]:
     # Second the face in the middle: from there every other one is near.
     middle = min(by_size[:40], key=lambda face: (_depth(plane, face), -len(face)))
     rest = [face for face in by_size if face is not by_size[0] and face is not middle]
-    return [face[0] for face in (by_size[0], middle, *rest)]
+    # The best face may be the middle: what failed with it as the outer face fails again.
+    best = [by_size[0]] if middle is by_size[0] else [by_size[0], middle]
+    return [face[0] for face in (*best, *rest)]
 
 
 def _depth(plane: PlaneMap, face: list[int]) -> tuple[int, float]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from io import StringIO
 
 import pytest
 
-from topo_verify.cli.layout import Block, Bullets, Command, Raw, Text, TextTable, markdown, pretty
+from topo_verify.report.blocks import Block, Bullets, Cell, Command, Raw, Text, TextTable
+from topo_verify.report.markdown import markdown
+from topo_verify.report.terminal import pretty
 
 
 class Terminal(StringIO):
@@ -43,7 +46,87 @@ def test_colour_is_for_terminals_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TERM", "xterm")
     table = TextTable(("verdict",), [("REFUTED",)])
     assert "\x1b" not in printed(table)
-    assert "\x1b[1;31mREFUTED" in printed(table, out=Terminal())
+    assert "\x1b[1;31m! REFUTED" in printed(table, out=Terminal())
+
+
+def test_without_colours_a_verdict_that_is_no_pass_has_a_mark(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm")
+    words = ("PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED")
+    table = TextTable(("verdict",), [(word,) for word in words], headed=False)
+    text = printed(table, out=Terminal())
+    assert not re.search(r"\x1b\[[0-9;]*3[0-9]m", text)  # bold may be, no colour
+    plain = re.sub(r"\x1b\[[0-9;]*m", "", text).split("\n")[:-1]
+    assert [line.rstrip() for line in plain] == [
+        "PROVED",
+        "EXHAUSTED",
+        "SAMPLED",
+        "? UNKNOWN",
+        "! REFUTED",
+    ]
+
+
+def test_a_refutation_that_was_expected_has_no_mark() -> None:
+    table = TextTable(("",), [(Cell("REFUTED", "held"),), ("REFUTED",)], headed=False)
+    assert printed(table) == "REFUTED\n! REFUTED\n"
+    assert markdown([table]).splitlines()[2:] == ["| REFUTED |", "| ! REFUTED |"]
+
+
+def test_the_verdict_that_opens_a_sentence_has_its_colour(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    text = printed(Text("REFUTED: 3 of 86"), Text("REFUTED, they say"), out=Terminal())
+    assert text == "\x1b[1;31mREFUTED\x1b[0m: 3 of 86\nREFUTED, they say\n"
+    assert markdown([Text("REFUTED: *3*")]) == "**REFUTED**: \\*3\\*\n"
+
+
+LONG = f"m30/{'1234567890' * 4}321"
+
+
+def test_a_long_id_is_shortened_for_reading_and_whole_in_commands() -> None:
+    line, cell = f"topo-verify replay {LONG}", Cell(LONG, whole=True)
+    for form in (printed, lambda *blocks: markdown(blocks)):
+        for block in (Text(LONG), Bullets((LONG,)), TextTable(("w",), [(LONG,)])):
+            assert "m30/12345…90321" in form(block)
+            assert LONG not in form(block)
+        assert line in form(Command(line))
+        assert LONG in form(TextTable(("w",), [(cell,)]))
+    assert printed(Text("m11/123456789012")) == "m11/123456789012\n"
+
+
+@pytest.mark.parametrize("width", [40, 50, 60, 80])
+def test_no_number_and_no_verdict_is_broken_at_any_width(
+    width: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    columns = ("part", "verdict", ">checked", ">total", "summary")
+    row = ("sampled-worlds", "REFUTED", "119364119364", "119364119364", "word " * 30)
+    live = TextTable(columns[:2] + columns[4:], [(*row[:2], row[4])], widths=(16, 9, 0))
+    text = printed(TextTable(columns, [row]), live)
+    assert max(map(len, text.splitlines())) <= width
+    assert text.count("119364119364") == 2
+    assert text.count("! REFUTED") == 2
+    assert text.count("word") == 60
+
+
+def test_a_row_with_fixed_widths_becomes_a_list_where_the_rest_is_too_narrow(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    live = TextTable(("part", "verdict", "summary"), [("p", "PROVED", "s " * 9)], widths=(16, 9, 0))
+    for width, lines in ((49, 1), (48, 3)):
+        monkeypatch.setenv("COLUMNS", str(width))
+        bare = TextTable(live.columns, live.rows, widths=live.widths, headed=False)
+        assert len(printed(bare).splitlines()) == lines
+
+
+def test_a_row_without_room_becomes_a_list(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "30")
+    table = TextTable((">edges", "verdict", ">worlds"), [("7", "REFUTED", "1234567890")])
+    assert printed(table) == "edges  verdict        worlds\n    7  ! REFUTED  1234567890\n"
+    monkeypatch.setenv("COLUMNS", "24")
+    assert printed(table) == "edges 7\n  verdict  ! REFUTED\n  worlds   1234567890\n"
 
 
 @pytest.mark.parametrize(

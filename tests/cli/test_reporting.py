@@ -1,0 +1,178 @@
+"""--report, --junit and --badge of the six commands that judge."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+from click.testing import Result
+
+from tests.report.test_junit import objections
+from topo_verify.cli.reporting import command_line
+from topo_verify.report.style import VERDICTS
+
+Call = Callable[..., Result]
+
+FILES = "--report r.html --junit r.xml --badge r.svg --quiet"
+
+
+def _title() -> str:
+    found = re.search(r"<title>(.*?)</title>", Path("r.svg").read_text())
+    return found[1] if found else ""
+
+
+COMMANDS = {
+    "search 'mappers.py:guesses' --edges 2 --workers 0": (1, "REFUTED, 1 of 2 worlds fail"),
+    "search basic --edges 2 --workers 0": (0, "EXHAUSTED, 12 of 12 worlds"),
+    "faults assumes-a-plane-world --by search,proofs --workers 0": (
+        0,
+        "SAMPLED, 1 of 1 mapper told right from wrong",
+    ),
+    "prove percept undirected-any": (0, "PROVED, 2 of 2 theorems as expected"),
+    "conform basic --like enhancement-ii --worlds m4/41 --worlds m1/0 --workers 0": (
+        1,
+        "REFUTED, 1 of 2 worlds fail",
+    ),
+    "compare base.gz basic --tolerance 5": (1, "REFUTED, a regression in 1 of 2 worlds"),
+    "compare base.gz enhancement-ii": (0, "SAMPLED, 2 of 2 worlds without regression"),
+}
+
+
+@pytest.mark.parametrize("line", COMMANDS)
+def test_each_command_gives_an_account_in_three_forms(line: str, call: Call) -> None:
+    code, words = COMMANDS[line]
+    if line.startswith("compare"):
+        assert (
+            call("record enhancement-ii --out base.gz --worlds m4/41 --worlds m1/0").exit_code == 0
+        )
+    done = call(f"{line} {FILES} --format json")
+    assert done.exit_code == code, done.output
+    assert _title().endswith(words)
+    assert objections(Path("r.xml").read_text()) == []
+    page = Path("r.html").read_text()
+    assert f"<p>Exit code {code}: " in page
+    assert f'again: <code class="copy">topo-verify {line.split(maxsplit=1)[0]} ' in page
+    assert "--junit" not in page
+    shown = page.count("<article>")
+    assert shown == (0 if "SAMPLED, 2" in words or line.startswith("search basic") else shown)
+    assert shown or code == 0
+
+
+def test_a_page_shows_each_counterexample_with_its_player(call: Call) -> None:
+    call(f"search mappers.py:guesses --edges 2 --keep-going --workers 0 {FILES}")
+    page = Path("r.html").read_text()
+    assert page.count("<article>") == page.count('class="play"') == page.count("<figure>") >= 2
+    assert "topo-verify replay m1/1 --target mappers.py:guesses" in page
+
+
+def test_verify_has_a_suite_a_part_and_a_case_a_claim(call: Call) -> None:
+    assert call(f"verify mappers.py:guesses --quick {FILES}").exit_code == 1
+    suites = list(ET.parse("r.xml").getroot())  # noqa: S314  written by us a moment ago
+    names = ["small-worlds", "sampled-worlds", "generated-worlds", "street-network"]
+    assert [suite.get("name") for suite in suites] == names
+    assert {suite.get("tests") for suite in suites} == {"11"}
+    found = {c.get("name"): [one.tag for one in c] for c in suites[0].iter("testcase")}
+    assert found["percepts-true"] == []
+    assert found["map-isomorphic"] == ["failure"]
+    assert found["decisions-entailed"] == ["skipped"]
+
+
+def test_two_runs_have_one_page_but_for_the_timing(call: Call) -> None:
+    cut = re.compile(r'<section id="timing">.*?</section>', re.DOTALL)
+    pages: list[str] = []
+    for _ in range(2):
+        call(f"search mappers.py:guesses --edges 2 --workers 0 {FILES}")
+        pages.append(cut.sub("", Path("r.html").read_text()))
+    assert pages[0] == pages[1]
+
+
+def test_what_is_printed_is_the_same_with_a_report_and_without(call: Call) -> None:
+    line = "search mappers.py:guesses --edges 2 --workers 0"
+    assert call(line).stdout == call(f"{line} --report r.html").stdout
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("--report -", "--report -: standard output is for the results"),
+        ("--report .", "--report .: this is a folder"),
+        ("--junit none/r.xml", "there is no folder"),
+        ("--badge mappers.py/r.svg", "there is no folder"),
+        ("--report a --junit ./a", "expected different files for --report and --junit"),
+    ],
+)
+def test_a_file_that_cannot_be_written_is_refused_before_the_work(
+    options: str, words: str, call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def never(*_: object, **__: object) -> None:
+        raise AssertionError("the work has begun")
+
+    monkeypatch.setattr("topo_verify.harness.search.exhaustive.Search.work", never)
+    done = call(f"search basic --edges 2 {options}")
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_folder_without_permission_is_refused(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(os, "access", lambda *_: False)  # root may write anywhere
+    done = call("search basic --edges 1 --report r.html")
+    assert done.exit_code == 2
+    assert "--report r.html: no permission to write there" in done.stderr
+
+
+def test_after_an_interrupt_the_report_says_so(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("topo_verify.harness.search.exhaustive.Search.work", interrupted)
+    assert call(f"search basic --edges 2 {FILES}").exit_code == 3
+    assert "interrupted" in Path("r.html").read_text()
+    assert 'errors="1"' in Path("r.xml").read_text()
+    assert "UNKNOWN" in _title()
+
+
+def test_the_command_line_leaves_out_how_results_are_shown() -> None:
+    given = ["search", "a b.py:c", "--report", "r", "--junit=x", "--edges", "3", "--quiet"]
+    assert command_line(given) == "topo-verify search 'a b.py:c' --edges 3"
+
+
+def test_a_summary_opens_with_the_verdict_on_all(call: Call) -> None:
+    lines = call("search basic --edges 2 --workers 0 --format markdown").stdout.splitlines()
+    assert lines[0] == "**EXHAUSTED**: basic, 12 of 12 worlds"
+
+
+NARROW = (
+    "search basic --edges 3 --worst --workers 0",
+    "search --compare enhancement-ii,enhancement-i --edges 3 --workers 0",
+    "conform basic --like enhancement-ii --worlds m4/41 --workers 0 --seed 0:0",
+    "prove percept none-any",
+    "faults assumes-a-plane-world forgets-that-vu-may-be-new --by proofs --workers 0",
+    "explore m4/41 m3/14 --algorithm basic,folding",
+    "explore m4/41 --gap",
+    "world show m4/41",
+    "world count --edges 1..7",
+    "world list --edges 2 -n 3",
+    "record basic --worlds edges<=2 --out b.gz",
+    "verify mappers.py:guesses --quick",
+)
+
+
+@pytest.mark.parametrize("line", NARROW)
+def test_fifty_columns_break_no_number_and_no_verdict(
+    line: str, call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    printed: dict[int, str] = {}
+    for columns in (400, 50):
+        monkeypatch.setenv("COLUMNS", str(columns))
+        printed[columns] = call(f"{line} --quiet").stdout
+    wide = [one for one in printed[50].splitlines() if len(one) > 50 and "again: " not in one]
+    assert wide == []
+    words = {word for word in printed[400].split() if word.isdigit() or word in VERDICTS}
+    assert words - set(printed[50].split()) == set()

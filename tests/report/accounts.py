@@ -1,0 +1,57 @@
+"""Accounts for the tests of their forms."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tests.player.played import played
+from topo_verify.report.account import Account, Exhibit, Extent, JudgedCase, JudgedSuite
+from topo_verify.report.blocks import Bullets, Command, Raw, Text, TextTable, View
+from topo_verify.report.page import PageFacts
+from topo_verify.world import World
+
+HOSTILE = (
+    "</script><script>alert(1)</script><img src=x onerror=alert(1)>\"'\x1b[31m{style}&lt;\ud800"
+)
+"""Text that would end a script, an attribute or a colour, or stand in for a part of the page."""
+
+LONG_ID = f"m30/{'1234567890' * 4}321"
+
+FACTS = PageFacts(
+    command="verify",
+    again="topo-verify verify",
+    exit_code=1,
+    exit_words="a claim fails",
+    finished=True,
+    versions={"topo-verify": "1.2.3"},
+    timing={"written": "today"},
+)
+
+
+def account(text: str = "a text", *, exhibit: bool = True) -> Account:
+    """An account with one case of each outcome, in which this text stands everywhere."""
+    cases = (
+        JudgedCase("first", "ok", "passed", "3 of 3"),
+        JudgedCase(text, "failed", "failed", "3 of 3", text, f"topo-verify replay {text}"),
+        JudgedCase("third", "UNKNOWN", "undecided", message=text),
+        JudgedCase("fourth", "not-declared", "not-judged", "0 of 3", text),
+    )
+    world = replace(World.from_id("m3/14"), name=text, vertex_names=(text,) * 3)
+    run = played(world, "basic", name=text)
+    shown = Exhibit(text, world, text, (text,), (run,), f"topo-verify replay {text}")
+    blocks = (
+        Text(text),
+        Text(f"REFUTED: {text}"),
+        Command(f"topo-verify replay {text}", "again: "),
+        Bullets((text,)),
+        Raw(text),
+        View(lambda width: (f"{width}",)),
+        TextTable((text, ">n"), [(text, "5"), ("REFUTED", "6")], title=text),
+    )
+    return Account(
+        about=text,
+        extent=Extent("REFUTED", "1 of 3 worlds fail"),
+        suites=(JudgedSuite(text, cases),),
+        blocks=blocks,
+        exhibits=(shown,) if exhibit else (),
+    )

@@ -1,0 +1,179 @@
+"""What a run of a command came to: what was judged, how much of it, and what to look at.
+
+A command that judges says it once, as an `Account`; the page, the JUnit file and the badge are
+three forms of it. It holds no time and no date, so the same run has the same account.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from topo_verify.checkers import Judgement, Status
+from topo_verify.checkers.findings import Verdict
+from topo_verify.player.recording import PlayedRun
+from topo_verify.report.blocks import Block
+from topo_verify.report.style import Tone
+from topo_verify.world.rooted_map import World
+
+Outcome = Literal["passed", "failed", "undecided", "not-judged"]
+"""`undecided`: nothing is refuted, and it is no pass. `not-judged`: it was not asked, or not of
+all; that is neither a pass nor a failure."""
+
+TONE_OF: dict[Outcome, Tone | None] = {
+    "passed": "held",
+    "failed": "failed",
+    "undecided": "open",
+    "not-judged": None,
+}
+
+
+@dataclass(frozen=True)
+class JudgedCase:
+    """One thing that was judged.
+
+    Attributes:
+        name: of a claim, a part, a theorem, a fault.
+        verdict: the word for the result: a verdict, or the status of a claim.
+        judged: how much of how much it rests on, as `3 of 5`; empty where nothing is counted.
+        message: what is wrong, or why it was not judged.
+        again: the command line that shows this case; empty: that of the suite does.
+    """
+
+    name: str
+    verdict: str
+    outcome: Outcome
+    judged: str = ""
+    message: str = ""
+    again: str = ""
+
+    @property
+    def tone(self) -> Tone | None:
+        """A passed SAMPLED is sampled; else the outcome says it."""
+        if self.outcome == "passed" and self.verdict == "SAMPLED":
+            return "sampled"
+        return TONE_OF[self.outcome]
+
+
+@dataclass(frozen=True)
+class JudgedSuite:
+    """Cases that one command line repeats.
+
+    Attributes:
+        again: that command line; empty: the one of the whole run.
+    """
+
+    name: str
+    cases: tuple[JudgedCase, ...]
+    again: str = ""
+
+
+@dataclass(frozen=True)
+class Extent:
+    """The verdict on all, and how much was checked: `8,954 of 8,954 worlds`."""
+
+    verdict: Verdict
+    words: str
+
+
+@dataclass(frozen=True)
+class Exhibit:
+    """A world in which something is wrong, to be looked at.
+
+    Attributes:
+        title: which mapper, in which world.
+        world: the world.
+        name: what the command line calls it.
+        notes: what is wrong there, a sentence each.
+        runs: to be played, the first one first; none: the world is shown alone.
+        again: the command line that shows it again.
+    """
+
+    title: str
+    world: World
+    name: str
+    notes: tuple[str, ...]
+    runs: tuple[PlayedRun, ...] = ()
+    again: str = ""
+
+
+@dataclass(frozen=True)
+class Account:
+    """What a run of a command came to.
+
+    Attributes:
+        about: what was checked, in a few words.
+        extent: the verdict on all of it.
+        suites: everything that was judged.
+        blocks: what the command says about it.
+        exhibits: the counterexamples that are shown.
+        left_out: how many more there are.
+    """
+
+    about: str
+    extent: Extent
+    suites: tuple[JudgedSuite, ...]
+    blocks: tuple[Block, ...] = ()
+    exhibits: tuple[Exhibit, ...] = ()
+    left_out: int = 0
+
+    @property
+    def cases(self) -> Iterator[JudgedCase]:
+        """The cases of all suites."""
+        for suite in self.suites:
+            yield from suite.cases
+
+
+_OUTCOMES: dict[Status, Outcome] = {
+    "ok": "passed",
+    "failed": "failed",
+    "undecided": "undecided",
+    "partial": "not-judged",
+    "not-declared": "not-judged",
+    "not-asked": "not-judged",
+}
+
+_REASONS: dict[Status, str] = {
+    "partial": "the mapper declares only some of the decisions that the claim speaks of",
+    "not-declared": "the mapper declares nothing that the claim speaks of",
+    "not-asked": "not asked in a world of this size without --strict",
+    "undecided": "neither proved nor refuted",
+}
+
+
+def claim_cases(judgements: Iterable[Judgement]) -> Iterator[JudgedCase]:
+    """A case for each claim: its status, and how much of the runs it rests on."""
+    for one in judgements:
+        first = one.findings[0] if one.findings else None
+        yield JudgedCase(
+            name=one.claim,
+            verdict=one.status,
+            outcome=_OUTCOMES[one.status],
+            judged=f"{one.judged:,} of {one.of:,}",
+            message=_REASONS.get(one.status, "") if first is None else first.message,
+            again="" if first is None else first.replay,
+        )
+
+
+def outcome_of(verdict: str) -> Outcome:
+    """The outcome of a case where no REFUTED is expected."""
+    if verdict == "REFUTED":
+        return "failed"
+    return "undecided" if verdict == "UNKNOWN" else "passed"
+
+
+def joint_verdict(verdicts: Sequence[str]) -> Verdict:
+    """The verdict on several things: a refutation, else the one that says least."""
+    for verdict in _WEAKEST:
+        if verdict in verdicts:
+            return verdict
+    return "UNKNOWN"
+
+
+_WEAKEST: tuple[Verdict, ...] = ("REFUTED", "UNKNOWN", "SAMPLED", "EXHAUSTED", "PROVED")
+
+
+def counted(number: int, total: int, things: str) -> str:
+    """How many of how many: `8,954 of 8,954 worlds`."""
+    return f"{number:,} of {total:,} {things}"

@@ -1,0 +1,101 @@
+"""Blocks as HTML: escaped text, tables that scroll where they are too wide, commands to copy."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+
+from topo_verify.report.blocks import (
+    WIDTH,
+    Block,
+    Bullets,
+    Cell,
+    Command,
+    Raw,
+    Text,
+    TextTable,
+    View,
+    cell_text,
+    cell_tone,
+    clean,
+    opening_verdict,
+)
+from topo_verify.report.escape import xml_text
+from topo_verify.report.style import TONES, Tone, marked
+
+LONG_CELL = 40
+"""A cell with more characters than these is prose, and gets room."""
+
+
+def blocks_as_html(blocks: Iterable[Block]) -> Iterator[str]:
+    """The blocks as HTML, one after the other; empty paragraphs are left out."""
+    yield from filter(None, map(_html, blocks))
+
+
+def mark_up(template: str, values: Mapping[str, str]) -> str:
+    """The template with its names in braces replaced by values; what is put in is not searched."""
+    return re.sub(r"\{([a-z]+)\}", lambda found: values[found[1]], template)
+
+
+def code(line: str) -> str:
+    """A command line to copy: whole, and selected by one click."""
+    return f'<code class="copy">{xml_text(line)}</code>'
+
+
+def toned(word: str, tone: Tone | None) -> str:
+    """A cell of a table that holds a verdict or a status."""
+    text = xml_text(marked(word, tone))
+    return f'<td class="{tone}">{text}</td>' if tone else f"<td>{text}</td>"
+
+
+def _html(block: Block) -> str:
+    match block:
+        case Text(text):
+            return _paragraph(text)
+        case Command(line, label):
+            return f'<p class="again">{xml_text(label)}{code(line)}</p>'
+        case Bullets(items):
+            return "<ul>" + "".join(f"<li>{xml_text(clean(item))}</li>" for item in items) + "</ul>"
+        case Raw(text):
+            return _lines(text.split("\n"))
+        case View():
+            return _lines(block.lines(WIDTH))
+        case TextTable():
+            return _table(block)
+
+
+def _paragraph(text: str) -> str:
+    line = clean(text)
+    if verdict := opening_verdict(text):
+        rest = xml_text(line.removeprefix(verdict))
+        return f'<p><strong class="{TONES[verdict]}">{verdict}</strong>{rest}</p>'
+    return f"<p>{xml_text(line)}</p>" if line else ""
+
+
+def _lines(lines: Iterable[str]) -> str:
+    return "<pre>" + "\n".join(map(xml_text, lines)) + "</pre>"
+
+
+def _table(table: TextTable) -> str:
+    titles = [xml_text(clean(column.removeprefix(">"))) for column in table.columns]
+    right = [column.startswith(">") for column in table.columns]
+    head = "".join(
+        f'<th class="number">{title}</th>' if number else f"<th>{title}</th>"
+        for title, number in zip(titles, right, strict=True)
+    )
+    rows = "\n".join(f"<tr>{''.join(map(_cell, row, titles, right))}</tr>" for row in table.rows)
+    caption = f"<caption>{xml_text(clean(table.title))}</caption>" if table.title else ""
+    prose = ' class="prose"' if 'class="say"' in rows else ""
+    return (
+        f'<div class="wide" tabindex="0"><table{prose}>{caption}<thead><tr>{head}</tr></thead>\n'
+        f"<tbody>{rows}</tbody></table></div>"
+    )
+
+
+def _cell(cell: str | Cell, title: str, right: bool) -> str:  # noqa: FBT001  given by map
+    tone, text = cell_tone(cell), xml_text(cell_text(cell))
+    if tone:
+        return f'<td class="{tone}">{text}</td>'
+    if right:
+        return f'<td class="number" data-title="{title}">{text}</td>'
+    return f'<td class="say">{text}</td>' if len(text) > LONG_CELL else f"<td>{text}</td>"

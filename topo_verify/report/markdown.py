@@ -1,0 +1,102 @@
+"""Blocks as Markdown, with the tables of GitHub: for the summaries of continuous integration."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from topo_verify.report.blocks import (
+    WIDTH,
+    Block,
+    Bullets,
+    Cell,
+    Command,
+    Raw,
+    Text,
+    TextTable,
+    View,
+    cell_text,
+    clean,
+    opening_verdict,
+)
+from topo_verify.text import LINE, shown
+
+
+def markdown(blocks: Iterable[Block]) -> str:
+    """The blocks as Markdown (with the tables of GitHub)."""
+    return "\n\n".join(filter(None, map(_markdown, blocks))) + "\n"
+
+
+def _markdown(block: Block) -> str:
+    match block:
+        case Text(text):
+            verdict = opening_verdict(text)
+            return (
+                f"**{verdict}**{_inline(text.removeprefix(verdict))}"
+                if verdict
+                else _paragraph(text)
+            )
+        case Command(line, label):
+            return _inline(label) + _code(line)
+        case Bullets(items):
+            return "\n".join(f"- {_paragraph(item)}" for item in items)
+        case Raw(text):
+            return _fenced(text)
+        case View():
+            return _fenced("\n".join(block.lines(WIDTH)))
+        case TextTable(columns, rows, title):
+            head = f"**{_inline(title)}**\n\n" if title else ""
+            titles = [column.removeprefix(">") for column in columns]
+            rule = ["---:" if column.startswith(">") else "---" for column in columns]
+            lines = [map(_cell, titles), rule, *(map(_cell, row) for row in rows)]
+            return head + "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+_LINKED = re.compile(r"@|://|www\.|#\d|\bGH-\d", re.IGNORECASE)
+"""What GitHub and GitLab make a mention or a link of, whether or not a backslash precedes it."""
+
+_ACTIVE = re.compile(r"[\\`*|<\[\]~&$]|(?<![^\W_])_|_(?![^\W_])")
+"""Characters that mean something within a line of Markdown; `_` does not within a word."""
+
+_OPENING = re.compile(r"(\d*)([-+#>=.)])")
+"""What may open a list, a title, a rule or a quotation at the start of a paragraph."""
+
+
+def _paragraph(text: str) -> str:
+    """The text as a paragraph of its own that begins nothing else."""
+    line = _inline(text.lstrip())
+    return _OPENING.sub(r"\1\\\2", line, count=1) if _OPENING.match(line) else line
+
+
+def _cell(cell: str | Cell) -> str:
+    """A cell of a table, where a `|` counts even within code."""
+    return re.sub(r"(?<!\\)\|", r"\\|", _escaped(cell_text(cell)))
+
+
+def _inline(text: str) -> str:
+    """The text so that it appears as it is; a word that would be a link is set as code."""
+    return _escaped(clean(text))
+
+
+def _escaped(line: str) -> str:
+    words = re.split(r"(\s+)", line)
+    return "".join(
+        _code(word) if _LINKED.search(word) else _ACTIVE.sub(r"\\\g<0>", word) for word in words
+    )
+
+
+def _code(text: str) -> str:
+    text = shown(text, limit=LINE)
+    fence = _fence(text, least=1)
+    space = " " if "`" in text else ""
+    return f"{fence}{space}{text}{space}{fence}"
+
+
+def _fenced(text: str) -> str:
+    fence = _fence(text, least=3)
+    return f"{fence}\n{text}\n{fence}"
+
+
+def _fence(text: str, *, least: int) -> str:
+    """Backticks, more than stand anywhere in the text."""
+    return "`" * max(least, *(len(run) + 1 for run in re.findall("`+", text)), 0)

@@ -1,0 +1,223 @@
+"""The report of a run as ONE self-contained page that makes no request.
+
+It holds what was judged and how much of it, what the command says, each counterexample with its
+picture and a player, the versions, and the command lines that repeat it all. Times stand in the
+section `timing` alone: the rest is the same, byte for byte, whenever the same run is repeated.
+
+A content security policy allows two styles and two scripts by their hashes: those of this page and
+those of the player, which run in sandboxed frames. All players share one copy of the player's page;
+a frame is made when it is opened. Whatever a mapper, a world or a file name brings is escaped text.
+"""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from itertools import count
+
+from topo_verify.player.page import PageShell, json_in_page, page_shell, source_hash, squeezed
+from topo_verify.player.recording import recording
+from topo_verify.report.account import Account, Exhibit, JudgedCase, JudgedSuite
+from topo_verify.report.blocks import clean
+from topo_verify.report.escape import xml_text
+from topo_verify.report.html import blocks_as_html, code, mark_up, toned
+from topo_verify.report.junit import UNFINISHED
+from topo_verify.report.style import PALETTE, TONES
+from topo_verify.text import plural
+
+MOST_DRAWN = 200
+"""The most edges of a world that is drawn and played: larger ones take seconds."""
+
+
+@dataclass(frozen=True)
+class PageFacts:
+    """What a page says of a run beside its account.
+
+    Attributes:
+        command: of topo-verify, as `verify`.
+        again: the command line that repeats the run.
+        exit_code, exit_words: how it ended, as a number and in words.
+        finished: whether the work came to its end.
+        versions: of the package, of Python and of the libraries that take part.
+        timing: what differs from run to run, in words.
+    """
+
+    command: str
+    again: str
+    exit_code: int
+    exit_words: str
+    finished: bool
+    versions: Mapping[str, str]
+    timing: Mapping[str, str]
+
+
+def report_page(account: Account, facts: PageFacts) -> str:
+    """The page of a run."""
+    shell = page_shell() if any(_can_be_played(one) for one in account.exhibits) else None
+    style, script = _style(), _part("report.js") if shell is not None else ""
+    values = {
+        "policy": _policy(style, script, shell),
+        "title": xml_text(f"topo-verify {facts.command}: {clean(account.about)}"),
+        "style": style,
+        "header": _header(account, facts),
+        "main": "\n".join(_sections(account, facts)),
+        "data": "\n".join(_data(account.exhibits, shell)),
+        "script": script,
+    }
+    return mark_up(_part("report.html"), values)
+
+
+def _policy(style: str, script: str, shell: PageShell | None) -> str:
+    """Nothing but these styles and scripts, and pictures that stand in the page."""
+    styles = [source_hash(style), *([shell.style] if shell else [])]
+    scripts = [source_hash(script), *([shell.script] if shell else [])]
+    return (
+        f"default-src 'none'; style-src {' '.join(styles)}; script-src {' '.join(scripts)};"
+        " img-src data:; base-uri 'none'; form-action 'none'"
+    )
+
+
+@cache
+def _part(name: str) -> str:
+    path = resources.files("topo_verify.report") / "page" / name
+    return squeezed(path.read_text(encoding="utf-8"), name)
+
+
+@cache
+def _style() -> str:
+    light, dark = (
+        "".join(f"--{name}:{colour[place]};" for name, colour in PALETTE.items())
+        for place in (0, 1)
+    )
+    return (
+        f":root{{color-scheme:light dark;{light}}}\n"
+        f"@media (prefers-color-scheme:dark){{:root{{{dark}}}}}\n{_part('report.css')}"
+    )
+
+
+# ---------------------------------------------------------------- the parts
+
+
+def _header(account: Account, facts: PageFacts) -> str:
+    extent = account.extent
+    tone = TONES[extent.verdict]
+    unfinished = "" if facts.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
+    links = {"counterexamples": "Counterexamples"} if account.exhibits else {}
+    links |= {"judged": "What was judged", "results": "Results"}
+    links |= {"versions": "Versions", "timing": "Timing"}
+    menu = " ".join(f'<a href="#{name}">{title}</a>' for name, title in links.items())
+    return (
+        f"<h1>topo-verify {xml_text(facts.command)}: {xml_text(clean(account.about))}</h1>\n"
+        f'<p class="verdict {tone}"><span class="letter"><span>{extent.verdict[0]}</span></span>'
+        f" {extent.verdict}: {xml_text(clean(extent.words))}</p>\n{unfinished}"
+        f"<p>Exit code {facts.exit_code}: {xml_text(facts.exit_words)}.</p>\n"
+        f"{_again(facts.again)}\n<nav>{menu}</nav>"
+    )
+
+
+def _again(line: str) -> str:
+    return f'<p class="again">again: {code(line)}</p>' if line else ""
+
+
+def _sections(account: Account, facts: PageFacts) -> Iterator[str]:
+    found = [*map(_exhibit, count(1), account.exhibits)]
+    if account.left_out:
+        found.append(f"<p>{account.left_out} more are not shown here.</p>")
+    # Where something is wrong, one looks there first; elsewhere they were expected.
+    wrong = account.extent.verdict == "REFUTED"
+    if found and wrong:
+        yield _section("counterexamples", "Counterexamples", found)
+    yield _section("judged", "What was judged", map(_suite, account.suites))
+    yield _section("results", "Results", blocks_as_html(account.blocks))
+    if found and not wrong:
+        yield _section("counterexamples", "Counterexamples, as expected", found)
+    for name, title, told in (
+        ("versions", "Versions", facts.versions),
+        ("timing", "Timing", facts.timing),
+    ):
+        yield _section(name, title, [_facts(told)])
+
+
+def _section(name: str, title: str, parts: Iterator[str] | Sequence[str]) -> str:
+    return "\n".join([f'<section id="{name}">', f"<h2>{title}</h2>", *parts, "</section>"])
+
+
+def _facts(told: Mapping[str, str]) -> str:
+    rows = (
+        f"<tr><th>{xml_text(name)}</th><td>{xml_text(value)}</td></tr>"
+        for name, value in told.items()
+    )
+    return f'<div class="wide"><table>{"".join(rows)}</table></div>'
+
+
+def _suite(suite: JudgedSuite) -> str:
+    head = "<tr><th>what</th><th>verdict</th><th>judged</th><th></th></tr>"
+    rows = "\n".join(map(_case, suite.cases))
+    return (
+        f"<h3>{xml_text(clean(suite.name))}</h3>\n{_again(suite.again)}"
+        f'<div class="wide" tabindex="0"><table class="cases"><thead>{head}</thead>\n'
+        f"<tbody>{rows}</tbody></table></div>"
+    )
+
+
+def _case(case: JudgedCase) -> str:
+    say = xml_text(clean(case.message))
+    say += _again(case.again)
+    return (
+        f"<tr><td>{xml_text(clean(case.name))}</td>{toned(case.verdict, case.tone)}"
+        f'<td class="number">{xml_text(case.judged)}</td><td class="say">{say}</td></tr>'
+    )
+
+
+# ---------------------------------------------------------------- counterexamples
+
+
+def _can_be_played(one: Exhibit) -> bool:
+    return bool(one.runs) and len(one.world.edges) <= MOST_DRAWN
+
+
+def _exhibit(number: int, one: Exhibit) -> str:
+    notes = "".join(f"<li>{xml_text(clean(note))}</li>" for note in one.notes)
+    parts = [f"<article>\n<h3>{xml_text(clean(one.title))}</h3>"]
+    parts += [f"<ul>{notes}</ul>"] if notes else []
+    parts.append(_picture(one))
+    if _can_be_played(one):
+        title = xml_text(clean(one.title))
+        parts.append(
+            f'<details class="play" data-recording="run-{number}" data-title="{title}">'
+            "<summary>Play the run, step by step</summary></details>"
+        )
+    return "\n".join([*parts, _again(one.again), "</article>"])
+
+
+def _picture(one: Exhibit) -> str:
+    world = one.world
+    size = (
+        f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')},"
+        f" genus {world.genus}"
+    )
+    caption = xml_text(f"{clean(one.name)}: {size}")
+    if len(world.edges) > MOST_DRAWN:
+        return f'<p class="soft">{caption}; too large to be drawn here.</p>'
+    drawn = b64encode(world.draw().encode()).decode()
+    return (
+        f'<figure><img alt="The world {caption}" src="data:image/svg+xml;base64,{drawn}">'
+        f"<figcaption>{caption}</figcaption></figure>"
+    )
+
+
+def _data(exhibits: Sequence[Exhibit], shell: PageShell | None) -> Iterator[str]:
+    """The recordings, and the page that plays them, as data."""
+    if shell is None:
+        return
+    yield _script("player", [shell.before, shell.after])
+    for number, one in enumerate(exhibits, 1):
+        if _can_be_played(one):
+            yield _script(f"run-{number}", recording(one.world, one.runs, name=one.name))
+
+
+def _script(name: str, data: object) -> str:
+    return f'<script type="application/json" id="{name}">{json_in_page(data)}</script>'

@@ -1,0 +1,196 @@
+"""Blocks on a terminal, or in a file as on one: in colour on a terminal, else 80 columns wide.
+
+A table gives up width where it can: columns of text become narrower, down to their longest word.
+Numbers and verdicts are never broken; where there is no room for them side by side, each row is
+printed as a list of its cells.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import IO, TYPE_CHECKING
+
+from topo_verify.report.blocks import (
+    WIDTH,
+    Block,
+    Bullets,
+    Cell,
+    Command,
+    Raw,
+    Text,
+    TextTable,
+    View,
+    cell_text,
+    cell_tone,
+    clean,
+    opening_verdict,
+)
+from topo_verify.report.style import ON_TERMINAL, TONES, VERDICTS
+from topo_verify.text import LINE, shown
+
+if TYPE_CHECKING:
+    from rich.console import Console, RenderableType
+    from rich.text import Text as Line
+
+LONGEST_WORD = 24
+"""A longer word may be broken where a column of text has no room for it."""
+
+GAP = 2
+"""Columns between two columns of a table."""
+
+LEAST_REST = 20
+"""A column that takes the rest of the line takes at least so many columns."""
+
+
+def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
+    """Print the blocks, as wide as the terminal; elsewhere as wide as COLUMNS says, or 80."""
+    console = None
+    for block in blocks:
+        if isinstance(block, Raw):
+            out.write(block.text + "\n")  # not by Rich, which would wrap it and takes its time
+            continue
+        console = console or _console(out)
+        if isinstance(block, View):
+            out.writelines(f"{line}\n" for line in block.lines(console.width))
+            continue
+        with console.capture() as printed:
+            _print(block, console)
+        # Rich fills its lines with spaces.
+        out.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
+
+
+def _console(out: IO[str]) -> Console:
+    from rich.console import Console
+
+    wide = None if out.isatty() else _columns()
+    return Console(file=out, width=wide, highlight=False, markup=False, emoji=False)
+
+
+def _columns() -> int:
+    """What COLUMNS says, if that is a width one can print in; else 80."""
+    text = os.environ.get("COLUMNS", "")
+    return int(text) if text.isascii() and text.isdigit() and 20 <= int(text) <= 1000 else WIDTH
+
+
+def _print(block: Text | Command | Bullets | TextTable, console: Console) -> None:
+    from rich.padding import Padding
+    from rich.text import Text as Line
+
+    match block:
+        case Text(text):
+            line = Line(clean(text))
+            if verdict := opening_verdict(text):
+                line.stylize(ON_TERMINAL[TONES[verdict]], 0, len(verdict))
+            console.print(line)
+        case Command(line, label):
+            # Not `clean`: a long id stays whole, for copying.
+            console.print(Line(f"  {label}{shown(line, limit=LINE)}"), soft_wrap=True)
+        case Bullets(items):
+            for item in items:
+                console.print(Padding(Line(clean(item)), (0, 0, 0, 2)))
+        case TextTable():
+            widths = column_widths(block, console.width)
+            if block.title:
+                console.print(Line(clean(block.title), style="bold"))
+            if widths is not None:
+                console.print(_grid(block, widths))
+            else:
+                for row in block.rows:
+                    _print_list(block, row, console)
+
+
+# ---------------------------------------------------------------- tables
+
+
+def column_widths(table: TextTable, width: int) -> list[int] | None:
+    """The width of each column in a line of so many columns; None if there is no room for all."""
+    room = width - GAP * (len(table.columns) - 1)
+    least = [_least(table, place) for place in range(len(table.columns))]
+    if table.widths:
+        rest = room - sum(table.widths)
+        if rest < (LEAST_REST if 0 in table.widths else 0):
+            return None
+        return [fixed or rest for fixed in table.widths]
+    widths = [_most(table, place) for place in range(len(table.columns))]
+    while sum(widths) > room:
+        spare = [have - need for have, need in zip(widths, least, strict=True)]
+        if max(spare) <= 0:
+            return None
+        widest = max((w for w, s in zip(widths, spare, strict=True) if s > 0), default=0)
+        place = next(i for i, w in enumerate(widths) if w == widest and spare[i] > 0)
+        widths[place] -= 1
+    return widths
+
+
+def _most(table: TextTable, place: int) -> int:
+    title = _title(table.columns[place]) if table.headed else ""
+    return max(_length(title), *(_length(cell_text(row[place])) for row in table.rows), 1)
+
+
+def _least(table: TextTable, place: int) -> int:
+    """The longest thing in a column that is not broken: a number, a verdict, a word."""
+    whole = table.columns[place].startswith(">")
+    longest = [_word(_title(table.columns[place])) if table.headed else 0]
+    for row in table.rows:
+        text = cell_text(row[place])
+        longest.append(_length(text) if whole or _is_verdict(row[place]) else _word(text))
+    return max(*longest, 1)
+
+
+def _word(text: str) -> int:
+    return min(max(map(_length, text.split()), default=0), LONGEST_WORD)
+
+
+def _length(text: str) -> int:
+    from rich.cells import cell_len
+
+    return cell_len(text)
+
+
+def _is_verdict(cell: str | Cell) -> bool:
+    return (cell if isinstance(cell, str) else cell.text) in VERDICTS
+
+
+def _title(column: str) -> str:
+    return clean(column.removeprefix(">"))
+
+
+def _grid(table: TextTable, widths: Sequence[int]) -> RenderableType:
+    from rich.table import Table as RichTable
+
+    padding = (0, GAP, 0, 0)
+    grid = RichTable(box=None, show_header=table.headed, pad_edge=False, padding=padding)
+    for title, width in zip(table.columns, widths, strict=True):
+        right = title.startswith(">")
+        grid.add_column(
+            _title(title), justify="right" if right else "left", overflow="fold", width=width
+        )
+    for row in table.rows:
+        grid.add_row(*map(_line, row))
+    return grid
+
+
+def _line(cell: str | Cell) -> Line:
+    from rich.text import Text as Line
+
+    tone = cell_tone(cell)
+    return Line(cell_text(cell), style=ON_TERMINAL[tone] if tone else "")
+
+
+def _print_list(table: TextTable, row: Sequence[str | Cell], console: Console) -> None:
+    """A row as a list: its first cell, and below it the others behind their titles."""
+    from rich.padding import Padding
+    from rich.table import Table as RichTable
+    from rich.text import Text as Line
+
+    # A number alone says nothing.
+    title = f"{_title(table.columns[0])} " if table.columns[0].startswith(">") else ""
+    console.print(Line(title).append_text(_line(row[0])))
+    told = [(t, c) for t, c in zip(table.columns[1:], row[1:], strict=True) if cell_text(c)]
+    grid = RichTable(box=None, show_header=False, pad_edge=False, padding=(0, GAP, 0, 0))
+    grid.add_column(width=max((_length(_title(title)) for title, _ in told), default=0))
+    grid.add_column(overflow="fold")
+    for title, cell in told:
+        grid.add_row(_title(title), _line(cell))
+    console.print(Padding(grid, (0, 0, 0, 2)))
