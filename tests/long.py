@@ -86,6 +86,9 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_what_is_printed_is_the_same_with_a_report_and_without",
         "test_verify_has_a_suite_a_part_and_a_case_a_claim",
     ),
+    "cli/test_reproduce.py": (
+        "test_the_same_bytes_however_many_workers_and_however_often_interrupted",
+    ),
     "cli/test_search.py": (
         r"test_a_counterexample_exits_1_and_is_the_same_with_any_workers\[.*\]",
         "test_a_ledger_is_resumed",
@@ -180,6 +183,10 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_the_highest_costs_are_the_known_ones_and_their_worlds_have_them",
         "test_the_planar_prior_is_right_in_planar_worlds_and_wrong_in_all_others",
         "test_two_mappers_in_the_same_worlds_are_compared",
+    ),
+    "harness/reproduce/test_measuring.py": ("test_workers_make_the_same_rows",),
+    "harness/reproduce/test_points.py": (
+        r"test_the_points_in_docs_are_those_that_this_code_makes\[6.\]",
     ),
     "harness/test_gap.py": ("test_the_basic_algorithm_has_the_largest",),
     "harness/test_ledger.py": ("test_killed_at_random_moments_it_ends_with_the_same_totals",),
@@ -387,6 +394,10 @@ LONG: dict[str, tuple[str, ...]] = {
     "world/test_least_cost.py": (
         r"test_it_is_what_brute_force_finds\[[34]\]",
         "test_no_run_costs_less",
+    ),
+    "world/drawing/test_heat.py": (
+        "test_of_a_large_world_the_part_that_is_shown_is_coloured",
+        r"test_every_kind_of_drawing_can_be_coloured\[(nyc|family:random_genus.*)\]",
     ),
     "world/drawing/test_choice.py": ("test_the_same_bytes_in_every_process",),
 }

@@ -121,7 +121,10 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_work(
 def test_a_folder_without_permission_is_refused(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(os, "access", lambda *_: False)  # root may write anywhere
+    def never(*_: object) -> bool:
+        return False
+
+    monkeypatch.setattr(os, "access", never)  # root may write anywhere
     done = call("search basic --edges 1 --report r.html")
     assert done.exit_code == 2
     assert "--report r.html: no permission to write there" in done.stderr

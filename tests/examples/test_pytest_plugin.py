@@ -75,6 +75,7 @@ def test_the_steps_of_the_workflow_work(repository: Path) -> None:
     assert [step.split()[:2] for step in steps] == [
         ["pip", "install"],
         ["pytest", "--junitxml=junit.xml"],
+        ["topo-verify", "verify"],
         ["topo-verify", "compare"],
     ]
     for line in (record, *steps[1:]):
@@ -83,4 +84,8 @@ def test_the_steps_of_the_workflow_work(repository: Path) -> None:
     summary = (repository / "summary.md").read_text()
     assert "| equal | 953 |" in summary
     assert summary.endswith("No regression in 953 of 953 worlds.\n")
+    assert summary.startswith("**EXHAUSTED**: mapper.py:explore, 86 of 86 worlds, 81 sampled\n")
+    kept = re.findall(r"^ {12}(\S+)$", WORKFLOW, re.MULTILINE)
+    assert kept == ["junit.xml", "verify.xml", "report.html", "badge.svg"]
+    assert [name for name in kept if not (repository / name).stat().st_size] == []
     assert "topo_checked" in (repository / "junit.xml").read_text()

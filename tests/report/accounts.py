@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from tests.player.played import played
-from topo_verify.report.account import Account, Exhibit, Extent, JudgedCase, JudgedSuite
+from topo_verify.report.account import Account, Exhibit, JudgedCase, JudgedExtent, JudgedSuite
 from topo_verify.report.blocks import Bullets, Command, Raw, Text, TextTable, View
 from topo_verify.report.page import PageFacts
 from topo_verify.world import World
@@ -50,7 +50,7 @@ def account(text: str = "a text", *, exhibit: bool = True) -> Account:
     )
     return Account(
         about=text,
-        extent=Extent("REFUTED", "1 of 3 worlds fail"),
+        extent=JudgedExtent("REFUTED", "1 of 3 worlds fail"),
         suites=(JudgedSuite(text, cases),),
         blocks=blocks,
         exhibits=(shown,) if exhibit else (),

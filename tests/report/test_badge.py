@@ -9,7 +9,7 @@ import pytest
 
 from tests.report.accounts import HOSTILE, account
 from topo_verify.checkers.findings import Verdict
-from topo_verify.report.account import Account, Extent
+from topo_verify.report.account import Account, JudgedExtent
 from topo_verify.report.badge import badge
 from topo_verify.report.style import OF_TONE, PALETTE, TONES, VERDICTS
 
@@ -23,7 +23,7 @@ def _badge(made: Account) -> ET.Element:
 @pytest.mark.parametrize("verdict", VERDICTS)
 def test_it_has_the_verdict_s_letter_and_colour_and_the_numbers(verdict: Verdict) -> None:
     words = "8,954 of 8,954 worlds"
-    picture = _badge(replace(account(), extent=Extent(verdict, words)))
+    picture = _badge(replace(account(), extent=JudgedExtent(verdict, words)))
     assert [one.text for one in picture.iter(f"{SVG}text")] == ["topo-verify", verdict[0], words]
     colours = [one.get("fill") for one in picture.iter(f"{SVG}rect")]
     assert PALETTE[OF_TONE[TONES[verdict]]].light in colours
@@ -31,7 +31,7 @@ def test_it_has_the_verdict_s_letter_and_colour_and_the_numbers(verdict: Verdict
 
 
 def test_hostile_text_stays_text() -> None:
-    made = replace(account(HOSTILE), extent=Extent("REFUTED", HOSTILE * 3))
+    made = replace(account(HOSTILE), extent=JudgedExtent("REFUTED", HOSTILE * 3))
     picture = _badge(made)
     tags = {one.tag.removeprefix(SVG) for one in picture.iter()}
     assert tags == {"svg", "title", "clipPath", "rect", "g", "text"}
@@ -40,7 +40,7 @@ def test_hostile_text_stays_text() -> None:
 
 def test_a_badge_is_as_wide_as_its_words() -> None:
     widths = [
-        float(_badge(replace(account(), extent=Extent("SAMPLED", words))).get("width") or 0)
+        float(_badge(replace(account(), extent=JudgedExtent("SAMPLED", words))).get("width") or 0)
         for words in ("1 of 1 world", "8,954 of 8,954 worlds", "8,954 of 8,954 worlds, 361 sampled")
     ]
     assert widths == sorted(set(widths))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from io import StringIO
 
 import pytest
@@ -87,7 +88,8 @@ LONG = f"m30/{'1234567890' * 4}321"
 
 def test_a_long_id_is_shortened_for_reading_and_whole_in_commands() -> None:
     line, cell = f"topo-verify replay {LONG}", Cell(LONG, whole=True)
-    for form in (printed, lambda *blocks: markdown(blocks)):
+    forms: tuple[Callable[[Block], str], ...] = (printed, lambda block: markdown([block]))
+    for form in forms:
         for block in (Text(LONG), Bullets((LONG,)), TextTable(("w",), [(LONG,)])):
             assert "m30/12345…90321" in form(block)
             assert LONG not in form(block)

@@ -1,7 +1,7 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
 verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py), faults.py,
-conform.py, record.py, compare.py, replay.py, play.py, certify.py     the commands
+conform.py, record.py, compare.py, replay.py, play.py, certify.py, reproduce.py     the commands
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown
@@ -33,6 +33,7 @@ from topo_verify.cli.play import play
 from topo_verify.cli.prove import prove
 from topo_verify.cli.record import record
 from topo_verify.cli.replay import replay
+from topo_verify.cli.reproduce import reproduce
 from topo_verify.cli.search import search
 from topo_verify.cli.verify import verify
 from topo_verify.cli.world import world
@@ -136,5 +137,6 @@ for command in (
     replay,
     play,
     certify,
+    reproduce,
 ):
     main.add_command(command)

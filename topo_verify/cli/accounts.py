@@ -19,8 +19,8 @@ from topo_verify.harness.faults.detection import Caught
 from topo_verify.harness.verify.parts import Part
 from topo_verify.report.account import (
     Account,
-    Extent,
     JudgedCase,
+    JudgedExtent,
     JudgedSuite,
     Outcome,
     claim_cases,
@@ -40,12 +40,14 @@ def worlds(number: int) -> str:
     return "world" if number == 1 else "worlds"
 
 
-def extent(verdict: Verdict, checked: int, total: int, failing: int, things: str = "") -> Extent:
+def extent(
+    verdict: Verdict, checked: int, total: int, failing: int, things: str = ""
+) -> JudgedExtent:
     """The extent of a search or of trials, by its verdict."""
     if verdict == "REFUTED":
         things = things or worlds(checked)
-        return Extent(verdict, counted(failing, checked, f"{things} fail"))
-    return Extent(verdict, counted(checked, total, things or worlds(total)))
+        return JudgedExtent(verdict, counted(failing, checked, f"{things} fail"))
+    return JudgedExtent(verdict, counted(checked, total, things or worlds(total)))
 
 
 # ---------------------------------------------------------------- verify
@@ -81,7 +83,7 @@ def _part_cases(part: Part) -> Iterator[JudgedCase]:
         yield replace(case, message=more)
 
 
-def _verify_extent(parts: Sequence[Part]) -> Extent:
+def _verify_extent(parts: Sequence[Part]) -> JudgedExtent:
     """The worlds of the finite class, and the sampled ones; theorems have a table of their own."""
     tried = [part for part in parts if part.part not in WORLDLESS]
     verdict = joint_verdict([part.verdict for part in parts])
@@ -90,7 +92,7 @@ def _verify_extent(parts: Sequence[Part]) -> Extent:
         failing = sum(part.failing for part in tried)
         if not failing:
             wrong = ", ".join(part.part for part in parts if part.verdict == "REFUTED")
-            return Extent(verdict, f"{wrong}: see the report")
+            return JudgedExtent(verdict, f"{wrong}: see the report")
         return extent(verdict, checked, total, failing)
     if verdict == "UNKNOWN":
         return extent(verdict, checked, total, 0)
@@ -100,7 +102,7 @@ def _verify_extent(parts: Sequence[Part]) -> Extent:
         return extent("SAMPLED", checked, total, 0)
     number = sum(part.checked for part in finite)
     words = counted(number, sum(part.total for part in finite), worlds(number))
-    return Extent("EXHAUSTED", f"{words}, {sampled:,} sampled" if sampled else words)
+    return JudgedExtent("EXHAUSTED", f"{words}, {sampled:,} sampled" if sampled else words)
 
 
 # ---------------------------------------------------------------- search
@@ -172,7 +174,7 @@ def faults_account(
     right = sum(entry.ok for entry in asked)
     return Account(
         about=plural(len(entries), "faulty mapper"),
-        extent=Extent(verdict, counted(right, len(asked), f"{things} told right from wrong")),
+        extent=JudgedExtent(verdict, counted(right, len(asked), f"{things} told right from wrong")),
         suites=tuple(JudgedSuite(part, tuple(cases)) for part, cases in parts.items()),
         blocks=tuple(blocks),
         exhibits=found.exhibits,
@@ -228,7 +230,7 @@ def prove_account(
     things = "theorem" if len(cases) == 1 else "theorems"
     return Account(
         about=plural(len(cases), "theorem"),
-        extent=Extent(verdict, counted(right, len(cases), f"{things} as expected")),
+        extent=JudgedExtent(verdict, counted(right, len(cases), f"{things} as expected")),
         suites=tuple(
             JudgedSuite(kind, tuple(_theorem_case(entry, options) for entry in mine))
             for kind, mine in kinds
@@ -252,7 +254,7 @@ def _theorem_case(entry: ProveEntry, options: str) -> JudgedCase:
         verdict=entry.verdict,
         outcome=outcome,
         judged=f"{entry.checked:,} of {entry.total:,}" if whole else "",
-        message=f"{entry.words}; {entry.note}" if entry.note else entry.words,
+        message=f"{entry.words.removesuffix('.')}; {entry.note}" if entry.note else entry.words,
         again=f"topo-verify prove {entry.name}{options}",
     )
 
@@ -275,7 +277,7 @@ def conform_account(
         words = counted(failed, total, f"{worlds(total)} fail")
     return Account(
         about=", ".join(names),
-        extent=Extent(verdict, words),
+        extent=JudgedExtent(verdict, words),
         suites=tuple(
             JudgedSuite(name, tuple(_conform_cases([one for one in levels if one.target == name])))
             for name in names

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import re
 import secrets
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import click
 
 from topo_verify.cli import options
 from topo_verify.cli.accounts import conform_account
-from topo_verify.cli.differing import exhibits
+from topo_verify.cli.differing import exhibits, failing_run
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import report_options
@@ -28,6 +29,7 @@ from topo_verify.harness.targets import target_arguments, target_text, targets
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
 from topo_verify.programs.program import PREFIX
+from topo_verify.report.account import Account
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, View
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
@@ -155,17 +157,19 @@ def conform(  # noqa: PLR0913  an argument an option
             yield from _tried(output, job, asked, shared, found)
 
     shared: dict[str, Playback] = {}
-    show, corpus = partial(_show, shared=shared), list(texts) or ["corpus"]
-    found = FoundRuns(output)
-    return output.run(
-        "conform",
-        standings,
-        show,
-        account=lambda entries: conform_account(entries, show(entries), found),
-        seed=seed,
-        corpus=corpus,
-        in_process=in_process,
-    )
+    found, corpus = FoundRuns(output), list(texts) or ["corpus"]
+    show = partial(_show, shared=shared, found=found)
+    more: dict[str, Any] = {"seed": seed, "corpus": corpus, "in_process": in_process}
+    account = partial(_account, show=show, found=found)
+    return output.run("conform", standings, show, account=account, **more)
+
+
+def _account(
+    levels: Sequence[LevelResult],
+    show: Callable[[Sequence[LevelResult]], Iterable[Block]],
+    found: FoundRuns,
+) -> Account:
+    return conform_account(levels, show(levels), found)
 
 
 def _texts(text: str) -> list[str]:
@@ -204,6 +208,8 @@ def _tried(
         yield from map(_result, tally.level_results())
         raise
     levels = tuple(tally.level_results())
+    if output.style != "json" and not asked.batch:
+        found.walk(failing_run(job, asked.corpus, levels))
     if output.exhibits:
         for exhibit in exhibits(job, asked.corpus, levels, batch=asked.batch):
             found.show(exhibit)
@@ -237,9 +243,12 @@ def _replay_command(
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
+def _show(
+    entries: Sequence[LevelResult], shared: Mapping[str, Playback], found: FoundRuns
+) -> Iterator[Block]:
     for target in dict.fromkeys(entry.target for entry in entries):
         yield from _shown([entry for entry in entries if entry.target == target], shared)
+    yield from found.blocks()
 
 
 _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")

@@ -1,4 +1,4 @@
-"""The worlds in which an implementation does not conform, to be looked at in a page.
+"""The worlds in which an implementation does not conform, to be looked at.
 
 In each the implementation runs once more; where it parts from the reference, both runs stand side
 by side.
@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from topo_verify.cli.runs import NamedWorld, judged
 from topo_verify.cli.walks import MOST_EXHIBITS, exhibit_of, target_title
 from topo_verify.harness.conform.conform import LevelResult
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
 from topo_verify.harness.corpus import Corpus
-from topo_verify.harness.judge import judge
+from topo_verify.harness.judge import Report, judge
 from topo_verify.harness.run import explore
 from topo_verify.harness.targets import targets
 from topo_verify.player.recording import PlayedRun
@@ -60,3 +61,22 @@ def _runs(job: ConformJob, world: World, findings: Sequence[WorldFinding]) -> It
     if any(one.difference is not None for one in findings):
         like = explore(world, job.reference, pick=job.policies.pick, order=job.policies.order)
         yield PlayedRun(job.reference, like.trace)
+
+
+def failing_run(job: ConformJob, corpus: Corpus, levels: Sequence[LevelResult]) -> Report | None:
+    """The run in the first world that convicts an implementation by itself, made once more.
+
+    A run that only parts from the reference's is shown where they part. None if there is no other,
+    or if the same claim does not fail again.
+    """
+    convicting = (one for level in levels for one in level.findings if one.difference is None)
+    finding = next(convicting, None)
+    if finding is None:
+        return None
+    world = next(at.world for at in corpus if at.name == finding.world)
+    for target in targets(job.target, in_process=job.in_process):
+        run = explore(world, target, limits=job.limits)
+        report, _ = judged(run, NamedWorld(world, finding.world), job.limits, strict=job.strict)
+        if any(one.claim == finding.claim for one in report.findings):
+            return report
+    return None

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from typing import Literal
 
 import click
-import msgspec
 
-from topo_verify.checkers import Finding, Judgement, Status
-from topo_verify.cli import options
+from topo_verify.cli import markers, options
+from topo_verify.cli.explored import ExploreEntry, explore_result
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.play import (
@@ -30,9 +30,6 @@ from topo_verify.cli.runs import (
 )
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
-from topo_verify.harness.gap import gap as measure
-from topo_verify.harness.judge import Report
-from topo_verify.harness.run import Exploration
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.player.recording import PlayedRun
@@ -42,64 +39,6 @@ from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
 from topo_verify.world.formats import files
-
-
-class ChosenPolicies(msgspec.Struct, frozen=True):
-    """The policies of a run; None for a mapper that has none."""
-
-    pick: str | None
-    order: str | None
-
-
-class MeasuredGap(msgspec.Struct, frozen=True):
-    """The gap of a rule to the best possible one; see `topo_verify.harness.gap`.
-
-    Attributes:
-        false: false hypotheses posed.
-        walked: how many of them were rejected by motion.
-        refutable: how many were walked although the history before the walk refuted them.
-        share: refutable / false.
-    """
-
-    false: int
-    walked: int
-    refutable: int
-    share: float
-
-
-class ExploreEntry(msgspec.Struct, frozen=True):
-    """One run: an entry of `results`; docs/commands.md.
-
-    Attributes:
-        least_cost: the least cost of a proof (docs/semantics.md, section 11).
-        isomorphic: the map is the world.
-        entailed: the history alone proves the map.
-        ok: no claim failed, and the run ended in time.
-        claims: the status of each claim.
-        judgements: the same, with how much of the run each status rests on.
-        stopped: why the mapper delivered no map, or None.
-        gap: with --gap, if the mapper declares every decision; otherwise None.
-    """
-
-    world: str
-    algorithm: str
-    policies: ChosenPolicies
-    vertices: int
-    edges: int
-    genus: int
-    cost: int
-    least_cost: int
-    isomorphic: bool
-    entailed: bool
-    ok: bool
-    findings: tuple[Finding, ...]
-    rejected_free: int
-    rejected_moving: int
-    confirmed: int
-    claims: dict[str, Status]
-    judgements: tuple[Judgement, ...]
-    stopped: str | None
-    gap: MeasuredGap | None
 
 
 @dataclass(frozen=True)
@@ -119,6 +58,7 @@ class _ExploreOptions:
     epilog=options.epilog(
         "explore nyc",
         "explore m3/14 --algorithm basic,enhancement-ii --trace FILE",
+        "explore nyc --algorithm folding --marker all --svg heat.svg",
         "explore 'family:lattice(10,10,holes=0.2)' --algorithm my_mapper.py:explore",
     ),
 )
@@ -132,7 +72,7 @@ class _ExploreOptions:
 @options.program
 @options.in_process
 @options.policies
-@options.marker
+@markers.option
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
 @player_option
 @svg_option
@@ -152,7 +92,7 @@ def explore(  # noqa: PLR0913  an argument an option
     in_process: bool,
     pick: str | None,
     order: str | None,
-    marker: int | None,
+    marker: int | Literal["all"] | None,
     trace: str | None,
     player: str | None,
     svg: str | None,
@@ -169,6 +109,10 @@ def explore(  # noqa: PLR0913  an argument an option
     def runs() -> Iterator[Result[ExploreEntry]]:
         text = target_text(options.one_of(algorithm, target), command, "all")
         found = targets(text, pick=pick, order=order, in_process=in_process)
+        if marker == "all":
+            markers.require_alone({"--trace": trace, "--player": player, "--gap": gap})
+            starts = named_worlds(worlds)
+            return markers.results(output, starts, found, limits, walk, strict=strict, svg=svg)
         starts = named_worlds(worlds, marker)
         for option, file in (("--trace", trace), ("--svg", svg)):
             if file is not None:
@@ -181,7 +125,7 @@ def explore(  # noqa: PLR0913  an argument an option
     return output.run(
         "explore",
         runs,
-        lambda entries: chain(show(entries), walk.blocks()),
+        lambda entries: chain((markers.show if marker == "all" else show)(entries), walk.blocks()),
         in_process=in_process,
     )
 
@@ -219,50 +163,10 @@ def _results(
             played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
             if asked.svg is not None:
                 write_animation(asked.svg, at.world, played[0])
-            yield _result(run, at, asked, report, incomplete=incomplete)
+            yield explore_result(run, at, report, incomplete=incomplete, gap=asked.gap)
     finally:  # an interrupt keeps the runs that are done
         if asked.player is not None and played:
             write_page(asked.player, starts[0].world, starts[0].name, played)
-
-
-def _result(
-    run: Exploration,
-    at: NamedWorld,
-    asked: _ExploreOptions,
-    report: Report,
-    *,
-    incomplete: bool,
-) -> Result[ExploreEntry]:
-    # The gap is a share of all false hypotheses: a mapper that declares only some has none.
-    measured = None
-    if asked.gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:
-        found = measure(run.trace)
-        measured = MeasuredGap(*found, share=found.share)
-    policies = run.policies
-    entry = ExploreEntry(
-        world=at.name,
-        algorithm=run.algorithm,
-        policies=ChosenPolicies(policies.pick, policies.order)
-        if policies
-        else ChosenPolicies(None, None),
-        vertices=len(at.world.vertices),
-        edges=len(at.world.edges),
-        genus=at.world.genus,
-        cost=run.cost,
-        least_cost=at.world.least_cost(),
-        isomorphic=report.claims["map-isomorphic"] == "ok",
-        entailed=report.claims["map-entailed"] == "ok",
-        ok=not report.findings and not incomplete,
-        findings=report.findings,
-        rejected_free=run.rejected_free,
-        rejected_moving=run.rejected_moving,
-        confirmed=run.confirmed,
-        claims=report.claims,
-        judgements=report.judgements,
-        stopped=run.stopped,
-        gap=measured,
-    )
-    return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
 
 # ---------------------------------------------------------------- for people

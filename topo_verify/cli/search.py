@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
+from itertools import chain
 from pathlib import Path
 
 import click
@@ -19,8 +21,10 @@ from topo_verify.cli.searched import ByEdges, Counterexample, FailingClaim, Lost
 from topo_verify.cli.searched import show as show_entry
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
+from topo_verify.harness.judge import Report
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import processors
+from topo_verify.harness.search.choices import examinations
 from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
@@ -28,9 +32,11 @@ from topo_verify.harness.tally import CostTotals, Failure, joint_judgements
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
+from topo_verify.report.account import Account
 from topo_verify.report.blocks import Block
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.rooted_map import World
 
 
 @dataclass(frozen=True)
@@ -148,22 +154,24 @@ def search(  # noqa: PLR0913  an argument an option
             yield from _searched(output, mappers, asked, found)
 
     def body(entries: Sequence[SearchEntry]) -> Iterator[Block]:
-        for entry in entries:
-            yield from show_entry(entry, worst=worst)
+        return chain.from_iterable(show_entry(entry, worst=worst) for entry in entries)
 
-    def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
-        yield from body(entries)
-        yield from found.blocks()
+    def account(entries: Sequence[SearchEntry]) -> Account:
+        return search_account(entries, body(entries), found)
 
     found = FoundRuns(output)
+    show = partial(_with_walk, body=body, found=found)
+    return output.run("search", searches, show, account=account, in_process=in_process)
 
-    return output.run(
-        "search",
-        searches,
-        show,
-        account=lambda entries: search_account(entries, body(entries), found),
-        in_process=in_process,
-    )
+
+def _with_walk(
+    entries: Sequence[SearchEntry],
+    body: Callable[[Sequence[SearchEntry]], Iterable[Block]],
+    found: FoundRuns,
+) -> Iterator[Block]:
+    """What is said of the entries, then the walk of the first counterexample."""
+    yield from body(entries)
+    yield from found.blocks()
 
 
 def _mappers(
@@ -218,14 +226,19 @@ def _searched(
             yield _result(work.found(), asked)
             raise
         result = work.found()
-        # With other policies the run is not that of the mapper alone.
-        alone = plan.choices != "reference"
+        reports = None if plan.choices == "reference" else partial(_reports, plan)
         for one in (result.counterexample, *(claim.smallest for claim in result.claims.values())):
             if one is not None:
                 found.run_again(
-                    mappers, one.world, one.claim, asked.limits, one.message, alone=alone
+                    mappers, one.world, one.claim, asked.limits, one.message, reports=reports
                 )
         yield _result(work.found(), asked)
+
+
+def _reports(plan: Plan, target: Target, world: World) -> Iterator[Report]:
+    """The reports of a mapper's runs in a world, one for each way of choosing."""
+    for tried in examinations(target, plan, world, lambda: None):
+        yield tried.report
 
 
 @contextmanager

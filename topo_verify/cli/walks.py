@@ -6,7 +6,7 @@ more, and its walk is shown if the same claim fails again.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from topo_verify.cli.output import Output
 from topo_verify.cli.runs import NamedWorld, finding_line, judged
@@ -76,6 +76,11 @@ class FoundRuns:
             self._report = self._report or report
             self.show(exhibit_of(report))
 
+    def walk(self, report: Report | None) -> None:
+        """Show the walk of a run to people, if it is the first; a page has its exhibit already."""
+        if self._people:
+            self._report = self._report or report
+
     def show(self, exhibit: Exhibit | None) -> None:
         """Keep an exhibit for the page, if there is one."""
         if exhibit is not None:
@@ -92,7 +97,7 @@ class FoundRuns:
         limits: Limits,
         message: str = "",
         *,
-        alone: bool = False,
+        reports: Callable[[Target, World], Iterator[Report]] | None = None,
     ) -> None:
         """Run the mappers in the world of a counterexample; keep a run in which the claim fails.
 
@@ -101,7 +106,7 @@ class FoundRuns:
         Args:
             world: an id, or `nyc`. Any other world is passed over: a file may have changed since.
             message: what was wrong there.
-            alone: nothing is run; the world is shown to the page's reader.
+            reports: makes the runs where there are several ways to choose; else each runs once.
         """
         if not self._most or (self._report is not None and not self._alone):
             return
@@ -109,16 +114,21 @@ class FoundRuns:
             there = resolve_world(world) if world == "nyc" else World.from_id(world)
         except InputError:
             return
-        if len(self._exhibits) < self._most and not (self._late or alone):
+
+        def once(target: Target, _: World) -> Iterator[Report]:
+            run = explore(there, target, limits=limits)
+            self._late = run.limit in ("move-timeout", "world-timeout")  # once is enough
+            report, _ = judged(run, NamedWorld(there, world), limits)
+            yield report
+
+        if len(self._exhibits) < self._most and not self._late:
             for target in targets:
                 if (target_title(target.text, world), world) in self._exhibits:
                     continue
-                run = explore(there, target, limits=limits)
-                self._late = run.limit in ("move-timeout", "world-timeout")  # once is enough
-                report, _ = judged(run, NamedWorld(there, world), limits)
-                if any(finding.claim == claim for finding in report.findings):
-                    self.keep(report)
-                    return
+                for report in (reports or once)(target, there):
+                    if any(finding.claim == claim for finding in report.findings):
+                        self.keep(report)
+                        return
         who = ",".join(target.text for target in targets)
         self.show(Exhibit(target_title(who, world), there, world, (f"{claim}: {message}",)))
 

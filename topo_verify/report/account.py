@@ -70,7 +70,7 @@ class JudgedSuite:
 
 
 @dataclass(frozen=True)
-class Extent:
+class JudgedExtent:
     """The verdict on all, and how much was checked: `8,954 of 8,954 worlds`."""
 
     verdict: Verdict
@@ -112,7 +112,7 @@ class Account:
     """
 
     about: str
-    extent: Extent
+    extent: JudgedExtent
     suites: tuple[JudgedSuite, ...]
     blocks: tuple[Block, ...] = ()
     exhibits: tuple[Exhibit, ...] = ()

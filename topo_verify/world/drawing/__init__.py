@@ -23,6 +23,7 @@ from topo_verify.world.drawing.svg import to_svg
 # sparse.py     sparse linear equations
 # fit.py        places in a plane as a layout: scaled, trimmed at the circles, with bridges
 # svg.py        a layout as SVG, in colours for light and dark
+# heat.py       a world coloured by a cost for each dart
 # export.py     the picture as a file: SVG, PNG, PDF or HTML
 # curves.py     SVG path data: made and flattened
 # crossings.py  where flattened curves cross

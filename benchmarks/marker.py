@@ -1,0 +1,128 @@
+"""Where to put the marker: how much a good place saves, and whether a rule of thumb predicts it.
+
+In each world the marker lies at every place and points in every direction, and every run is judged.
+Costs are shares of the mean over all darts of the same world; a row is the mean over the worlds of
+a family, ± its standard error. A rule of thumb is judged by the mean over the darts that fit it:
+
+- `centre`: darts at vertices of least eccentricity, the greatest distance to any other vertex;
+- `high degree`: darts at vertices of the greatest degree;
+- `dead end`: darts at vertices of degree 1, which point out of the dead end.
+
+`r` is the correlation (Spearman) of cost with eccentricity and with degree, over darts. Run it:
+`.venv/bin/python benchmarks/marker.py`, a few minutes in two processes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from math import sqrt
+from statistics import mean, stdev
+
+import networkx as nx
+from scipy.stats import spearmanr
+
+from topo_verify import World, examine
+from topo_verify.world.resolve import resolve_world
+
+ALGORITHMS = ("basic", "folding")
+SEEDS = range(10)
+
+FAMILIES = (
+    "lattice(6,6,holes=0.2,seed={})",
+    "lattice(3,12,holes=0.1,seed={})",
+    "king(4,5,holes=0.2,seed={})",
+    "regular(16,5,holes=0.2,seed={})",
+    "random_tree(30,seed={})",
+    "random_planar(30,seed={})",
+    "random_genus(30,2,seed={})",
+)
+
+RULES = ("centre", "high degree", "dead end")
+
+
+def eccentricities(world: World) -> list[int]:
+    """The greatest distance from each vertex to any other, in edges."""
+    graph = nx.Graph((world.vertex_of[a], world.vertex_of[b]) for a, b in world.edges)
+    far = nx.eccentricity(graph)
+    return [far[vertex] for vertex in range(len(world.vertices))]
+
+
+def costs(world: World, algorithm: str) -> list[int]:
+    """The cost of the marker at each dart; darts from which the world looks the same run once."""
+    known: dict[object, int] = {}
+    for dart in range(len(world.alpha)):
+        there = world.with_marker(dart)
+        if there.code not in known:
+            report = examine(algorithm, there)
+            assert report.ok, str(report)
+            assert {*report.claims.values()} == {"ok"}, str(report)
+            known[there.code] = report.cost
+    return [known[world.with_marker(dart).code] for dart in range(len(world.alpha))]
+
+
+def measured(family: str, algorithm: str, seed: int) -> dict[str, float | None]:
+    """One world: shares of the mean cost, and correlations; None where no dart fits a rule."""
+    world = resolve_world(f"family:{family.format(seed)}")
+    found = costs(world, algorithm)
+    average, far = mean(found), eccentricities(world)
+    at = world.vertex_of
+    degrees = world.degrees
+    fits: dict[str, Callable[[int], bool]] = {
+        "centre": lambda vertex: far[vertex] == min(far),
+        "high degree": lambda vertex: degrees[vertex] == max(degrees),
+        "dead end": lambda vertex: degrees[vertex] == 1,
+    }
+    shares: dict[str, float | None] = {
+        "best": min(found) / average,
+        "worst": max(found) / average,
+    }
+    for rule in RULES:
+        fitting = [cost for dart, cost in enumerate(found) if fits[rule](at[dart])]
+        shares[rule] = mean(fitting) / average if fitting else None
+    for name, values in (("r ecc.", far), ("r degree", degrees)):
+        row = [values[vertex] for vertex in at]
+        even = len(set(row)) == 1 or len(set(found)) == 1
+        shares[name] = None if even else float(spearmanr(row, found).statistic)
+    return shares
+
+
+def cell(values: Sequence[float | None], *, share: bool) -> str:
+    """The mean ± its standard error, over the worlds that have one."""
+    known = [value for value in values if value is not None]
+    if len(known) < 2:
+        return "-"
+    error = stdev(known) / sqrt(len(known))
+    if share:
+        return f"{mean(known) * 100:.0f} ± {error * 100:.0f} %"
+    return f"{mean(known):+.2f} ± {error:.2f}"
+
+
+def rows() -> Iterator[tuple[str, ...]]:
+    """The rows of the table."""
+    jobs = [(f, a, s) for f in FAMILIES for a in ALGORITHMS for s in SEEDS]
+    with ProcessPoolExecutor() as pool:
+        found = dict(zip(jobs, pool.map(measured, *zip(*jobs, strict=True)), strict=True))
+    for family in FAMILIES:
+        for algorithm in ALGORITHMS:
+            shares = [found[family, algorithm, seed] for seed in SEEDS]
+            name = family.replace(",seed={}", "")
+            yield (
+                f"`{name}`",
+                algorithm,
+                *(cell([s[key] for s in shares], share=True) for key in ("best", "worst", *RULES)),
+                *(cell([s[key] for s in shares], share=False) for key in ("r ecc.", "r degree")),
+            )
+
+
+def main() -> None:
+    """Print the table, as Markdown."""
+    print("| family | algorithm | best | worst | centre | high degree | dead end |", end="")
+    print(" r eccentricity | r degree |")
+    print("| --- | --- |" + " ---: |" * 7)
+    for row in rows():
+        print(f"| {' | '.join(row)} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,250 @@
+"""`topo-verify reproduce`: the paper's figures, beside the numbers that its text states."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import click
+
+from topo_verify.cli import options
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.runs import finding_blocks
+from topo_verify.harness.pool import processors
+from topo_verify.harness.reproduce.figures import (
+    FIGURES,
+    GRAPHS,
+    PAIRS,
+    QUICK_GRAPHS,
+    REFERENCE,
+    SEEDS,
+    YARDSTICKS,
+    Figure,
+    FigureExtent,
+    chosen_figures,
+)
+from topo_verify.harness.reproduce.measuring import PlannedRun, measured_runs, planned_runs
+from topo_verify.harness.reproduce.points import (
+    FigurePoint,
+    figure_points,
+    growth_csv,
+    points_csv,
+)
+from topo_verify.harness.reproduce.store import RunStore
+from topo_verify.report.blocks import Block, Text, TextTable
+from topo_verify.report.figures.names import SHORT
+from topo_verify.report.figures.page import PAGE, judged_sentence, page, stem
+from topo_verify.report.figures.words import paragraph
+from topo_verify.text import plural
+from topo_verify.world.formats import files
+
+STORE = "runs.jsonl"
+"""The file in the folder that keeps the runs."""
+
+MATPLOTLIB = (
+    "no pictures: they need matplotlib, install it with: pip install 'topo-verify[plots]'; the CSV"
+    " files are written all the same"
+)
+
+_Found = list[tuple[Figure, list[FigurePoint]]]
+
+
+@click.command(
+    short_help="The paper's figures, side by side with its numbers.",
+    epilog=options.epilog(
+        "reproduce --quick",
+        "reproduce --figure 3,6d --out figures",
+        "reproduce --figure 6d --policies --graphs 10 --format json",
+    ),
+)
+@click.option(
+    "--figure",
+    default="all",
+    show_default=True,
+    metavar="F",
+    help=f"all, 6, or some of {', '.join(FIGURES)} with commas.",
+)
+@click.option(
+    "--quick", is_flag=True, help=f"Small sizes, {QUICK_GRAPHS} graphs a point: under a minute."
+)
+@click.option(
+    "--policies",
+    is_flag=True,
+    help=f"Run {len(PAIRS)} pairs of pick and order policies, and show the spread of the means.",
+)
+@click.option(
+    "--graphs",
+    type=click.IntRange(1, SEEDS),
+    metavar="N",
+    help=f"Graphs a point.  [default: {GRAPHS}, as in the paper]",
+)
+@click.option(
+    "--out",
+    default="figures",
+    show_default=True,
+    metavar="DIR",
+    help="Write CSV, SVG, PNG and Markdown here, and keep the runs: the next call goes on.",
+)
+@options.seed("Of the graphs.")
+@click.option(
+    "--workers",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Processes.  [default: all processors]",
+)
+@output_options
+def reproduce(  # noqa: PLR0913  an argument an option
+    output: Output,
+    *,
+    figure: str,
+    quick: bool,
+    policies: bool,
+    graphs: int | None,
+    out: str,
+    seed: int,
+    workers: int | None,
+) -> int:
+    """Draw the paper's Figures 3 and 6 a-f again: mean costs with standard errors.
+
+    What the paper's text states stands in the same picture, and so do the least cost of a proof and
+    the complete rule, folding. Every run is judged by every claim. Same options, same CSV to the
+    byte, however many processes there are and however often it was interrupted.
+    """
+    usual = QUICK_GRAPHS if quick else GRAPHS
+    extent = FigureExtent(graphs or usual, quick, PAIRS if policies else (REFERENCE,), seed)
+    words = ["topo-verify", "reproduce", *(["--figure", figure] if figure != "all" else [])]
+    words += ["--quick"] * quick + ["--policies"] * policies
+    words += ["--graphs", str(graphs)] if graphs else []
+    words += ["--seed", str(seed)] if seed else []
+
+    def points() -> Iterator[Result[FigurePoint]]:
+        figures = chosen_figures(figure)
+        folder = options.make_folder(out, "--out")
+        planned = planned_runs(figures, extent)
+        with RunStore(folder / STORE) as store:
+            _make(output, store, planned, workers or processors())
+            found = [(one, figure_points(one, extent, store.runs)) for one in figures]
+            _write(output, folder, found, shlex.join([*words, "--out", out]))
+        for _, line in found:
+            for point in line:
+                incomplete = point.undecided > 0
+                yield Result(point, failed=bool(point.findings), incomplete=incomplete)
+
+    return output.run(
+        "reproduce",
+        points,
+        lambda entries: _show(entries, out, seed),
+        seed=seed,
+        quick=quick,
+        graphs=extent.graphs,
+    )
+
+
+def _make(output: Output, store: RunStore, planned: Sequence[PlannedRun], workers: int) -> None:
+    """Make the runs that the store lacks; each is kept as soon as it is judged."""
+    missing = store.missing(planned)
+    done = len(planned) - len(missing)
+    if store.repaired:
+        output.note(f"{store.path}: half a line at its end was cut off; that run is made again")
+    if done:
+        output.note(f"{done} of {plural(len(planned), 'run')} are in {store.path}")
+    output.timing["from_store"] = done
+    try:
+        for made in measured_runs(missing, min(workers, len(missing)) or 1):
+            store.put(made)
+            done += 1
+            output.progress(f"{made.run.algorithm} in {made.run.world}", done, len(planned))
+    except KeyboardInterrupt:
+        output.note(
+            f"{done} of {plural(len(planned), 'run')} are kept in {store.path}; the same command"
+            " goes on"
+        )
+        raise
+
+
+def _write(output: Output, folder: Path, found: _Found, command: str) -> None:
+    """Write CSV, pictures and the page that shows them."""
+    drawn = True
+    for figure, points in found:
+        files.write(folder / f"{stem(figure)}.csv", points_csv(points))
+        drawn = drawn and _draw(folder, figure, points)
+    if not drawn:
+        output.note(MATPLOTLIB)
+    every = [point for _, points in found for point in points]
+    settings = {figure.name: figure.setting.name for figure, _ in found}
+    files.write(folder / "growth.csv", growth_csv(every, settings))
+    judged = judged_sentence(every)
+    files.write(folder / PAGE, page(found, command=command, judged=judged, pictures=drawn))
+
+
+def _draw(folder: Path, figure: Figure, points: Sequence[FigurePoint]) -> bool:
+    """Write the pictures of a figure; False if matplotlib is not installed."""
+    from topo_verify.report.figures.pictures import picture
+
+    try:
+        for kind in ("svg", "png"):
+            files.write(folder / f"{stem(figure)}.{kind}", picture(figure, points, kind))
+    except ImportError:
+        return False
+    return True
+
+
+# ---------------------------------------------------------------- for people
+
+
+def _show(entries: Sequence[FigurePoint], out: str, seed: int) -> Iterator[Block]:
+    """A table and a paragraph a figure, the growth of every line, and what was judged."""
+    for name in dict.fromkeys(point.figure for point in entries):
+        figure = FIGURES[name]
+        points = [point for point in entries if point.figure == name]
+        yield _table(figure, [point for point in points if point.is_reference])
+        yield Text("")
+        yield Text(paragraph(figure, points, entries))
+        yield Text("")
+    if not entries:
+        return
+    yield _growth_table(entries)
+    yield Text("")
+    yield Text(judged_sentence(entries))
+    for point in entries:
+        yield from finding_blocks(point.findings, f"{point.algorithm} in figure {point.figure}")
+    yield Text(f"CSV, pictures and {PAGE} are in {out}; seed {seed}.")
+
+
+def _table(figure: Figure, points: Sequence[FigurePoint]) -> TextTable:
+    """The means of a figure: a row a size, a column a line."""
+    names = (*figure.lines, *YARDSTICKS)
+    cells = {(point.size, point.algorithm): point for point in points}
+    rows = [
+        (str(size), *(_cell(cells.get((size, name))) for name in names))
+        for size in sorted({point.size for point in points})
+    ]
+    title = f"Figure {figure.name}: {figure.title} (edge traversals ± standard error)"
+    return TextTable((">size", *(f">{SHORT[name]}" for name in names)), rows, title)
+
+
+def _cell(point: FigurePoint | None) -> str:
+    if point is None:
+        return "-"
+    if point.stderr is None or point.algorithm in YARDSTICKS:
+        return f"{point.mean:.0f}"
+    return f"{point.mean:.0f}±{point.stderr:.0f}"
+
+
+def _growth_table(entries: Sequence[FigurePoint]) -> TextTable:
+    """The exponent of every line of the reference policies."""
+    rows = dict.fromkeys(
+        (
+            FIGURES[point.figure].setting.name,
+            point.algorithm,
+            f"{point.growth.exponent:.2f}",
+            "-" if point.growth.stderr is None else f"{point.growth.stderr:.2f}",
+            str(point.growth.points),
+        )
+        for point in entries
+        if point.growth is not None and point.is_reference
+    )
+    columns = ("graphs", "line", ">exponent of m", ">± standard error", ">sizes")
+    return TextTable(columns, list(rows), "Growth: cost ~ m^exponent, fitted to the means")

@@ -1,0 +1,245 @@
+"""The paper's figures as data: families of graphs, sizes, lines, and the numbers in its text.
+
+H. Wang, M. Jenkin and P. Dymond, section IV. The text states the families ("lattice graphs with
+random holes", "regular graphs with random holes"), 20 % holes, 30 graphs a point, and costs for the
+10×10 lattice alone. It states neither the sizes of the other points, nor the degree of the regular
+graphs, nor where the marker lies, nor the policies; what stands here for those is our choice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Literal
+
+from topo_verify.errors import InputError
+
+GRAPHS = 30
+"""Graphs a point, as in the paper."""
+
+QUICK_GRAPHS = 10
+"""Graphs a point with `--quick`."""
+
+SEEDS = 1000
+"""Graph g of a point is drawn with seed `SEEDS·seed + g`, so two seeds share no graph."""
+
+EDGES, LEAST = "edges", "least-cost"
+"""Lines that no mapper walks: the number m of edges, and the least cost of a proof."""
+
+YARDSTICKS = (EDGES, LEAST)
+
+SettingName = Literal["lattice", "dense"]
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A family of graphs that grows.
+
+    Attributes:
+        name: `lattice` or `dense`.
+        measure: what `size` counts, with its unit.
+        family: the text of a world of one size and seed, as a WORLD argument names it.
+        sizes: the sizes of the points; quick: those with `--quick`.
+    """
+
+    name: SettingName
+    measure: str
+    family: Callable[[int, int], str]
+    sizes: tuple[int, ...]
+    quick: tuple[int, ...]
+
+
+LATTICE = Setting(
+    "lattice",
+    "side of the lattice (nodes before holes)",
+    lambda size, seed: f"family:lattice({size},{size},holes=0.2,seed={seed})",
+    (4, 6, 8, 10, 12, 15, 20),
+    (4, 6, 8, 10),
+)
+
+DENSE = Setting(
+    "dense",
+    "nodes before holes, each of degree 8",
+    lambda size, seed: f"family:regular({size},8,holes=0.2,seed={seed})",
+    (20, 40, 60, 80, 100),
+    (20, 40),
+)
+
+
+@dataclass(frozen=True)
+class Stated:
+    """A cost that the paper's text states for a point.
+
+    Attributes:
+        cost: in edge traversals.
+        words: how the text puts it: `more than 10,000`.
+    """
+
+    cost: int
+    words: str
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure of the paper, with our yardsticks.
+
+    Attributes:
+        name: as `--figure` takes it: `3`, `6a`.
+        title: what it shows.
+        setting: which graphs.
+        lines: the algorithms, in the order of the results; `YARDSTICKS` come after them.
+        stated: what the text states, by algorithm and size.
+    """
+
+    name: str
+    title: str
+    setting: Setting
+    lines: tuple[str, ...]
+    stated: dict[tuple[str, int], Stated]
+
+
+_ORIGINAL = {("basic", 10): Stated(14000, "14,000")}
+
+
+def _figure(
+    name: str,
+    title: str,
+    setting: Setting,
+    enhancements: Sequence[str],
+    stated: dict[tuple[str, int], Stated],
+) -> Figure:
+    return Figure(name, title, setting, ("basic", *enhancements, "folding"), stated)
+
+
+FIGURES = {
+    figure.name: figure
+    for figure in (
+        _figure(
+            "3",
+            "basic algorithm, lattices with 20 % holes",
+            LATTICE,
+            (),
+            {("basic", 10): Stated(10000, "more than 10,000")},
+        ),
+        _figure("6a", "Enhancement I, lattices", LATTICE, ("enhancement-i",), _ORIGINAL),
+        _figure(
+            "6b",
+            "Enhancement II, lattices",
+            LATTICE,
+            ("enhancement-ii", "enhancement-ii+i"),
+            _ORIGINAL,
+        ),
+        _figure(
+            "6c",
+            "Enhancement III one-level, lattices",
+            LATTICE,
+            ("enhancement-iii-one", "enhancement-iii-one+i"),
+            _ORIGINAL,
+        ),
+        _figure(
+            "6d",
+            "Enhancement III all-level, lattices",
+            LATTICE,
+            ("enhancement-iii-all", "enhancement-iii-all+i"),
+            {**_ORIGINAL, ("enhancement-iii-all", 10): Stated(4500, "about 4,500")},
+        ),
+        _figure(
+            "6e",
+            "Enhancements I and II, densely connected graphs",
+            DENSE,
+            ("enhancement-i", "enhancement-ii", "enhancement-ii+i"),
+            {},
+        ),
+        _figure(
+            "6f",
+            "Enhancement III, densely connected graphs",
+            DENSE,
+            (
+                "enhancement-iii-one",
+                "enhancement-iii-one+i",
+                "enhancement-iii-all",
+                "enhancement-iii-all+i",
+            ),
+            {},
+        ),
+    )
+}
+"""All figures, in the order of the paper."""
+
+
+def chosen_figures(text: str) -> list[Figure]:
+    """The figures that `--figure` names: `all`, `3`, `6` for 6a to 6f, `6d`; several with commas.
+
+    Raises:
+        InputError: there is no such figure.
+    """
+    found: dict[str, Figure] = {}
+    for word in (part.strip().lower() for part in text.split(",")):
+        fitting = {
+            name: figure
+            for name, figure in FIGURES.items()
+            if word in ("all", name, name.rstrip("abcdef"))
+        }
+        if not fitting:
+            raise InputError(
+                f"--figure {word!r}: expected all, 6 or one of {', '.join(FIGURES)}; several with"
+                " commas"
+            )
+        found |= fitting
+    return [figure for name, figure in FIGURES.items() if name in found]
+
+
+# ---------------------------------------------------------------- policies
+
+
+@dataclass(frozen=True, order=True)
+class PolicyPair:
+    """A pick policy and an order policy."""
+
+    pick: str
+    order: str
+
+    def __str__(self) -> str:
+        return f"{self.pick}/{self.order}"
+
+
+REFERENCE = PolicyPair("nearest", "shortest")
+
+PAIRS = (
+    *(
+        PolicyPair(*pair)
+        for pair in product(("nearest", "last", "first"), ("shortest", "oldest", "newest"))
+    ),
+    PolicyPair("random(0)", "random(0)"),
+)
+"""What `--policies` tries: every pair of policies that draw no lots, and one that does."""
+
+
+# ---------------------------------------------------------------- the plan
+
+
+@dataclass(frozen=True)
+class FigureExtent:
+    """How much of the figures is run.
+
+    Attributes:
+        graphs: graphs a point.
+        quick: the small sizes only.
+        policies: the pairs of policies.
+        seed: of the graphs.
+    """
+
+    graphs: int = GRAPHS
+    quick: bool = False
+    policies: tuple[PolicyPair, ...] = (REFERENCE,)
+    seed: int = 0
+
+    def sizes(self, setting: Setting) -> tuple[int, ...]:
+        """The sizes of the points in a setting."""
+        return setting.quick if self.quick else setting.sizes
+
+    def worlds(self, setting: Setting, size: int) -> Iterator[str]:
+        """The graphs of one point."""
+        for graph in range(self.graphs):
+            yield setting.family(size, SEEDS * self.seed + graph)

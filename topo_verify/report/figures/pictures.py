@@ -1,0 +1,226 @@
+"""A figure of the paper as SVG and PNG: costs on a log scale, means with standard errors.
+
+Colours are after M. Okabe and K. Ito, so that colour-blind readers tell them apart; the light card
+can be read on a dark page as well. Each line carries its name at its right end. The same points
+give the same bytes with one version of matplotlib: no date, a fixed salt for ids, glyphs as paths.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from io import BytesIO
+from math import exp, log
+from typing import Any, Literal, NamedTuple
+
+from topo_verify.harness.reproduce.figures import YARDSTICKS, Figure
+from topo_verify.harness.reproduce.points import FigurePoint
+from topo_verify.report.figures.names import SHORT
+
+CARD, INK, SOFT, GRID = "#fdfcf9", "#22282e", "#5c656e", "#dcdcd6"
+
+PAPER = "#b3261e"
+"""The colour of what the paper's text states."""
+
+INCHES = (7.2, 5.0)
+
+GAP = 0.048
+"""The least distance of two labels, as a share of the axis."""
+
+
+class LineStyle(NamedTuple):
+    """How a line is drawn: colour, marker, dashes."""
+
+    colour: str
+    marker: str
+    dashes: str = "-"
+
+
+LINES = {
+    "basic": LineStyle("#22282e", "o"),
+    "enhancement-i": LineStyle("#d55e00", "s"),
+    "enhancement-ii": LineStyle("#0072b2", "^"),
+    "enhancement-ii+i": LineStyle("#0072b2", "v", "--"),
+    "enhancement-iii-one": LineStyle("#946b00", "D"),
+    "enhancement-iii-one+i": LineStyle("#946b00", "d", "--"),
+    "enhancement-iii-all": LineStyle("#9e4a86", "P"),
+    "enhancement-iii-all+i": LineStyle("#9e4a86", "X", "--"),
+    "folding": LineStyle("#00805f", "*"),
+    "edges": LineStyle("#6d7780", "", ":"),
+    "least-cost": LineStyle("#5c656e", "", "-."),
+}
+
+SETTINGS = {
+    "svg.hashsalt": "topo-verify",
+    "svg.fonttype": "path",
+    "font.family": "DejaVu Sans",  # comes with matplotlib
+    "font.size": 10,
+    "text.color": INK,
+    "axes.labelcolor": INK,
+    "axes.edgecolor": SOFT,
+    "xtick.color": SOFT,
+    "ytick.color": SOFT,
+}
+
+
+def picture(figure: Figure, points: Sequence[FigurePoint], kind: Literal["svg", "png"]) -> bytes:
+    """The picture of a figure as the content of a file.
+
+    Raises:
+        ImportError: matplotlib is not installed.
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure as Canvas
+
+    library: Any = mpl  # its own types are partly unknown
+    with library.rc_context(SETTINGS):
+        canvas: Any = Canvas(figsize=INCHES, facecolor=CARD, layout="constrained")
+        _draw(canvas.add_subplot(), figure, points)
+        out = BytesIO()
+        none = {"Date": None, "Creator": None} if kind == "svg" else {"Software": None}
+        canvas.savefig(out, format=kind, dpi=150, metadata=none)
+    return out.getvalue()
+
+
+def _draw(axes: Any, figure: Figure, points: Sequence[FigurePoint]) -> None:
+    axes.set_facecolor(CARD)
+    axes.set_yscale("log")
+    title = f"Figure {figure.name}: {figure.title}"
+    pairs = {point.pair for point in points} - {None}
+    if len(pairs) > 1:
+        title += f"\nthick bars: lowest to highest mean over {len(pairs)} pairs of policies"
+        _spread(axes, figure.lines, points)
+    axes.set_title(title, loc="left", fontsize=11)
+    axes.set_xlabel(figure.setting.measure)
+    axes.set_ylabel("cost (edge traversals)")
+    axes.grid(visible=True, which="major", color=GRID, linewidth=0.6)
+    axes.spines[["top", "right"]].set_visible(False)
+    sizes = sorted({point.size for point in points})
+    axes.set_xticks(sizes)
+    ends: dict[str, tuple[float, float]] = {}
+    for name in (*figure.lines, *YARDSTICKS):
+        line = [point for point in points if point.algorithm == name and point.mean > 0]
+        drawn = [point for point in line if point.is_reference]
+        if drawn:
+            _line(axes, name, drawn)
+            ends[name] = (drawn[-1].size, drawn[-1].mean)
+    _stated(axes, points)
+    if ends:
+        _labels(axes, ends, sizes)
+
+
+def _line(axes: Any, name: str, line: Sequence[FigurePoint]) -> None:
+    style = LINES[name]
+    axes.errorbar(
+        [point.size for point in line],
+        [point.mean for point in line],
+        yerr=None if name in YARDSTICKS else [point.stderr or 0.0 for point in line],
+        color=style.colour,
+        linestyle=style.dashes,
+        marker=style.marker or None,
+        markersize=5,
+        linewidth=1.4,
+        capsize=2.5,
+        zorder=3,
+    )
+
+
+def _spread(axes: Any, names: Sequence[str], points: Sequence[FigurePoint]) -> None:
+    """A thick bar a point, from the lowest to the highest mean over policies; side by side."""
+    sizes = [point.size for point in points]
+    step = 0.011 * (max(sizes) - min(sizes))
+    for k, name in enumerate(names):
+        means: dict[int, list[float]] = {}
+        for point in points:
+            if point.algorithm == name:
+                means.setdefault(point.size, []).append(point.mean)
+        axes.vlines(
+            [size + (k - (len(names) - 1) / 2) * step for size in means],
+            *([pick(values) for values in means.values()] for pick in (min, max)),
+            color=LINES[name].colour,
+            linewidth=4,
+            alpha=0.35,
+        )
+
+
+def _stated(axes: Any, points: Sequence[FigurePoint]) -> None:
+    """Marks for what the paper's text states, each with its words."""
+    for point in points:
+        if point.paper is None:
+            continue
+        axes.plot(
+            [point.size],
+            [point.paper],
+            marker="^" if "more" in (point.stated or "") else "D",
+            markersize=8,
+            color=PAPER,
+            fillstyle="none",
+            markeredgewidth=1.6,
+            linestyle="none",
+            zorder=4,
+        )
+        axes.annotate(
+            f"paper, {SHORT[point.algorithm]}: {point.stated}",
+            (point.size, point.paper),
+            xytext=(-9, 3),
+            textcoords="offset points",
+            ha="right",
+            color=PAPER,
+            fontsize=9,
+        )
+
+
+def _labels(axes: Any, ends: dict[str, tuple[float, float]], sizes: Sequence[int]) -> None:
+    """The name of each line at its right end, moved apart where two would cover each other."""
+    wide = sizes[-1] - sizes[0] or 1
+    axes.set_xlim(sizes[0] - 0.03 * wide, sizes[-1] + 0.2 * wide)
+    low, high = map(log, axes.get_ylim())
+    places = spread([log(height) for _, height in ends.values()], GAP * (high - low))
+    for (name, (x, height)), place in zip(ends.items(), places, strict=True):
+        axes.annotate(
+            SHORT[name],
+            (x, height),
+            xytext=(sizes[-1] + 0.035 * wide, exp(place)),
+            textcoords="data",
+            va="center",
+            color=LINES[name].colour,
+            fontsize=9,
+            arrowprops={
+                "arrowstyle": "-",
+                "color": LINES[name].colour,
+                "linewidth": 0.6,
+                "relpos": (0.0, 0.5),
+            },
+        )
+
+
+def spread(places: Sequence[float], gap: float) -> list[float]:
+    """The places, moved as little as needs be so that any two are at least `gap` apart.
+
+    Neighbours that are too near form a group, which is spaced evenly around its mean.
+    """
+    order = sorted(range(len(places)), key=lambda k: (places[k], k))
+    groups: list[list[int]] = []
+    for k in order:
+        groups.append([k])
+        while len(groups) > 1 and _low(groups[-1], places, gap) - _high(
+            groups[-2], places, gap
+        ) < gap * (1 - 1e-9):
+            last = groups.pop()
+            groups[-1] += last
+    moved = [0.0] * len(places)
+    for group in groups:
+        for step, k in enumerate(group):
+            moved[k] = _low(group, places, gap) + step * gap
+    return moved
+
+
+def _middle(group: Sequence[int], places: Sequence[float]) -> float:
+    return sum(places[k] for k in group) / len(group)
+
+
+def _low(group: Sequence[int], places: Sequence[float], gap: float) -> float:
+    return _middle(group, places) - gap * (len(group) - 1) / 2
+
+
+def _high(group: Sequence[int], places: Sequence[float], gap: float) -> float:
+    return _middle(group, places) + gap * (len(group) - 1) / 2

@@ -1,0 +1,200 @@
+"""A world coloured by a cost for each dart: where to put the marker, and where to point it.
+
+The picture is that of svg.py, so a script reads it as any drawing of a world. Over it lie
+
+- on each vertex a disc in the colour of the MEAN over its darts, `data-mean` the number, and
+- along the beginning of each dart a stroke in the colour of that dart, `data-dart` and `data-cost`,
+
+and beneath it a legend. The arrow stands on the best dart, a dashed ring around the vertex of the
+worst. Colours go from dark (cheap) to light (dear) along a scale that is even for the eye and for
+colour-blind eyes (J. R. Nuñez, C. R. Anderton, R. S. Renslow: "Optimizing colormaps with
+consideration for color vision deficiency", PLOS ONE 13(7), 2018); both ends stand out from light
+and dark cards by an outline.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from statistics import mean
+from xml.etree import ElementTree as ET
+
+from topo_verify.errors import InternalError
+from topo_verify.world.drawing import curves, read_back
+from topo_verify.world.drawing.choice import lay_out
+from topo_verify.world.drawing.curves import number
+from topo_verify.world.drawing.labels import leaving
+from topo_verify.world.drawing.layout import Layout
+from topo_verify.world.drawing.svg import FONT, text, to_svg
+from topo_verify.world.rooted_map import Dart, World
+
+SCALE = (
+    (0, 32, 81), (10, 50, 109), (43, 68, 110), (76, 86, 108), (104, 104, 109), (127, 124, 117),
+    (146, 143, 120), (166, 163, 117), (190, 184, 107), (218, 206, 91), (253, 234, 69),
+)  # fmt: skip
+"""Red, green and blue of evenly spaced points of the scale, dark to light."""
+
+STEPS = 40
+"""Steps of the legend."""
+
+
+def colour(share: float) -> str:
+    """The colour of a share of the way from the least cost (0) to the greatest (1)."""
+    place = min(max(share, 0.0), 1.0) * (len(SCALE) - 1)
+    k = min(int(place), len(SCALE) - 2)
+    mixed = (a + (b - a) * (place - k) for a, b in zip(SCALE[k], SCALE[k + 1], strict=True))
+    return "#" + "".join(f"{round(part):02x}" for part in mixed)
+
+
+def heat_svg(world: World, costs: Sequence[int], *, title: str) -> str:
+    """The heat map; the same bytes for the same arguments.
+
+    Args:
+        costs: of the marker at each dart, in edge traversals.
+        title: what ran, for the legend.
+    Raises:
+        InternalError: the finished picture is not true to the world or to the costs.
+    """
+    best, worst = costs.index(min(costs)), costs.index(max(costs))
+    there = replace(world.with_marker(best), name=world.name)
+    layout = lay_out(there)
+    room = max(4.5 * _unit(layout), 2.0 * layout.radius)
+    taller = replace(layout, height=layout.height + room)
+    base = to_svg(there, taller).rstrip().removesuffix("</svg>")
+    overlay = [
+        *_strokes(there, layout, costs, best),
+        *_discs(there, layout, costs, worst),
+        *_legend(layout, costs, title),
+    ]
+    svg = base + "\n".join([*overlay, "</svg>\n"])
+    bridges = None if layout.kind == "ball" else len(layout.bridges)
+    found = read_back.untruths(read_back.read(svg), there, bridges=bridges)
+    found += untrue_colours(svg, world, costs)
+    if found:
+        raise InternalError(f"the heat map of {world!r} is not true: {found[0]}")
+    return svg
+
+
+def _unit(layout: Layout) -> float:
+    """The height of a line of the legend."""
+    return layout.width / 30
+
+
+def _share(cost: float, costs: Sequence[int]) -> float:
+    low, high = min(costs), max(costs)
+    return (cost - low) / (high - low) if high > low else 0.0
+
+
+def _strokes(world: World, layout: Layout, costs: Sequence[int], best: Dart) -> Iterator[str]:
+    """A stroke along the beginning of each dart; that of the best lies under the arrow."""
+    width = 0.42 * layout.radius
+    yield f'<g fill="none" stroke-linecap="butt" stroke-width="{number(width)}">'
+    for dart, along in sorted(leaving(world, layout).items()):
+        if world.vertex_of[dart] in layout.hidden or dart == best:
+            continue
+        cost = costs[dart]
+        reach = min(1.4 * layout.radius, 0.4 * curves.length(along))
+        data = curves.piece(along, 0.0, reach)
+        yield f'<path class="tv-halo" stroke-width="{number(1.5 * width)}" d="{data}"/>'
+        yield (
+            f'<path data-dart="{dart}" data-cost="{cost}" stroke="{colour(_share(cost, costs))}"'
+            f' d="{data}"><title>dart {dart}: {cost}</title></path>'
+        )
+    yield "</g>"
+
+
+def _discs(world: World, layout: Layout, costs: Sequence[int], worst: Dart) -> Iterator[str]:
+    """The disc of each vertex with its number, and the ring around the worst."""
+    radius = layout.radius
+    yield (
+        f'<g font-family="{FONT}" text-anchor="middle" font-size="{number(0.9 * radius)}"'
+        f' stroke-width="{number(0.13 * radius)}">'
+    )
+    for vertex, darts in enumerate(world.vertices):
+        if vertex in layout.hidden:
+            continue
+        x, y = layout.centres[vertex]
+        average = mean(costs[dart] for dart in darts)
+        share = _share(average, costs)
+        at = f'cx="{number(x)}" cy="{number(y)}"'
+        if vertex == world.vertex_of[worst]:
+            dash = f"{number(0.5 * radius)} {number(0.3 * radius)}"
+            yield (
+                f'<circle class="tv-mark" stroke-dasharray="{dash}" {at}'
+                f' r="{number(1.45 * radius)}" stroke-width="{number(0.25 * radius)}"/>'
+            )
+        words = f"vertex {vertex}: mean {average:.1f}, {len(darts)} directions"
+        yield (
+            f'<circle class="tv-ring" data-mean="{average:.2f}" fill="{colour(share)}"'
+            f' stroke="#8a939c" {at} r="{number(radius)}"><title>{words}</title></circle>'
+        )
+        ink = "#14181c" if share > 0.5 else "#fdfcf9"
+        yield (
+            f'<text fill="{ink}" stroke="none" x="{number(x)}" y="{number(y + 0.33 * radius)}">'
+            f"{vertex}</text>"
+        )
+    yield "</g>"
+
+
+def _legend(layout: Layout, costs: Sequence[int], title: str) -> Iterator[str]:
+    """The scale with its least and greatest cost, and what the signs mean."""
+    unit, size = _unit(layout), number(0.8 * _unit(layout))
+    left, top = 0.7 * unit, layout.height + 0.9 * unit
+    yield f'<g class="tv-name" font-family="{FONT}" font-size="{size}">'
+    head = f"{text(title, limit=60)}: cost by place and direction of the marker"
+    yield f'<text x="{number(left)}" y="{number(top)}">{head}</text>'
+    wide = (layout.width - 2 * left) * 0.5
+    low, high = min(costs), max(costs)
+    start = left + 0.62 * unit * (len(str(low)) + 0.4)
+    y = top + 0.5 * unit
+    yield f'<text x="{number(left)}" y="{number(y + 0.75 * unit)}">{low}</text>'
+    for step in range(STEPS):
+        x = start + wide * step / STEPS
+        yield (
+            f'<rect x="{number(x)}" y="{number(y)}" width="{number(wide / STEPS + 0.3)}"'
+            f' height="{number(unit)}" fill="{colour((step + 0.5) / STEPS)}"/>'
+        )
+    words = f"{high} edge traversals"
+    end = start + wide + 0.4 * unit
+    yield f'<text x="{number(end)}" y="{number(y + 0.75 * unit)}">{words}</text>'
+    signs = "disc: mean over directions · stroke: one direction · arrow: best · dashed ring: worst"
+    yield (
+        f'<text class="tv-soft" font-size="{number(0.68 * unit)}" x="{number(left)}"'
+        f' y="{number(y + 2.1 * unit)}">{signs}</text>'
+    )
+    yield "</g>"
+
+
+# ---------------------------------------------------------------- read back
+
+
+def untrue_colours(svg: str, world: World, costs: Sequence[int]) -> list[str]:
+    """A sentence on every disc and stroke of a finished heat map that shows another cost.
+
+    Discs are found by their centres and strokes by where they begin, as a reader finds them.
+    """
+    found: list[str] = []
+    picture = read_back.read(svg)
+    ends = read_back.leavings(picture)
+    centres = {(x, y): vertex for vertex, (x, y, _) in picture.circles.items()}
+    strokes: dict[Dart, str] = {}
+    discs: dict[int, str] = {}
+    for element in ET.fromstring(svg).iter():  # noqa: S314  a picture that we drew
+        get = element.attrib.get
+        if get("data-mean") is not None:
+            discs[centres[float(get("cx", "")), float(get("cy", ""))]] = get("fill", "")
+        elif (shown := get("data-dart")) is not None:
+            start = curves.flatten(get("d", ""))[0]
+            if abs(start - ends[int(shown)][0]).max() > read_back.TOLERANCE:
+                found.append(f"the stroke of dart {shown} begins elsewhere")
+            strokes[int(shown)] = get("stroke", "")
+    for vertex in picture.circles:
+        average = mean(costs[dart] for dart in world.vertices[vertex])
+        if discs.get(vertex) != colour(_share(average, costs)):
+            found.append(f"the disc of vertex {vertex} shows another cost than {average:.2f}")
+    best = costs.index(min(costs))
+    return found + [
+        f"the stroke of dart {dart} shows another cost than {costs[dart]}"
+        for dart in ends
+        if dart != best and strokes.get(dart) != colour(_share(costs[dart], costs))
+    ]
