@@ -103,6 +103,15 @@ def test_the_report_shows_where_two_runs_diverge(call: Call) -> None:
         assert words in done.stdout
 
 
+def test_the_walk_in_the_first_world_that_convicts_is_shown(call: Call) -> None:
+    text = call("conform mappers.py:guesses --worlds edges<=1 --workers 0").stdout
+    _, _, walk = text.partition("The walk of mappers.py:guesses in m1/1:")
+    assert "delivers a map" in walk
+    assert "again: topo-verify replay m1/1 --target mappers.py:guesses" in walk
+    done = call("conform basic --like enhancement-ii --worlds m4/41 --workers 0")
+    assert "The walk of" not in done.stdout  # it is shown where the two part
+
+
 def test_the_report_names_the_claims_that_were_not_judged(call: Call) -> None:
     done = call("conform mappers.py:silent --worlds edges<=1 --workers 0")
     assert "declares nothing about it: true-hypothesis-posed" in done.stdout.replace("\n", " ")

@@ -109,6 +109,13 @@ def test_the_smallest_counterexample_is_shown_with_its_replay_command(call: Call
     assert "delivers a map" in text.partition("The walk of mappers.py:guesses in m1/1:")[2]
 
 
+@pytest.mark.parametrize("policies", ["all", "every"])
+def test_the_walk_of_other_policies_is_shown_too(call: Call, policies: str) -> None:
+    done = call(f"search folding+planar --edges 2 --workers 0 --policies {policies}")
+    _, _, walk = done.stdout.partition("The walk of folding+planar in m2/8:")
+    assert "!! true-hypothesis-kept" in walk
+
+
 def test_keeping_going_shows_the_smallest_world_of_each_claim(call: Call) -> None:
     text = call("search mappers.py:guesses --edges 3 --workers 0 --keep-going").stdout
     assert "claim that fails   in worlds  smallest\n" in text

@@ -115,7 +115,7 @@ class FoundRuns:
         except InputError:
             return
 
-        def once(target: Target, _: World) -> Iterator[Report]:
+        def once(target: Target, _there: World) -> Iterator[Report]:
             run = explore(there, target, limits=limits)
             self._late = run.limit in ("move-timeout", "world-timeout")  # once is enough
             report, _ = judged(run, NamedWorld(there, world), limits)

@@ -199,7 +199,7 @@ def _every(target: Target, plan: Plan, world: World, beat: Callable[[], None]) -
         run, report, _ = _examined(scripted, plan.limits, world, beat)
         chosen = f" (choices: {', '.join(script.words)})"
         findings = tuple(_with_choices(finding, chosen, command) for finding in report.findings)
-        yield Tried(run, msgspec.structs.replace(report, findings=findings))
+        yield Tried(run, report.with_findings(findings))
         if target.mapper.motion is retrace:
             script.settle(run.trace)
         more = script.advance()
