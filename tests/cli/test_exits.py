@@ -32,6 +32,7 @@ COMMANDS = (
     "replay",
     "play",
     "certify",
+    "reproduce",
 )
 LEAVES = (
     *(command for command in COMMANDS if command not in ("world", "certify")),
