@@ -1,7 +1,7 @@
 """The paragraph under a figure: what agrees with the paper, what does not, what cannot be compared.
 
 Every sentence is computed from the points, so it changes with them. The paper's statements are
-those of its text (abstract, sections III and IV); its pictures are not read off.
+those of its text (sections I, III and IV); its pictures are not read off.
 """
 
 from __future__ import annotations
@@ -127,7 +127,7 @@ def _reduction(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
     stated = [figure.stated.get((name, 10)) for name in ("basic", best)]
     if stated[0] and stated[1]:
         text += f" (the paper at 10: {_percent(1 - stated[1].cost / stated[0].cost)})"
-    yield f"{text}; the abstract says up to 60 %, for some environments."
+    yield f"{text}; the introduction says up to 60 %, for some environments."
 
 
 def _growths(lines: dict[str, _Line]) -> Iterator[str]:
