@@ -52,7 +52,7 @@ LEAVES = (
         ("explore m3/14 --no-such-option", 2),
         ("explore m3/14 --algorithm mappers.py:strolls --world-timeout 0.1", 3),
         # 1 beats 3
-        ("explore m1/0 nyc --algorithm mappers.py:raises_or_strolls --world-timeout 0.1", 1),
+        ("explore m1/0 nyc --algorithm mappers.py:raises_or_strolls --world-timeout 1", 1),
     ],
 )
 def test_each_exit_code_is_told_by_the_envelope_too(call: Call, line: str, code: int) -> None:

@@ -7,8 +7,8 @@ import hashlib
 import json
 import re
 from dataclasses import replace
-from html.parser import HTMLParser
 
+from tests.html_parts import Parts
 from tests.player.played import page_of, played
 from topo_verify import families
 from topo_verify.checkers import Finding, Judgement
@@ -17,28 +17,6 @@ from topo_verify.player.page import SCRIPTS, part, player_page
 
 HOSTILE = "</script><script>alert(1)</script>\"'\x1b[31m{script}&lt;\ud800"
 """Text that would end a script, an attribute or a colour, or stand in for a part of the page."""
-
-
-class Parts(HTMLParser):
-    """The tags of a page with their attributes, and the text of each script and style."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.texts: dict[str, list[str]] = {"script": [], "style": [], "title": []}
-        self._within = ""
-        self.feed(text)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append((tag, dict(attrs)))
-        self._within = tag
-
-    def handle_endtag(self, tag: str) -> None:  # noqa: ARG002  the name of the base class
-        self._within = ""
-
-    def handle_data(self, data: str) -> None:
-        if self._within in self.texts:
-            self.texts[self._within].append(data)
 
 
 def recorded(page: str) -> dict[str, object]:

@@ -6,37 +6,15 @@ import base64
 import hashlib
 import re
 from dataclasses import replace
-from html.parser import HTMLParser
 
 import pytest
 
+from tests.html_parts import Parts
 from tests.player.conftest import Open
 from tests.report.accounts import FACTS, HOSTILE, LONG_ID, account
 from topo_verify.report.account import Exhibit
 from topo_verify.report.page import report_page
 from topo_verify.world import families
-
-
-class Parts(HTMLParser):
-    """The tags of a page with their attributes, and the texts of its scripts and styles."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.texts: dict[str, list[str]] = {"script": [], "style": []}
-        self._within = ""
-        self.feed(text)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append((tag, dict(attrs)))
-        self._within = tag
-
-    def handle_endtag(self, tag: str) -> None:  # noqa: ARG002  the name of the base class
-        self._within = ""
-
-    def handle_data(self, data: str) -> None:
-        if self._within in self.texts:
-            self.texts[self._within].append(data)
 
 
 def _hash(text: str) -> str:
