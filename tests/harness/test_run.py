@@ -17,8 +17,11 @@ import pytest
 from tests.helpers import path
 from topo_verify import CATALOGUE, InputError, Limits, Robot, World, examine, explore
 from topo_verify.algorithms import Policies
+from topo_verify.harness.judge import judge, undecided
 from topo_verify.harness.targets import one_target
-from topo_verify.robot.events import Finish, Move, Pose, Start, read_trace, write_trace
+from topo_verify.robot import trace_store
+from topo_verify.robot.events import Event, Finish, Move, Pose, Start, read_trace, write_trace
+from topo_verify.robot.limits import WorldTimeout
 
 HERE = Path(__file__).relative_to(Path.cwd())
 
@@ -244,6 +247,27 @@ def test_a_mapper_that_swallows_what_stops_it_and_then_raises_is_stopped_for_the
     run = explore(WORLD, swallow)
     assert run.stopped == "the mapper asked for door 9 at a vertex with 3 doors"
     assert isinstance(run.error, ValueError)
+
+
+def test_a_limit_that_strikes_in_the_middle_of_a_move_convicts_nobody(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    recorded = trace_store.move
+
+    def strikes(*move: Any) -> Event:
+        strikes_at.append(0)
+        if len(strikes_at) == 5:
+            raise WorldTimeout("the mapper was stopped after 60 s in this world")
+        return recorded(*move)
+
+    strikes_at: list[int] = []
+    monkeypatch.setattr(trace_store, "move", strikes)
+    run = explore(World.from_id("m4/41"), "basic")
+    monkeypatch.undo()
+    report = judge(run)
+    assert (run.limit, run.cost, report.cost) == ("world-timeout", 4, 4)
+    assert {finding.claim for finding in report.findings} == {"map-isomorphic"}
+    assert undecided(run, report)
 
 
 def test_a_mapper_that_swallows_its_time_limit_has_not_delivered() -> None:

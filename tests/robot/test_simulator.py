@@ -8,8 +8,19 @@ import numpy as np
 import pytest
 
 from topo_verify import World
-from topo_verify.robot.events import Augment, Confirm, Evidence, Finish, Move, Pose, Reject, Start
-from topo_verify.robot.limits import BudgetExceeded, MapperStopped
+from topo_verify.robot import trace_store
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Evidence,
+    Finish,
+    Move,
+    Pose,
+    Reject,
+    Start,
+)
+from topo_verify.robot.limits import BudgetExceeded, MapperStopped, WorldTimeout
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
 
@@ -105,6 +116,34 @@ def test_once_stopped_it_does_nothing_more_and_always_says_the_first_reason(
             attempt()
         assert again.value is first.value is robot.stopped
     assert robot.events == []
+
+
+def test_a_move_that_a_time_limit_struck_before_it_was_recorded_is_taken_back(
+    robot: SimulatedRobot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    robot.move(0)
+
+    def struck(*_: object) -> Event:
+        raise WorldTimeout("in the middle of a move")
+
+    monkeypatch.setattr(trace_store, "move", struck)
+    with pytest.raises(WorldTimeout):
+        robot.move(0)
+    assert (robot.cost, len(robot.events)) == (2, 1)
+    robot.settle()
+    assert (robot.cost, len(robot.events)) == (1, 1)
+    robot.settle()
+    assert robot.cost == 1
+
+
+def test_more_than_one_move_that_is_not_recorded_is_somebody_s_doing(
+    robot: SimulatedRobot,
+) -> None:
+    robot.move(0)
+    robot.move(0)
+    robot.events.clear()
+    robot.settle()
+    assert robot.cost == 2
 
 
 def test_what_stops_a_mapper_is_no_exception_that_it_would_catch_by_accident() -> None:

@@ -152,6 +152,8 @@ def explore(
     if isinstance(target.mapper, Program):
         target.mapper.start()  # here: no limit of a run counts what it takes to load a mapper
     finish, stopped, error, limit = _run(target.mapper, robot, limits)
+    if limit in ("move-timeout", "world-timeout"):
+        robot.settle()
     misbehaved = None
     if isinstance(target.mapper, Program):
         misbehaved = target.mapper.misbehaved

@@ -18,7 +18,7 @@ from typing import NoReturn, SupportsIndex, cast
 import msgspec
 
 from topo_verify.robot import trace_store
-from topo_verify.robot.events import Decision, Event
+from topo_verify.robot.events import Decision, Event, Move
 from topo_verify.robot.limits import BudgetExceeded, MapperStopped
 from topo_verify.robot.percept import PURPOSES, Door, Percept, Purpose
 from topo_verify.world.rooted_map import Dart, World
@@ -190,6 +190,16 @@ class SimulatedRobot:
     def record(self, decision: Decision) -> None:
         """Put a decision on record that was read as one."""
         self.events.append(decision)
+
+    def settle(self) -> None:
+        """Take back a move that a time limit struck before it was on record, if there is one.
+
+        Such a limit strikes anywhere, also between the count and the record. The mapper has not
+        seen what was behind that door; and the trace must not look as if somebody had changed it.
+        """
+        recorded = sum(isinstance(event, Move) for event in self.events)
+        if self._cost == recorded + 1:
+            self._cost = recorded
 
     def _stop(self, why: MapperStopped) -> NoReturn:
         self._stopped = self._stopped or why
