@@ -19,7 +19,7 @@ from topo_verify.harness.reproduce.points import figure_points, growth, growth_c
 
 DOCS = Path(__file__).resolve().parents[3] / "docs" / "figures"
 
-KEPT = {"lattice": (DOCS / "lattices", 30), "dense": (DOCS / "dense", 10)}
+KEPT = {"lattice": (DOCS / "lattices", 30), "dense": (DOCS / "dense", 30)}
 """Where the files of each family of graphs are, and with how many graphs a point they were made."""
 
 FIGURE = FIGURES["3"]
