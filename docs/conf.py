@@ -7,6 +7,8 @@ makes a site of them is done by the extensions in docs/site/, one file each:
     glossary.py    links from the words on every page to glossary.md
     players.py     commands whose page is made by the build and shown below them
     codelines.py   the line numbers of the code that explanation/paper.md names
+    breaks.py      where long names in tables may be broken
+    finding.py     the site's search, beside the page of docs/search.md
     checked.py     every link and anchor of the finished pages
 """
 
@@ -31,6 +33,8 @@ extensions = [
     "glossary",
     "players",
     "codelines",
+    "breaks",
+    "finding",
     "checked",
 ]
 exclude_patterns = ["site"]
@@ -69,6 +73,7 @@ nitpick_ignore = [
 
 myst_heading_anchors = 4  # GitHub's anchors of headings
 myst_enable_extensions = []
+highlight_language = "none"  # a block that names no language is what a command prints
 suppress_warnings = ["myst.header"]  # a page that another one includes may begin anywhere
 
 # --- Python ------------------------------------------------------------------------------------

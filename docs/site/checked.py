@@ -1,13 +1,14 @@
 """Every link of the finished pages: files and anchors exist, addresses elsewhere are well formed.
 
-Nor does a page name a folder of the machine that built it.
+Every source has its page, which nothing that Sphinx adds has written over. No page names a folder
+of the machine that built it.
 
 Whether another server answers is not asked, since the build uses no network.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -66,11 +67,20 @@ def _objection(path: Path, link: str, pages: dict[Path, Page]) -> str | None:
     return None
 
 
+def lost(folder: Path, sources: Iterable[str]) -> Iterator[str]:
+    """Which sources have no page with a title: another page of that name stands there instead."""
+    for source in sorted(sources):
+        page = folder / f"{source}.html"
+        if not page.exists() or "<h1" not in page.read_text(encoding="utf-8"):
+            yield f"{source}.html: nothing of the source {source} stands there"
+
+
 def _check(app: Sphinx, failure: Exception | None) -> None:
     if failure is not None or app.builder.name != "html":
         return
-    if found := list(broken(Path(app.outdir).resolve())):
-        raise ExtensionError("broken links:\n  " + "\n  ".join(found))
+    folder = Path(app.outdir).resolve()
+    if found := [*lost(folder, app.env.found_docs), *broken(folder)]:
+        raise ExtensionError("broken pages and links:\n  " + "\n  ".join(found))
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

@@ -12,7 +12,12 @@ import pytest
 from click.testing import Result
 
 from tests.report.test_junit import objections
+from topo_verify.checkers.findings import Judgement
+from topo_verify.cli.accounts import verify_account
+from topo_verify.cli.output import Output
 from topo_verify.cli.reporting import command_line
+from topo_verify.cli.walks import FoundRuns
+from topo_verify.harness.verify.parts import Part
 from topo_verify.report.style import VERDICTS
 
 Call = Callable[..., Result]
@@ -179,3 +184,19 @@ def test_fifty_columns_break_no_number_and_no_verdict(
     assert wide == []
     words = {word for word in printed[400].split() if word.isdigit() or word in VERDICTS}
     assert words - set(printed[50].split()) == set()
+
+
+def test_failures_of_which_no_finding_was_kept_are_counted_in_a_whole_phrase() -> None:
+    part = Part(
+        part="small-worlds",
+        verdict="REFUTED",
+        ok=False,
+        checked=2,
+        total=2,
+        summary="",
+        failing=2,
+        claims={"cost-within-bound": {"failed": 2}},
+        judgements=(Judgement("cost-within-bound", "failed", 2, 2),),
+    )
+    (suite,) = verify_account("m", [part], [], FoundRuns(Output("json", quiet=True))).suites
+    assert suite.cases[1].message == "fails in 2 runs"

@@ -86,6 +86,24 @@ def test_a_broken_link_is_seen(link: str, why: str, tmp_path: Path) -> None:
     assert list(checked.broken(tmp_path)) == [f"a.html: {link} {why}"]
 
 
+def test_a_page_that_another_was_written_over_is_seen(tmp_path: Path) -> None:
+    lost = part("site/checked.py").lost
+    page = tmp_path / "search.html"
+    page.write_text("<h1>Hunting</h1>")
+    assert list(lost(tmp_path, ["search"])) == []
+    page.write_text('<div id="search-results"></div>')  # as Sphinx writes its own
+    assert list(lost(tmp_path, ["search"])) == [
+        "search.html: nothing of the source search stands there"
+    ]
+
+
+def test_a_long_name_is_broken_between_its_words() -> None:
+    pieces = part("site/breaks.py").PLACE.split
+    assert pieces("a/b.py:test_x") == ["a/", "b.", "py:", "test_", "x"]
+    assert pieces("lattice(4,holes=0.2)") == ["lattice(", "4,", "holes=", "0.", "2)"]
+    assert pieces("--quick") == ["--quick"]
+
+
 def test_a_folder_of_this_machine_is_seen(tmp_path: Path) -> None:
     (tmp_path / "a.html").write_text(f"<code>{ROOT}/topo_verify/world/io.py</code>")
     (seen,) = part("site/checked.py").broken(tmp_path)

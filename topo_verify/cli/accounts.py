@@ -79,8 +79,8 @@ def _part_cases(part: Part) -> Iterator[JudgedCase]:
     )
     for case in claim_cases(part.judgements):
         failing = part.claims.get(case.name, {}).get("failed", 0)
-        more = f"fails in {plural(failing, 'run')}; {case.message}" if failing else case.message
-        yield replace(case, message=more)
+        counted = f"fails in {plural(failing, 'run')}" if failing else ""
+        yield replace(case, message="; ".join(filter(None, (counted, case.message))))
 
 
 def _verify_extent(parts: Sequence[Part]) -> JudgedExtent:

@@ -128,8 +128,9 @@ def arrow(world: World, layout: Layout, dart: Dart) -> Iterator[str]:
     if along is None:
         return
     radius = layout.radius
-    # Two thirds of a short edge at most; less of a loop, which turns round beneath it.
-    loop = world.vertex_of[dart] == world.vertex_of[world.alpha[dart]]
+    # Two thirds of a short edge at most; less of a loop, which turns round beneath it unless it
+    # leaves the cell.
+    loop = layout.cell is None and world.vertex_of[dart] == world.vertex_of[world.alpha[dart]]
     reach = min(2.5 * radius, (0.3 if loop else 0.66) * curves.length(along))
     tip = 0.5 * reach
     shaft = curves.piece(along, 0.0, reach - 0.8 * tip)
