@@ -20,10 +20,13 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.browser import browser, show
 from tests.long import is_long
 
 if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Theorem
+
+__all__ = ["browser", "show"]  # fixtures, here for all tests: Playwright starts but once
 
 ROOT = Path(__file__).resolve().parent.parent
 TRACED = ("world", "robot", "checkers", "algorithms")

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.player.conftest import Open
+from tests.browser import Open
 from tests.player.played import played
 from topo_verify import CATALOGUE, World, families
 from topo_verify.faults import FAULTS

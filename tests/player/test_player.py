@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tests.player.conftest import Open
+from tests.browser import Open
 from tests.player.played import page_of, played
 from topo_verify import World, families
 from topo_verify.checkers import Finding, Judgement
@@ -56,11 +56,11 @@ def step(page: Page) -> int:
     return shown
 
 
-def shows(page: Page) -> Any:
-    """What can be awaited of the slider; the page's policy forbids to await an expression."""
+def shows(page: Page, part: str = "#slider") -> Any:
+    """What can be awaited of a part; the page's policy forbids to await an expression."""
     from playwright.sync_api import expect
 
-    return expect(page.locator("#slider"))
+    return expect(page.locator(part))
 
 
 def title(page: Page) -> str:
@@ -122,7 +122,7 @@ def test_play_pauses_on_demand_and_runs_to_the_end(show: Open, lattice: str) -> 
     page.select_option("#speed", "max")
     page.click("#play")
     shows(page).to_have_value("113")
-    assert page.inner_text("#play") == "Play"
+    shows(page, "#play").to_have_text("Play")
     assert title(page) == "The map is complete"
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.player.conftest import Open
+from tests.browser import Open
 from tests.player.played import page_of
 from topo_verify import World, explore, families
 from topo_verify.robot.events import Augment, Event, Move

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import weakref
 from collections.abc import Iterable
 from itertools import islice
@@ -22,8 +23,10 @@ from topo_verify import World, examine, explore
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
 from topo_verify.harness.targets import target_arguments, target_text, targets
+from topo_verify.programs.child import Child, Silent
 from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
+from topo_verify.programs.reaper_process import ReaperProcess
 from topo_verify.robot.events import Move
 from topo_verify.robot.limits import Limits
 from topo_verify.robot.simulator import SimulatedRobot
@@ -361,3 +364,28 @@ def test_a_program_that_dies_slowly_on_a_busy_machine_has_crashed(
     dies = "import os, time\nos.close(1)\ntime.sleep(0.3)\nos._exit(3)"
     with pytest.raises(Misbehaved, match="ended with exit code 3 before it delivered a map"):
         program(python("-c", dies))(SimulatedRobot(World.from_id("m1/0"), 9))
+
+
+def test_a_program_that_sleeps_is_not_looked_at_in_vain_while_others_want_the_processor(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A stopwatch excuses what we wait for a processor: looking would give the program time."""
+    looks: list[float] = []
+
+    def busy() -> None:
+        looks.append(0.002)
+        time.sleep(0.002)
+
+    reaper = ReaperProcess()
+    program = Child([sys.executable, "-c", "import time; time.sleep(60)"], reaper)
+    try:
+        with pytest.raises(Silent):
+            program.line(seconds=0.3)  # alone on its processor, it is looked at all the time
+        monkeypatch.setattr("os.sched_yield", busy)
+        with pytest.raises(Silent):
+            program.line(seconds=0.3)
+    finally:
+        program.close_input()
+        program.end()
+        reaper.close()
+    assert len(looks) < 50

@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import pytest
 
+from tests.browser import Open
 from tests.html_parts import Parts
-from tests.player.conftest import Open
 from tests.report.accounts import FACTS, HOSTILE, LONG_ID, account
 from topo_verify.report.account import Exhibit
 from topo_verify.report.page import report_page

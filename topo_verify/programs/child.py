@@ -63,6 +63,9 @@ _NO_BYTES = bytes(4)
 LOOKS = 200
 """Polls without waiting before a poll that sleeps, where the program has another processor."""
 
+BUSY = 5e-4
+"""Seconds that a look takes, at most, where nobody else wants the processor."""
+
 
 class Ended(Exception):
     """The program's output has ended, so no line will come."""
@@ -216,8 +219,12 @@ class Child:
         # On one processor a look without waiting is in vain: the program runs when we sleep.
         ready = [] if seconds and not looks else self._poll.poll(0)
         while not ready and looks:
+            began = monotonic()
             os.sched_yield()  # it may wait for this very processor
-            ready, looks = self._poll.poll(0), looks - 1
+            # Others want the processor, too. A stopwatch excuses what we wait for it, so a program
+            # that sleeps would have all the time in which we look again and again.
+            looks = looks - 1 if monotonic() - began < BUSY else 0
+            ready = self._poll.poll(0)
         if seconds and not ready:
             ready = self._poll.poll(int(1000 * seconds))
         for stream, _ in ready:
