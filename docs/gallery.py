@@ -1,7 +1,7 @@
 """Draws the pictures of docs/gallery.md into docs/gallery/: python docs/gallery.py.
 
 The commands on the page make the same pictures one by one. Each is read back before it is written,
-and tests/docs/test_gallery.py reads what is stored again.
+and tests/docs/test_site.py reads what is stored again.
 """
 
 from __future__ import annotations

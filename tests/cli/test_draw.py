@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from topo_verify import World
-from topo_verify.world.drawing import read_back
+from topo_verify.world.drawing import choice, read_back
 
 Call = Callable[..., Any]
 
@@ -39,6 +39,26 @@ def test_doors_and_darts_are_written_beside_the_edges(call: Call) -> None:
 
 def test_the_marker_may_be_elsewhere(call: Call) -> None:
     assert call("world draw m2/0").stdout != call("world draw m2/0 --marker 3").stdout
+
+
+def test_the_part_that_is_shown_of_a_large_world_may_be_around_any_vertex(
+    call: Call, results: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(choice, "READABLE", 20)  # it counts as large here
+    monkeypatch.setattr(choice, "LIMIT", 30)
+    line = "world draw family:random_planar(60,seed=1)"
+    (entry,) = results(line)["results"]
+    assert (entry["layout"], entry["shown"] < entry["vertices"]) == ("ball", True)
+    vertices = [f'data-vertex="{vertex}"' for vertex in range(entry["vertices"])]
+    hidden = next(k for k, vertex in enumerate(vertices) if vertex not in entry["text"])
+    assert vertices[hidden] in call(f"{line} --around {hidden}").stdout
+
+
+def test_a_vertex_that_is_not_there_is_refused(call: Call) -> None:
+    done = call("world draw m3/14 --around 99")
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert "--around 99: expected a vertex of the world, 0 … " in done.stderr
+    assert "shown whole" in call("world draw m3/14 --around 0").stderr
 
 
 @pytest.mark.parametrize("name", ["w.gif", "svg", ""])
