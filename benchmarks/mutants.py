@@ -81,7 +81,6 @@ BOTH_TWO = "both are pairs"
 ONLY_QUICKER = "what was rejected need not be tried again, and would be rejected again"
 ONLY_ROOM = "it changes how much memory a node takes, and no answer"
 BELOW_0 = "every number below 0 says that there is no other end"
-ANY_DART = "any dart of a node may be its dart 0: what matters is the turn from one to another"
 NO_TRY_LEFT = "where no try is left for a pair, none is left for the pairs behind it"
 NO_OTHER_ORDER = "one event is not both an augmentation and a rejection"
 ANY_NUMBER = "a world may be given with any numbers for its darts"
@@ -107,7 +106,6 @@ SAME = {
     "entailment.py _doubt: assert_never(event) -> pass": "no event comes there, as mypy proves",
     "folding.py Fold._visit: 0 -> 1": AT_A_ROOT,
     "folding.py Fold._visit: 1 -> 2": BY_SIZE,
-    "folding.py Fold.move: 0 -> 1 (3)": ANY_DART,
     "folding.py Fold._identify: if self._size[a] > self._size[b]: -> if not self._size[a] >"
     " self._size[b]:": BY_SIZE,
     "folding.py Fold._identify: self._size[a] > self._size[b] -> self._size[a] >="
