@@ -24,7 +24,7 @@ def page(
     judged: str,
     pictures: bool,
 ) -> str:
-    """The Markdown file.
+    """All figures with their paragraphs, as one Markdown file.
 
     Args:
         command: the command line that makes it again.
