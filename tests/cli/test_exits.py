@@ -57,7 +57,7 @@ LEAVES = (
 )
 def test_each_exit_code_is_told_by_the_envelope_too(call: Call, line: str, code: int) -> None:
     done = call(f"{line} --format json")
-    assert done.exit_code == code
+    assert done.exit_code == code, done.output
     if code == 2:
         assert done.stdout == ""
         assert done.stderr.startswith("topo-verify")
@@ -295,7 +295,7 @@ def test_what_the_machine_lacks_is_no_bug_of_ours(
 
     monkeypatch.setattr(runs, "resolve_world", fails)
     done = call("explore m3/14 --algorithm basic")
-    assert done.exit_code == code
+    assert done.exit_code == code, done.output
     assert words in done.stderr
     assert done.stderr.count("\n") == 1
 

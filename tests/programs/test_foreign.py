@@ -21,7 +21,7 @@ from topo_verify.programs.program import Program
 WORLD = World.from_id("m3/14")
 
 MAPPERS = """
-import asyncio, json, os, signal, sys, time
+import asyncio, io, json, os, signal, sys, time
 import topo_verify as tv
 
 basic = tv.CATALOGUE["basic"]
@@ -36,6 +36,15 @@ def chats(robot):
     return basic(robot)
 
 def fails(robot):
+    raise ValueError("boom")
+
+def fails_and_reads_no_more(robot):
+    def told(_frame, event, function):
+        written = event == "c_return" and function.__name__ == "flush"
+        if written and isinstance(function.__self__, io.BufferedWriter):
+            time.sleep(60)
+
+    sys.setprofile(told)
     raise ValueError("boom")
 
 def cancels(robot):
@@ -249,6 +258,13 @@ def test_a_mapper_that_ends_its_process_while_it_is_loaded_is_bad_input(folder: 
 
 def test_a_name_of_the_catalogue_needs_no_process() -> None:
     assert not isinstance(one_target("basic", in_process=False).mapper, Program)
+
+
+def test_a_failure_that_was_told_stands_though_the_child_does_not_read_on() -> None:
+    with Foreign("mine.py:fails_and_reads_no_more") as mapper:
+        report = examine(mapper.target, WORLD, limits=Limits(move_timeout=0.3, world_timeout=0.3))
+    assert not report.ok
+    assert "boom" in report.findings[0].message
 
 
 def test_one_process_plays_all_worlds_though_a_mapper_raises(folder: Path) -> None:

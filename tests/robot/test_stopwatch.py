@@ -96,6 +96,29 @@ def test_a_helper_counts_only_as_long_as_it_helps(machine: Machine) -> None:
     assert watch.seconds() == pytest.approx(8)
 
 
+def test_of_the_waits_of_a_thread_that_looks_for_an_answer_only_the_last_is_excused(
+    machine: Machine,
+) -> None:
+    heard = 0
+    machine.waits = {"sleeps": 0}
+    watch = Stopwatch(lambda: machine.waits, lambda: heard)
+    for look in range(1, 5):  # one every ten seconds, and before each the thread waits for eight
+        machine.now, machine.own = 100 + 10 * look, 8 * look
+        assert watch.seconds() == pytest.approx(10 * look - 8)
+    machine.now, machine.own, heard = 150, 40, 1
+    assert watch.seconds() == pytest.approx(50 - 8 - 8)  # by the alarm, then by the answer itself
+
+
+def test_a_wait_before_an_answer_is_not_charged_later(machine: Machine) -> None:
+    heard = 0
+    machine.waits = {"answers": 0}
+    watch = Stopwatch(lambda: machine.waits, lambda: heard)
+    machine.now, machine.own, heard = 110, 8, 1
+    assert watch.seconds() == pytest.approx(2)
+    machine.now = 120
+    assert watch.seconds() == pytest.approx(12)
+
+
 def test_without_accounts_it_is_the_wall_clock(
     machine: Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:

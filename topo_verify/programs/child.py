@@ -87,6 +87,8 @@ class Child:
         reaper_process: kills the program if this process is killed.
         longest: the most bytes of a line.
         echo: what it writes on standard error appears on ours, each line behind this mark.
+    Attributes:
+        heard: how often its output was read.
     Raises:
         InputError: the program cannot be started.
     """
@@ -130,6 +132,7 @@ class Child:
         self._head_sent = False
         self._processor = SharedProcessor(self._process.pid)
         sleep_briefly()  # in `read_on`
+        self.heard = 0
         self._lines: deque[bytes] = deque()
         self._rest = bytearray()
         self._stderr = StandardError(echo)
@@ -155,7 +158,7 @@ class Child:
             Ended: the output has ended (in the middle of a line, if `in_half_a_line`).
             TooLong: the line has more bytes than a message may have.
         """
-        clock = None if seconds == inf or self._lines else Stopwatch(lambda: tasks_of(self.process))
+        clock = None if seconds == inf or self._lines else self._stopwatch()
         while not self._lines:
             if self._output_ended:
                 raise Ended
@@ -213,6 +216,10 @@ class Child:
         """Whether anything came that was not asked for; reads without waiting."""
         return self.has_line or bool(self._rest)
 
+    def _stopwatch(self) -> Stopwatch:
+        """A stopwatch of the seconds that the program uses from now on, while we wait for it."""
+        return Stopwatch(lambda: tasks_of(self.process), lambda: self.heard)
+
     def _listen(self, seconds: float = TICK) -> bool:
         """Read what has come, after waiting a tick at most; whether anything came."""
         looks = LOOKS if seconds and not self._processor.shared else 0
@@ -243,6 +250,7 @@ class Child:
             self._output_ended = True
             self._poll.unregister(self._out)
             return
+        self.heard += 1
         # `_rest` holds the bytes after the last line end. It is a bytearray because each chunk of a
         # long line would copy `bytes` whole.
         first, *more = chunk.split(b"\n")

@@ -106,7 +106,7 @@ class Foreign(Program):
 
         def unwind() -> None:
             child.write(_OVER)
-            with helped_by(child.process):
+            with helped_by(child.process, lambda: child.heard):
                 while not isinstance(self._decode(child.line()), _WORLD_ENDS):
                     pass
                 self._await_next(child)

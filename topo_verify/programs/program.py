@@ -107,11 +107,10 @@ class Program:
         child = self._ready()
         self._idle = self._halted = False
         child.beside()
-        over = False
+        found: Finish | Misbehaved | None = None
         try:
-            with helped_by(child.process):
+            with helped_by(child.process, lambda: child.heard):
                 found = self._play(child, robot)
-                over = True
                 self._await_next(child)
         except Misbehaved as why:
             # Keep a copy: the traceback of `why` refers to this frame and thus to the program, and
@@ -126,8 +125,10 @@ class Program:
             self.misbehaved = Misbehaved("bad-door", str(why))
             raise
         except TimeLimitExceeded as why:
-            self.misbehaved = silence_report(child, str(why), over=over)
-            raise
+            # A failure that was told in time is no less true because it does not read on.
+            if not isinstance(found, Misbehaved) or found.kind in ("skip", "error"):
+                self.misbehaved = silence_report(child, str(why), over=found is not None)
+                raise
         if isinstance(found, Misbehaved):
             self.misbehaved = found
             raise found.copy()

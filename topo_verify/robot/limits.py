@@ -30,7 +30,7 @@ from types import FrameType
 from typing import Literal, TypeVar
 
 from topo_verify.errors import InputError
-from topo_verify.robot.stopwatch import Stopwatch, tasks_of
+from topo_verify.robot.stopwatch import Heard, Stopwatch, tasks_of
 
 T = TypeVar("T")
 
@@ -143,10 +143,14 @@ _running = threading.local()
 
 
 @contextmanager
-def helped_by(process: int) -> Generator[None]:
-    """Time limits of this thread's mapper excuse the waits of a process that works for it, too."""
+def helped_by(process: int, heard: Heard | None = None) -> Generator[None]:
+    """Time limits of this thread's mapper excuse the waits of a process that works for it, too.
+
+    Args:
+        heard: counts the answers of that process.
+    """
     watch: Stopwatch | None = getattr(_running, "watch", None)
-    with nullcontext() if watch is None else watch.helped_by(lambda: tasks_of(process)):
+    with nullcontext() if watch is None else watch.helped_by(lambda: tasks_of(process), heard):
         yield
 
 

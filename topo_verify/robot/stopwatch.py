@@ -7,6 +7,10 @@ computing uses up none.
 Neither clock alone would do: processor time lets a mapper sleep for ever, and the wall clock
 convicts a correct mapper on a busy machine.
 
+A thread that waits for an answer wakes up now and then to look for it, and waits for a processor
+each time. Only the last of these waits keeps the answer from it: the others are used, for in them
+it was the turn of the mapper, which may have slept.
+
 What this does not show: what a hypervisor takes away from the whole machine, and waiting for a disk
 or for memory; they count as used. Where the kernel keeps no such account (on systems other than
 Linux), the stopwatch is the wall clock.
@@ -27,19 +31,23 @@ from typing import NamedTuple
 Tasks = Callable[[], Iterable[str]]
 """Lists the tasks at work; asked at each look, because a program starts threads and children."""
 
+Heard = Callable[[], int]
+"""Counts what the tasks at work have answered so far."""
+
 
 class Stopwatch:
     """Measures the seconds used since it was made, by the thread that made it.
 
     Args:
         helper: lists the tasks that work for that thread while it waits for them.
+        heard: counts their answers; without it each wait of the thread is excused.
     """
 
-    def __init__(self, helper: Tasks | None = None) -> None:
+    def __init__(self, helper: Tasks | None = None, heard: Heard | None = None) -> None:
         self._own = f"self/task/{threading.get_native_id()}"
         self._used, self._ran = 0.0, 0.0
         self._looked, self._account = monotonic(), _account(self._own)
-        self._helper = _Helper(helper) if helper else None
+        self._helper = _Helper(helper, heard) if helper else None
 
     def seconds(self) -> float:
         """The seconds used so far."""
@@ -48,7 +56,8 @@ class Stopwatch:
         # The thread and its helper take turns (one writes, the other reads): their waits add up.
         if (helper := self._helper) is not None:
             helper_ran, helper_waited = helper.since()
-            ran, waited = max(ran, helper_ran), waited + helper_waited
+            in_vain = helper.in_vain(waited)
+            ran, waited = max(ran, helper_ran), waited + helper_waited - in_vain
         passed = now - self._looked
         # The kernel books a wait when it ends: the difference may be negative, the sum is right,
         # unless both waited at the same time. What ran was used, however long the two waited.
@@ -58,9 +67,13 @@ class Stopwatch:
         return self._used
 
     @contextmanager
-    def helped_by(self, tasks: Tasks) -> Generator[None]:
-        """Make the wait of these tasks count as the thread's own, as long as the block runs."""
-        self._helper = _Helper(tasks)
+    def helped_by(self, tasks: Tasks, heard: Heard | None = None) -> Generator[None]:
+        """Make the wait of these tasks count as the thread's own, as long as the block runs.
+
+        Args:
+            heard: counts their answers; without it each wait of the thread is excused.
+        """
+        self._helper = _Helper(tasks, heard)
         try:
             yield
         finally:
@@ -82,11 +95,28 @@ NOTHING = _Account(0.0, 0.0)
 
 
 class _Helper:
-    """Remembers the account of each task at the last look."""
+    """Remembers the account of each task at the last look, and what the thread waited by then."""
 
-    def __init__(self, tasks: Tasks) -> None:
+    def __init__(self, tasks: Tasks, heard: Heard | None = None) -> None:
         self._tasks = tasks
         self._accounts = {task: _account(task) for task in tasks()}
+        self._heard = heard
+        self._answers = heard() if heard else 0
+        self._excused = 0.0  # of the thread's waits since the last answer: the last one
+
+    def in_vain(self, waited: float) -> float:
+        """Seconds that were excused at the last look, though no answer has come since.
+
+        Args:
+            waited: the seconds that the thread has waited since the last look; they are excused.
+        """
+        if self._heard is None:
+            return 0.0
+        before, self._answers = self._answers, self._heard()
+        answered = self._answers != before
+        in_vain = 0.0 if answered else self._excused
+        self._excused = 0.0 if answered else waited
+        return in_vain
 
     def since(self) -> _Account:
         """The longest run and the longest wait since the last look: tasks work side by side."""
