@@ -2,6 +2,7 @@
 
 protocol.py         protocol 1 and the batch format: every message as a type, and its JSON Schema
 child.py            a program as a child process: its lines in and out, and its end
+exit_status.py      how it ended, looked up without reaping it
 processor.py        keeps it on the processor of the harness
 standard_error.py   what it writes on standard error
 reaper.py           kills the programs whose parent was killed; reaper_process.py starts it

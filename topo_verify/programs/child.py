@@ -33,6 +33,7 @@ from time import monotonic, sleep
 
 from topo_verify.errors import InputError
 from topo_verify.programs import reaper
+from topo_verify.programs.exit_status import ExitStatus, exit_status
 from topo_verify.programs.isolation import sleep_briefly
 from topo_verify.programs.processor import SharedProcessor
 from topo_verify.programs.protocol import LIMIT
@@ -336,25 +337,18 @@ class Child:
     def exit_status(self) -> str | None:
         """The exit status in words; None if the program still runs after `LAST_WORDS` seconds."""
         # Not by the wall clock: on a busy machine a program that dies waits for a processor, too.
-        clock = Stopwatch(lambda: tasks_of(self.process))
+        clock = self._stopwatch()
         while (status := self._status()) is None:
             if clock.seconds() > LAST_WORDS:
                 return None
             self._listen(0)
             sleep(0.001)
-        code, number = status
-        if code == os.CLD_EXITED:
-            return f"ended with exit code {number}"
-        return f"was ended by {self.signal() or f'signal {number}'}"
+        return str(status)
 
     def signal(self) -> str | None:
         """The name of the signal that ended the program, as SIGSEGV; None: none did."""
-        code, number = self._status() or (os.CLD_EXITED, 0)
-        if code == os.CLD_EXITED:
-            return None
-        with suppress(ValueError):
-            return signal.Signals(number).name
-        return f"signal {number}"
+        status = self._status()
+        return None if status is None else status.signal
 
     def ended_by_itself(self) -> bool | None:
         """Whether it ended in another way than with exit code 0; None: it can still play."""
@@ -369,10 +363,8 @@ class Child:
                 self._drain()
         return self._stderr.tail
 
-    def _status(self) -> tuple[int, int] | None:
-        """Exit status without reaping (WNOWAIT), so that the PID is not reused before `end`."""
-        found = os.waitid(os.P_PID, self._process.pid, os.WEXITED | os.WNOWAIT | os.WNOHANG)
-        return None if found is None else (found.si_code, found.si_status)
+    def _status(self) -> ExitStatus | None:
+        return exit_status(self._process.pid)
 
     def end(self, *, politely: float = 0.0) -> None:
         """End the program and all of its descendants: first SIGTERM, then SIGKILL.
