@@ -32,6 +32,7 @@ COMMANDS = (
     "replay",
     "play",
     "certify",
+    "tour",
     "reproduce",
 )
 LEAVES = (

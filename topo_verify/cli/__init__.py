@@ -1,7 +1,8 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
 verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py), faults.py,
-conform.py, record.py, compare.py, replay.py, play.py, certify.py, reproduce.py     the commands
+conform.py, record.py, compare.py, replay.py, play.py, certify.py, tour.py,
+reproduce.py  the commands
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown
@@ -35,6 +36,7 @@ from topo_verify.cli.record import record
 from topo_verify.cli.replay import replay
 from topo_verify.cli.reproduce import reproduce
 from topo_verify.cli.search import search
+from topo_verify.cli.tour import tour
 from topo_verify.cli.verify import verify
 from topo_verify.cli.world import world
 from topo_verify.programs.isolation import own_arguments
@@ -137,6 +139,7 @@ for command in (
     replay,
     play,
     certify,
+    tour,
     reproduce,
 ):
     main.add_command(command)

@@ -3,6 +3,7 @@
 run.py        the one way to run a mapper in a world
 judge.py      the judgement of a run by every claim
 log_report.py a log judged with no world; open_doors.py: what is left to walk
+map_check.py  a map judged by a log, and the cheapest way to prove it
 targets.py    what a TARGET means
 corpus.py     what WORLDS means
 tally.py      counts of runs judged in worlds, as values that add up

@@ -12,9 +12,9 @@ Write d for the distance from v0.
 - The last trip need not come back: ended at v in a pendant tree attached at a, it saves the depth
   of v below a, and costs d(a) to get there: s, if that is worth it.
 
-LB = Σ (d(u) + 1 + d(v)) + 2·P - s. The loops attain it, so it is the optimum with the map in hand;
-cost / LB is the price of not knowing the map. It does not hold for mappers that may assume
-planarity, n or m.
+LB = Σ (d(u) + 1 + d(v)) + 2·P - s. The loops attain it (proof_tour.py makes the walk), so it is the
+optimum with the map in hand; cost / LB is the price of not knowing the map. It does not hold for
+mappers that may assume planarity, n or m.
 
 Source: docs/semantics.md, section 11.
 """

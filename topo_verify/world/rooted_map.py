@@ -28,6 +28,7 @@ from topo_verify.world import validation
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.least_cost import least_cost
 from topo_verify.world.permutations import cycles
+from topo_verify.world.proof_tour import proof_tour
 
 W = TypeVar("W", bound="World")
 
@@ -148,8 +149,7 @@ class World:
         sigma: list[Dart] = []
         for degree in degrees:
             first = len(sigma)
-            sigma += range(first + 1, first + degree)
-            sigma += [first] * (degree > 0)
+            sigma += [*range(first + 1, first + degree), *[first] * (degree > 0)]
         return cls(alpha, tuple(sigma), 0 if alpha else None, name=name)
 
     @classmethod
@@ -273,6 +273,10 @@ class World:
     def least_cost(self) -> int:
         """The fewest edge traversals of a mapper that is right in all worlds: `least_cost.py`."""
         return least_cost(self.code)
+
+    def proof_tour(self) -> tuple[int, ...]:
+        """The doors of a cheapest walk from the marker that proves this map: `proof_tour.py`."""
+        return proof_tour(self.code)
 
     # ------------------------------------------------------------ identity
 

@@ -1,0 +1,207 @@
+"""`topo-verify tour`: the cheapest walk that proves the map of a known world."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
+
+import click
+import msgspec
+
+from topo_verify.checkers import check
+from topo_verify.cli import options
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.play import player_option, require_one_world, write_page
+from topo_verify.cli.runs import named_world
+from topo_verify.errors import InputError
+from topo_verify.harness.map_check import check_map, tour_log
+from topo_verify.player.recording import PlayedRun
+from topo_verify.report.blocks import Block, Text, TextTable
+from topo_verify.robot.events import Event, Move, Start, Trace, read_events, write_trace
+from topo_verify.robot.percept import Door, Percept
+from topo_verify.text import plural
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import Dart, World
+
+
+class LogAgainstMap(msgspec.Struct, frozen=True):
+    """What a log says of the map.
+
+    Attributes:
+        log: the file.
+        verdict: REFUTED: the map does not show the log. PROVED: only the map shows it. UNKNOWN:
+            the map shows it, and other worlds do.
+        event: the event that refutes the map, counted from 0 with `start`; else null.
+        message: why it does; "" otherwise.
+        moves: how many edges the log has crossed, each time counted.
+        unproved: the edges that the log does not prove, by their two darts in the map.
+    """
+
+    log: str
+    verdict: str
+    event: int | None
+    message: str
+    moves: int
+    unproved: tuple[tuple[Dart, Dart], ...]
+
+
+class TourEntry(msgspec.Struct, frozen=True):
+    """A walk that proves a map: the one entry of `results`; docs/commands.md.
+
+    Attributes:
+        cost: how many doors it takes; without --against the least cost of the world.
+        doors: those to take, from the start or from where the log of --against ends; none if that
+            log proves or refutes the map.
+        seen: what should be seen behind each of these doors.
+        against: what the log of --against says; null without one.
+    """
+
+    world: str
+    cost: int
+    doors: tuple[Door, ...]
+    seen: tuple[Percept, ...]
+    against: LogAgainstMap | None
+
+
+@click.command(
+    short_help="Print the cheapest walk that proves the map of a known world.",
+    epilog=options.epilog(
+        "tour nyc -o tour.jsonl",
+        "tour 'family:lattice(4,4)' --player tour.html",
+        "tour plan.json --against log.jsonl",
+    ),
+)
+@click.argument("world", metavar="WORLD")
+@options.marker
+@click.option(
+    "-o", "file", metavar="LOG", help="Write the walk as a log, with what should be seen."
+)
+@player_option
+@click.option(
+    "--against", "log", metavar="LOG", help="Judge the map by this log, and go on where it ends."
+)
+@output_options
+def tour(
+    output: Output,
+    *,
+    world: str,
+    marker: int | None,
+    file: str | None,
+    player: str | None,
+    log: str | None,
+) -> int:
+    """Print the cheapest walk that proves the map of a known world: doors, and what should be seen.
+
+    A robot that starts at the marker and sees all this has proved the map: no other world shows it.
+    It need not come back, and no walk proves the map with fewer moves.
+
+    With --against, WORLD is a map and LOG is what a robot has seen so far, `start` and `move`
+    events. If the map is refuted, the event is named (exit code 1). If it is proved, that is said
+    (0). Otherwise the edges that are not proved yet are named, with a way to go on from where the
+    log ends (3). That way is the cheapest of several plans; in some cases there is a cheaper one.
+    """
+
+    def toured() -> Iterator[Result[TourEntry]]:
+        require_one_world(player, 1)
+        if file == "-":
+            raise InputError("-o -: standard output is for the results; name a file")
+        if world == log == "-":
+            raise InputError("expected '-' once, since standard input holds one thing; name a file")
+        at = named_world(world, marker)
+        if log is None:
+            trace = tour_log(at.world)
+            onward: Sequence[Event] = trace[1:]
+            against: LogAgainstMap | None = None
+        else:
+            output.progress(f"folding {log}", 0, 1)
+            trace, onward, against = _against(at.world, log)
+        refuted = against is not None and against.verdict == "REFUTED"
+        if file is not None and refuted:
+            output.note(f"-o {file}: not written, since no walk proves a map that is refuted")
+        elif file is not None:
+            files.write(file, write_trace(trace))
+        if player is not None:
+            marked = [one for one in check(at.world, trace) if one.claim == "percepts-true"]
+            write_page(player, at.world, at.name, [PlayedRun("tour", trace, marked)])
+        yield _result(at.name, onward, against)
+
+    return output.run("tour", toured, _show)
+
+
+def _against(world: World, log: str) -> tuple[Trace, Sequence[Event], LogAgainstMap]:
+    """The log with the way on behind it, that way, and what the log says of the map.
+
+    Of a log that refutes the map nothing is left out; else what a mapper declared is.
+    """
+    name = "standard input" if log == "-" else log
+    with files.opened(log) if log != "-" else nullcontext(files.standard_input()) as stream:
+        seen = tuple(read_events(files.lines(stream, name=name), name=name))
+    try:
+        found = check_map(world, seen)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from error
+    walked = tuple(event for event in seen if isinstance(event, Start | Move))
+    against = LogAgainstMap(
+        log=log,
+        verdict=found.verdict,
+        event=found.event,
+        message=found.message,
+        moves=len(walked) - 1,
+        unproved=found.unproved,
+    )
+    trace = seen if found.verdict == "REFUTED" else (*walked, *found.onward)
+    return trace, found.onward, against
+
+
+def _result(
+    world: str, onward: Sequence[Event], against: LogAgainstMap | None
+) -> Result[TourEntry]:
+    moves = [event for event in onward if isinstance(event, Move)]
+    entry = TourEntry(
+        world=world,
+        cost=len(moves),
+        doors=tuple(event.door for event in moves),
+        seen=tuple(event.percept for event in moves),
+        against=against,
+    )
+    verdict = against.verdict if against is not None else "PROVED"
+    return Result(entry, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
+
+
+def _show(entries: Sequence[TourEntry]) -> Iterator[Block]:
+    for entry in entries:
+        yield Text(_sentence(entry))
+        if entry.against is not None and entry.against.unproved:
+            edges = ", ".join(f"{a}-{b}" for a, b in entry.against.unproved)
+            yield Text(f"Not proved yet, by the darts of their two ends: {edges}.")
+        if entry.doors:
+            begun = entry.against.moves if entry.against is not None else 0
+            walk = enumerate(zip(entry.doors, entry.seen, strict=True), begun + 1)
+            yield TextTable(
+                (">move", ">door", ">degree seen", ">marker seen at door"),
+                [
+                    (str(n), str(door), str(seen.degree), _door(seen.marker))
+                    for n, (door, seen) in walk
+                ],
+            )
+
+
+def _door(marker: Door | None) -> str:
+    return "-" if marker is None else str(marker)
+
+
+def _sentence(entry: TourEntry) -> str:
+    """What the walk proves, or what the log says of the map, in one sentence."""
+    against, moves = entry.against, plural(entry.cost, "move")
+    if against is None:
+        return f"{entry.world}: this walk of {moves} proves the map; no walk proves it with fewer."
+    head = f"{against.verdict}: {against.log} and the map {entry.world}:"
+    match against.verdict:
+        case "REFUTED":
+            return f"{head} event {against.event} refutes the map: {against.message}."
+        case "PROVED":
+            return f"{head} no other world shows this log of {plural(against.moves, 'move')}."
+        case _:
+            left = plural(len(against.unproved), "edge")
+            return f"{head} {left} not proved yet; from where the log ends {moves} prove the map."
