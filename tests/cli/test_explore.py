@@ -254,3 +254,27 @@ def test_the_walk_of_the_first_failing_run_is_shown(call: Call) -> None:
     assert "!! map-isomorphic" in walk
     assert walk.endswith("  again: topo-verify replay m1/1 --target mappers.py:guesses\n")
     assert "The walk of" not in call("explore m1/0 --algorithm mappers.py:guesses").stdout
+
+
+def test_choices_are_told_one_by_one(call: Call) -> None:
+    told = call("explore m2/8 --algorithm folding+planar --choices 0 --format json")
+    assert told.exit_code == 1
+    (entry,) = json.loads(told.stdout)["results"]
+    line = "topo-verify explore m2/8 --algorithm folding+planar --choices 0"
+    assert {finding["replay"] for finding in entry["findings"]} == {line}
+    assert call("explore m2/8 --algorithm basic --choices 0,1").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("m2/8 --algorithm all --choices 0", "expected one run"),
+        ("m2/8 --algorithm basic --choices 0,9", "give one of 0 … 2"),
+        ("m2/8 --algorithm basic --choices x", "as 0,2,1"),
+        ("m2/8 --algorithm basic --pick last --choices 0", "leave out --pick and --order"),
+    ],
+)
+def test_choices_that_cannot_be_made_are_refused(call: Call, arguments: str, message: str) -> None:
+    refused = call(f"explore {arguments}")
+    assert refused.exit_code == 2
+    assert message in " ".join(refused.stderr.split())

@@ -79,7 +79,7 @@ def test_a_mapper_out_of_time_exits_3(results: Call, call: Call) -> None:
         ("search basic --class simple,planar --edges 9", "there is no formula"),
         ("search basic,folding --ledger L", "--ledger L: expected one TARGET, got 2"),
         ("search basic --ledger mappers.py", "it is no ledger: name another file"),
-        ("search basic --policies every", "over a hundred million ways to choose; ask for 3 edges"),
+        ("search basic --policies every --edges 7", "for basic it goes to 6 edges"),
         ("search mappers.py:silent --policies all", "has no policies"),
         ("search basic --workers -1", "invalid value for '--workers'"),
     ],
@@ -187,3 +187,17 @@ def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path, workers: str) -> N
     assert entry["verdict"] == "UNKNOWN"
     assert 0 <= entry["checked"] <= 2  # the worlds of one edge, as far as they were done
     assert error.startswith("topo-verify: interrupted after 1 result")
+
+
+def test_every_choice_shows_the_range_of_the_costs(results: Call, call: Call) -> None:
+    line = "search basic --edges 2 --workers 0 --policies every --worst"
+    (entry,) = results(line)["results"]
+    every = entry["by_edges"][1]["every"]
+    assert (every["worlds"], every["states"], every["choices"]) == (10, 62, 145)
+    assert (every["cheapest"], every["reference"], every["dearest"]) == (22, 23, 27)
+    assert every["most_saved"] == {"world": "m2/6", "reference": 3, "cheapest": 2}
+    assert every["judged_by"] == "every claim, on a run for each choice"
+    shown = " ".join(call(line).stdout.split())
+    assert "No policy of pick and order saves more than 4.0% of what" in shown
+    (entry,) = results("search basic --edges 1 --workers 0")["results"]
+    assert entry["by_edges"][0]["every"] is None

@@ -10,6 +10,7 @@ from typing import Literal
 import click
 
 from topo_verify.cli import markers, options
+from topo_verify.cli.choices import ListedChoices, require_no_policies
 from topo_verify.cli.explored import ExploreEntry, explore_result
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
@@ -51,6 +52,7 @@ class _ExploreOptions:
     svg: str | None
     strict: bool
     gap: bool
+    choices: ListedChoices | None = None
 
 
 @click.command(
@@ -58,6 +60,7 @@ class _ExploreOptions:
     epilog=options.epilog(
         "explore nyc",
         "explore m3/14 --algorithm basic,enhancement-ii --trace FILE",
+        "explore m2/8 --algorithm folding+planar --choices 0,1",
         "explore nyc --algorithm folding --marker all --svg heat.svg",
         "explore 'family:lattice(10,10,holes=0.2)' --algorithm my_mapper.py:explore",
     ),
@@ -72,6 +75,11 @@ class _ExploreOptions:
 @options.program
 @options.in_process
 @options.policies
+@click.option(
+    "--choices",
+    metavar="LIST",
+    help="Choose by these numbers, as 0,2,1: which e, which h next (one run only).",
+)
 @markers.option
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
 @player_option
@@ -92,6 +100,7 @@ def explore(  # noqa: PLR0913  an argument an option
     in_process: bool,
     pick: str | None,
     order: str | None,
+    choices: str | None,
     marker: int | Literal["all"] | None,
     trace: str | None,
     player: str | None,
@@ -118,7 +127,13 @@ def explore(  # noqa: PLR0913  an argument an option
             if file is not None:
                 _require_one_run(option, file, found, starts)
         require_one_world(player, len(starts))
-        asked = _ExploreOptions(limits, trace, player, svg, strict, gap)
+        listed = None
+        if choices is not None:
+            _require_one_run("--choices", choices, found, starts)
+            require_no_policies(choices, pick, order)
+            listed = ListedChoices(found[0], choices)
+            found = (listed.target,)
+        asked = _ExploreOptions(limits, trace, player, svg, strict, gap, listed)
         return _results(output, starts, found, asked, walk)
 
     walk = FoundRuns(output)
@@ -158,7 +173,11 @@ def _results(
             # Before the judging, so that the trace is kept even if a checker fails.
             if asked.trace is not None:
                 files.write(asked.trace, write_trace(run.kept_trace).decode())
+            if asked.choices is not None:
+                run = asked.choices.made(run)
             report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
+            if asked.choices is not None:
+                report = asked.choices.named(report, asked.limits)
             walk.keep(report)
             played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
             if asked.svg is not None:

@@ -8,16 +8,26 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import chain
 from pathlib import Path
+from typing import cast
 
 import click
 
+from topo_verify.algorithms import Algorithm
 from topo_verify.cli import options
 from topo_verify.cli.accounts import search_account
 from topo_verify.cli.failures import version
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import report_options
-from topo_verify.cli.searched import ByEdges, Counterexample, FailingClaim, Lost, SearchEntry
+from topo_verify.cli.searched import (
+    ByEdges,
+    Counterexample,
+    EveryCost,
+    FailingClaim,
+    Lost,
+    MostSaved,
+    SearchEntry,
+)
 from topo_verify.cli.searched import show as show_entry
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
@@ -28,8 +38,9 @@ from topo_verify.harness.search.choices import examinations
 from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
-from topo_verify.harness.tally import CostTotals, Failure, joint_judgements
-from topo_verify.harness.targets import target_text, targets
+from topo_verify.harness.search.states.every import judged_by
+from topo_verify.harness.tally import CostTotals, Failure, PolicyCosts, joint_judgements
+from topo_verify.harness.targets import one_target, target_text, targets
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.report.account import Account
@@ -63,6 +74,7 @@ class _SearchOptions:
         "search basic --edges 5",
         "search my_mapper.py:explore --class planar --keep-going",
         "search enhancement-i --edges 6 --ledger FILE --worst",
+        "search basic --policies every --edges 4 --worst",
         "search --compare enhancement-ii,enhancement-i --edges 5",
     ),
 )
@@ -311,4 +323,23 @@ def _by_edges(size: Size, plan: Plan, asked: _SearchOptions) -> ByEdges:
         attained=costs.attained,
         worst=costs.worst,
         compare=size.tally.compared if asked.compare else None,
+        every=_every(size, plan) if plan.choices == "every" else None,
+    )
+
+
+def _every(size: Size, plan: Plan) -> EveryCost:
+    """The range of the costs of the first mapper in the worlds of one size."""
+    target = plan.targets[0]
+    costs = size.tally.policy_costs.get(target, PolicyCosts())
+    saved = costs.most_saved
+    algorithm = one_target(target).mapper
+    return EveryCost(
+        worlds=costs.worlds,
+        states=costs.states,
+        choices=costs.choices,
+        cheapest=costs.cheapest,
+        reference=costs.reference,
+        dearest=costs.dearest,
+        most_saved=None if saved is None else MostSaved(saved.world, saved.cost, saved.other),
+        judged_by=judged_by(cast("Algorithm", algorithm), size.edges),
     )

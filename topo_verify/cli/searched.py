@@ -42,6 +42,36 @@ class Lost(msgspec.Struct, frozen=True):
     how: str
 
 
+class EveryCost(msgspec.Struct, frozen=True):
+    """With --policies every: what any policy of pick and order can cost; docs/commands.md.
+
+    Attributes:
+        worlds: those in which no claim fails, whatever is chosen; the rest is about them.
+        states, choices: the number of states with more than one way, and of their ways.
+        cheapest, reference, dearest: sums of costs, in edge traversals: the least and the most
+            that a run can cost in each world, and what the reference policies cost.
+        most_saved: where the cheapest run saves the greatest share of the reference cost.
+        judged_by: what judged the choices.
+    """
+
+    worlds: int
+    states: int
+    choices: int
+    cheapest: int
+    reference: int
+    dearest: int
+    most_saved: MostSaved | None
+    judged_by: str
+
+
+class MostSaved(msgspec.Struct, frozen=True):
+    """A world, what the reference policies cost in it, and the least that a run costs."""
+
+    world: str
+    reference: int
+    cheapest: int
+
+
 class ByEdges(msgspec.Struct, frozen=True):
     """The worlds of one size; docs/commands.md.
 
@@ -52,6 +82,7 @@ class ByEdges(msgspec.Struct, frozen=True):
         attained: the number of worlds with the highest cost.
         worst: the first of these worlds.
         compare: with --compare, where A costs more than B, and where less.
+        every: with --policies every, the range of the costs.
     """
 
     edges: int
@@ -65,6 +96,7 @@ class ByEdges(msgspec.Struct, frozen=True):
     attained: int
     worst: tuple[str, ...]
     compare: CostComparison | None
+    every: EveryCost | None
 
 
 class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
@@ -113,6 +145,7 @@ def show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
         yield TextTable(
             (">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs
         )
+    yield from _every(entry, worst=worst)
     yield Text("")
     yield Text(f"{entry.verdict}: {_conclusion(entry)}")
     if entry.lost:
@@ -130,6 +163,39 @@ def show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     yield from _counterexamples(entry)
     if entry.verdict != "REFUTED":
         yield from unjudged(entry.target, "these worlds", entry.judgements)
+
+
+def _every(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
+    """The states and choices of --policies every; with --worst the range of the costs, too."""
+    sizes = [(e.edges, e.every) for e in entry.by_edges if e.every is not None and e.every.worlds]
+    if not sizes:
+        return
+    rows = [(str(m), str(e.states), str(e.choices), e.judged_by) for m, e in sizes]
+    yield Text("")
+    yield TextTable((">edges", ">states", ">choices", "judged by"), rows)
+    if not worst:
+        return
+    costs = [
+        (str(m), *map(str, (e.cheapest, e.reference, e.dearest)), *_saved(e)) for m, e in sizes
+    ]
+    yield Text("")
+    columns = (">edges", ">cheapest", ">reference", ">dearest", ">saves", ">at most", "in")
+    yield TextTable(columns, costs, "sums of costs: the least, of the reference, the most")
+    low, reference = (sum(getattr(e, name) for _, e in sizes) for name in ("cheapest", "reference"))
+    yield Text("")
+    yield Text(
+        f"No policy of pick and order saves more than {1 - low / reference:.1%} of what the"
+        " reference policies cost in these worlds together."
+    )
+
+
+def _saved(entry: EveryCost) -> tuple[str, ...]:
+    """The share that the cheapest runs save together, and where one saves most."""
+    together = f"{1 - entry.cheapest / entry.reference:.1%}"
+    one = entry.most_saved
+    if one is None or one.reference == one.cheapest:
+        return together, "-", "-"
+    return together, f"{1 - one.cheapest / one.reference:.1%}", one.world
 
 
 def _who(entry: SearchEntry) -> str:

@@ -134,6 +134,38 @@ class CostComparison(msgspec.Struct, frozen=True):
         )
 
 
+class PolicyCosts(msgspec.Struct, frozen=True):
+    """What any policy of pick and order can cost, in edge traversals, over some worlds.
+
+    Attributes:
+        worlds: in how many worlds no claim fails, whatever is chosen; the rest is about them.
+        states, choices: how many states have more than one way, and how many ways they have.
+        cheapest, dearest: sums of the least and of the most that a run can cost in each world.
+        reference: the sum of what the reference policies cost.
+        most_saved: where the cheapest run saves the greatest share of the reference cost.
+    """
+
+    worlds: int = 0
+    states: int = 0
+    choices: int = 0
+    cheapest: int = 0
+    reference: int = 0
+    dearest: int = 0
+    most_saved: CostPair | None = None
+
+    def __add__(self, other: PolicyCosts) -> PolicyCosts:
+        pairs = [one for one in (self.most_saved, other.most_saved) if one is not None]
+        return PolicyCosts(
+            self.worlds + other.worlds,
+            self.states + other.states,
+            self.choices + other.choices,
+            self.cheapest + other.cheapest,
+            self.reference + other.reference,
+            self.dearest + other.dearest,
+            max(pairs, key=lambda pair: 1 - pair.other / pair.cost, default=None),
+        )
+
+
 class LostWorker(msgspec.Struct, frozen=True):
     """A worker that was lost in a world in which nothing went wrong when it was tried again.
 
@@ -162,6 +194,7 @@ class Tally(msgspec.Struct, frozen=True):
         timeouts: how many runs a time limit ended.
         statuses: for each claim, how many runs have which status.
         shares: for each claim, how much was judged in all runs together, of how much.
+        policy_costs: of each mapper that was searched with every choice.
         claims: the claims that fail.
         failures: the first failing runs.
         costs: of each mapper.
@@ -184,6 +217,7 @@ class Tally(msgspec.Struct, frozen=True):
     sample: tuple[Observation, ...] = ()
     lost: tuple[LostWorker, ...] = ()
     shares: dict[str, tuple[int, int]] = {}
+    policy_costs: dict[str, PolicyCosts] = {}
 
     def __add__(self, behind: Tally) -> Tally:
         statuses = {claim: dict(seen) for claim, seen in self.statuses.items()}
@@ -196,6 +230,9 @@ class Tally(msgspec.Struct, frozen=True):
             claims[claim] = claims[claim] + failing if claim in claims else failing
         for target, spent in behind.costs.items():
             costs[target] = costs.get(target, CostTotals()) + spent
+        policy_costs = dict(self.policy_costs)
+        for target, found in behind.policy_costs.items():
+            policy_costs[target] = policy_costs.get(target, PolicyCosts()) + found
         return Tally(
             self.worlds + behind.worlds,
             self.undecided + behind.undecided,
@@ -210,6 +247,7 @@ class Tally(msgspec.Struct, frozen=True):
             sampled(self.sample + behind.sample),
             self.lost + behind.lost,
             {claim: self._share(claim, behind) for claim in {**self.shares, **behind.shares}},
+            policy_costs,
         )
 
     def _share(self, claim: str, behind: Tally) -> tuple[int, int]:

@@ -19,7 +19,7 @@ Choices = Literal["reference", "all", "every"]
 
 CHOICES: tuple[Choices, ...] = get_args(Choices)
 
-SHARD: dict[Choices, int] = {"reference": 400, "all": 12, "every": 1}
+SHARD: dict[Choices, int] = {"reference": 400, "all": 12, "every": 8}
 """How many worlds a shard has on average: a fraction of a second of work, where one world is."""
 
 

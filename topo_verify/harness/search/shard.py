@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import msgspec
 
@@ -65,7 +66,8 @@ def examine_shard(
             world = World.from_code(table)
             tallier.open(rank)
             for target in mappers:
-                for run, report, killed in examinations(target, plan, world, beats):
+                note = partial(tallier.enter_range, target.text)
+                for run, report, killed in examinations(target, plan, world, beats, note):
                     tallier.enter(run, report, killed)
             if tallier.close() and not plan.keep_going:
                 break

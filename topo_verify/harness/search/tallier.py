@@ -26,6 +26,7 @@ from topo_verify.harness.tally import (
     Failing,
     Failure,
     LostWorker,
+    PolicyCosts,
     RunCounts,
     Tally,
 )
@@ -56,6 +57,7 @@ class Tallier:
     _timeouts: int = 0
     _lost: list[LostWorker] = field(default_factory=list[LostWorker])
     _sample: list[Observation] = field(default_factory=list[Observation])
+    _policy_costs: dict[str, PolicyCosts] = field(default_factory=dict[str, PolicyCosts])
     # of the world that is open: the first failure of each claim, and the costs
     _failed: dict[str, Failure] = field(default_factory=dict[str, Failure])
     _paid: dict[str, int] = field(default_factory=dict[str, int])
@@ -86,6 +88,11 @@ class Tallier:
             self._failed.setdefault(claim, self._failure(run, first))
         if len(self._failures) < KEPT_RUNS:
             self._failures.append(self._failure(run, findings))
+
+    def enter_range(self, target: str, costs: PolicyCosts) -> None:
+        """Count what any policies can cost a mapper in the open world."""
+        known = self._policy_costs.get(target, PolicyCosts())
+        self._policy_costs[target] = known + costs
 
     def _failure(self, run: Exploration, findings: tuple[Finding, ...]) -> Failure:
         return Failure(self.edges, self._rank, run.algorithm, findings[:KEPT_FINDINGS])
@@ -133,6 +140,7 @@ class Tallier:
             sample=sampled(self._sample),
             lost=tuple(self._lost),
             shares=self.counts.shares(),
+            policy_costs=self._policy_costs,
         )
 
 

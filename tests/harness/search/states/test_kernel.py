@@ -1,0 +1,160 @@
+"""The kernel is held to the states that are found by running the mapper."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import msgspec
+import pytest
+
+from tests.harness.search.states.test_graph import searched, worlds
+from topo_verify import CATALOGUE, World
+from topo_verify.errors import InputError, InternalError
+from topo_verify.harness.judge import judge
+from topo_verify.harness.run import explore
+from topo_verify.harness.search.states import every, table
+from topo_verify.harness.search.states.every import every_choice, judged_by, require_edges
+from topo_verify.harness.search.states.ranges import cost_range
+from topo_verify.harness.search.states.script import scripted
+from topo_verify.harness.second_try import Tried
+from topo_verify.programs.loader import Target
+from topo_verify.robot.limits import Limits
+from topo_verify.robot.simulator import percepts
+
+pytest.importorskip("numba")
+
+KNOWN = [name for name, algorithm in CATALOGUE.items() if table.is_known(algorithm)]
+
+
+def test_the_kernel_knows_the_rules_that_remember_nothing() -> None:
+    assert KNOWN == ["basic", "enhancement-i", "enhancement-ii", "enhancement-ii+i"]
+
+
+@pytest.mark.parametrize("name", KNOWN)
+@pytest.mark.parametrize("edges", [1, 2, 3])
+def test_it_finds_the_states_the_choices_and_the_costs_that_the_mapper_has(
+    name: str, edges: int
+) -> None:
+    for world in worlds(edges):
+        found = table.found_in(world, CATALOGUE[name])
+        graph = cost_range(searched(CATALOGUE[name], world))
+        assert found.wrong == 0
+        assert (found.states, found.choices, found.cheapest, found.dearest) == graph[:4]
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_it_does_so_where_rules_and_motions_differ(name: str) -> None:
+    for rank in (133, 402, 560):
+        world = World.from_id(f"m4/{rank}")
+        found = table.found_in(world, CATALOGUE[name])
+        graph = cost_range(searched(CATALOGUE[name], world))
+        assert (found.states, found.choices, found.cheapest, found.dearest) == graph[:4]
+
+
+@pytest.mark.parametrize(
+    ("name", "totals"),
+    [
+        ("basic", (185413, 609908, 3633, 6220)),
+        ("enhancement-i", (187889, 615580, 3633, 6204)),
+        ("enhancement-ii", (185233, 609548, 3633, 6218)),
+        ("enhancement-ii+i", (187721, 615244, 3633, 6202)),
+    ],
+)
+def test_the_numbers_in_all_worlds_of_four_edges_are_pinned(
+    name: str, totals: tuple[int, ...]
+) -> None:
+    found = [table.found_in(world, CATALOGUE[name]) for world in worlds(4)]
+    rows = [(one.states, one.choices, one.cheapest, one.dearest) for one in found]
+    assert tuple(map(sum, zip(*rows, strict=True))) == totals
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_its_two_runs_cost_the_mapper_what_it_says(name: str) -> None:
+    algorithm = CATALOGUE[name]
+    for world in worlds(4)[::10]:
+        found = table.found_in(world, algorithm)
+        for order, cost in ((found.cheap, found.cheapest), (found.dear, found.dearest)):
+            run = explore(world, Target(name, scripted(algorithm, table.Ordered(world, order))))
+            assert run.cost == cost
+
+
+def test_without_the_direction_of_the_marker_it_finds_false_confirmations() -> None:
+    # docs/semantics.md, section 10: such worlds have two edges and more.
+    found: list[str] = []
+    for world in [*worlds(1), *worlds(2)]:
+        blind = [
+            msgspec.structs.replace(seen, marker=None if seen.marker is None else 0)
+            for seen in percepts(world)
+        ]
+        if table.found_in(world, CATALOGUE["basic"], blind).wrong:
+            found.append(world.id)
+    assert "m2/5" in found
+    assert not {"m1/0", "m1/1"} & {*found}
+
+
+# ---------------------------------------------------------------- what becomes of it in a search
+
+
+def runs_in(world: World, name: str = "basic") -> list[Tried]:
+    """What a search does with a world."""
+
+    def run(target: Target) -> Tried:
+        found = explore(world, target)
+        return Tried(found, judge(found))
+
+    return list(every_choice(Target(name, CATALOGUE[name]), world, run, Limits()))
+
+
+def answering(answer: object) -> Callable[..., object]:
+    """A function that gives this answer, whatever it is asked."""
+
+    def answered(*_: object) -> object:
+        return answer
+
+    return answered
+
+
+def test_a_larger_world_has_its_cheapest_and_its_dearest_run_judged() -> None:
+    found = table.found_in(World.from_id("m4/402"), CATALOGUE["basic"])
+    costs = [tried.run.cost for tried in runs_in(World.from_id("m4/402"))]
+    assert costs == [found.cheapest, found.dearest]
+
+
+def test_a_cost_that_the_mapper_does_not_have_is_a_bug_of_ours(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    world = World.from_id("m4/402")
+    found = table.found_in(world, CATALOGUE["basic"])
+    wrong = found._replace(cheapest=found.cheapest - 1)
+    monkeypatch.setattr(table, "found_in", answering(wrong))
+    with pytest.raises(InternalError, match="where the kernel says"):
+        runs_in(world)
+
+
+def test_a_claim_that_only_the_kernel_finds_false_is_a_bug_of_ours(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    world = World.from_id("m2/9")
+    monkeypatch.setattr(every, "EACH_JUDGED", 1)
+    wrong = table.found_in(world, CATALOGUE["basic"])._replace(wrong=1)
+    monkeypatch.setattr(table, "found_in", answering(wrong))
+    with pytest.raises(InternalError, match="no run of the mapper shows it"):
+        runs_in(world)
+
+
+def test_larger_worlds_than_can_be_searched_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(InputError, match="for basic it goes to 6 edges"):
+        require_edges("basic", CATALOGUE["basic"], 7)
+    with pytest.raises(InputError, match="for folding it goes to 4 edges"):
+        require_edges("folding", CATALOGUE["folding"], 5)
+    require_edges("basic", CATALOGUE["basic"], 6)
+    monkeypatch.setattr(table, "find_spec", answering(None))
+    require_edges("basic", CATALOGUE["basic"], 3)
+    with pytest.raises(InputError, match="the extra `fast`"):
+        require_edges("basic", CATALOGUE["basic"], 4)
+
+
+def test_it_is_said_what_judged_the_choices() -> None:
+    assert judged_by(CATALOGUE["basic"], 3) == "every claim, on a run for each choice"
+    assert "claims 3 and 4 in each state" in judged_by(CATALOGUE["basic"], 4)
+    assert judged_by(CATALOGUE["folding"], 4) == judged_by(CATALOGUE["folding"], 3)

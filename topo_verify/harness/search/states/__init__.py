@@ -1,0 +1,17 @@
+"""Every choice that a policy can make, searched as a model checker does: over states.
+
+    script.py    one run of a mapper that is told its choices one by one, as they come
+    memory.py    when two moments of two runs are the same state
+    graph.py     the states of a world and the choices between them; each lies on a judged run
+    ranges.py    the cheapest and the dearest cost of a state: dynamic programming
+    every.py     what a search does with a world: its runs, and the range of its costs
+    kernel.py    the same for rules that remember nothing, by masks of darts, compiled by numba
+    best.py      a cheapest and a dearest run, read off the tables of the kernel
+    table.py     a world as the kernel takes it, and what the kernel found
+    jit.py       how the kernel is compiled
+
+`kernel.py`, `best.py` and `jit.py` load numba and NumPy, so they are imported where they are used.
+
+`graph.py` is the reference, for every rule; `kernel.py` is faster, and tests hold it to `graph.py`
+in the number of states, of choices, and in both costs.
+"""
