@@ -239,3 +239,13 @@ def test_a_layer_is_lost_when_places_below_are_identified() -> None:
     layer = partial.layer()
     assert partial.identify(one, other) == ""
     assert layer.follow() is None
+
+
+def test_a_contradiction_below_leaves_what_was_seen_as_it_was() -> None:
+    partial = PartialFold()
+    one, other = partial.add(Percept(2, None)), partial.add(Percept(2, None))
+    for place, degree in ((one, 1), (other, 3)):
+        assert partial.join(partial.turn(place, 1), partial.add(Percept(degree, None))) == ""
+    assert "degrees" in partial.identify(one, other)
+    assert partial.resolve(one) == one
+    assert partial.resolve(other) == other

@@ -144,13 +144,23 @@ class PartialFold:
         if not has:
             self.behind[other] = one
         # The last pair is folded first: what is behind h, if anything, with the vertex of e in S.
-        return self._fold([pair for pair in ((had, other), (has, one)) if pair[0]])
+        return self._drawn([pair for pair in ((had, other), (has, one)) if pair[0]])
 
     def identify(self, one: NodeDart, other: NodeDart) -> str:
         """Make two darts one, and fold."""
-        return self._fold([(one, other)], one_partner=False)
+        return self._drawn([(one, other)], one_partner=False)
 
-    def _fold(  # noqa: C901, PLR0912  a call for each identification would cost a tenth of the time
+    def _drawn(self, pairs: list[tuple[NodeDart, NodeDart]], *, one_partner: bool = True) -> str:
+        """Fold; where nothing was assumed, take what was found for seen, or drop it if it clashes.
+
+        (It never clashes in a world. What was found halfway would lead later folds in circles.)
+        """
+        wrong = self._fold(pairs, one_partner=one_partner)
+        if self.below is None:
+            self._keep(right=not wrong)
+        return wrong
+
+    def _fold(  # noqa: C901, PLR0912  one kernel, since it runs by the million
         self, waiting: list[tuple[NodeDart, NodeDart]], *, one_partner: bool = True
     ) -> str:
         """Make the two darts of each pair one, and draw what follows.
@@ -201,20 +211,18 @@ class PartialFold:
                     if looks[beyond] != looks[end]:
                         return UNLIKE
                     waiting.append((beyond, end))
-        if self.below is None:
-            self._keep()
         return ""
 
-    def _keep(self) -> None:
-        """Take for seen what was found: it follows without an assumption."""
+    def _keep(self, *, right: bool) -> None:
+        """Take for seen what was found, if it is right; and begin anew."""
         seen = self.seen
-        seen.merges += len(self.leader)
+        seen.merges += len(self.leader) if right else 0
         for found, kept in (
             (self.leader, seen.leader),
             (self.behind, seen.behind),
             (self.weight, seen.weight),
         ):
-            for place, number in found.items():
+            for place, number in found.items() if right else ():
                 kept[place] = number
             found.clear()
 
