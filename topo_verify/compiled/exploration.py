@@ -261,7 +261,7 @@ def execute(W: Words, h: int, shared: int) -> int:
         if W[PP + step] != W[CP + at]:  # A1.11 A2.11 A3.20
             if overlooked(W, at, step, length):
                 return -1
-            cite(W, step, W[CP + at], -1)
+            cite(W, step, W[CP + at], W[PP + step], -1)
             return step
         up = W[PAR + W[CV + at]]
         if up < 0:

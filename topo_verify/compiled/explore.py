@@ -76,6 +76,9 @@ KERNELS = {
 MOST_EDGES = 1 << 16
 """The most edges of a world that the large layout has room for."""
 
+TRACE_ROOM = 1 << 20
+"""Words of trace for which the large layout has room at first; four times as many on each try."""
+
 ROUNDS = 64
 """Edges that are explored before Python is asked whether to go on."""
 
@@ -130,7 +133,9 @@ def run_world(
         known = ", ".join(PLANTED)
         raise InputError(f"expected a fault that has a kernel, got {fault!r}: {known}")
     _require_room(world)
-    job = _Job(world, algorithm, trace, world.cost_bound if budget is None else budget, fault)
+    job = CompiledJob(
+        world, algorithm, trace, world.cost_bound if budget is None else budget, fault
+    )
     small = len(world.alpha) <= CAPACITIES["WORLD_DARTS"]
     if fault and not small:
         most = CAPACITIES["WORLD_DARTS"] // 2
@@ -140,7 +145,7 @@ def run_world(
         space = job.run(layout, CAPACITIES["TRACE"])
         if fault or space[layout.at("STOP")] < STOP_FULL:
             return job.result(space, layout)
-    room = 1 << 20
+    room = TRACE_ROOM
     while True:
         space = job.run(LARGE, room if trace else 1)
         if space[LARGE.at("STOP")] != STOP_FULL + FULL_TRACE:
@@ -157,8 +162,8 @@ def _require_room(world: World) -> None:
         )
 
 
-class _Job(NamedTuple):
-    """What is asked of one run."""
+class CompiledJob(NamedTuple):
+    """What is asked of one run: an algorithm in a world, with a budget and perhaps a mistake."""
 
     world: World
     algorithm: str

@@ -109,7 +109,7 @@ def refute_by_folding(W: Words, h: int) -> bool:
     W[LAYER] = 0
     if wrong == 0:
         return False
-    cite(W, 0, -1, -1)
+    cite(W, 0, -1, -1, -1)
     W[EV_WRONG] = wrong
     return True
 

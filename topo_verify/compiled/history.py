@@ -37,11 +37,11 @@ def refute_by_history(W: Words, h: int) -> bool:
         at = W[CA + exit_dart]  # A3.11
         if at < 0:
             if planted(W, TAKES_UNKNOWN_FOR_A_MISMATCH):
-                return cite(W, step, W[PP + step], exit_dart)
+                return cite(W, step, W[PP + step], W[PP + step], exit_dart)
             if planted(W, TRACES_THROUGH_THE_UNEXPLORED):
                 at = exit_dart
             else:
                 return W[RULE] >= RULE_ONE and beyond(W, exit_dart, step)  # A3.13
         if W[CP + at] != W[PP + step]:  # A3.12 A3.15
-            return cite(W, step, W[CP + at], at)
+            return cite(W, step, W[CP + at], W[PP + step], at)
     return False

@@ -116,7 +116,7 @@ def compiled(function: F, layout: Layout, *, checked: bool = False) -> F:
     Raises:
         InputError: numba is not installed.
     """
-    module = _load(layout, checked)
+    module = machine_code(layout, checked)
     dispatcher = getattr(module, function.__name__)
     if not dispatcher.signatures:
         folder = Path(str(module.__file__)).parent / "__pycache__"
@@ -144,7 +144,7 @@ def _signature(function: Callable[..., object]) -> str:
 
 
 @cache
-def _load(layout: Layout, checked: bool) -> ModuleType:  # noqa: FBT001  the key of the cache
+def machine_code(layout: Layout, checked: bool) -> ModuleType:  # noqa: FBT001  the key of the cache
     """The module of all kernels for a layout; each is compiled when it is asked for."""
     require("the compiled engine")
     name = f"kernels_{layout.name}{'_checked' if checked else ''}"
@@ -222,7 +222,7 @@ def _stored(name: str, source: str) -> Path:
     """The file with this source in the cache; written unless it is there."""
     made_by = f"{version('numba')} {version('llvmlite')} {platform.python_version()}"
     key = f"{source}\n{made_by} {platform.machine()}"
-    folder = _cache() / sha256(key.encode()).hexdigest()[:24]
+    folder = cache_folder() / sha256(key.encode()).hexdigest()[:24]
     path = folder / f"{name}.py"
     if not path.exists():
         folder.mkdir(parents=True, exist_ok=True)
@@ -235,7 +235,7 @@ def _stored(name: str, source: str) -> Path:
 
 
 @cache
-def _cache() -> Path:
+def cache_folder() -> Path:
     """The folder of the cache; it can be written, and belongs to the user."""
     asked = os.environ.get("TOPO_VERIFY_CACHE")
     home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()

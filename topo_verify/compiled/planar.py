@@ -36,6 +36,6 @@ def refute_by_face(W: Words, h: int) -> bool:
     """Whether the hypothesis is false in every planar world, since it lies on another face."""
     if W[FACE + h] == W[NFACES]:
         return False
-    cite(W, 0, -1, -1)
+    cite(W, 0, -1, -1, -1)
     W[EV_WRONG] = OTHER_FACE
     return True

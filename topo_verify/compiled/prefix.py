@@ -18,6 +18,7 @@ from topo_verify.compiled.workspace import (
     DOORS,
     EV_AT,
     EV_EXPECTED,
+    EV_OBSERVED,
     EV_RECORD,
     EV_STEP,
     EV_WRONG,
@@ -28,10 +29,11 @@ from topo_verify.compiled.workspace import (
 
 
 @kernel
-def cite(W: Words, step: int, expected: int, at: int) -> bool:
+def cite(W: Words, step: int, expected: int, observed: int, at: int) -> bool:
     """Note the evidence for a rejection without motion. True, so that a rule may return it."""
     W[EV_STEP] = step
     W[EV_EXPECTED] = expected
+    W[EV_OBSERVED] = observed
     W[EV_AT] = at
     W[EV_RECORD] = -1
     W[EV_WRONG] = 0
@@ -47,7 +49,9 @@ def refute_by_prefix(W: Words, h: int) -> bool:
         if up < 0 or door(W, at, up) != W[DOORS + step - 1]:  # A2.17
             return False
         at = W[CA + up]
-        late = 1 if planted(W, COMPARES_BEFORE_THE_DOOR) else 0
-        if W[PP + step - late] != W[CP + at]:  # A2.18
-            return cite(W, step, W[CP + at], at)
+        observed = W[PP + step]
+        if planted(W, COMPARES_BEFORE_THE_DOOR):
+            observed = W[PP + step - 1]
+        if observed != W[CP + at]:  # A2.18
+            return cite(W, step, W[CP + at], observed, at)
     return False

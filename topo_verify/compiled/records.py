@@ -74,7 +74,7 @@ def beyond(W: Words, exit_dart: int, step: int) -> bool:
     first = step
     while place >= 0:
         if W[RC_PERCEPT + place] != W[PP + step]:
-            cite(W, step, W[RC_PERCEPT + place], exit_dart)
+            cite(W, step, W[RC_PERCEPT + place], W[PP + step], exit_dart)
             W[EV_RECORD] = exit_dart
             # Door number `step` is DOORS[step - 1], so the record's doors begin with this one.
             W[EV_FIRST] = first

@@ -28,6 +28,7 @@ from topo_verify.compiled.workspace import (
     EV_AT,
     EV_EXPECTED,
     EV_FIRST,
+    EV_OBSERVED,
     EV_RECORD,
     EV_STEP,
     EV_WRONG,
@@ -35,7 +36,6 @@ from topo_verify.compiled.workspace import (
     NSEQ,
     NTR,
     POS,
-    PP,
     REM,
     ROOM,
     SHIFT,
@@ -134,7 +134,7 @@ def declare_reject(W: Words, e: int, h: int, by: int) -> None:
             W[i + 4] = by
             W[i + 5] = step
             W[i + 6] = W[EV_EXPECTED]
-            W[i + 7] = W[PP + step] if W[EV_WRONG] == 0 else -1
+            W[i + 7] = W[EV_OBSERVED]
             W[i + 8] = -1 if by == BY_MOTION or W[EV_WRONG] != 0 else W[NSEQ] - 1
             W[i + 9] = W[EV_AT]
             W[i + 10] = W[EV_RECORD]

@@ -167,6 +167,7 @@ SORTED = row("SORTED", "CHART_DARTS")  # the same
 # ---------------------------------------------------------------- evidence: exploration.py
 EV_STEP = one("EV_STEP")
 EV_EXPECTED = one("EV_EXPECTED")  # a percept; -1: none
+EV_OBSERVED = one("EV_OBSERVED")  # a percept; -1: none
 EV_AT = one("EV_AT")  # dart of S; -1: none
 EV_RECORD = one("EV_RECORD")  # dart of the record; -1: none
 EV_FIRST = one("EV_FIRST")  # the record's first door, as an index of DOORS
