@@ -98,6 +98,7 @@ def test_a_change_in_any_kernel_is_a_change_of_all_machine_code(
     changed = module_source(SMALL).replace("return h", "return h + 1")
 
     def source(_layout: Layout, *, checked: bool) -> str:
+        assert not checked
         return changed
 
     monkeypatch.setattr(kernel, "module_source", source)
