@@ -6,7 +6,7 @@ import pytest
 
 import topo_verify as tv
 from topo_verify import InputError, World, families
-from topo_verify.compiled import available, explore, require
+from topo_verify.compiled import available, explore, require, workspace
 from topo_verify.compiled.explore import run_world
 
 WORLD = World.from_id("m4/41")
@@ -39,7 +39,7 @@ def test_a_run_that_fills_the_small_layout_is_made_in_the_large_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     whole = run_world(WORLD, "enhancement-ii", trace=True)
-    monkeypatch.setitem(explore.CAPACITIES, "TRACE", 20)
+    monkeypatch.setitem(workspace.CAPACITIES, "TRACE", 20)
     assert run_world(WORLD, "enhancement-ii", trace=True) == whole
 
 

@@ -11,7 +11,7 @@ from tests.compiled.twins import difference
 from topo_verify import World, worlds
 from topo_verify.compiled.explore import CompiledJob, run_world
 from topo_verify.compiled.faults import PLANTED
-from topo_verify.compiled.workspace import CAPACITIES, FAULTY, FIELDS, Layout
+from topo_verify.compiled.workspace import CAPACITIES, FAULTY, FIELDS, WordLayout
 from topo_verify.faults import FAULTS
 
 FIRST = {
@@ -78,7 +78,7 @@ def test_a_mistake_is_seen_as_a_difference_from_the_reference() -> None:
     assert "  compiled: move by door" in found
 
 
-def beyond_its_fields(space: Sequence[int], layout: Layout) -> list[str]:
+def beyond_its_fields(space: Sequence[int], layout: WordLayout) -> list[str]:
     """The fields beyond whose end something was written."""
     ends = {one.name: layout.at(one.name) + CAPACITIES.get(one.capacity, 1) for one in FIELDS}
     return [name for name, end in ends.items() if end < len(space) and space[end] != 0]

@@ -26,7 +26,7 @@ from topo_verify.compiled.workspace import (
     SMALL,
     TR,
     TRACING,
-    Layout,
+    WordLayout,
     layout,
 )
 
@@ -97,7 +97,7 @@ def test_a_change_in_any_kernel_is_a_change_of_all_machine_code(
     forget()
     changed = module_source(SMALL).replace("return h", "return h + 1")
 
-    def source(_layout: Layout, *, checked: bool) -> str:
+    def source(_layout: WordLayout, *, checked: bool) -> str:
         assert not checked
         return changed
 

@@ -36,8 +36,8 @@ from topo_verify.compiled.workspace import (
     STOP_BUDGET,
     STOP_DOOR,
     STOP_FULL,
-    Layout,
     P,
+    WordLayout,
 )
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Event, Finish, MapData
@@ -171,7 +171,7 @@ class CompiledJob(NamedTuple):
     budget: int
     fault: str
 
-    def run(self, layout: Layout, room: int) -> Workspace:
+    def run(self, layout: WordLayout, room: int) -> Workspace:
         """The workspace after the run, with room for so many words of trace."""
         explore: Callable[[Workspace, int, int], int] = compiled(explore_rounds, layout)
         space = workspace(layout, room)
@@ -189,7 +189,7 @@ class CompiledJob(NamedTuple):
             at = explore(space, at, ROUNDS)
         return space
 
-    def result(self, space: Workspace, layout: Layout) -> CompiledRun:
+    def result(self, space: Workspace, layout: WordLayout) -> CompiledRun:
         """What a finished workspace says."""
         stop = int(space[layout.at("STOP")])
         if stop >= STOP_FULL:
@@ -211,14 +211,14 @@ class CompiledJob(NamedTuple):
         )
 
 
-def workspace(layout: Layout, room: int) -> Workspace:
+def workspace(layout: WordLayout, room: int) -> Workspace:
     """A workspace with room for so many words of trace; what is never touched takes no memory."""
     import numpy as np
 
     return np.zeros(layout.at("TR") + room, np.int64)
 
 
-def place_world(space: Workspace, layout: Layout, world: World) -> None:
+def place_world(space: Workspace, layout: WordLayout, world: World) -> None:
     """Write a world into a workspace, its darts in the order of discovery."""
     import numpy as np
 
@@ -229,7 +229,7 @@ def place_world(space: Workspace, layout: Layout, world: World) -> None:
         space[layout.at(name) : layout.at(name) + len(row)] = row
 
 
-def map_of(space: Workspace, layout: Layout) -> MapData:
+def map_of(space: Workspace, layout: WordLayout) -> MapData:
     """The map S in a workspace."""
 
     def field(name: str, length: int) -> list[int]:

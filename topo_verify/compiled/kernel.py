@@ -39,7 +39,7 @@ from types import ModuleType
 from typing import Any, Protocol, TypeVar, cast
 
 from topo_verify.compiled import require
-from topo_verify.compiled.workspace import Layout
+from topo_verify.compiled.workspace import WordLayout
 
 F = TypeVar("F", bound=Callable[..., object])
 
@@ -60,7 +60,7 @@ class Words(Protocol):
         ...
 
 
-class Table(Protocol):
+class WordTable(Protocol):
     """A table of 64-bit integers, by row and column: in use a numpy array."""
 
     def __getitem__(self, at: tuple[int, int], /) -> int:
@@ -103,12 +103,12 @@ def kernel(function: F) -> F:
 def entry(function: F) -> F:
     """The function itself. The mark says that Python calls its machine code: see `compiled`.
 
-    Its parameters are annotated with `Words`, `Table` and `int`.
+    Its parameters are annotated with `Words`, `WordTable` and `int`.
     """
     return function
 
 
-def compiled(function: F, layout: Layout, *, checked: bool = False) -> F:
+def compiled(function: F, layout: WordLayout, *, checked: bool = False) -> F:
     """The machine code of an entry, for workspaces of a layout; compiled when first asked for.
 
     Args:
@@ -131,7 +131,7 @@ def _say(sentence: str) -> None:
     sys.stderr.flush()
 
 
-_TYPES = {"Words": "int64[::1]", "Table": "int64[:, ::1]", "int": "int64"}
+_TYPES = {"Words": "int64[::1]", "WordTable": "int64[:, ::1]", "int": "int64"}
 
 
 def _signature(function: Callable[..., object]) -> str:
@@ -144,7 +144,7 @@ def _signature(function: Callable[..., object]) -> str:
 
 
 @cache
-def machine_code(layout: Layout, checked: bool) -> ModuleType:  # noqa: FBT001  the key of the cache
+def machine_code(layout: WordLayout, checked: bool) -> ModuleType:  # noqa: FBT001  the key of the cache
     """The module of all kernels for a layout; each is compiled when it is asked for."""
     require("the compiled engine")
     name = f"kernels_{layout.name}{'_checked' if checked else ''}"
@@ -158,7 +158,7 @@ def machine_code(layout: Layout, checked: bool) -> ModuleType:  # noqa: FBT001  
     return module
 
 
-def module_source(layout: Layout, *, checked: bool = False) -> str:
+def module_source(layout: WordLayout, *, checked: bool = False) -> str:
     """The text of one module that has the constants of a layout and every kernel."""
     numbers: dict[str, int] = {}
     functions: list[ast.FunctionDef] = []

@@ -37,7 +37,7 @@ class Field(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Layout:
+class WordLayout:
     """Where the fields stand in workspaces of one kind.
 
     Attributes:
@@ -84,7 +84,9 @@ def row(name: str, capacity: str) -> int:
     return offset
 
 
-def layout(name: str, capacities: dict[str, int], *, faults: bool = False, gap: int = 0) -> Layout:
+def layout(
+    name: str, capacities: dict[str, int], *, faults: bool = False, gap: int = 0
+) -> WordLayout:
     """The layout in which fields have these capacities, in the order of `FIELDS`.
 
     Args:
@@ -96,7 +98,7 @@ def layout(name: str, capacities: dict[str, int], *, faults: bool = False, gap: 
     for one_field in FIELDS:
         constants[one_field.name] = end
         end += capacities.get(one_field.capacity, 1) + gap
-    return Layout(name, {**constants, "SIZE": end})
+    return WordLayout(name, {**constants, "SIZE": end})
 
 
 WORLD_DARTS = CAPACITIES["WORLD_DARTS"]
