@@ -114,6 +114,10 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_time_outs_leave_a_part_undecided",
         "test_what_does_not_concern_a_mapper_of_ones_own_is_left_out_and_said",
     ),
+    "compiled/test_faults.py": (
+        r"test_equal_events_in_some_worlds_in_which_the_mistake_shows\[.*\]",
+        r"test_a_wrong_mapper_writes_nothing_beyond_a_field\[.*\]",
+    ),
     "docs/test_pages.py": (r"test_what_a_page_says_can_be_done_and_prints_what_it_shows\[.*\]",),
     "docs/test_site.py": (r"test_a_player_that_shows_nothing_ends_the_build\[.*\]",),
     "examples/test_every_example.py": ("test_the_pytest_file_beside_the_python_mapper_passes",),

@@ -1,0 +1,80 @@
+"""One compiled run: what it gives, and what it refuses."""
+
+from __future__ import annotations
+
+import pytest
+
+import topo_verify as tv
+from topo_verify import InputError, World, families
+from topo_verify.compiled import available, explore, require, workspace
+from topo_verify.compiled.explore import run_world
+
+WORLD = World.from_id("m4/41")
+
+
+def test_a_run_has_cost_and_map_at_once_and_its_events_when_asked() -> None:
+    reference = tv.explore(WORLD, "enhancement-ii")
+    short, long = (run_world(WORLD, "enhancement-ii", trace=trace) for trace in (False, True))
+    assert short.map == long.map == reference.map
+    assert short.cost == long.cost == reference.cost
+    assert short.events == ()
+    assert long.events == reference.trace[1:]
+
+
+def test_a_run_stops_at_its_budget_as_the_reference_does() -> None:
+    limits = tv.Limits(budget=7)
+    reference = tv.explore(WORLD, "basic", limits=limits)
+    run = run_world(WORLD, "basic", trace=True, budget=7)
+    assert (run.map, run.stopped, run.cost) == (None, reference.stopped, 7)
+    assert run.events == reference.trace[1:]
+
+
+def test_a_world_may_be_numbered_as_it_likes() -> None:
+    world = families.lattice(3, 3)
+    turned = world.renumbered([(5 * dart + 3) % 24 for dart in range(24)])
+    assert run_world(turned, trace=True) == run_world(world, trace=True)
+
+
+def test_a_run_that_fills_the_small_layout_is_made_in_the_large_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    whole = run_world(WORLD, "enhancement-ii", trace=True)
+    monkeypatch.setitem(workspace.CAPACITIES, "TRACE", 20)
+    assert run_world(WORLD, "enhancement-ii", trace=True) == whole
+
+
+def test_a_trace_grows_until_it_holds_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    world = families.lattice(5, 5)
+    whole = run_world(world, "basic", trace=True)
+    monkeypatch.setattr(explore, "TRACE_ROOM", 8)
+    assert run_world(world, "basic", trace=True) == whole
+
+
+def test_an_algorithm_that_has_no_kernel_is_refused() -> None:
+    with pytest.raises(InputError, match="expected an algorithm of the catalogue, got 'mine'"):
+        run_world(WORLD, "mine")
+
+
+def test_a_mistake_that_has_no_kernel_is_refused() -> None:
+    with pytest.raises(InputError, match="expected a fault that has a kernel, got 'typo'"):
+        run_world(WORLD, fault="typo")
+
+
+def test_mistakes_are_planted_in_small_worlds_only() -> None:
+    with pytest.raises(InputError, match="up to 12 edges"):
+        run_world(families.lattice(4, 4), fault="sets-out-unturned")
+
+
+def test_a_world_that_is_too_large_is_refused() -> None:
+    with pytest.raises(InputError, match=r"up to 65536 edges .* use the reference engine"):
+        run_world(families.path(65538))
+
+
+def test_without_numba_the_mend_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    def nowhere(_name: str) -> None:
+        return None
+
+    monkeypatch.setattr("topo_verify.compiled.find_spec", nowhere)
+    assert not available()
+    with pytest.raises(InputError, match=r"X needs numba: pip install 'topo-verify\[fast\]'"):
+        require("X")
