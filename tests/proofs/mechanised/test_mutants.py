@@ -97,6 +97,8 @@ MUTANTS = (
     Mutant("attained-with-one-more", "Tour",
         "ends f L W /\\ length (moves L) = least_cost W depth up.",
         "ends f L W /\\ length (moves L) = S (least_cost W depth up).", "Tour"),
+    Mutant("point-seen-as-a-leaf", "Edgeless",
+        "nothing_there : Percept := (0, None)", "nothing_there : Percept := (1, None)", "Edgeless"),
     Mutant("marker-not-turned", "Log",
         "seen L i = Some (d, Some j) -> same A L (i, j) (0, 0)",
         "seen L i = Some (d, Some j) -> same A L (i, 0) (0, 0)", "Determined"),
