@@ -52,7 +52,7 @@ Lemma filter_less {X} (f g : X -> bool) l q : (forall x, f x = true -> g x = tru
   In q l -> g q = true -> f q = false -> length (filter f l) < length (filter g l).
 Proof.
   intros H I G F. assert (Le : forall l, length (filter f l) <= length (filter g l)).
-  { clear l I. induction l as [|x l IH]; simpl; auto.
+  { clear l I. intros l. induction l as [|x l IH]; simpl; auto.
     destruct (f x) eqn:E; [rewrite (H x E)|destruct (g x)]; simpl; lia. }
   induction l as [|x l IH]; simpl in *; [destruct I|]. specialize (Le l). destruct I as [->|I].
   - rewrite G, F. simpl. lia.
@@ -123,7 +123,7 @@ Proof.
   destruct (IH (parent b) Hp) as (P & A & F); [lia|]. split; [|split].
   - apply path_app. split; auto. simpl. auto.
   - assert (X : forall l a d, arrival a (l ++ [d]) = opposite W d)
-      by (clear; induction l; simpl; auto).
+      by (clear; intros l; induction l; simpl; auto).
     rewrite X, Oo. apply (beside_sym W HW); auto.
   - apply Forall_app. split; auto. constructor; auto. unfold Tree.in_tree. rewrite Oo, N.
     apply orb_true_r.
@@ -335,7 +335,7 @@ Proof.
     all: apply Nat.ltb_lt; lia. }
   assert (Near : forall n c, c < darts W -> nearer c = true -> depth c = n ->
     exists d, In d t /\ edge W d = edge W c).
-  { induction n as [|n IH]; intros c Hc N D;
+  { intros n. induction n as [|n IH]; intros c Hc N D;
       destruct (nearer_ok W depth up HW B c Hc N) as (Pc & Uc & Oc & Dc); [lia|].
     destruct (opposite_ok c Hc) as (Ho & _ & Oo).
     destruct (pendant W depth up c) eqn:Pd.
