@@ -15,7 +15,11 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
+from tests.proofs.mechanised.conftest import library
 from topo_verify.cli import main
+
+__all__ = ["library"]
+"""A fixture of another room, for the tests of this one."""
 
 Call = Callable[..., Result]
 Results = Callable[..., dict[str, Any]]

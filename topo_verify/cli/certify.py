@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
-import re
 import shlex
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import IO
 
 import click
 import msgspec
 
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
+from topo_verify.cli.kernel_check import (
+    CertificateEntry,
+    KernelCheck,
+    checked_certificate,
+    checking,
+    prove,
+    show_proof,
+    show_received,
+)
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import InputError
 from topo_verify.harness.log_report import Certificate
 from topo_verify.harness.log_report import certify as judge
 from topo_verify.harness.open_doors import OpenDoor, open_doors
@@ -29,13 +37,6 @@ from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
-if TYPE_CHECKING:
-    from topo_verify.proofs.mechanised.certificates import CertificateCheck
-    from topo_verify.proofs.mechanised.vernacular import CoqCertificate
-
-    Check = Callable[[str, CoqCertificate], CertificateCheck]
-
-
 MOST_OPEN_DOORS = 100
 """So many open doors of a log are listed, the nearest; more would not help who has to walk them."""
 
@@ -45,46 +46,6 @@ class DecisionCount(msgspec.Struct, frozen=True):
 
     entailed: int
     total: int
-
-
-class CertifiedDecisions(msgspec.Struct, frozen=True):
-    """How many of the decisions that follow Coq accepted.
-
-    Attributes:
-        by: the checker; "" if nothing was checked.
-        why: the reason why some are not certified; "" if all are.
-    """
-
-    certified: int
-    entailed: int
-    by: str
-    why: str
-
-
-class KernelCheck(msgspec.Struct, frozen=True):
-    """The certificate for Coq of one log, and what its checker said.
-
-    Attributes:
-        statement: map, undetermined or impossible; the file says it in full.
-        file: the certificate.
-        accepted: null if nothing checked the certificate.
-        by, why: the checker; the reason why nothing was checked.
-        command: checks it by hand, in the folder of the certificate.
-        decisions: those of the log that follow, certified.
-    """
-
-    statement: str
-    file: str
-    accepted: bool | None
-    by: str
-    why: str
-    command: str
-    decisions: CertifiedDecisions
-
-    @property
-    def incomplete(self) -> bool:
-        """True if the certificate or a decision that follows was left unchecked."""
-        return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
 
 
 class CertifyEntry(msgspec.Struct, frozen=True):
@@ -118,14 +79,17 @@ class CertifyEntry(msgspec.Struct, frozen=True):
         "certify log.jsonl -o map.json",
         "certify log.jsonl --witness worlds",
         "certify log.jsonl --kernel",
+        "certify --check certificate_log.cert --log log.jsonl",
     ),
 )
-@click.argument("traces", nargs=-1, required=True, metavar="TRACE...")
+@click.argument("traces", nargs=-1, metavar="TRACE...")
 @click.option("-o", "map_file", metavar="MAP", help="Write the proved map (one TRACE only).")
 @click.option(
     "--witness", "folder", metavar="DIR", help="Write two worlds that show the log to DIR."
 )
 @click.option("--kernel", "proving", is_flag=True, help="Write a certificate for Coq and check it.")
+@click.option("--check", "received", metavar="CERTIFICATE", help="Check a certificate with Coq.")
+@click.option("--log", "about", metavar="LOG", help="With --check: it must be about this log.")
 @click.option(
     "--timeout",
     type=click.IntRange(1, MOST_SECONDS),
@@ -135,13 +99,15 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     help="Time limit of each program that checks a certificate.",
 )
 @output_options
-def certify(
+def certify(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
     traces: tuple[str, ...],
     map_file: str | None,
     folder: str | None,
     proving: bool,
+    received: str | None,
+    about: str | None,
     timeout: int,
 ) -> int:
     """Judge logs of percepts and doors, with no world at all.
@@ -151,24 +117,34 @@ def certify(
     log, and it is the map. UNKNOWN (exit code 3): the log is incomplete, several worlds show it;
     the doors that it left open are named, each with a way there. REFUTED (1): no world shows it, or
     a map or decision that it delivers does not follow. With --kernel the same is stated in Coq for
-    that very log, in a file certificate_LOG.v, and proved by computation. So is each declared
-    decision that follows from the log before it. Where something cannot be checked the exit code
-    is 3.
+    that very log, in a file certificate_LOG.cert, and proved by computation. So are the delivered
+    map, and each declared decision that follows from the log before it. Where something cannot be
+    checked the exit code is 3.
+
+    With --check a certificate that you received is checked by Coq: accepted (0), refused (1), not
+    readable as a certificate (2), or not checked, for want of Coq or of time (3).
     """
+    _require_one_task(traces, received, about, others=bool(map_file or folder or proving))
+    if received is not None:
+
+        def checked() -> Iterator[Result[CertificateEntry]]:
+            with checking(output, timeout) as check:
+                log = None if about is None else _read(about)
+                yield checked_certificate(received, log, check)
+
+        return output.run("certify", checked, show_received)
 
     def certified() -> Iterator[Result[CertifyEntry]]:
         if map_file is not None and len(traces) != 1:
             raise InputError(f"-o {map_file}: expected one TRACE, got {len(traces)}")
-        with _checking(output, timeout) as check:
+        with checking(output, timeout) as check:
             for number, trace in enumerate(traces):
                 output.progress(f"folding {trace}", number, len(traces))
-                with _opened(trace) as stream:
-                    lines = files.lines(stream, name=_name(trace))
-                    log = tuple(read_events(lines, name=_name(trace)))
+                log = _read(trace)
                 certificate = _judged(log, _name(trace))
                 if map_file is not None and certificate.map is not None:
                     files.write(map_file, certificate.map.to_json() + "\n")
-                proof = _proof(traces, number, log, certificate, check) if proving else None
+                proof = prove(traces, number, log, certificate, check) if proving else None
                 yield _result(trace, certificate, folder, proof)
 
     return output.run("certify", certified, _show)
@@ -176,6 +152,26 @@ def certify(
 
 def _name(trace: str) -> str:
     return "standard input" if trace == "-" else trace
+
+
+def _require_one_task(
+    traces: tuple[str, ...], received: str | None, about: str | None, *, others: bool
+) -> None:
+    """Raise UsageError unless logs are judged or a certificate is checked, and not both."""
+    if received is None:
+        if not traces:
+            raise click.UsageError("Missing argument 'TRACE...'.")
+        if about is not None:
+            raise click.UsageError("--log LOG goes with --check CERTIFICATE: give both")
+    elif traces or others:
+        raise click.UsageError(
+            "--check CERTIFICATE takes --log LOG and --timeout, and no TRACE or other option"
+        )
+
+
+def _read(trace: str) -> Trace:
+    with _opened(trace) as stream:
+        return tuple(read_events(files.lines(stream, name=_name(trace)), name=_name(trace)))
 
 
 def _opened(trace: str) -> AbstractContextManager[IO[bytes]]:
@@ -187,77 +183,6 @@ def _judged(log: Trace, name: str) -> Certificate:
         return judge(log)
     except InputError as error:
         raise InputError(f"{name}: {error}") from error
-
-
-def _checking(output: Output, timeout: int) -> AbstractContextManager[Check]:
-    from topo_verify.proofs.mechanised import certificates
-
-    return certificates.checking(
-        timeout=timeout, progress=lambda doing: output.progress(doing, 0, 1)
-    )
-
-
-def _proof(
-    traces: Sequence[str],
-    number: int,
-    log: Trace,
-    certificate: Certificate,
-    check: Check,
-) -> KernelCheck:
-    """Write the certificate of a log and have it checked.
-
-    Raises:
-        InternalError: Coq refuses it, or it states another result than the fold.
-    """
-    from topo_verify.proofs.mechanised import certificates, vernacular
-
-    # The certificate is stated by a fold of its own. Were the two folds to differ, Coq would
-    # still accept a true statement, but not the one that the user was told.
-    stated = certificates.certificate_of(log)
-    shown = "undetermined" if certificate.fold is not None else "impossible"
-    if stated.statement != ("map" if certificate.map is not None else shown):
-        raise InternalError(f"{traces[number]}: two folds of one log differ: {stated.statement}")
-    name = _identifier(traces, number)
-    files.write(f"{name}.v", vernacular.coq_file(stated))
-    checked = check(name, stated)
-    # `accepted` is None where nothing was checked; only False means that Coq refused.
-    for one in (checked, checked.decisions):
-        if one is not None and one.accepted is False:
-            raise InternalError(f"{one.by} refuses {name}.v: {one.why}")
-    decisions = _certified_decisions(len(stated.decisions.stated), certificate.entailed, checked)
-    by_hand = certificates.command(name)
-    return KernelCheck(
-        statement=stated.statement,
-        file=f"{name}.v",
-        accepted=checked.accepted,
-        by=checked.by,
-        why=checked.why,
-        command=by_hand,
-        decisions=decisions,
-    )
-
-
-def _certified_decisions(
-    stated: int, entailed: int, checked: CertificateCheck
-) -> CertifiedDecisions:
-    """How many of the decisions that follow are certified; `stated` have evidence."""
-    if not entailed:
-        return CertifiedDecisions(0, 0, "", "")
-    found = checked.decisions or checked
-    if not found.accepted:
-        apart = checked.decisions is not None
-        return CertifiedDecisions(
-            0, entailed, "", found.why if apart else "the certificate is not checked"
-        )
-    why = "the others follow in planar worlds only, and the proofs in Coq do not speak of planarity"
-    return CertifiedDecisions(stated, entailed, found.by, why if stated < entailed else "")
-
-
-def _identifier(traces: Sequence[str], number: int) -> str:
-    """The name of a log's certificate: an identifier of Coq, different for each of the logs."""
-    # Two logs may have one stem, or stems that differ in what Coq does not take: hence the number.
-    stem = re.sub(r"\W", "_", Path(_name(traces[number])).stem, flags=re.ASCII)
-    return f"certificate_{stem}" + (f"_{number + 1}" if len(traces) > 1 else "")
 
 
 def _result(
@@ -327,7 +252,7 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Text(f"{plural(len(entry.witnesses), 'world')} that show this log and differ:")
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
-            yield from _show_proof(entry.kernel)
+            yield from show_proof(entry.kernel)
 
 
 def _incomplete(entry: CertifyEntry) -> str:
@@ -345,33 +270,6 @@ def _door_line(door: OpenDoor) -> str:
         f"door {door.door} of the place reached at event {door.event}: from where the log ends,"
         f" take {doors} {way}"
     )
-
-
-_STATED = {
-    "map": "every world that shows this log is isomorphic to this map",
-    "undetermined": "two worlds that differ show this log",
-    "impossible": "no world shows this log",
-}
-
-
-def _show_proof(proof: KernelCheck) -> Iterator[Block]:
-    outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
-    decisions = _decisions_sentence(proof.decisions)
-    yield Text("")
-    yield Text(
-        f"{proof.file}: {_STATED[proof.statement]}; {outcome}.{decisions}"
-        " To check it by hand, in the folder of that file:"
-    )
-    yield Bullets((proof.command,))
-
-
-def _decisions_sentence(proved: CertifiedDecisions) -> str:
-    if not proved.entailed:
-        return ""
-    by = f" by {proved.by}" if proved.by else ""
-    why = f": {proved.why}" if proved.why else ""
-    of = f"{proved.certified} of {proved.entailed}"
-    return f" Of the decisions that follow, {of} are certified{by}{why}."
 
 
 def _decisions(entry: CertifyEntry) -> str:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import random
 import shutil
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from tests.helpers import EMPTY, edited, of_type, trace_of, worlds
@@ -15,9 +17,14 @@ from topo_verify import World, families
 from topo_verify.errors import InputError
 from topo_verify.harness.log_report import certify
 from topo_verify.proofs.mechanised import certificates, toolchain
+from topo_verify.proofs.mechanised.certificate_format import (
+    CertifiedStatement,
+    CoqCertificate,
+    parse,
+    text_of,
+)
 from topo_verify.proofs.mechanised.evidence import Alone, Arrive, Illegal, MapRow, Marked
-from topo_verify.proofs.mechanised.vernacular import CoqCertificate, coq_file
-from topo_verify.robot.events import Event, Move, Start
+from topo_verify.robot.events import Event, Finish, MapData, Move, Start
 from topo_verify.robot.percept import Percept
 
 needs_ocaml = pytest.mark.skipif(
@@ -54,8 +61,17 @@ def stated(trace: tuple[Event, ...]) -> str:
     return "undetermined" if verdict.witnesses else "impossible"
 
 
+def numbers_of(certificate: CoqCertificate) -> list[int]:
+    """The numbers of a certificate, as they are read from its text."""
+    return parse(text_of(certificate).encode(), name="test")
+
+
 def by_coqc(place: Path, certificate: CoqCertificate) -> certificates.CertificateCheck:
-    return certificates.by_kernel(place, "Log_of_the_test", coq_file(certificate), timeout=LIMIT)
+    return certificates.by_kernel(place, numbers_of(certificate), timeout=LIMIT)
+
+
+def by_program(place: Path, certificate: CoqCertificate) -> certificates.CertificateCheck:
+    return certificates.extracted(place, numbers_of(certificate), timeout=LIMIT)
 
 
 def without_merges(certificate: CoqCertificate) -> CoqCertificate:
@@ -105,10 +121,16 @@ def test_the_world_without_edges_and_negative_numbers_are_outside() -> None:
 # ---------------------------------------------------------------- by coqc
 
 
-@pytest.mark.parametrize("cut", [len(LATTICE), len(LATTICE) // 2])
-def test_coqc_accepts_a_certificate_and_names_no_axiom(place: Path, cut: int) -> None:
-    certificate = certificates.certificate_of(LATTICE[:cut])
-    assert by_coqc(place, certificate) == certificates.CertificateCheck(True, toolchain.version())
+@pytest.mark.parametrize(
+    ("cut", "statement"), [(len(LATTICE), "map"), (len(LATTICE) // 2, "undetermined")]
+)
+def test_coqc_accepts_a_certificate_and_names_no_axiom(
+    place: Path, cut: int, statement: CertifiedStatement
+) -> None:
+    found = by_coqc(place, certificates.certificate_of(LATTICE[:cut]))
+    assert found == certificates.CertificateCheck(
+        accepted=True, by=toolchain.version(), statement=statement
+    )
 
 
 @pytest.mark.parametrize("kind", [Arrive, Marked, Alone, Illegal])
@@ -119,35 +141,37 @@ def test_coqc_accepts_that_no_world_shows_a_log(place: Path, kind: type) -> None
     assert by_coqc(place, certificate).accepted
 
 
-def test_coqc_refuses_a_tampered_map(place: Path) -> None:
-    certificate = certificates.certificate_of(LATTICE)
-    table = list(certificate.fold.table)
-    table[0], table[1] = (
-        MapRow(table[0].following, table[0].previous, table[1].other),
-        MapRow(table[1].following, table[1].previous, table[0].other),
-    )
-    forged = replace(certificate, fold=replace(certificate.fold, table=tuple(table)))
-    assert by_coqc(place, forged).accepted is False
+def with_table(certificate: CoqCertificate, table: Sequence[MapRow]) -> CoqCertificate:
+    return replace(certificate, fold=replace(certificate.fold, table=tuple(table)))
 
 
-def test_coqc_refuses_a_tampered_log(place: Path) -> None:
-    certificate = certificates.certificate_of(LATTICE)
-    other = (*certificate.percepts[:-1], Percept(1, None))
-    checked = by_coqc(place, replace(certificate, percepts=other))
-    assert checked.accepted is False
-    assert "Error" in checked.why
+def tampered() -> dict[str, CoqCertificate]:
+    """The certificate of a lattice with one thing changed that makes it false or unproved."""
+    whole, cut = certificates.certificate_of(LATTICE), certificates.certificate_of(LATTICE[:12])
+    first, second, *rest = whole.fold.table
+    crossed = [first._replace(other=second.other), second._replace(other=first.other), *rest]
+    return {
+        "map": with_table(whole, crossed),
+        "another map": with_table(whole, certificates.certificate_of(log_of("m1/0")).fold.table),
+        "log": replace(whole, log=edited(LATTICE, len(LATTICE) - 1, percept=Percept(1, None))),
+        "no evidence": without_merges(whole),
+        "evidence of another log": replace(
+            whole, fold=replace(whole.fold, meetings=cut.fold.meetings)
+        ),
+        "undetermined": replace(whole, statement="undetermined"),
+        "impossible": replace(whole, statement="impossible"),
+        "map of a log with open darts": replace(cut, statement="map"),
+        "map that an incomplete log does not prove": with_table(
+            replace(cut, statement="map"), whole.fold.table
+        ),
+    }
 
 
-def test_coqc_refuses_tampered_evidence(place: Path) -> None:
-    assert by_coqc(place, without_merges(certificates.certificate_of(LATTICE))).accepted is False
-
-
-def test_coqc_refuses_an_axiom_in_place_of_a_proof(place: Path) -> None:
-    text = coq_file(certificates.certificate_of(LATTICE))
-    begin = text.index("Proof.")
-    forged = text[:begin] + "Admitted.\n\nPrint Assumptions proved.\n"
-    assert toolchain.claims_unproved(forged)
-    assert certificates.by_kernel(place, "Forged", forged, timeout=LIMIT).accepted is False
+@pytest.mark.parametrize("kind", tampered())
+def test_coqc_refuses_what_is_tampered_with(place: Path, kind: str) -> None:
+    found = by_coqc(place, tampered()[kind])
+    assert found.accepted is False
+    assert "Error" in found.why
 
 
 @pytest.mark.slow
@@ -157,6 +181,98 @@ def test_coqc_certifies_a_lattice_of_10_by_10(place: Path) -> None:
     assert by_coqc(place, certificate).accepted
 
 
+# ---------------------------------------------------------------- the delivered map
+
+
+RUN = trace_of(families.lattice(3, 3))
+
+
+def delivering(delivered: MapData) -> tuple[Event, ...]:
+    return edited(RUN, len(RUN) - 1, map=delivered)
+
+
+def right_map() -> MapData:
+    end = RUN[-1]
+    assert isinstance(end, Finish)
+    return end.map
+
+
+def relabelled() -> MapData:
+    """The right map with other numbers for its darts, vertices, edges and ends in another order."""
+    right = right_map()
+    assert right.marker is not None
+    return MapData(
+        tuple(tuple(9 + 7 * dart for dart in (*r[1:], r[0])) for r in right.vertices[::-1]),
+        tuple((9 + 7 * y, 9 + 7 * x) for x, y in right.edges[::-1]),
+        9 + 7 * right.marker,
+    )
+
+
+def wrong_maps() -> dict[str, MapData]:
+    """The right map with one thing changed."""
+    right = right_map()
+    (a, b), (c, d), *edges = right.edges
+    first, *vertices = right.vertices
+    replaced = msgspec.structs.replace
+    return {
+        "edges": replaced(right, edges=((a, d), (c, b), *edges)),
+        "edge too many": replaced(right, edges=(*right.edges, (a, b))),
+        "edge to nowhere": replaced(right, edges=((a, 999), (c, d), *edges)),
+        "edge left out": replaced(right, edges=((c, d), *edges)),
+        "rotation": replaced(right, vertices=(first, *(r[::-1] for r in vertices))),
+        "vertex without darts": replaced(right, vertices=(*right.vertices, ())),
+        "dart twice": replaced(right, vertices=((*first, first[0]), *vertices)),
+        "marker": replaced(right, marker=b),
+        "marker nowhere": replaced(right, marker=999),
+    }
+
+
+@pytest.mark.parametrize("delivered", [right_map(), relabelled()])
+def test_coqc_compares_the_delivered_map_with_the_proved_one(
+    place: Path, delivered: MapData
+) -> None:
+    found = by_coqc(place, certificates.certificate_of(delivering(delivered)))
+    assert found.accepted
+    assert found.delivered
+
+
+def test_a_delivered_map_that_is_not_the_proved_one_is_not_claimed_to_be() -> None:
+    for kind, delivered in wrong_maps().items():
+        assert certificates.certificate_of(delivering(delivered)).numbering is None, kind
+
+
+@needs_ocaml
+def test_a_wrong_delivered_map_is_refused_whatever_the_numbering(place: Path) -> None:
+    for right in (right_map(), relabelled()):
+        assert by_program(place, certificates.certificate_of(delivering(right))).delivered
+    numbering = certificates.certificate_of(RUN).numbering
+    for kind, delivered in wrong_maps().items():
+        certificate = certificates.certificate_of(delivering(delivered))
+        claimed = by_program(place, replace(certificate, numbering=numbering))
+        assert claimed.accepted is False, kind
+        assert by_program(place, certificate).delivered is False
+
+
+@needs_ocaml
+def test_a_wrong_numbering_of_the_right_map_is_refused(place: Path) -> None:
+    certificate = certificates.certificate_of(RUN)
+    assert certificate.numbering is not None
+    one, two, *rest = certificate.numbering
+    for wrong in [(two, one, *rest), (one, two, *rest[:-1]), (one, one, *rest), ()]:
+        assert by_program(place, replace(certificate, numbering=wrong)).accepted is False
+    nothing = replace(certificate, log=certificate.log[:-1])
+    assert by_program(place, nothing).accepted is False
+
+
+def test_a_delivered_value_that_is_no_map_is_left_out() -> None:
+    for value in (
+        MapData(((0, -1),), ((0, -1),), 0),
+        MapData(((0, 1),), ((0, 1, 2),), 0),
+        MapData(((0, 1),), ((0, 1),), None),
+    ):
+        assert not of_type(Finish, certificates.certificate_of(delivering(value)).log)
+
+
 # ---------------------------------------------------------------- by the extracted program
 
 
@@ -164,24 +280,42 @@ def test_coqc_certifies_a_lattice_of_10_by_10(place: Path) -> None:
 def test_the_extracted_program_agrees_on_every_log_of_small_worlds(place: Path) -> None:
     for log in logs():
         certificate = certificates.certificate_of(log)
-        assert certificates.extracted(place, certificate, timeout=LIMIT).accepted, certificate
+        found = by_program(place, certificate)
+        assert (found.accepted, found.statement) == (True, certificate.statement), certificate
 
 
 @needs_ocaml
-def test_the_extracted_program_refuses_what_is_tampered_with(place: Path) -> None:
-    certificate = certificates.certificate_of(LATTICE)
-    cut = certificates.certificate_of(LATTICE[:12])
-    forged = [
-        without_merges(certificate),
-        replace(certificate, percepts=(*certificate.percepts[:-1], Percept(1, None))),
-        replace(certificate, statement="undetermined"),
-        replace(certificate, statement="impossible"),
-        replace(cut, statement="map"),
-        replace(cut, fold=replace(cut.fold, table=certificate.fold.table)),
-        replace(certificate, doors=(-1, *certificate.doors[1:])),
-    ]
-    for one in forged:
-        assert certificates.extracted(place, one, timeout=LIMIT).accepted is False, one
+@pytest.mark.parametrize("kind", tampered())
+def test_the_extracted_program_refuses_what_is_tampered_with(place: Path, kind: str) -> None:
+    assert by_program(place, tampered()[kind]).accepted is False
+
+
+@needs_ocaml
+def test_kernel_and_program_refuse_numbers_that_are_no_certificate(place: Path) -> None:
+    numbers = numbers_of(certificates.certificate_of(RUN))
+    forged = {
+        "truncated": numbers[:-1],
+        "half": numbers[: len(numbers) // 2],
+        "nothing": [],
+        "more data": [*numbers, 0],
+        "a count without an end": [*numbers[:2], 2**59, *numbers[3:]],
+        "a dart beyond all": [*numbers[:-1], 2**59],
+        "a door beyond all": [*numbers[:4], 2**59, *numbers[5:]],
+        "a kind of event that is none": [*numbers[:3], 5, *numbers[4:]],
+    }
+    assert certificates.extracted(place, numbers, timeout=LIMIT).accepted
+    for kind, one in forged.items():
+        assert certificates.extracted(place, one, timeout=LIMIT).accepted is False, kind
+        assert certificates.by_kernel(place, one, timeout=LIMIT).accepted is False, kind
+
+
+@needs_ocaml
+def test_the_extracted_program_reads_no_signs_and_no_words(place: Path) -> None:
+    assert certificates.extracted(place, [1, -1], timeout=LIMIT).accepted is False
+    for stdin in ("0x1", "accepted", "1_000", "2305843009213693952", "9" * 40):
+        ran = toolchain.run([str(place / "certifier")], place, timeout=LIMIT, stdin=stdin)
+        assert not ran.accepted, stdin
+        assert "accepted" not in ran.output
 
 
 @needs_ocaml
@@ -189,13 +323,13 @@ def test_the_extracted_program_refuses_what_is_tampered_with(place: Path) -> Non
 def test_the_extracted_program_certifies_ten_thousand_moves(place: Path) -> None:
     log = log_of(families.lattice(15, 15), "enhancement-ii")
     assert len(of_type(Move, log)) > 10_000
-    assert certificates.extracted(place, certificates.certificate_of(log), timeout=LIMIT).accepted
+    assert by_program(place, certificates.certificate_of(log)).accepted
 
 
 # ---------------------------------------------------------------- which of them
 
 
-def test_long_logs_go_to_the_extracted_program(
+def test_long_certificates_go_to_the_extracted_program(
     monkeypatch: pytest.MonkeyPatch, library: Path
 ) -> None:
     def linked(folder: Path, *, timeout: float) -> None:
@@ -205,31 +339,41 @@ def test_long_logs_go_to_the_extracted_program(
 
     told: list[str] = []
     monkeypatch.setattr(certificates, "build", linked)
+    numbers = numbers_of(certificates.certificate_of(LATTICE))
     with certificates.checking(timeout=LIMIT, progress=told.append) as check:
-        assert check("short", certificates.certificate_of(LATTICE)).by == toolchain.version()
+        assert check(numbers).by == toolchain.version()
         monkeypatch.setattr(certificates, "LONG", 10)
         if shutil.which("ocamlfind"):
-            assert check("long", certificates.certificate_of(LATTICE)).by.startswith(
-                "the checker extracted by"
-            )
-    assert told[:2] == ["compiling the proofs", "checking short.v"]
+            assert check(numbers).by.startswith("the checker extracted by")
+    assert told[:2] == ["compiling the proofs", "checking the certificate"]
 
 
 def test_what_is_not_checked_is_not_accepted(
     monkeypatch: pytest.MonkeyPatch, library: Path
 ) -> None:
     del library
+    numbers = numbers_of(certificates.certificate_of(LATTICE))
     with certificates.checking(timeout=0.01) as check:
-        late = check("late", certificates.certificate_of(LATTICE))
+        late = check(numbers)
         assert late.accepted is None
         assert "longer than 0.01 seconds" in late.why
         monkeypatch.setattr(shutil, "which", nowhere)
-        without = check("without", certificates.certificate_of(LATTICE))
+        without = check(numbers)
     assert without.accepted is None
     assert "coqc and coqchk not installed" in without.why
 
 
-def test_the_command_by_hand_names_the_sources_and_the_certificate() -> None:
-    line = certificates.command("certificate_x")
-    assert str(toolchain.SOURCES) in line
-    assert line.index("CheckerCorrect") < line.index("certificate_x")
+def test_a_log_with_too_many_doors_is_refused_before_anything_runs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    wide = edited(LATTICE, 3, percept=Percept(2**60, None))
+    with pytest.raises(InputError, match="doors together, and Coq counts at most 1,000,000"):
+        certificates.certificate_of(wide)
+    monkeypatch.setattr(shutil, "which", nowhere)
+    certificate = certificates.certificate_of(LATTICE)
+    with certificates.checking(timeout=LIMIT) as check:
+        found = check(numbers_of(replace(certificate, log=wide)))
+        assert (found.accepted, found.by) == (False, "topo-verify")
+        assert "doors together: expected at most 1,000,000" in found.why
+        larger = check([*numbers_of(certificate), 2**60 + 1])
+        assert (larger.accepted, larger.why) == (False, "a number is larger than 2^60")

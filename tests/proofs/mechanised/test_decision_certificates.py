@@ -2,27 +2,36 @@
 
 from __future__ import annotations
 
-import re
-import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace as replace_struct
 
 from tests.helpers import edited, fits, of_type, trace_of, worlds
+from tests.helpers import place as place_of
 from tests.proofs.mechanised.conftest import LIMIT
-from tests.proofs.mechanised.test_certificates import needs_ocaml
+from tests.proofs.mechanised.test_certificates import (
+    by_coqc,
+    by_program,
+    needs_ocaml,
+    numbers_of,
+)
 from tests.proofs.mechanised.test_decision_evidence import BACKWARDS
 from topo_verify import World, families
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.proofs.mechanised import certificates, toolchain, vernacular
+from topo_verify.proofs.mechanised import certificates, toolchain
 from topo_verify.proofs.mechanised import decision_evidence as evidence
-from topo_verify.proofs.mechanised.decision_evidence import EdgeRefutation, EntailedDecision, Fact
+from topo_verify.proofs.mechanised.certificate_format import CoqCertificate, data_file
+from topo_verify.proofs.mechanised.decision_evidence import (
+    DeclaredDecision,
+    EdgeRefutation,
+    Fact,
+)
 from topo_verify.proofs.mechanised.evidence import Alone, Arc
-from topo_verify.proofs.mechanised.vernacular import CoqCertificate, coq_file
-from topo_verify.robot.events import Reject
+from topo_verify.robot.events import Augment, Confirm, Event, Move, Reject
 from topo_verify.world.enumeration.rank_order import count
 
 
@@ -53,40 +62,33 @@ def lattice() -> CoqCertificate:
     return certificates.certificate_of(trace_of(families.lattice(3, 3)))
 
 
-def together(certificates: Sequence[CoqCertificate]) -> str:
-    """Many certificates in one file, a module each, asked together what they rest on."""
-    parts: list[str] = []
-    for number, one in enumerate(certificates):
-        head, imports, body = coq_file(one).partition("CheckerCorrect Decisions.\n")
-        body = re.sub(r"^Print Assumptions \w+\.$", "", body, flags=re.MULTILINE)
-        parts.append(f"{'' if number else head + imports}Module M{number}.\n{body}End M{number}.\n")
-    names = ("proved", "decisions_follow")
-    theorems = [f"M{i}.{name}" for i in range(len(parts)) for name in names]
-    parts.append(f"Definition every := ({', '.join(theorems)}).\nPrint Assumptions every.\n")
-    return "".join(parts)
-
-
-def by_coqc(place: Path, text: str) -> certificates.CertificateCheck:
-    return certificates.by_kernel(place, "Decisions_of_the_test", text, timeout=LIMIT)
-
-
-def by_program(place: Path, certificate: CoqCertificate) -> bool | None:
-    return certificates.extracted_decisions(place, certificate, timeout=LIMIT).accepted
+def all_accepted(place: Path, found: Sequence[CoqCertificate]) -> bool:
+    """Whether the check, run by coqc on many certificates in one file, accepts each of them."""
+    parts = [data_file(numbers_of(one)) for one in found]
+    modules = [f"Module M{i}.\n{part}End M{i}.\n" for i, part in enumerate(parts)]
+    each = "; ".join(f"M{i}.numbers" for i in range(len(parts)))
+    goal = f"forallb Topo.Certificate.check_numbers [{each}]%list = true"
+    head = "From Coq Require Import List.\nImport ListNotations.\nFrom Topo Require Certificate.\n"
+    end = f"Goal {goal}.\nvm_compute. reflexivity. Qed.\n"
+    (place / "Many.v").write_text("".join([head, *modules, end]))
+    return toolchain.compile_one(place, "Many", timeout=LIMIT).accepted
 
 
 # ---------------------------------------------------------------- accepted
 
 
 def test_coqc_accepts_the_decisions_of_every_algorithm(place: Path) -> None:
-    text = together(runs())
-    assert text.count("Theorem decisions_follow") == len(runs()) > 150
-    assert by_coqc(place, text) == certificates.CertificateCheck(True, toolchain.version())
+    assert len(runs()) > 150
+    assert all_accepted(place, runs())
+    assert not all_accepted(place, [*runs()[:3], forged(another_reason)[0]])
 
 
 @needs_ocaml
 def test_the_extracted_program_accepts_them_too(place: Path) -> None:
     for certificate in runs():
-        assert by_program(place, certificate), certificate
+        found = by_program(place, certificate)
+        assert found.accepted, certificate
+        assert found.certified == len(certificate.decisions.stated)
 
 
 @needs_ocaml
@@ -96,7 +98,7 @@ def test_the_extracted_program_accepts_those_of_every_world_of_3_edges(place: Pa
         for name in CATALOGUE:
             if fits(name, world):
                 certificate = certificates.certificate_of(trace_of(world, name))
-                assert by_program(place, certificate), (name, world)
+                assert by_program(place, certificate).accepted, (name, world)
 
 
 @pytest.mark.slow
@@ -108,7 +110,8 @@ def test_coqc_accepts_the_decisions_of_larger_worlds(place: Path, world: str, ma
     maze = families.lattice(4, 4) if world.startswith("family") else World.from_id(world)
     certificate = certificates.certificate_of(trace_of(maze, mapper))
     assert certificate.decisions.stated
-    assert by_coqc(place, coq_file(certificate)).accepted
+    found = by_coqc(place, certificate)
+    assert (found.accepted, found.certified) == (True, len(certificate.decisions.stated))
 
 
 # ---------------------------------------------------------------- forged
@@ -116,23 +119,27 @@ def test_coqc_accepts_the_decisions_of_larger_worlds(place: Path, world: str, ma
 Forgery = Callable[[Fact], Fact | None]
 
 
-def another_place(fact: Fact) -> Fact | None:
-    """The edge leads, or does not lead, elsewhere: to the next dart there."""
-    visit, door = fact.other
-    turned = (door + 1) % lattice().percepts[visit - 1].degree
-    return replace(fact, other=(visit, turned)) if isinstance(fact.reason, Arc) else None
+def another_reason(fact: Fact) -> Fact | None:
+    """The arc back, which does not leave by the dart."""
+    reason = fact.reason
+    return (
+        replace(fact, reason=Arc(not reason.forwards, reason.visit))
+        if isinstance(reason, Arc)
+        else None
+    )
 
 
 def confirmed_instead(fact: Fact) -> Fact | None:
-    """A rejection turned into a confirmation, by an arc that does leave by the dart."""
-    (visit, door), reason = fact.one, fact.reason
-    if isinstance(reason, Arc) or not reason.meetings or lattice().doors[visit - 1] != door:
+    """The reason for a rejection becomes one for a confirmation: an arc that leaves by the dart."""
+    visit, door = fact.one
+    moves = of_type(Move, lattice().log)
+    if isinstance(fact.reason, Arc) or visit > len(moves) or moves[visit - 1].door != door:
         return None
-    return replace(fact, reason=Arc(True, visit))
+    return replace(fact, reason=Arc(forwards=True, visit=visit))
 
 
 def rejected_instead(fact: Fact) -> Fact | None:
-    """A confirmation turned into a rejection."""
+    """The reason for a confirmation becomes one for a rejection."""
     why = EdgeRefutation((), Alone(fact.visit))
     return replace(fact, reason=why) if isinstance(fact.reason, Arc) else None
 
@@ -145,162 +152,187 @@ def evidence_cut(fact: Fact) -> Fact | None:
     return replace(fact, reason=replace(reason, meetings=reason.meetings[:-1]))
 
 
-def a_move_early(fact: Fact) -> Fact | None:
-    """Decided one move before: the robot had not come in there yet."""
-    return replace(fact, visit=fact.visit - 1) if fact.other == (fact.visit, 0) else None
-
-
-def a_move_late(fact: Fact) -> Fact | None:
-    """Decided with a visit that the log does not have."""
-    return replace(fact, visit=len(lattice().percepts) + 1)
+def of_a_later_move(fact: Fact) -> Fact | None:
+    """The arc is a move that was not made yet."""
+    later = len(of_type(Move, lattice().log))
+    return (
+        replace(fact, reason=Arc(forwards=True, visit=later))
+        if isinstance(fact.reason, Arc)
+        else None
+    )
 
 
 FORGERIES: tuple[Forgery, ...] = (
-    another_place,
+    another_reason,
     confirmed_instead,
     rejected_instead,
     evidence_cut,
-    a_move_early,
-    a_move_late,
+    of_a_later_move,
 )
 
 
-def with_facts(certificate: CoqCertificate, facts: Sequence[Fact]) -> CoqCertificate:
-    """The certificate with these facts in place of its own."""
-    stated = (EntailedDecision(0, "changed", tuple(facts)),)
-    return replace(certificate, decisions=replace(certificate.decisions, stated=stated))
-
-
-def facts_of(certificate: CoqCertificate) -> list[Fact]:
-    return [fact for one in certificate.decisions.stated for fact in one.facts]
+def with_decision(
+    certificate: CoqCertificate, number: int, facts: Sequence[Fact]
+) -> CoqCertificate:
+    """The certificate with these facts for one of its decisions."""
+    stated = list(certificate.decisions.stated)
+    stated[number] = replace(stated[number], facts=tuple(facts))
+    return replace(certificate, decisions=replace(certificate.decisions, stated=tuple(stated)))
 
 
 def forged(forgery: Forgery) -> list[CoqCertificate]:
     """The lattice's certificate with one fact changed, for each that can be changed so."""
-    facts = facts_of(lattice())
     found: list[CoqCertificate] = []
-    for number, fact in enumerate(facts):
-        if (changed := forgery(fact)) is not None:
-            found.append(with_facts(lattice(), [*facts[:number], changed, *facts[number + 1 :]]))
+    for number, one in enumerate(lattice().decisions.stated):
+        for place, fact in enumerate(one.facts):
+            if (changed := forgery(fact)) is not None:
+                facts = [*one.facts[:place], changed, *one.facts[place + 1 :]]
+                found.append(with_decision(lattice(), number, facts))
     return found
 
 
 def rearranged() -> list[CoqCertificate]:
-    """Facts in another order, and without the merges of the log."""
+    """No merges of the log; a reason too few, one too many, and two in another order."""
     without = replace(lattice(), decisions=replace(lattice().decisions, merges=()))
-    return [with_facts(lattice(), facts_of(lattice())[::-1]), without]
+    stated = lattice().decisions.stated
+    number = max(range(len(stated)), key=lambda i: len(stated[i].facts))
+    facts = stated[number].facts
+    assert len(facts) > 3
+    changed = (facts[:-1], (*facts, facts[-1]), (facts[0], *facts[:0:-1]))
+    return [without, *(with_decision(lattice(), number, one) for one in changed)]
+
+
+def changed_logs() -> list[CoqCertificate]:
+    """The events changed and the evidence kept: each change declares what does not follow."""
+    log, found = lattice().log, list[tuple[Event, ...]]()
+    for when, event in enumerate(log):
+        if isinstance(event, Reject):
+            found.append(edited(log, when, hypothesis=event.hypothesis + 1))
+            found.append((*log[:when], Confirm(*_ends(event), "motion"), *log[when + 1 :]))
+        elif isinstance(event, Augment):
+            found.append(edited(log, when, degree=event.degree + 1))
+            found.append(edited(log, when, dart=event.dart + 1))
+            found.append(edited(log, when, edge=event.edge + 1))
+            kind = "loop" if event.kind == "new" else "new"
+            found.append(edited(log, when, kind=kind))
+    return [replace(lattice(), log=log) for log in found]
+
+
+def _ends(event: Reject) -> tuple[int, int]:
+    return event.edge, event.hypothesis
 
 
 def test_facts_that_are_not_changed_are_accepted(place: Path) -> None:
-    same = with_facts(lattice(), facts_of(lattice()))
-    assert by_coqc(place, coq_file(same)).accepted
+    found = by_coqc(place, with_decision(lattice(), 0, lattice().decisions.stated[0].facts))
+    assert found.certified == found.decisions == len(lattice().decisions.stated) == 20
 
 
 @pytest.mark.parametrize("forgery", FORGERIES)
-def test_coqc_refuses_a_tampered_decision(place: Path, forgery: Forgery) -> None:
-    checked = by_coqc(place, coq_file(forged(forgery)[-1]))
-    assert checked.accepted is False
-    assert "decided log merges decisions reasons" in " ".join(checked.why.split())
-
-
-@pytest.mark.parametrize("which", [0, 1])
-def test_coqc_refuses_another_order_and_missing_merges(place: Path, which: int) -> None:
-    checked = by_coqc(place, coq_file(rearranged()[which]))
-    assert checked.accepted is False
-    assert "decided log merges decisions reasons" in " ".join(checked.why.split())
-
-
-def test_coqc_refuses_a_decision_without_a_reason(place: Path) -> None:
-    text = coq_file(lattice())
-    reasons = text.index("Definition reasons")
-    short = text[:reasons] + text[reasons:].replace("[Joined (true, 1%positive);", "[", 1)
-    assert short != text
-    assert by_coqc(place, short).accepted is False
-
-
-def test_coqc_refuses_decisions_that_are_admitted(place: Path) -> None:
-    text = coq_file(lattice())
-    begin = text.index("Proof. apply (decided_correct")
-    forged = f"{text[:begin]}Admitted.\n\nPrint Assumptions decisions_follow.\n"
-    assert by_coqc(place, forged).accepted is False
+def test_coqc_refuses_a_tampered_reason(place: Path, forgery: Forgery) -> None:
+    assert by_coqc(place, forged(forgery)[-1]).accepted is False
 
 
 @needs_ocaml
 @pytest.mark.parametrize("forgery", FORGERIES)
-def test_the_extracted_program_refuses_tampered_decisions(place: Path, forgery: Forgery) -> None:
+def test_the_extracted_program_refuses_tampered_reasons(place: Path, forgery: Forgery) -> None:
     found = forged(forgery)
     assert found
-    assert [by_program(place, one) for one in found] == [False] * len(found)
+    assert [by_program(place, one).accepted for one in found] == [False] * len(found)
 
 
 @needs_ocaml
 def test_the_extracted_program_refuses_another_order_and_missing_merges(place: Path) -> None:
-    assert by_program(place, lattice())
-    assert [by_program(place, one) for one in rearranged()] == [False, False]
-
-
-# ---------------------------------------------------------------- who checks
-
-
-@pytest.fixture
-def linked(monkeypatch: pytest.MonkeyPatch, library: Path) -> None:
-    """The library is not compiled again."""
-
-    def link(folder: Path, *, timeout: float) -> None:
-        del timeout
-        for path in library.glob("*.v*"):
-            (folder / path.name).symlink_to(path)
-
-    monkeypatch.setattr(certificates, "build", link)
-
-
-@pytest.mark.usefixtures("linked")
-def test_decisions_are_checked_with_the_map_by_coqc() -> None:
-    with certificates.checking(timeout=LIMIT) as check:
-        assert check("short", lattice()) == certificates.CertificateCheck(True, toolchain.version())
+    assert by_program(place, lattice()).accepted
+    assert [by_program(place, one).accepted for one in rearranged()] == [False] * 4
 
 
 @needs_ocaml
-@pytest.mark.usefixtures("linked")
-def test_decisions_with_long_evidence_go_to_the_extracted_program(
-    monkeypatch: pytest.MonkeyPatch,
+def test_the_extracted_program_refuses_changed_events(place: Path) -> None:
+    found = changed_logs()
+    assert len(found) > 50
+    assert [by_program(place, one).accepted for one in found] == [False] * len(found)
+
+
+# ---------------------------------------------------------------- mistranslated
+
+
+def mistranslated(monkeypatch: pytest.MonkeyPatch) -> CoqCertificate:
+    """A false rejection, which a planted mistake takes for one that follows.
+
+    In place of a confirmation stands the rejection of the same hypothesis. The mistake: where it is
+    translated into places, another hypothesis stands for it, which was in fact refuted.
+    """
+    trace = trace_of(families.lattice(3, 3))
+    rejections = {event.edge: event for event in trace if isinstance(event, Reject)}
+    when, confirmed = next(
+        (when, event)
+        for when, event in enumerate(trace)
+        if isinstance(event, Confirm) and event.edge in rejections
+    )
+    rejected = rejections[confirmed.edge]
+    lie = replace_struct(rejected, hypothesis=confirmed.hypothesis)
+    log = (*trace[:when], lie, *trace[when + 1 :])
+    followed = [i for i, e in enumerate(log) if isinstance(e, Reject | Confirm | Augment)]
+
+    def following(_: Sequence[Event]) -> Iterator[tuple[int, Event]]:
+        return ((i, log[i]) for i in followed)
+
+    monkeypatch.setattr(evidence, "following", following)
+    facts = evidence.LogSoFar.facts
+
+    def mistaken(log: evidence.LogSoFar, event: DeclaredDecision) -> tuple[Fact, ...]:
+        return facts(log, rejected if event is lie else event)
+
+    monkeypatch.setattr(evidence.LogSoFar, "facts", mistaken)
+    return certificates.certificate_of(log)
+
+
+def test_a_false_rejection_that_python_mistranslates_is_refused(
+    place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(vernacular, "MANY", 100)
-    assert "too much evidence for Coq's kernel" in coq_file(lattice())
-    assert "decisions_follow" not in coq_file(lattice())
-    with certificates.checking(timeout=LIMIT) as check:
-        found = check("many", lattice())
-        assert (found.accepted, found.by) == (True, toolchain.version())
-        assert found.decisions is not None
-        assert found.decisions.accepted
-        assert found.decisions.by.startswith("the checker extracted by")
-        refused = check("forged", forged(evidence_cut)[0]).decisions
-        assert refused is not None
-        assert refused.accepted is False
-        monkeypatch.setattr(certificates, "LONG", 10)
-        monkeypatch.setattr(vernacular, "MANY", 10_000)
-        both = check("long", lattice())
-        assert both.by == getattr(both.decisions, "by", "")
-        assert both.by.startswith("the checker extracted by")
+    certificate = mistranslated(monkeypatch)
+    assert len(certificate.decisions.stated) == len(lattice().decisions.stated)
+    assert by_coqc(place, certificate).accepted is False
 
 
-@pytest.mark.usefixtures("linked")
-def test_decisions_that_nobody_can_check_are_not_accepted(monkeypatch: pytest.MonkeyPatch) -> None:
-    which = shutil.which
+# ---------------------------------------------------------------- left out
 
-    def no_compiler(program: str) -> str | None:
-        return None if program == "ocamlfind" else which(program)
 
-    monkeypatch.setattr(shutil, "which", no_compiler)
-    monkeypatch.setattr(vernacular, "MANY", 100)
-    with certificates.checking(timeout=LIMIT) as check:
-        found = check("many", lattice())
-        assert found.accepted
-        assert found.decisions is not None
-        assert found.decisions.accepted is None
-        assert "ocamlfind is not installed" in found.decisions.why
-        monkeypatch.setattr(evidence, "MOST", 100)
-        given_up = check("most", certificates.certificate_of(trace_of(families.lattice(3, 3))))
-        assert given_up.decisions is not None
-        assert given_up.decisions.accepted is None
-        assert "more than" in given_up.decisions.why
+def test_decisions_that_do_not_follow_have_no_reasons(place: Path) -> None:
+    log = trace_of(families.lattice(3, 3))
+    when = place_of(log, Reject)
+    rejected = log[when]
+    assert isinstance(rejected, Reject)
+    wrong = (*log[:when], Confirm(rejected.edge, rejected.hypothesis, "motion"), *log[when + 1 :])
+    found = by_coqc(place, certificates.certificate_of(wrong))
+    assert found.accepted
+    assert found.certified == found.decisions - 1
+
+
+@needs_ocaml
+def test_after_a_new_vertex_that_is_not_proved_nothing_is_accepted(place: Path) -> None:
+    for number, one in enumerate(lattice().decisions.stated[:-1]):
+        event = lattice().log[one.when]
+        found = by_program(place, with_decision(lattice(), number, ()))
+        assert found.accepted is not isinstance(event, Augment), event
+
+
+def test_a_decision_about_no_dart_is_left_out_with_all_after_it(place: Path) -> None:
+    log = trace_of(families.lattice(3, 3))
+    when = place_of(log, Reject)
+    certificate = certificates.certificate_of(edited(log, when, hypothesis=-1))
+    before = [
+        one for one in lattice().decisions.stated if one.when < certificate.log.index(log[when - 1])
+    ]
+    found = by_coqc(place, certificate)
+    assert (found.accepted, found.certified, found.decisions) == (True, len(before), len(before))
+
+
+def test_evidence_that_is_too_long_is_left_out(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(evidence, "MOST", 100)
+    certificate = certificates.certificate_of(trace_of(families.lattice(3, 3)))
+    assert certificate.decisions.too_long
+    found = by_coqc(place, certificate)
+    assert (found.accepted, found.statement, found.certified) == (True, "map", 0)

@@ -1,7 +1,8 @@
-(** The checkers as a program in OCaml: certifier.ml, to which driver.ml adds the main program.
+(** The check of certificates as a program in OCaml: certifier.ml, to which driver.ml adds the main
+    program.
 
     Natural numbers become OCaml's integers. That is right below 2^62, and it is trusted. *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
-From Topo Require Import World Log Table Checker Decisions.
+From Topo Require Import Certificate.
 
-Extraction "certifier.ml" certified refute impossible decided.
+Extraction "certifier.ml" check_numbers summary.

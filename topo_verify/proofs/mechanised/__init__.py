@@ -3,7 +3,7 @@
 toolchain.py           calls coqc and coqchk as programs
 theorems.py            the theorems of coq/, compiled and asked for their axioms
 certificates.py        makes certificates for logs and has Coq's kernel check them
-vernacular.py          writes a certificate as a source of Coq, and as numbers
+certificate_format.py  writes and reads a certificate, which is a list of numbers
 evidence.py            folds a log and records every merge as evidence
 decision_evidence.py   the same for each decision of a trace
 """

@@ -1,19 +1,20 @@
-"""Certificates: a statement about one log, and a proof of it that Coq's kernel computes.
+"""Certificates: a statement about one log, and evidence with which Coq proves it by computing.
 
-The checkers of this package judge what a log proves. A certificate states the same in Coq for one
-log, and proves it by running a checker whose correctness is proved (coq/CheckerCorrect.v). The log
-is folded in Python (`evidence.py`), which is not trusted: the kernel follows the evidence. A
+The checkers of this package judge what a log proves. A certificate states the same for one log, and
+Coq proves it by running a checker whose correctness is a theorem (coq/Certificate.v). The log is
+folded in Python (`evidence.py`), which is not trusted: the kernel follows the evidence. A
 certificate makes one of three statements:
 
-    map            every world that shows these percepts to these doors is isomorphic to this map
+    map            every world that shows these percepts to these doors is isomorphic to this map,
+                   and to the map that was delivered, if a right one was
     undetermined   two worlds that differ show them
     impossible     no world shows them
 
-The declared decisions that follow (claim 10) are a second statement: each holds in every world that
-shows the log up to that moment (`decision_evidence.py`).
+Besides, each declared decision that follows is stated (claim 10): it is true in every world that
+shows the log up to that moment. The statements are about the declared events themselves.
 
-The file needs only the sources of the library beside it; its first lines say what it states. Long
-logs take the kernel minutes. `extracted` runs the same checker as a program in OCaml, which trusts
+A certificate is data (`certificate_format.py`). One fixed file checks it, coq/Checked.v. Long ones
+take the kernel minutes; they go to the same checker, extracted as a program in OCaml, which trusts
 Coq's extraction and the OCaml compiler besides the kernel.
 
 What this does not show: that the percepts are what happened, or anything of the world with no edge.
@@ -23,34 +24,34 @@ Source: docs/mechanised.md; docs/semantics.md, section 11.
 
 from __future__ import annotations
 
+import re
 import shutil
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from topo_verify.checkers.replayed_trace import require_order
 from topo_verify.errors import InputError
-from topo_verify.proofs.mechanised import toolchain
-from topo_verify.proofs.mechanised.decision_evidence import MOST, evidence_for_decisions
-from topo_verify.proofs.mechanised.evidence import fold_log
-from topo_verify.proofs.mechanised.vernacular import (
-    MANY,
+from topo_verify.proofs.mechanised import certificate_format, toolchain
+from topo_verify.proofs.mechanised.certificate_format import (
+    STATEMENTS,
+    WIDEST,
     CertifiedStatement,
     CoqCertificate,
-    coq_file,
-    numbers,
-    numbers_of_decisions,
 )
-from topo_verify.robot.events import Event, Move, Start
+from topo_verify.proofs.mechanised.decision_evidence import evidence_for_decisions
+from topo_verify.proofs.mechanised.evidence import MapRow, fold_log
+from topo_verify.robot.events import Event, Finish, MapData, Move, Start
 from topo_verify.robot.percept import Percept
 
-LIBRARY = "Decisions"
-"""The file of the library that a certificate builds on."""
+LIBRARY = "Certificate"
+"""The file of the library that the check builds on."""
 
-LONG = 10_000
-"""Logs of more moves are checked by the extracted program, if OCaml is installed."""
+LONG = 200_000
+"""Certificates of more numbers are checked by the extracted program, if OCaml is installed."""
 
 _PROGRAM = ("certifier.mli", "certifier.ml", "driver.ml")
 
@@ -63,13 +64,18 @@ class CertificateCheck:
         accepted: True, False, or None if it was not checked.
         by: name and version of the checker; "" if none is installed.
         why: the reason why it was refused, or not checked.
-        decisions: the result for the decisions, if they were checked apart from the file.
+        statement: what an accepted certificate states of its log; None if it is not accepted.
+        delivered: whether it states that the delivered map is right.
+        certified, decisions: how many decisions it states to follow, and how many its log has.
     """
 
     accepted: bool | None
     by: str
     why: str = ""
-    decisions: CertificateCheck | None = None
+    statement: CertifiedStatement | None = None
+    delivered: bool = False
+    certified: int = 0
+    decisions: int = 0
 
 
 def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
@@ -77,35 +83,104 @@ def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
 
     Raises:
         InputError: the trace is out of order; or the theory cannot state the log: it is of the
-            world without edges, or has numbers below 0.
+            world without edges, has numbers below 0, or too many doors.
     """
     require_order(trace)
-    percepts = tuple(event.percept for event in trace if isinstance(event, Start | Move))
-    doors = tuple(event.door for event in trace if isinstance(event, Move))
+    percepts, doors = _walk(trace)
+    _require_statable(percepts, doors)
+    fold = fold_log(percepts, doors)
+    shown: CertifiedStatement = "map" if fold.closed else "undetermined"
+    # After a conflict the table is empty, and `closed` is true of an empty table.
+    statement = "impossible" if fold.conflict else shown
+    log = certificate_format.stated_log(trace)
+    delivered = log[-1]
+    numbering = None
+    if statement == "map" and isinstance(delivered, Finish):
+        numbering = numbering_of(delivered.map, fold.table)
+    decisions = evidence_for_decisions(log)
+    return CoqCertificate(statement, log, fold, numbering, decisions)
+
+
+def is_about(numbers: Sequence[int], trace: Sequence[Event]) -> bool:
+    """Whether the log in the numbers of a certificate is the log of this trace.
+
+    Raises:
+        InputError: as `certificate_of`.
+    """
+    require_order(trace)
+    _require_statable(*_walk(trace))
+    lines = certificate_format.log_lines(certificate_format.stated_log(trace))
+    log = list(chain.from_iterable(lines))
+    # What a log is can be told from its front, so no log is the beginning of another one.
+    return list(numbers[: len(log)]) == log
+
+
+def _walk(trace: Sequence[Event]) -> tuple[tuple[Percept, ...], tuple[int, ...]]:
+    """The percepts and the doors of a trace."""
+    return (
+        tuple(event.percept for event in trace if isinstance(event, Start | Move)),
+        tuple(event.door for event in trace if isinstance(event, Move)),
+    )
+
+
+def _require_statable(percepts: Sequence[Percept], doors: Sequence[int]) -> None:
+    """Raise InputError if the theory cannot state this log."""
     if not doors and percepts[0] == Percept(0, None):
         raise InputError(
             "the world without edges has no dart, and is outside the theory of the proofs in Coq:"
             " leave out --kernel"
         )
-    if min((*doors, *(p.marker or 0 for p in percepts)), default=0) < 0:
+    sensed = chain.from_iterable((p.degree, p.marker or 0) for p in percepts)
+    if min(chain(doors, sensed)) < 0:
         raise InputError(
-            "the log has a door or a marker below 0, which cannot be stated as a natural number:"
-            " leave out --kernel"
+            "the log has a door, a degree or a marker below 0, which cannot be stated as a natural"
+            " number: leave out --kernel"
         )
-    fold = fold_log(percepts, doors)
-    shown: CertifiedStatement = "map" if fold.closed else "undetermined"
-    # After a conflict the table is empty, and `closed` is true of an empty table.
-    statement = "impossible" if fold.conflict else shown
-    return CoqCertificate(statement, percepts, doors, fold, evidence_for_decisions(trace))
+    if (width := sum(p.degree for p in percepts)) > WIDEST:
+        raise InputError(
+            f"the places of this log have {width:,} doors together, and Coq counts at most"
+            f" {WIDEST:,}: is a degree wrong? Else leave out --kernel"
+        )
+
+
+def numbering_of(delivered: MapData, table: Sequence[MapRow]) -> tuple[tuple[int, int], ...] | None:
+    """The correspondence of a delivered map with a proved one; None if it is another map.
+
+    It lists for each dart of the delivered map, in order, the dart of the table, and for each dart
+    of the table the place of the delivered one in that order.
+    """
+    labels = list(chain.from_iterable(delivered.vertices))
+    place = {label: i for i, label in enumerate(labels)}
+    after = {r[i - 1]: dart for r in delivered.vertices for i, dart in enumerate(r)}
+    other = {one: two for x, y in delivered.edges for one, two in ((x, y), (y, x))}
+    sizes = {len(labels), len(place), len(other), 2 * len(delivered.edges), len(table)}
+    if len(sizes) > 1 or delivered.marker not in place or not all(delivered.vertices):
+        return None
+    of_table: dict[int, int] = {}
+    todo: list[tuple[int, int]] = [(0, delivered.marker)]
+    for dart, label in todo:
+        if dart in of_table:
+            continue
+        of_table[dart] = label
+        partner = table[dart].other
+        if label not in after or label not in other or partner is None:
+            return None
+        todo += [(table[dart].following, after[label]), (partner, other[label])]
+    # A map that only looks alike so far is refused by the checker: it compares every dart.
+    if any(of_table[dart] != label for dart, label in todo) or len(of_table) < len(table):
+        return None
+    back = [place[of_table[dart]] for dart in range(len(table))]
+    ahead = {i: dart for dart, i in enumerate(back)}
+    return tuple((ahead[i], back[i]) for i in range(len(back))) if len(ahead) == len(back) else None
 
 
 @contextmanager
 def checking(
     *, timeout: float, progress: Callable[[str], None] = lambda _: None
-) -> Generator[Callable[[str, CoqCertificate], CertificateCheck]]:
-    """Yield a function that checks a certificate, given the name of its file without suffix.
+) -> Generator[Callable[[Sequence[int]], CertificateCheck]]:
+    """Yield a function that checks the numbers of a certificate.
 
-    coqc checks it, or the extracted program if the log is long and OCaml is installed. The library
+    coqc checks them, or the extracted program if they are many and OCaml is installed. The library
     is compiled once, for the first certificate, in a folder that is removed at the end.
 
     Args:
@@ -122,47 +197,27 @@ class _Checker:
     def __init__(self, folder: Path, timeout: float, progress: Callable[[str], None]) -> None:
         self.folder, self.timeout, self.progress = folder, timeout, progress
 
-    def check(self, name: str, certificate: CoqCertificate) -> CertificateCheck:
-        """The result of checking a certificate, its decisions included."""
+    def check(self, numbers: Sequence[int]) -> CertificateCheck:
+        """The result of checking a certificate."""
+        if why := certificate_format.doubt(numbers):
+            return CertificateCheck(accepted=False, by="topo-verify", why=why)
         if why := toolchain.missing():
-            return CertificateCheck(None, "", why)
-        compiler = shutil.which("ocamlfind") is not None
-        by_program = compiler and len(certificate.doors) > LONG
+            return CertificateCheck(accepted=None, by="", why=why)
         try:
             # It needs all the others, so it is compiled last.
             if not (self.folder / f"{LIBRARY}.vo").exists():
                 self.progress("compiling the proofs")
                 build(self.folder, timeout=self.timeout)
-            self.progress(f"checking {name}.v")
-            if by_program:
-                found = extracted(self.folder, certificate, timeout=self.timeout)
-            else:
-                found = by_kernel(self.folder, name, coq_file(certificate), timeout=self.timeout)
+            self.progress("checking the certificate")
+            if len(numbers) > LONG and shutil.which("ocamlfind") is not None:
+                return extracted(self.folder, numbers, timeout=self.timeout)
+            return by_kernel(self.folder, numbers, timeout=self.timeout)
         except toolchain.TimeOut as error:
-            return CertificateCheck(None, toolchain.version(), str(error))
-        # coqc has checked the decisions already if the file states them.
-        if by_program or not certificate.writes_decisions:
-            return replace(found, decisions=self.decisions(certificate, compiler=compiler))
-        return found
-
-    def decisions(self, certificate: CoqCertificate, *, compiler: bool) -> CertificateCheck | None:
-        """The result for decisions that the file for Coq leaves out; None if there are none."""
-        if certificate.decisions.too_long:
-            return CertificateCheck(None, "", f"their evidence has more than {MOST:,} steps")
-        if not certificate.decisions.stated:
-            return None
-        if not compiler:
-            why = f"their evidence has more than {MANY:,} steps, and ocamlfind is not installed"
-            return CertificateCheck(None, "", why)
-        self.progress("checking the decisions")
-        try:
-            return extracted_decisions(self.folder, certificate, timeout=self.timeout)
-        except toolchain.TimeOut as error:
-            return CertificateCheck(None, toolchain.version(), str(error))
+            return CertificateCheck(accepted=None, by=toolchain.version(), why=str(error))
 
 
 def build(folder: Path, *, timeout: float) -> None:
-    """Compile in the folder the part of the library that certificates import.
+    """Compile in the folder the part of the library that the check needs.
 
     Raises:
         InputError: the installed Coq refuses a file.
@@ -178,29 +233,22 @@ def build(folder: Path, *, timeout: float) -> None:
         )
 
 
-def by_kernel(folder: Path, name: str, text: str, *, timeout: float) -> CertificateCheck:
-    """The result of compiling a certificate with coqc, beside the compiled library."""
-    (folder / f"{name}.v").write_text(text, encoding="utf-8")
-    ran = toolchain.compile_one(folder, name, timeout=timeout)
-    # Every theorem of the file must be free of axioms: coqc accepts files with axioms, too.
-    asked = text.count("\nPrint Assumptions ")
-    accepted = ran.accepted and asked == ran.output.count(toolchain.NO_AXIOMS) > 0
-    return CertificateCheck(accepted, toolchain.version(), "" if accepted else ran.output[-300:])
+_SUMMARY = re.compile(r"= Some \((\d), (\d), \((\d+), (\d+)\)\)")
 
 
-def extracted(folder: Path, certificate: CoqCertificate, *, timeout: float) -> CertificateCheck:
-    """The result of the extracted program for the statement about the map."""
-    return _extracted(folder, numbers(certificate), timeout=timeout)
+def by_kernel(folder: Path, numbers: Sequence[int], *, timeout: float) -> CertificateCheck:
+    """The result of compiling the fixed check with coqc, beside the compiled library."""
+    (folder / "Data.v").write_text(certificate_format.data_file(numbers), encoding="utf-8")
+    toolchain.copy_library(folder, ["Checked"])
+    ran = toolchain.compile_all(folder, ["Data", "Checked"], timeout=timeout)
+    found = _SUMMARY.search(ran.output)
+    # The theorem must be free of axioms: coqc accepts files with axioms, too.
+    if not ran.accepted or toolchain.NO_AXIOMS not in ran.output or found is None:
+        return CertificateCheck(accepted=False, by=toolchain.version(), why=ran.output[-300:])
+    return _accepted(toolchain.version(), map(int, found.groups()))
 
 
-def extracted_decisions(
-    folder: Path, certificate: CoqCertificate, *, timeout: float
-) -> CertificateCheck:
-    """The result of the extracted program for the decisions."""
-    return _extracted(folder, numbers_of_decisions(certificate), timeout=timeout)
-
-
-def _extracted(folder: Path, stdin: str, *, timeout: float) -> CertificateCheck:
+def extracted(folder: Path, numbers: Sequence[int], *, timeout: float) -> CertificateCheck:
     """The result of the extracted program, which is compiled at its first use."""
     program = folder / "certifier"
     by = f"the checker extracted by {toolchain.version()}"
@@ -214,13 +262,24 @@ def _extracted(folder: Path, stdin: str, *, timeout: float) -> CertificateCheck:
         for step in steps:
             ran = toolchain.run(step, folder, timeout=timeout)
             if not ran.accepted:
-                return CertificateCheck(None, by, f"{step[0]} fails: {ran.output[-300:]}")
+                why = f"{step[0]} fails: {ran.output[-300:]}"
+                return CertificateCheck(accepted=None, by=by, why=why)
+    stdin = " ".join(map(str, numbers))
     ran = toolchain.run([str(program)], folder, timeout=timeout, stdin=stdin)
-    accepted = ran.accepted and ran.output == "accepted"
-    return CertificateCheck(accepted, by, "" if accepted else ran.output[-300:] or "refused")
+    word, *summary = ran.output.split() or [""]
+    if not ran.accepted or word != "accepted":
+        return CertificateCheck(accepted=False, by=by, why=ran.output[-300:] or "refused")
+    return _accepted(by, map(int, summary))
 
 
-def command(name: str, sources: Path = toolchain.SOURCES) -> str:
-    """The shell command that checks a certificate by hand, in the folder where it lies."""
-    names = " ".join([*toolchain.required(LIBRARY), name])
-    return f"cp {sources}/*.v . && for f in {names}; do coqc -Q . Topo $f.v || break; done"
+def _accepted(by: str, summary: Iterable[int]) -> CertificateCheck:
+    """The result for an accepted certificate, in the words of its summary."""
+    claim, delivered, certified, decisions = summary
+    return CertificateCheck(
+        accepted=True,
+        by=by,
+        statement=STATEMENTS[claim],
+        delivered=bool(delivered),
+        certified=certified,
+        decisions=decisions,
+    )

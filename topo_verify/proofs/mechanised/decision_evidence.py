@@ -1,24 +1,26 @@
 """Evidence that the decisions of a trace follow, each from the log as it was at that moment.
 
-A decision is stated by facts about places of the log, each a visit and a door: an edge leads from
-one to the other (`leads`), or none does. Evidence for the first is an arc that joins the two; for
-the second the merges that follow from an edge between them, up to a conflict.
+A decision rests on facts about places of the log, each a visit and a door: an edge leads from one
+to the other, or none does. The evidence for the first is an arc that joins the two; for the second
+the merges that follow from an edge between them, up to a conflict.
 
     reject h, confirm h   one fact about e and h
     augment loop          an edge leads from e to the other dart
     augment new           an edge leads from e to where the robot came in, and none to any other
                           dart of S that is unexplored at that moment
 
-checkers/entailment.py finds which decisions follow; here they are stated in terms of places, as
-coq/Decisions.v checks them. The fold grows from one decision to the next and an assumed edge is
-taken back, so the work is one fold and what the assumptions add. This file is not trusted: a
-mistake here makes a certificate that the checker refuses.
+checkers/entailment.py finds which decisions follow; here is the evidence, in the order in which
+coq/Decisions.v asks for it. That program finds the facts itself, from the event: it is told the
+reasons only. The fold grows from one decision to the next and an assumed edge is taken back, so the
+work is one fold and what the assumptions add. This file is not trusted: a mistake here makes a
+certificate that the checker refuses.
 
 The map on the fold is kept here a second time, apart from the checkers': a fact names the place of
 the log where a dart was seen, and the checkers keep representatives, which later merges replace.
 
 Under the planar prior a decision may follow for planar worlds only. Planarity is not defined in
-Coq: such a decision has no evidence, and is left out.
+Coq: such a decision has no evidence, and is left out. If it is an augmentation, S is not proved
+from there on, and so no later decision has evidence either.
 
 Source: docs/semantics.md, section 11; docs/mechanised.md.
 """
@@ -72,10 +74,9 @@ class Fact:
 
 @dataclass(frozen=True, slots=True)
 class EntailedDecision:
-    """A declared decision that follows: the index of its event, in words, and as facts."""
+    """A declared decision that follows: the index of its event, and the facts it rests on."""
 
     when: int
-    words: str
     facts: tuple[Fact, ...]
 
 
@@ -108,16 +109,18 @@ def evidence_for_decisions(trace: Sequence[Event]) -> EntailedDecisions:
     """
     # With the planar prior, a decision may follow for planar worlds only and lack evidence here.
     prior = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
-    log = _LogSoFar()
+    log = LogSoFar()
     stated: list[EntailedDecision] = []
     spent = steps = 0
-    for when, event in _following(trace):
+    for when, event in following(trace):
         log.catch_up(trace, when)
         facts = log.facts(event)
         if facts:
-            stated.append(EntailedDecision(when, _words(event), facts))
+            stated.append(EntailedDecision(when, facts))
         elif not prior:
-            raise InternalError(f"two folds of one log differ at event {when}: {_words(event)}")
+            raise InternalError(f"two folds of one log differ at event {when}: {event}")
+        elif isinstance(event, Augment):
+            break
         spent += sum(map(_length, facts))
         steps = log.visit + len(log.fold.meetings) + spent
         if steps > MOST:
@@ -125,7 +128,7 @@ def evidence_for_decisions(trace: Sequence[Event]) -> EntailedDecisions:
     return EntailedDecisions(tuple(stated), tuple(log.fold.meetings), steps)
 
 
-def _following(trace: Sequence[Event]) -> Iterator[tuple[int, DeclaredDecision]]:
+def following(trace: Sequence[Event]) -> Iterator[tuple[int, DeclaredDecision]]:
     """The declared decisions that follow, each with the index of its event."""
     if not any(isinstance(event, DeclaredDecision) for event in trace):
         return
@@ -135,23 +138,11 @@ def _following(trace: Sequence[Event]) -> Iterator[tuple[int, DeclaredDecision]]
             yield conclusion.when, event
 
 
-def _words(event: DeclaredDecision) -> str:
-    match event:
-        case Reject(edge, hypothesis):
-            return f"the other end of {edge} is not {hypothesis}"
-        case Confirm(edge, hypothesis):
-            return f"the other end of {edge} is {hypothesis}"
-        case Augment(edge, "loop", dart):
-            return f"a loop: {edge} and {dart} are one edge"
-        case Augment(edge, _, _, degree):
-            return f"a new vertex: {edge} leads to one of degree {degree}"
-
-
 def _length(fact: Fact) -> int:
     return 1 + (len(fact.reason.meetings) if isinstance(fact.reason, EdgeRefutation) else 0)
 
 
-class _LogSoFar:
+class LogSoFar:
     """The log up to one moment of a trace: its fold, and the map S on the fold."""
 
     def __init__(self) -> None:

@@ -80,7 +80,8 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
     _one("coq-run-exists", "RunExists.run_exists", "map-isomorphic rejection-justified",
         "Every world has a justified run to its end: what is false can be refuted."),
     _one("coq-explored", "MapperCorrect.explore_correct", "map-isomorphic",
-        "The mapper ends with the world, whatever its policies and its sound rule."),
+        "The mapper ends with the world, whatever its policies, with any rule that sees the map and"
+        " this edge's sequences and keeps the true hypothesis."),
     _one("coq-basic", "Policies.basic_correct", "map-isomorphic",
         "The mapper with rule none, breadth-first ways and the lowest dart ends with the world."),
     _one("coq-history", "Policies.history_correct", "map-isomorphic",
@@ -131,8 +132,12 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
         "A contradiction that the checker accepts: the rejection follows from the log."),
     _one("coq-confirm-certified", "CheckerCorrect.confirmed_correct", "decisions-entailed",
         "Partners that the checker accepts: the confirmation follows from the log."),
-    _one("coq-decisions-certified", "Decisions.decided_correct", "decisions-entailed",
-        "Decisions that the checker accepts follow, each from the log as far as it went."),
+    _one("coq-decisions-certified", "DecisionsCorrect.decided_correct", "decisions-entailed",
+        "Declared decisions that the checker accepts follow, each from the events before it."),
+    _one("coq-delivered", "Delivered.check_delivery_right", "map-isomorphic map-entailed",
+        "A delivered map that the checker accepts is every world that shows the log."),
+    _one("coq-certificate", "Certificate.check_numbers_correct", "map-entailed decisions-entailed",
+        "What a certificate says is true if the checker accepts its numbers."),
 )  # fmt: skip
 
 

@@ -101,16 +101,17 @@ def copy_library(folder: Path, names: Iterable[str]) -> None:
 def compile_all(
     folder: Path, names: Iterable[str], *, timeout: float, flags: Sequence[str] = ()
 ) -> ProgramRun:
-    """Compile these sources of the folder in order, up to the first that Coq refuses.
+    """The result of compiling these sources of the folder in order, up to the first refused one.
 
     Raises:
         TimeOut: one takes longer than `timeout` seconds.
     """
+    ran = ProgramRun(accepted=True, output="")
     for name in names:
         ran = compile_one(folder, name, timeout=timeout, flags=flags)
         if not ran.accepted:
-            return ran
-    return ProgramRun(accepted=True, output="")
+            break
+    return ran
 
 
 def compile_one(

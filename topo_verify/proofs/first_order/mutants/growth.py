@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from topo_verify.proofs.first_order import axioms as t
 from topo_verify.proofs.first_order import rules as r
-from topo_verify.proofs.first_order.mutants.mutant import AWAY, TRUE, RuleMutant, x
+from topo_verify.proofs.first_order.mutants.mutant import AWAY, BEHIND, TRUE, RuleMutant, x
 from topo_verify.proofs.first_order.obligations.obligation import MAPPED, POSED, E, H
 from topo_verify.proofs.first_order.scene_replay import SceneReplay
 from topo_verify.proofs.first_order.scenes import mfirst
-from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, neg, substitute
+from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, forall, neg, substitute
 
 
 def _plays_not_posed(replay: SceneReplay, rule: Term) -> bool:
@@ -21,6 +21,14 @@ def _plays_first_dart(replay: SceneReplay, _rule: Term) -> bool:
     replay.behind("e")
     other = replay.first(replay.dart("h"))
     return other != replay.dart("h") and replay.truth("e", "h")
+
+
+def _plays_entered_late(replay: SceneReplay, _rule: Term) -> bool:
+    replay.behind("e")
+    world, e = replay.scene.world, replay.scene.place[replay.scene.constants["e"]]
+    # S joins e with the first dart of the new vertex, and that is the dart after `behind`.
+    behind = world.alpha[e]
+    return world.sigma[behind] != behind
 
 
 _NOT_AT_VK = conj(r.POSED, differ(mfirst(r.h), mfirst(r.e)))
@@ -57,6 +65,20 @@ GROWTH: tuple[RuleMutant, ...] = (
         rule=conj(r.POSED, neg(r.POSED)),
         scene={**TRUE, **AWAY},
         plays=_plays_not_posed,
+    ),
+    RuleMutant(
+        name="new-numbered-late",
+        size=(2, 1),
+        of="new-entry",
+        words="a new vertex is numbered from the dart after that by which the robot came in",
+        claims=MAPPED,
+        rule=eq(r.b, t.sigma(r.b)),
+        scene={
+            "e-open": neg(t.explored(E)),
+            "is-new": forall(x, differ(t.phi(x), BEHIND)),
+            "turns": differ(t.sigma(BEHIND), BEHIND),
+        },
+        plays=_plays_entered_late,
     ),
     RuleMutant(
         name="loop-at-first-dart",

@@ -92,6 +92,9 @@ NEW_VERTEX: dict[str, Term] = {
     "entry-marker": eq(minv0(ENTRY), inv0(B)),
 }
 
+ENTRY_THERE = eq(phi2(mrot(ENTRY, k0)), B)
+"""Door 0 of the new vertex, which is its first dart, is the dart behind e."""
+
 
 def _apart(door: Term) -> Term:
     return forall(x, differ(phi(x), rot(B, door)))
@@ -147,6 +150,15 @@ OBLIGATIONS: tuple[Obligation, ...] = (
         needs=("numbered-from-entry", "entry-degree", "one-dart", "doors-wrap", "map-doors-wrap"),
     ),
     Obligation(
+        name="new-entry",
+        words="door 0 of a new vertex, whose first dart is joined with e, is the dart behind e",
+        claims=MAPPED,
+        theory=("rot-zero",),
+        given=NEW_VERTEX,
+        goal=ENTRY_THERE,
+        needs=("numbered-from-entry", "rot-zero"),
+    ),
+    Obligation(
         name="new-turns",
         words="doors of the new vertex follow each other as they do at its place in the world",
         claims=MAPPED,
@@ -175,18 +187,25 @@ OBLIGATIONS: tuple[Obligation, ...] = (
         name="new-edges",
         words="after a new vertex, explored edges of S are edges of the world",
         claims=MAPPED,
-        theory=("alpha-involution", "phi-alpha", "explored-both-ends"),
+        theory=("alpha-involution", "phi-alpha", "explored-both-ends", "map-rot-zero"),
         given=BEHIND_E
         | _joined(E, ENTRY)
         | {
             "explored-are-old": forall(x, explored(x), old(x)),
             "e-is-old": old(E),
             "nothing-moves": forall(x, old(x), eq(phi2(x), phi(x))),
-            "entry-is-there": eq(phi2(ENTRY), B),
+            "entry-is-there": ENTRY_THERE,  # by `new-entry`
             "is-explored": explored2(X),
         },
         goal=conj(eq(phi2(malpha2(X)), alpha(phi2(X))), explored2(malpha2(X))),
-        needs=("alpha-involution", "phi-alpha", "one-end", "nothing-moves", "entry-is-there"),
+        needs=(
+            "alpha-involution",
+            "phi-alpha",
+            "one-end",
+            "nothing-moves",
+            "entry-is-there",
+            "map-rot-zero",
+        ),
     ),
     Obligation(
         name="loop-edges",

@@ -1,0 +1,311 @@
+"""The format of certificates: data only, as lines of natural numbers.
+
+A certificate is a text. Its first line is `HEADER`; then come natural numbers in decimal digits,
+separated by spaces and line ends, and nothing else: no comment, no sign, no word. So it can hold a
+log, a claim and evidence, and cannot define or prove anything. coq/Certificate.v says what the
+numbers mean, and reads them; what is written here is not trusted. Only three things here are:
+`parse`, which finds the numbers of a text; `data_file`, which writes them for Coq; and `log_lines`,
+which says of which numbers a log consists.
+
+Source: docs/mechanised.md; coq/Certificate.v.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import Literal
+
+from topo_verify.errors import InputError
+from topo_verify.proofs.mechanised.decision_evidence import EntailedDecisions, Fact
+from topo_verify.proofs.mechanised.evidence import (
+    Alone,
+    Arc,
+    Arrive,
+    Conflict,
+    FoldedLog,
+    Illegal,
+    Marked,
+    Meeting,
+)
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Finish,
+    MapData,
+    Move,
+    Reject,
+    Start,
+)
+from topo_verify.robot.percept import Percept
+
+HEADER = "topo-verify/certificate 1"
+"""The first line of a certificate: the format and its version."""
+
+LARGEST = 2**60
+"""Larger numbers are in no certificate."""
+
+WIDEST = 1_000_000
+"""The most doors that the places of a log may have together. Coq counts doors one by one."""
+
+CertifiedStatement = Literal["map", "undetermined", "impossible"]
+
+STATEMENTS: tuple[CertifiedStatement, ...] = ("map", "undetermined", "impossible")
+"""The statements in the order of their numbers."""
+
+Numbers = list[int]
+Line = Sequence[int]
+
+
+@dataclass(frozen=True, slots=True)
+class CoqCertificate:
+    """A statement about one log, with the evidence that a checker needs to verify it.
+
+    Attributes:
+        statement: one of the three at the head of certificates.py.
+        log: the events that the certificate is about.
+        fold: map, evidence and conflict; not trusted.
+        numbering: of each dart of the delivered map in order, the dart of the proved map, and
+            conversely; None if no map is delivered, or another one than is proved; not trusted.
+        decisions: the decisions of the trace that follow, with evidence; not trusted either.
+    """
+
+    statement: CertifiedStatement
+    log: tuple[Event, ...]
+    fold: FoldedLog
+    numbering: tuple[tuple[int, int], ...] | None
+    decisions: EntailedDecisions
+
+
+# ---------------------------------------------------------------- reading
+
+
+def parse(text: bytes, *, name: str) -> Numbers:
+    """The numbers of a certificate.
+
+    Raises:
+        InputError: it does not begin with the header, or holds anything but natural numbers.
+    """
+    head, _, rest = text.partition(b"\n")
+    if head != HEADER.encode():
+        raise InputError(f"{name}: expected a certificate, whose first line is {HEADER!r}")
+    if found := re.search(rb"[^0-9 \n]", rest):
+        line = rest.count(b"\n", 0, found.start()) + 2
+        raise InputError(
+            f"{name}, line {line}: expected natural numbers, spaces and line ends,"
+            f" got {found[0].decode('latin-1')!r}"
+        )
+    words = rest.split()
+    # Longer words would take Python minutes to read; 2^60 has 19 digits.
+    return [LARGEST + 1 if len(word) > 19 else int(word) for word in words]
+
+
+def doubt(numbers: Sequence[int]) -> str:
+    """The reason why numbers are refused before any checker sees them; "" if there is none."""
+    if max(numbers, default=0) > LARGEST:
+        return "a number is larger than 2^60"
+    width = log_width(numbers)
+    if width > WIDEST:
+        return f"the places of the log have {width:,} doors together: expected at most {WIDEST:,}"
+    return ""
+
+
+_ARGUMENTS = {1: 2, 2: 2, 3: 3, 4: 3}
+"""How many numbers follow the number of a kind of decision."""
+
+
+def log_width(numbers: Sequence[int]) -> int:
+    """The sum of all degrees of the log at the head of these numbers, as far as it goes."""
+    stream = iter(numbers)
+    width = next(stream, 0)
+    next(stream, 0)
+    for _ in range(min(next(stream, 0), len(numbers))):
+        kind = next(stream, -1)
+        if kind == 0:
+            next(stream, 0)
+            width += next(stream, 0)
+        for _ in range(_ARGUMENTS.get(kind, 1)):
+            next(stream, 0)
+    return width
+
+
+def data_file(numbers: Sequence[int]) -> str:
+    """The numbers as Data.v, a source of Coq that defines them and nothing else."""
+    parts = [numbers[i : i + 500] for i in range(0, len(numbers), 500)]
+    # Coq's parser needs more stack for a longer list: hence the parts.
+    defined = [
+        f"Definition part_{i} : list N := [{'; '.join(map(str, part))}]."
+        for i, part in enumerate(parts)
+    ]
+    names = "; ".join(f"part_{i}" for i in range(len(parts)))
+    return "\n".join(
+        [
+            "From Coq Require Import List NArith.",
+            "Import ListNotations.",
+            "Local Open Scope N_scope.",
+            *defined,
+            f"Definition numbers : list N := concat [{names}].",
+            "",
+        ]
+    )
+
+
+# ---------------------------------------------------------------- writing
+
+
+def text_of(certificate: CoqCertificate) -> str:
+    """The certificate as a text."""
+    return "\n".join([HEADER, *(" ".join(map(str, line)) for line in lines_of(certificate)), ""])
+
+
+def lines_of(certificate: CoqCertificate) -> Iterator[Line]:
+    """The numbers of a certificate, line by line."""
+    yield from log_lines(certificate.log)
+    yield from _claim(certificate)
+    decisions = certificate.decisions
+    yield from _counted(map(_meeting, decisions.merges))
+    reasons = {one.when: one.facts for one in decisions.stated}
+    declared = [when for when, e in enumerate(certificate.log) if isinstance(e, _DECISIONS)]
+    while declared and declared[-1] not in reasons:
+        del declared[-1]
+    yield (len(declared),)
+    for when in declared:
+        facts = reasons.get(when, ())
+        yield (len(facts), *chain.from_iterable(map(_reason, facts)))
+
+
+_DECISIONS = (Reject, Confirm, Augment)
+
+
+def stated_log(trace: Sequence[Event]) -> tuple[Event, ...]:
+    """The events of a trace that a certificate is about.
+
+    A decision about a number that no dart has follows from nothing, and so does no decision after
+    it: they are left out, and so is a delivered value that is no map at all. Poses are left out as
+    well, since they claim nothing of the world.
+    """
+    end = next((i for i, event in enumerate(trace) if not _is_natural(event)), len(trace))
+    kept = [
+        event
+        for i, event in enumerate(trace)
+        if isinstance(event, Start | Move)
+        or (isinstance(event, _DECISIONS) and i < end)
+        or (isinstance(event, Finish) and _is_map(event.map))
+    ]
+    return tuple(kept)
+
+
+def log_lines(log: Sequence[Event]) -> Iterator[Line]:
+    """The numbers at the head of each certificate about a log of `stated_log`, line by line."""
+    begin = log[0]
+    assert isinstance(begin, Start)
+    yield _percept(begin.percept)
+    yield from _counted(filter(None, map(_event, log)))
+    end = log[-1]
+    if not isinstance(end, Finish):
+        yield (0,)
+        return
+    yield (1,)
+    yield from _counted((len(darts), *darts) for darts in end.map.vertices)
+    yield from _counted(end.map.edges)
+    yield (end.map.marker or 0,)
+
+
+def _is_natural(event: Event) -> bool:
+    """Whether the numbers of a decision are natural ones that Coq can count to."""
+    match event:
+        case Reject(edge, other) | Confirm(edge, other):
+            return 0 <= edge <= WIDEST and 0 <= other <= WIDEST
+        case Augment(edge, _, dart, degree):
+            return all(0 <= number <= WIDEST for number in (edge, dart, degree))
+        case _:
+            return True
+
+
+def _is_map(delivered: MapData) -> bool:
+    """Whether a delivered value has darts that are natural numbers, edges of two, and a marker."""
+    darts = [*chain.from_iterable(delivered.vertices), *chain.from_iterable(delivered.edges)]
+    return (
+        delivered.marker is not None
+        and all(len(edge) == 2 for edge in delivered.edges)
+        and all(0 <= dart <= LARGEST for dart in (*darts, delivered.marker))
+    )
+
+
+def _event(event: Event) -> Line | None:
+    """The numbers of an event; None of one that stands elsewhere, or nowhere."""
+    match event:
+        case Move(door, percept):
+            return (0, door, *_percept(percept))
+        case Reject(edge, hypothesis):
+            return (1, edge, hypothesis)
+        case Confirm(edge, hypothesis):
+            return (2, edge, hypothesis)
+        case Augment(edge, kind, dart, degree):
+            return (3 if kind == "loop" else 4, edge, dart, degree)
+        case _:
+            return None
+
+
+def _claim(certificate: CoqCertificate) -> Iterator[Line]:
+    """The statement, with the map and the evidence that it needs."""
+    fold, numbering = certificate.fold, certificate.numbering
+    yield (STATEMENTS.index(certificate.statement),)
+    if certificate.statement != "impossible":
+        rows = ((row.following, row.previous, _optional(row.other)) for row in fold.table)
+        yield from _counted(rows)
+    if certificate.statement != "undetermined":
+        yield from _counted(map(_meeting, fold.meetings))
+    if certificate.statement == "impossible":
+        yield _conflict(fold.conflict or Illegal())
+    if certificate.statement == "map":
+        yield (0,) if numbering is None else (1,)
+        if numbering is not None:
+            yield from _counted(numbering)
+
+
+def _counted(lines: Iterable[Line]) -> Iterator[Line]:
+    """A list: its length, then its elements."""
+    elements = list(lines)
+    yield (len(elements),)
+    yield from elements
+
+
+def _optional(number: int | None) -> int:
+    return 0 if number is None else number + 1
+
+
+def _percept(percept: Percept) -> Line:
+    return (percept.degree, _optional(percept.marker))
+
+
+def _arc(arc: Arc) -> Line:
+    return (int(arc.forwards), arc.visit)
+
+
+def _meeting(meeting: Meeting) -> Line:
+    return (*_arc(meeting[0]), *_arc(meeting[1]))
+
+
+def _conflict(conflict: Conflict) -> Line:
+    match conflict:
+        case Arrive(meeting):
+            return (0, *_meeting(meeting))
+        case Marked(visit):
+            return (1, visit)
+        case Alone(visit):
+            return (2, visit)
+        case Illegal():
+            return (1, 1)  # a filler: the log is illegal, which needs no conflict
+
+
+def _reason(fact: Fact) -> Line:
+    match fact.reason:
+        case Arc() as arc:
+            return (0, *_arc(arc))
+        case why:
+            merges = chain.from_iterable(map(_meeting, why.meetings))
+            return (1, len(why.meetings), *merges, *_conflict(why.conflict))
