@@ -72,7 +72,26 @@ class Table(Protocol):
         ...
 
 
-SOURCES = ["topo_verify.compiled.workspace", "topo_verify.compiled.events"]
+SOURCES = [
+    f"topo_verify.compiled.{name}"
+    for name in (
+        "workspace",
+        "events",
+        "faults",
+        "robot",
+        "chart",
+        "policies",
+        "motion",
+        "prefix",
+        "records",
+        "history",
+        "partial_fold",
+        "folding",
+        "planar",
+        "rules",
+        "exploration",
+    )
+]
 """The modules with kernels, and with constants that kernels use."""
 
 

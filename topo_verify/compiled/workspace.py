@@ -104,8 +104,10 @@ TRACE = CAPACITIES["TRACE"]
 FAULTS = 0
 """Whether mistakes can be planted; 1 in `FAULTY`."""
 
-P = 65536
-"""A percept is `degree * P`, and 1 + marker if the marker is here: degrees are below P."""
+SHIFT = 16
+P = 1 << SHIFT
+MASK = P - 1
+"""A percept is `degree * P`, and 1 + marker if the marker is here: degrees are below P - 1."""
 
 # ---------------------------------------------------------------- what the caller sets
 RULE = one("RULE")  # the rule of the algorithm: RULE_… below
@@ -136,6 +138,7 @@ CP = row("CP", "CHART_DARTS")  # percept with each dart as the reference dart
 UN = row("UN", "CHART_DARTS")  # whether the dart is in U
 CF = row("CF", "CHART_DARTS")  # first dart of each vertex
 CD = row("CD", "CHART_DARTS")  # degree of each vertex
+SG = row("SG", "CHART_DARTS")  # signature of each vertex: 2 * degree, and 1 if the marker is here
 UO = row("UO", "CHART_DARTS")  # how many darts of each vertex are in U
 DEP = row("DEP", "CHART_DARTS")  # distance of each vertex from v0
 PAR = row("PAR", "CHART_DARTS")  # dart of each vertex towards v0; -1: v0
@@ -148,6 +151,7 @@ SEARCH = one("SEARCH")  # the number of the last search
 
 # ---------------------------------------------------------------- excursions: motion.py
 TURNED = one("TURNED")  # doors from the dart of entry to the reference dart
+SHARED = one("SHARED")  # doors of its way that the chosen hypothesis shares with the last sequence
 NDOORS = one("NDOORS")  # doors of the excursion
 DOORS = row("DOORS", "CHART_DARTS")  # those doors
 PP = row("PP", "CHART_DARTS")  # percepts behind them, vu's own first
@@ -167,6 +171,7 @@ EV_WRONG = one("EV_WRONG")  # a contradiction of folding or planar; 0: none
 NSEQ = one("NSEQ")  # sequences executed for e
 SQ_LENGTH = row("SQ_LENGTH", "CHART_DARTS")  # doors of each sequence
 SQ_FIRST = row("SQ_FIRST", "CHART_DARTS")  # where each begins among the steps
+NSTEPS = one("NSTEPS")  # steps of all sequences
 SQ_DOORS = row("SQ_DOORS", "STEPS")
 SQ_PERCEPTS = row("SQ_PERCEPTS", "STEPS")
 NREC = one("NREC")  # percepts on record
@@ -191,7 +196,7 @@ BEHIND_DOOR = row("BEHIND_DOOR", "PLACE_DOORS")  # the other end of a door: door
 ORDER = row("ORDER", "PLACE_DOORS")  # a node's doors as they were filled
 WAITING = row("WAITING", "PLACE_DOORS")  # pairs of darts that are still to be made one
 NUNDO = one("NUNDO")  # what is to be taken back
-UNDO = row("UNDO", "PLACE_DOORS")  # 2 * place, and 1 if a door of it was filled
+UNDO = row("UNDO", "PLACE_DOORS")  # 4 * node + UNDO_…: what was changed, in order
 LAYER = one("LAYER")  # whether changes are to be taken back
 VN = row("VN", "CHART_DARTS")  # of each vertex of S: its node
 VD = row("VD", "CHART_DARTS")  # of each vertex of S: the node's door that is its first dart
@@ -206,6 +211,8 @@ NFACES = one("NFACES")  # how many faces were walked: the number of this e
 TR = row("TR", "TRACE")
 
 RULE_NONE, RULE_PREFIX, RULE_HISTORY, RULE_ONE, RULE_ALL, RULE_FOLDING, RULE_PLANAR = range(7)
+
+UNDO_MERGE, UNDO_FILL, UNDO_KNOWN = range(3)
 
 STOP_BUDGET = 1  # one more move than the budget
 STOP_DOOR = 2  # no such door
