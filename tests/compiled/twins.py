@@ -16,7 +16,6 @@ from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.enumeration import rank_order
 
-
 LOST = 100
 """Moves after which a mapper that assumes a planar world is stopped in another one, where it may
 take its whole budget."""

@@ -29,10 +29,7 @@ from topo_verify.compiled.explore import KERNELS, map_of
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.growth import G_VERTICES
 from topo_verify.compiled.judging.layout import (
-    J_COST,
-    J_DOORS_HASH,
     J_JUDGED,
-    J_LEVEL,
     J_OF,
     J_STATUS,
     JUDGE_SIZE,

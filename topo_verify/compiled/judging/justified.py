@@ -133,9 +133,7 @@ def percepts_agree(W: Words, J: Words, i: int) -> bool:
 
 
 @kernel
-def beyond_s(
-    W: Words, J: Words, i: int, dart: int, doors: int, rest: int, observed: int
-) -> bool:
+def beyond_s(W: Words, J: Words, i: int, dart: int, doors: int, rest: int, observed: int) -> bool:
     """`percepts_agree` where the word leaves S at a dart, with so many doors to go."""
     if W[i + 10] != dart or W[i + 12] != rest or W[i + 9] not in (ABSENT, dart):
         return True

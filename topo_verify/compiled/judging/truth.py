@@ -10,7 +10,16 @@ is judged; from the first false augmentation on (`J_SPOILED`) no decision.
 
 from __future__ import annotations
 
-from topo_verify.compiled.events import AUGMENT, BY_MOTION, BY_PLANAR, CONFIRM, LOOP, MOVE, NEW, POSE, REJECT
+from topo_verify.compiled.events import (
+    BY_MOTION,
+    BY_PLANAR,
+    CONFIRM,
+    LOOP,
+    MOVE,
+    NEW,
+    POSE,
+    REJECT,
+)
 from topo_verify.compiled.judging.justified import keep_sequence, record_sequences, unjustified
 from topo_verify.compiled.judging.layout import (
     FATE_LOOP,
@@ -40,11 +49,8 @@ from topo_verify.compiled.judging.layout import (
     J_RECORD_OF,
     J_RECORDS,
     J_REJECTIONS,
-    J_SAW_AUGMENT,
-    J_SAW_CONFIRM,
     J_SAW_PLANAR,
     J_SAW_POSE,
-    J_SAW_REJECT,
     J_SEQUENCES,
     J_SIZE,
     J_SPOILED,

@@ -10,10 +10,8 @@ from topo_verify.compiled.judging.entailed import fold_history
 from topo_verify.compiled.judging.fold import find_dart, find_node, lay_out
 from topo_verify.compiled.judging.justified import cites_in_vain
 from topo_verify.compiled.judging.layout import (
-    CLAIM_COUNT,
     F_ALPHA,
     F_DEGREE,
-    F_FIRST,
     F_NUMBER,
     F_SIZE,
     F_VERTEX,
@@ -60,7 +58,7 @@ from topo_verify.compiled.judging.layout import (
 from topo_verify.compiled.judging.truth import replay
 from topo_verify.compiled.kernel import Words, entry, inlined, kernel
 from topo_verify.compiled.pruning import bit_count
-from topo_verify.compiled.workspace import AL, CA, CD, CF, CHART_DARTS, CV, DG, NDARTS, NV, ST, VT
+from topo_verify.compiled.workspace import AL, CA, CD, CF, CV, DG, NDARTS, NV, ST, VT
 
 
 @entry

@@ -5,7 +5,7 @@ from __future__ import annotations
 from topo_verify.compiled.events import AUGMENT, CONFIRM, MOVE, POSE, REJECT, REJECT_WORDS
 from topo_verify.compiled.judging.layout import J_FULL
 from topo_verify.compiled.kernel import Words, inlined
-from topo_verify.compiled.workspace import AL, DG, NTR, SHIFT, ST, TR, VT
+from topo_verify.compiled.workspace import DG, NTR, SHIFT, ST, TR, VT
 
 
 @inlined
