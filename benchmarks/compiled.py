@@ -1,11 +1,11 @@
-"""How fast the compiled engine is: every figure that the project promises of it, beside the promise.
+"""How fast the compiled engine is: every figure that is promised of it, beside the promise.
 
     .venv/bin/python benchmarks/compiled.py                      # all rows, some minutes
     .venv/bin/python benchmarks/compiled.py --only enumeration basic
     .venv/bin/python benchmarks/compiled.py --only nine ten --whole   # all 31,579,824 worlds
 
-Seconds are processor time, but in the rows for two cores, where they stand beside the clock. Kernels
-are compiled before anything is timed. `nine` and `ten` examine slices spread evenly over the worlds
+Seconds are processor time, but in the rows for two cores, where they stand beside the clock. All is
+compiled before anything is timed. `nine` and `ten` examine slices spread evenly over the worlds
 with 8 edges, one world in sixteen, and count the rest in proportion, unless `--whole` is given.
 
 The ratio to C is of `compiled_twin.c` (cc -O2 -march=native), which runs before and after the

@@ -39,8 +39,8 @@ CLASSES = (
 
 
 def counted(kind: str, edges: int) -> int:
-    W = np.zeros(SMALL.at("SIZE"), np.int64)
-    return compiled(count_worlds, SMALL)(W, prepare(edges, WorldClass.parse(kind)))
+    space = np.zeros(SMALL.at("SIZE"), np.int64)
+    return compiled(count_worlds, SMALL)(space, prepare(edges, WorldClass.parse(kind)))
 
 
 @pytest.mark.parametrize("text", CLASSES)
@@ -93,9 +93,9 @@ def test_the_simple_worlds_with_ten_edges_are_as_many_as_is_known() -> None:
 
 def first_rows(kind: str, edges: int, most: int = 400) -> list[list[int]]:
     """The first worlds, listed by the kernel as plain Python, with every index checked."""
-    W, G = [0] * SMALL.at("SIZE"), prepare(edges, WorldClass.parse(kind)).tolist()
+    space, state = [0] * SMALL.at("SIZE"), prepare(edges, WorldClass.parse(kind)).tolist()
     rows = np.full((most, 3 + 3 * edges), -1)
-    return rows[: list_worlds(W, G, rows, most)].tolist()
+    return rows[: list_worlds(space, state, rows, most)].tolist()
 
 
 @pytest.mark.parametrize("text", ["any", "genus:1", "genus<=1", "simple", "planar,loopless"])

@@ -1,4 +1,4 @@
-"""A range examined by the kernel: status, share and cost of every claim, as the checkers give them."""
+"""A range examined by the kernel: status, share and cost are those of the checkers."""
 
 from __future__ import annotations
 

@@ -15,9 +15,9 @@ array of its own, `G`, so it stops at each world and goes on behind it:
 For a class other than `any` the pruners of `pruning.py` are asked before each step, and told of
 each step back.
 
-What it costs (one core): 16 ns a world in class `any`, 65 ns in classes that prune. A world takes
-1.5 steps in class `any` and 2.9 in `planar`, where most worlds end a chain of steps without a
-choice; each step reads what the one before has written, and that is the limit.
+What it costs (one core): 16 ns a world in class `any`, about 50 ns where branches are pruned. A
+planar world with 8 edges takes 2.9 steps; each reads what the one before has written, and that is
+the limit (benchmarks/compiled.py).
 
 Source: docs/semantics.md, section 12.
 """
@@ -209,7 +209,7 @@ def new_vertex(W: Words, e: int, first: int, degree: int, vertex: int) -> None:
 
 
 @inlined
-def next_pruned(W: Words, G: Words) -> int:
+def next_pruned(W: Words, G: Words) -> int:  # noqa: PLR0912  split, it takes longer
     """`next_world` in any other class: `_grown` of pruned.py."""
     m2, k, n, u, nv = G[G_DARTS], G[G_DEPTH], G[G_CREATED], G[G_OPENED], G[G_VERTICES]
     while True:
@@ -264,7 +264,7 @@ def next_pruned(W: Words, G: Words) -> int:
 
 @inlined
 def begin_next_root(W: Words, G: Words) -> int:
-    """Begin with the next root of the class in the range, and return its rank; -1: no further one."""
+    """Begin with the next root of the class in the range; its rank, or -1: no further one."""
     m2 = G[G_DARTS]
     rank = G[G_ROOT_AFTER]
     for degree in range(G[G_ROOT] + 1, m2 + 1):

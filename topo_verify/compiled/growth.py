@@ -1,4 +1,4 @@
-"""The layout of the state of an enumeration: one array of 64-bit integers, fields at constant places.
+"""The layout of the state of an enumeration: one array of 64-bit integers, at constant places.
 
 A **step** joins the smallest open dart with a partner; the steps so far are a stack, and a field of
 `_DEEP` places holds one number a step. See `enumeration.py` and `pruning.py`.
@@ -7,7 +7,7 @@ A **step** joins the smallest open dart with a partner; the steps so far are a s
 from __future__ import annotations
 
 MOST_LISTED_EDGES = 12
-"""Layout `SMALL` has room for so many. (Ranks fit in 64 bits up to 16 edges, masks of darts up to 31.)"""
+"""Layout `SMALL` has room for so many. (Ranks fit in 64 bits up to 16 edges.)"""
 
 _DEEP = 2 * MOST_LISTED_EDGES + 2
 """Room for one number a step, a dart or a vertex."""

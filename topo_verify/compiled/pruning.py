@@ -4,10 +4,10 @@ The compiled twin of the pruners of `world/enumeration/pruned.py`, under their n
 stands there. What differs: a pruner here is changed in place by `…_join` and `…_hang`, which say
 whether a completion may be left and change nothing if not, and is turned back by `…_undo_…`.
 
-    genus        A boundary word is a cyclic list, linked both ways (`G_NEXT`, `G_BEFORE`). A join links
-                 the neighbours of the two darts crosswise: that cuts one word in two, and makes one
-                 of two words. What a join does to the words is known before it is made, from the
-                 parity of the place of the partner (`look_around` walks along e's word once a step).
+    genus        A boundary word is a cyclic list, linked both ways (`G_NEXT`, `G_BEFORE`). A join
+                 links the neighbours of the two darts crosswise: that cuts one word in two, and
+                 makes one of two words. What it does to the words is known before it is made, from
+                 the parity of the partner's place (`look_around` walks along e's word once a step).
     neighbours   Counts and masks of each vertex. If the class is simple, a join makes nothing worse
                  for a vertex unless one of the two ends has no open dart left: only then all
                  vertices are looked at.

@@ -6,9 +6,8 @@
 Where the kernel leaves a verdict open (`judging/`), the run is made again with a trace by the same
 kernel, and the reference's checkers judge that trace; it is then counted like any other.
 
-What a run costs, `basic` at 7 edges, as shares of the time of all ten claims: enumeration 1 %, the
-mapper 25 %, its trace 5 %, claims 1 to 8 25 %, claim 9 25 %, claim 10 20 %. The limit is the chain
-of loads from one move to the next, and branches that no processor can foresee.
+What a run costs: for `basic` with 6 edges claims 1 to 8 took 1.02 microseconds, mapper included,
+claim 9 0.48 more and claim 10 0.27 more (noisy). Enumeration takes 0.02.
 
 What this does not show: that the kernels are right; tests hold them to the reference, and a search
 has a sample judged by the checkers.
@@ -38,6 +37,7 @@ from topo_verify.compiled.judging.layout import (
 from topo_verify.compiled.kernel import compiled
 from topo_verify.compiled.tally import (
     C_LEVEL,
+    C_ROW,
     C_SIZE,
     C_STOP_AT_FIRST,
     KEPT_RANKS,
@@ -81,7 +81,7 @@ if TYPE_CHECKING:
 
     Numbers = NDArray[np.int64]
 
-DEAREST_CLAIMS = len(CLAIMS)
+ALL_CLAIMS = len(CLAIMS)
 """The level of the judge at which it asks all claims."""
 
 
@@ -139,7 +139,7 @@ def examine_range(
     start: int = 0,
     stop: int | None = None,
     *,
-    claims: int = DEAREST_CLAIMS,
+    claims: int = ALL_CLAIMS,
     stop_at_first: bool = False,
     faults: Mapping[str, str] | None = None,
 ) -> tuple[ShardCounts, ...]:
@@ -225,7 +225,7 @@ class _Shard:
             J[J_STATUS + k], J[J_JUDGED + k] = STATUSES.index(one.status), one.judged
             J[J_OF + k] = one.of
         found = {one.status for one in judgements}
-        self.undecided[int(self.control[3])] += "undecided" in found and "failed" not in found
+        self.undecided[int(self.control[C_ROW])] += "undecided" in found and "failed" not in found
 
     # ------------------------------------------------------------ the counts
 

@@ -51,7 +51,7 @@ def _column(size: int = 1) -> int:
 
 
 KEPT_RANKS = 10
-"""So many ranks are kept: of failing worlds, of the dearest, of those that cost more than another."""
+"""So many ranks are kept of failing worlds, of the dearest, and of those dearer than another."""
 
 STATUS_COUNT = 5
 
@@ -83,8 +83,8 @@ T_DEARER_OTHERS = _column(KEPT_RANKS)
 T_COLUMNS = _used
 
 C_LEVEL, C_STOP_AT_FIRST, C_RANK, C_ROW, C_SIZE = range(5)
-"""The places of `C`: the level of the judge; whether the first failing world ends the walk; the rank
-of the world that lies in W, and the row that is next there (0: the next world)."""
+"""The places of `C`: the level of the judge; whether the first failing world ends the walk; the
+rank of the world that lies in W, and the row that is next there (0: the next world)."""
 
 MIXED = 0x9E3779B97F4A7C15 - (1 << 64)
 
@@ -201,7 +201,7 @@ def compare_costs(T: Table, rank: int) -> None:
 
 @entry
 def enter_open(J: Words, C: Words, T: Table, rows: int) -> int:
-    """Count a run that the checkers judged, its verdict in J; 1 if a failing world ends the walk."""
+    """Count a run that the checkers judged, its verdict in J; 1 if that ends the walk."""
     wrong = 0
     for k in range(J[J_LEVEL]):
         if J[J_STATUS + k] == FAILED:

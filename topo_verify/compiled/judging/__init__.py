@@ -6,7 +6,7 @@
     justified.py   claim 8: the evidence, recomputed                    checkers/excursions.py
     fold.py        the fold of a history, with rollback                 checkers/folding.py
     entailed.py    claims 9 and 10                                      checkers/entailment.py
-    verdict.py     status and share of each claim; `judge`              checkers/claims.py, coverage.py
+    verdict.py     status and share of each claim; `judge`              claims.py, coverage.py
 
 The mapper is not trusted: the judge reads the world, the words of the trace and the map that is
 delivered, and nothing else of the workspace. It is not trusted either: tests hold status and share

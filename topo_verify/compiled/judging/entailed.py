@@ -225,7 +225,7 @@ def may_be_known(J: Words, e: int, degree: int) -> bool:
     node = find_node(J, node)
     if J[F_DEGREE + node] != degree:
         return True
-    for v in range(J[S_VERTICES]):
+    for v in range(J[S_VERTICES]):  # noqa: SIM110  numba knows no such generator
         if find_node(J, J[S_NODE + J[S_ENTRY + v]]) == node:
             return True
     return False

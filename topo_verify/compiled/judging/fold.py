@@ -55,7 +55,7 @@ def start_judge_fold(J: Words, percept: int) -> None:
 
 @inlined
 def visit(J: Words, percept: int) -> int:
-    """A new node with this percept, all its darts open; 0, and the verdict is open, if it is full."""
+    """A new node with this percept, all its darts open; 0, and an open verdict, if it is full."""
     node = J[F_NODES]
     base = J[F_DOORS]
     degree = percept >> SHIFT

@@ -88,7 +88,7 @@ def unmet(W: Words, J: Words, i: int) -> bool:
 @kernel
 def cites_in_vain(J: Words) -> bool:
     """Whether some contradiction that was cited does not follow, once the history is folded."""
-    for k in range(J[J_CITED]):
+    for k in range(J[J_CITED]):  # noqa: SIM110  numba knows no such generator
         if J[S_MET + J[J_CITED_BY + k]] == 0:
             return True
     return False

@@ -157,7 +157,7 @@ def is_world(W: Words, J: Words) -> bool:
 
 @inlined
 def place_image(W: Words, J: Words, d: int, image: int, first: int, degree: int) -> bool:
-    """Map the vertex of d to that of `image`, whose darts begin at `first`; False: other degrees."""
+    """Map the vertex of d to that of `image`, whose first dart is `first`; False: other degrees."""
     v = W[CV + d]
     if W[CD + v] != degree:
         return False

@@ -1,4 +1,4 @@
-"""The world and the words of a trace, as the judge reads them: every number is checked for range."""
+"""The world and the words of a trace, as the judge reads them: sizes are checked for range."""
 
 from __future__ import annotations
 
