@@ -234,7 +234,7 @@ def start(row: Row, _: bool) -> None:
     """A new process, up to its first result, the cache warm."""
     code = "from topo_verify.compiled.shard import examine_range as e; e(['basic'], 4)"
     took: list[float] = []
-    for _ in range(3):
+    for _again in range(3):
         begin = perf_counter()
         subprocess.run([sys.executable, "-c", code], check=True)
         took.append(perf_counter() - begin)

@@ -95,7 +95,8 @@ def first_rows(kind: str, edges: int, most: int = 400) -> list[list[int]]:
     """The first worlds, listed by the kernel as plain Python, with every index checked."""
     space, state = [0] * SMALL.at("SIZE"), prepare(edges, WorldClass.parse(kind)).tolist()
     rows = np.full((most, 3 + 3 * edges), -1)
-    return rows[: list_worlds(space, state, rows, most)].tolist()
+    found: list[list[int]] = rows[: list_worlds(space, state, rows, most)].tolist()
+    return found
 
 
 @pytest.mark.parametrize("text", ["any", "genus:1", "genus<=1", "simple", "planar,loopless"])

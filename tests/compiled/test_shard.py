@@ -15,20 +15,19 @@ from topo_verify.compiled.shard import ShardCounts, examine_range
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
 from topo_verify.harness.run import explore
+from topo_verify.programs.loader import Mapper
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 
-def judged_by_checkers(mapper: object, edges: int, stop: int | None = None) -> dict[str, object]:
+def judged_by_checkers(mapper: Mapper | str, edges: int) -> dict[str, object]:
     """What the reference comes to: statuses, shares, costs and failing ranks."""
     statuses = {claim: Counter[str]() for claim in CLAIMS}
     shares = dict.fromkeys(CLAIMS, (0, 0))
     costs: list[int] = []
     failing: list[int] = []
     for rank, world in enumerate(worlds(edges=edges)):
-        if rank == stop:
-            break
-        run = explore(world, mapper)  # type: ignore[arg-type]  a mapper or its name
+        run = explore(world, mapper)
         judgements = check(world, run.trace, run.stopped)
         for one in judgements:
             statuses[one.claim][one.status] += 1

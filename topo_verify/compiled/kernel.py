@@ -79,6 +79,7 @@ SOURCES = [
         "workspace",
         "growth",
         "pruning",
+        "all_worlds",
         "enumeration",
         "events",
         "faults",
@@ -115,7 +116,7 @@ def kernel(function: F) -> F:
 def inlined(function: F) -> F:
     """The function itself. The mark says that it becomes a part of each kernel that calls it.
 
-    For what is called all the time and is short: a call passes each array as seven numbers. By calls
+    For what is short and called all the time: a call passes each array as seven numbers. By calls,
     enumeration took up to three times as long, and `basic` twice as long.
     """
     return function
