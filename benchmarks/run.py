@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from time import process_time
 from unittest.mock import patch
 
+import compiled
 import drawing
 import long_runs
 import oracle
@@ -91,6 +92,9 @@ def main() -> None:
 
     print()
     search.table(row)
+
+    print()
+    compiled.table(lambda what, *rest: row(what[:57], *rest))
 
     print()
     oracle.table(row)

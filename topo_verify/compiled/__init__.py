@@ -13,6 +13,10 @@ the one that it mirrors, and functions have the names of the reference's.
     records.py      enhancement_iii.py        partial_fold.py and folding.py   folding.py
     planar.py       planar.py                 exploration.py  exploration.py
     faults.py       some mistakes of topo_verify/faults, by number
+    growth.py       the state of an enumeration   all_worlds.py, pruning.py, enumeration.py
+                                                  world/enumeration/
+    judging/        the ten claims                checkers/
+    tally.py        a range of worlds, run and judged in one kernel; shard.py for use from Python
     explore.py      one run in one world of any size, for use from Python
 
 Importing this package, or any file of it, imports neither numba nor numpy.

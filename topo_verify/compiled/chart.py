@@ -14,7 +14,7 @@ Source: docs/semantics.md, section 3.
 from __future__ import annotations
 
 from topo_verify.compiled.faults import COUNTS_DOORS_ANTICLOCKWISE, planted
-from topo_verify.compiled.kernel import Words, kernel
+from topo_verify.compiled.kernel import Words, inlined, kernel
 from topo_verify.compiled.workspace import (
     CA,
     CD,
@@ -91,7 +91,7 @@ def add_vertex(W: Words, percept: int) -> int:
     return first
 
 
-@kernel
+@inlined
 def leave_u(W: Words, dart: int) -> None:
     """Take a dart out of U, if it is there."""
     if W[UN + dart] != 0:
@@ -100,7 +100,7 @@ def leave_u(W: Words, dart: int) -> None:
         W[UO + W[CV + dart]] -= 1
 
 
-@kernel
+@inlined
 def join(W: Words, e: int, other: int) -> None:
     """Put on record that the two darts are the two ends of one edge."""
     W[CA + e] = other
@@ -116,7 +116,7 @@ def join(W: Words, e: int, other: int) -> None:
         W[TREE] = 0
 
 
-@kernel
+@inlined
 def turn(W: Words, dart: int, door: int) -> int:
     """The dart behind a door, for a robot with this reference dart: sigma^door(dart)."""
     v = W[CV + dart]
@@ -127,7 +127,7 @@ def turn(W: Words, dart: int, door: int) -> int:
     return turned
 
 
-@kernel
+@inlined
 def door(W: Words, dart: int, exit_dart: int) -> int:
     """The door through which a robot with reference dart `dart` leaves by `exit_dart`."""
     doors = exit_dart - dart

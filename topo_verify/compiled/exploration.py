@@ -37,7 +37,7 @@ from topo_verify.compiled.faults import (
     planted,
 )
 from topo_verify.compiled.folding import conclude
-from topo_verify.compiled.kernel import Words, entry, kernel
+from topo_verify.compiled.kernel import Words, entry, inlined, kernel
 from topo_verify.compiled.motion import back, choice, cross, forward, walk
 from topo_verify.compiled.policies import nearest, shortest
 from topo_verify.compiled.prefix import cite
@@ -119,7 +119,7 @@ def start(W: Words) -> int:
     return 0
 
 
-@kernel
+@inlined
 def settle(W: Words, at: int) -> int:
     """Explore one edge: one round of the loop. Returns the robot's reference dart on S."""
     e = nearest(W, at)  # A1.4 A2.4 A3.5
@@ -157,7 +157,7 @@ def settle(W: Words, at: int) -> int:
     return localise(W, entered)
 
 
-@kernel
+@inlined
 def hypotheses(W: Words, e: int, percept: int) -> int:
     """H: the unexplored darts at vertices that look like vu, in the order in which to try them."""
     signature = 2 * (percept >> SHIFT) + ((percept & MASK) > 0)
@@ -181,7 +181,7 @@ def hypotheses(W: Words, e: int, percept: int) -> int:
     return number
 
 
-@kernel
+@inlined
 def validate(W: Words, e: int, remaining: int) -> int:
     """The hypothesis that is confirmed, or -1 if all are rejected."""
     if W[RULE] >= RULE_FOLDING:
@@ -241,7 +241,7 @@ def sift(W: Words, e: int, remaining: int) -> int:
     return kept
 
 
-@kernel
+@inlined
 def execute(W: Words, h: int, shared: int) -> int:
     """Walk the hypothesis' way home. Returns the first step whose percept differs; -1 if none.
 
@@ -285,7 +285,7 @@ def overlooked(W: Words, at: int, step: int, length: int) -> bool:
     return False
 
 
-@kernel
+@inlined
 def localise(W: Words, entered: int) -> int:
     """The robot's reference dart on S, once vu's entry dart is known; it may walk back to vu first.
 

@@ -18,7 +18,7 @@ from topo_verify.compiled.faults import (
     SETS_OUT_UNTURNED,
     planted,
 )
-from topo_verify.compiled.kernel import Words, kernel
+from topo_verify.compiled.kernel import Words, inlined, kernel
 from topo_verify.compiled.robot import move
 from topo_verify.compiled.workspace import (
     CA,
@@ -40,7 +40,7 @@ from topo_verify.compiled.workspace import (
 )
 
 
-@kernel
+@inlined
 def walk(W: Words, at: int, v: int) -> int:
     """Walk on S to v along the tree rooted there. Returns the reference dart at the end."""
     if W[CV + at] == v:
@@ -56,7 +56,7 @@ def walk(W: Words, at: int, v: int) -> int:
     return at
 
 
-@kernel
+@inlined
 def cross(W: Words, at: int, e: int) -> int:
     """Leave the known world by e. Returns the percept at vu, where excursions start."""
     percept = move(W, door(W, at, e), CROSS)
@@ -66,7 +66,7 @@ def cross(W: Words, at: int, e: int) -> int:
     return percept
 
 
-@kernel
+@inlined
 def forward(W: Words, door: int) -> None:
     """Walk one more door of a sequence, relative to the dart by which the place was entered."""
     relative = door if planted(W, SETS_OUT_UNTURNED) else door - W[TURNED]
@@ -84,7 +84,7 @@ def forward(W: Words, door: int) -> None:
     W[NDOORS] = n + 1
 
 
-@kernel
+@inlined
 def back(W: Words, steps: int) -> None:
     """Retrace until only this many doors of the excursion are left. 0: back at vu."""
     if planted(W, RETRACES_ONE_EDGE_SHORT) and steps == 0:

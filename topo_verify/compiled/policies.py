@@ -9,14 +9,14 @@ Source: docs/semantics.md, section 5.
 from __future__ import annotations
 
 from topo_verify.compiled.chart import first_in_u, reach
-from topo_verify.compiled.kernel import Words, kernel
+from topo_verify.compiled.kernel import Words, inlined, kernel
 from topo_verify.compiled.workspace import COUNTS, CV, DEP, NV, REM, SORTED, UO
 
 FEW = 24
 """The most hypotheses that are sorted by insertion."""
 
 
-@kernel
+@inlined
 def nearest(W: Words, at: int) -> int:
     """The dart of U whose vertex is nearest on S to the robot; ties: the lowest dart."""
     root = W[CV + at]

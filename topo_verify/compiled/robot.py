@@ -18,7 +18,7 @@ from topo_verify.compiled.events import (
     REJECT,
     REJECT_WORDS,
 )
-from topo_verify.compiled.kernel import Words, kernel
+from topo_verify.compiled.kernel import Words, inlined, kernel
 from topo_verify.compiled.workspace import (
     AL,
     BUDGET,
@@ -50,7 +50,7 @@ from topo_verify.compiled.workspace import (
 )
 
 
-@kernel
+@inlined
 def sensed(W: Words, dart: int) -> int:
     """The percept with this dart of the world as the reference dart."""
     v = W[VT + dart]
@@ -62,7 +62,7 @@ def sensed(W: Words, dart: int) -> int:
     return percept
 
 
-@kernel
+@inlined
 def move(W: Words, door: int, purpose: int) -> int:
     """Leave by a door and return the percept behind it. Costs 1. If it may not, `STOP` says why."""
     v = W[VT + W[POS]]

@@ -1,0 +1,270 @@
+"""How fast the compiled engine is: every figure that is promised of it, beside the promise.
+
+    .venv/bin/python benchmarks/compiled.py                      # all rows, some minutes
+    .venv/bin/python benchmarks/compiled.py --only enumeration basic
+    .venv/bin/python benchmarks/compiled.py --only nine ten --whole   # all 31,579,824 worlds
+
+Seconds are processor time, but in the rows for two cores, where they stand beside the clock. All is
+compiled before anything is timed. `nine` and `ten` examine slices spread evenly over the worlds
+with 8 edges, one world in sixteen, and count the rest in proportion, unless `--whole` is given.
+
+The ratio to C is of `compiled_twin.c` (cc -O2 -march=native), which runs before and after the
+kernel in the same row; costs and numbers of worlds must be the same, or the row fails.
+
+Where the time goes stands in topo_verify/compiled/enumeration.py and shard.py.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from itertools import repeat
+from multiprocessing import get_context
+from pathlib import Path
+from time import perf_counter, process_time
+
+import numpy as np
+
+from topo_verify import CATALOGUE, examine, families
+from topo_verify.compiled.enumeration import count_worlds, prepare
+from topo_verify.compiled.explore import KERNELS, run_world
+from topo_verify.compiled.judging.layout import JUDGE_SIZE
+from topo_verify.compiled.kernel import compiled
+from topo_verify.compiled.shard import examine_range
+from topo_verify.compiled.tally import map_worlds
+from topo_verify.compiled.workspace import SMALL
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.rooted_map import World
+
+Row = Callable[[str, str, str], None]
+
+PAPER = [name for name in CATALOGUE if "folding" not in name]
+
+SLICE = 20_000
+PART = 16
+"""Of the slices of 8 edges, every sixteenth is examined unless all are asked for."""
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """How long some work keeps the processor busy."""
+    start = process_time()
+    work()
+    return process_time() - start
+
+
+def space() -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    """An empty workspace."""
+    return np.zeros(SMALL.at("SIZE"), np.int64)
+
+
+# ---------------------------------------------------------------- one core
+
+
+def listed(kind: str, edges: int) -> tuple[int, float]:
+    """How many worlds of a class there are, and how long the kernel takes to list them."""
+    count, worlds = compiled(count_worlds, SMALL), WorldClass.parse(kind)
+    count(space(), prepare(2, worlds))
+    state = prepare(edges, worlds)
+    start = process_time()
+    found = count(space(), state)
+    return found, process_time() - start
+
+
+def enumeration(row: Row, _: bool) -> None:
+    """Listing worlds, class by class, beside C in class `any`."""
+    with tempfile.TemporaryDirectory() as folder:
+        program = built(Path(folder))
+        worlds, took = listed("any", 8)
+        theirs = in_c(program, 8, 0, worlds)[2] if program else 0.0
+    beside = f" ({theirs / took:.2f} x C)" if theirs else ""
+    row(
+        f"worlds listed, {worlds:,} with 8 edges{beside}",
+        f"{worlds / took / 1e6:.1f} M/s",
+        ">= 40 M/s",
+    )
+    for kind, edges in (("planar", 9), ("genus<=1", 8), ("genus:1", 8)):
+        worlds, took = listed(kind, edges)
+        row(
+            f"  {kind}, {worlds:,} with {edges} edges",
+            f"{worlds / took / 1e6:.1f} M/s",
+            ">= 12 M/s",
+        )
+    worlds, took = listed("simple", 10)
+    row(f"  simple, {worlds:,} with 10 edges", f"{took:.2f} s", "< 0.4 s")
+
+
+def built(folder: Path) -> Path | None:
+    """The C twin, built by cc; None without a compiler."""
+    program = folder / "compiled_twin"
+    source = Path(__file__).with_name("compiled_twin.c")
+    command = ["cc", "-O2", "-march=native", "-o", str(program), str(source)]
+    try:
+        subprocess.run(command, check=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        print(f"no C twin: {error}", file=sys.stderr)
+        return None
+    return program
+
+
+def in_c(program: Path, edges: int, mode: int, stop: int) -> tuple[int, int, float]:
+    """The total and the highest cost that the C twin finds, and its processor seconds."""
+    command = [str(program), str(edges), str(mode), "0", str(stop)]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    _, total, most, took = text.split()
+    return int(total), int(most), float(took)
+
+
+def basic(row: Row, _: bool) -> None:
+    """`basic` in all worlds with 7 edges, its map checked, no trace; beside C."""
+    run, judge = compiled(map_worlds, SMALL), np.zeros(JUDGE_SIZE, np.int64)
+    kernel, worlds = KERNELS["basic"], rank_order.count(7)
+    run(space(), prepare(2), judge, *kernel, 1)
+    with tempfile.TemporaryDirectory() as folder:
+        program = built(Path(folder))
+        before = in_c(program, 7, 2, worlds) if program else None
+        start = process_time()
+        total = run(space(), prepare(7), judge, *kernel, 1)
+        took = process_time() - start
+        after = in_c(program, 7, 2, worlds) if program else None
+    row(f"basic, map checked, {worlds:,} worlds", f"{worlds / took / 1e6:.2f} M/s", ">= 2.5 M/s")
+    if before and after:
+        assert total == before[0] == after[0], "the C twin walks otherwise"
+        mean = (before[2] + after[2]) / 2
+        row(f"  C does {worlds / mean / 1e6:.2f} M/s", f"{mean / took:.2f} x C", ">= 0.7 x C")
+
+
+def speedup(row: Row, _: bool) -> None:
+    """The same work, all ten claims, by the kernels and by the reference."""
+    edges = 5
+    examine_range(PAPER, 2)
+    worlds, stretch = rank_order.count(edges), 200
+
+    def by_reference() -> None:
+        for start in range(0, worlds, worlds // 4):
+            for table in rank_order.tables(edges, start, start + stretch // 4):
+                for name in PAPER:
+                    assert examine(name, World.from_code(table)).ok
+
+    def by_kernel() -> None:
+        for start in range(0, worlds, worlds // 4):
+            for _ in range(40):
+                examine_range(PAPER, edges, "any", start, start + stretch // 4)
+
+    sampled = len(range(0, worlds, worlds // 4)) * (stretch // 4)
+    ours = seconds(by_kernel) / 40 / sampled
+    theirs = seconds(by_reference) / sampled
+    row(
+        f"all ten claims, 8 algorithms, {edges} edges: {ours * 1e6:.0f} us a world",
+        f"{theirs / ours:.0f} x reference",
+        ">= 100 x",
+    )
+
+
+# ---------------------------------------------------------------- two cores
+
+
+def _examined(claims: int, shard: tuple[int, int, int]) -> tuple[int, int, float, int]:
+    """Worlds, failing runs, processor seconds and memory (MB) of one shard in a worker."""
+    edges, start, stop = shard
+    begin = process_time()
+    counts = examine_range(PAPER, edges, "any", start, stop, claims=claims)
+    used = process_time() - begin
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
+    return counts[0].worlds, sum(one.failing for one in counts), used, memory
+
+
+def _shards(whole: bool) -> Iterator[tuple[int, int, int]]:
+    """Slices of the worlds to 8 edges; of those with 8, every sixteenth unless all are asked."""
+    for edges in range(1, 9):
+        total = rank_order.count(edges)
+        step = SLICE if whole or edges < 8 else SLICE * PART
+        for start in range(0, total, step):
+            yield edges, start, min(start + SLICE, total)
+
+
+def everything(row: Row, claims: int, required: str, whole: bool) -> None:
+    """All claims up to one, the paper's algorithms, every world to 8 edges, two processes."""
+    examine_range(PAPER, 1, claims=claims)
+    shards = list(_shards(whole))
+    expected = sum(rank_order.count(edges) for edges in range(1, 9))
+    begin = perf_counter()
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        done = list(pool.map(_examined, repeat(claims), shards, chunksize=4))
+    took = perf_counter() - begin
+    worlds, used = sum(one[0] for one in done), sum(one[2] for one in done)
+    assert not sum(one[1] for one in done), "a claim fails"
+    assert not whole or worlds == expected
+    scale = expected / worlds / 60
+    name = "all ten claims" if claims == 10 else f"claims 1-{claims}"
+    how = "all examined" if whole else f"from {worlds:,}"
+    row(f"{name}, 8 algorithms, {expected:,} worlds, {how}", f"{took * scale:.1f} min", required)
+    each = worlds * len(PAPER) / used / 1e6
+    row(f"  processor {used * scale:.1f} min, {each:.2f} M runs/s a core", "", "")
+    row("  the most memory of a worker", f"{max(one[3] for one in done)} MB", "< 500 MB")
+
+
+def nine(row: Row, whole: bool) -> None:
+    """Claims 1 to 9."""
+    everything(row, 9, "< 3.5 min", whole)
+
+
+def ten(row: Row, whole: bool) -> None:
+    """All ten claims."""
+    everything(row, 10, "< 4.5 min", whole)
+
+
+# ---------------------------------------------------------------- one world, and the start
+
+
+def lattice(row: Row, _: bool) -> None:
+    """A large lattice with holes."""
+    world = families.lattice(100, 100, holes=0.2, seed=1)
+    run_world(World.from_id("m1/0"), "enhancement-iii-all+i")
+    took = seconds(lambda: run_world(world, "enhancement-iii-all+i"))
+    row("lattice(100,100,holes=0.2), enhancement-iii-all+i", f"{took:.1f} s", "< 30 s")
+
+
+def start(row: Row, _: bool) -> None:
+    """A new process, up to its first result, the cache warm."""
+    code = "from topo_verify.compiled.shard import examine_range as e; e(['basic'], 4)"
+    took: list[float] = []
+    for _again in range(3):
+        begin = perf_counter()
+        subprocess.run([sys.executable, "-c", code], check=True)
+        took.append(perf_counter() - begin)
+    row("first result of a new process, warm cache", f"{min(took):.2f} s", "< 1.5 s")
+
+
+ROWS = {work.__name__: work for work in (enumeration, basic, speedup, nine, ten, lattice, start)}
+"""Every row by its name."""
+
+
+def table(row: Row, only: list[str] | None = None, *, whole: bool = False) -> None:
+    """Print the rows."""
+    for name in only or ROWS:
+        ROWS[name](row, whole)
+
+
+def main() -> None:
+    """Print them with no other benchmark."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--only", nargs="+", choices=list(ROWS), help="these rows alone")
+    parser.add_argument("--whole", action="store_true", help="examine every world to 8 edges")
+    asked = parser.parse_args()
+    table(
+        lambda what, measured, required: print(
+            f"{what:<72}{measured:>18}{required:>14}", flush=True
+        ),
+        asked.only,
+        whole=asked.whole,
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,137 @@
+"""A range examined by the kernel: status, share and cost are those of the checkers."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+
+pytest.importorskip("numba", reason="the compiled engine needs numba")
+
+from topo_verify import CATALOGUE, worlds
+from topo_verify.checkers import CLAIMS, check
+from topo_verify.compiled.faults import PLANTED
+from topo_verify.compiled.shard import ShardCounts, examine_range
+from topo_verify.errors import InputError
+from topo_verify.faults import FAULTS
+from topo_verify.harness.run import explore
+from topo_verify.programs.loader import Mapper
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.rooted_map import World
+
+
+def judged_by_checkers(mapper: Mapper | str, edges: int) -> dict[str, object]:
+    """What the reference comes to: statuses, shares, costs and failing ranks."""
+    statuses = {claim: Counter[str]() for claim in CLAIMS}
+    shares = dict.fromkeys(CLAIMS, (0, 0))
+    costs: list[int] = []
+    failing: list[int] = []
+    for rank, world in enumerate(worlds(edges=edges)):
+        run = explore(world, mapper)
+        judgements = check(world, run.trace, run.stopped)
+        for one in judgements:
+            statuses[one.claim][one.status] += 1
+            judged, of = shares[one.claim]
+            shares[one.claim] = judged + one.judged, of + one.of
+        if any(one.status == "failed" for one in judgements):
+            failing.append(rank)
+        else:
+            costs.append(run.cost)
+    return {
+        "statuses": {claim: dict(seen) for claim, seen in statuses.items()},
+        "shares": shares,
+        "total": sum(costs),
+        "most": max(costs, default=0),
+        "failing": len(failing),
+        "failing_ranks": tuple(failing[:10]),
+    }
+
+
+def judged_by_kernel(counts: ShardCounts) -> dict[str, object]:
+    return {
+        "statuses": {
+            claim: {status: runs for status, runs in seen.items() if runs}
+            for claim, seen in counts.statuses.items()
+        },
+        "shares": counts.shares,
+        "total": counts.total,
+        "most": counts.most,
+        "failing": counts.failing,
+        "failing_ranks": counts.failing_ranks,
+    }
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("edges", [1, 2, 3])
+def test_every_claim_has_the_status_and_share_that_the_checkers_give(name: str, edges: int) -> None:
+    (counts,) = examine_range([name], edges)
+    assert judged_by_kernel(counts) == judged_by_checkers(name, edges)
+
+
+@pytest.mark.parametrize("name", PLANTED)
+def test_a_seeded_fault_has_the_verdicts_that_the_checkers_give(name: str) -> None:
+    for edges in (2, 3):
+        (counts,) = examine_range([name], edges, faults={name: name})
+        assert judged_by_kernel(counts) == judged_by_checkers(FAULTS[name], edges), edges
+
+
+def test_a_range_stops_behind_its_first_failing_world() -> None:
+    name = "leaves-out-the-darts-of-vk"
+    (whole,) = examine_range([name], 3, faults={name: name})
+    (short,) = examine_range([name], 3, faults={name: name}, stop_at_first=True)
+    assert short.failing == 1
+    assert short.failing_ranks == whole.failing_ranks[:1]
+    assert short.worlds == whole.failing_ranks[0] + 1
+
+
+def test_the_parts_of_a_range_come_to_the_whole() -> None:
+    (whole,) = examine_range(["enhancement-ii"], 5)
+    cut = 3000
+    (first,) = examine_range(["enhancement-ii"], 5, stop=cut)
+    (second,) = examine_range(["enhancement-ii"], 5, start=cut)
+    assert first.worlds + second.worlds == whole.worlds == rank_order.count(5)
+    assert first.total + second.total == whole.total
+    assert (first.digest + second.digest) % (1 << 64) == whole.digest
+    assert first.digest != second.digest
+
+
+def test_two_algorithms_are_compared_world_by_world() -> None:
+    names = ["basic", "enhancement-i"]
+    ours, theirs = examine_range(names, 5)
+    costs = [[explore(w, name).cost for w in worlds(edges=4)] for name in names]
+    small, _ = examine_range(names, 4)
+    assert small.dearer == sum(a > b for a, b in zip(*costs, strict=True))
+    assert small.cheaper == sum(a < b for a, b in zip(*costs, strict=True))
+    assert ours.total != theirs.total
+    for rank, cost, other in ours.dearer_worlds:
+        world = World.from_id(f"m5/{rank}")
+        assert (explore(world, "basic").cost, explore(world, "enhancement-i").cost) == (cost, other)
+
+
+def test_a_class_is_examined_alone() -> None:
+    (counts,) = examine_range(["folding+planar"], 4, "planar")
+    assert counts.worlds == rank_order.count_planar(4)
+    assert not counts.failing
+
+
+def test_the_worst_worlds_cost_the_most() -> None:
+    (counts,) = examine_range(["basic"], 5)
+    assert (counts.total, counts.most) == (68_652, 36)
+    assert len(counts.worst) == min(10, counts.attained)
+    for rank in counts.worst:
+        assert explore(World.from_id(f"m5/{rank}"), "basic").cost == counts.most
+
+
+def test_what_cannot_be_examined_is_refused_with_the_choices() -> None:
+    with pytest.raises(InputError, match="expected an algorithm of the catalogue, got 'best'"):
+        examine_range(["best"], 3)
+    with pytest.raises(InputError, match="8, 9 or 10"):
+        examine_range(["basic"], 3, claims=7)
+    with pytest.raises(InputError, match="expected a fault that has a kernel"):
+        examine_range(["x"], 3, faults={"x": "no-such-fault"})
+
+
+def test_the_kernel_asks_a_claim_at_every_level() -> None:
+    for level in (8, 9, 10):
+        (counts,) = examine_range(["basic"], 2, claims=level)
+        assert list(counts.statuses) == list(CLAIMS)[:level]
