@@ -19,12 +19,13 @@ import pytest
 
 from topo_verify import InputError, InternalError, Limits
 from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.pool import Division, Loss, Pool, Work, in_order
+from topo_verify.harness.pool import Pool
 from topo_verify.harness.search import parallel
 from topo_verify.harness.search.exhaustive import Search, SearchResult, search
 from topo_verify.harness.search.plan import SHARD, Plan, Shard
 from topo_verify.harness.tally import Tally
 from topo_verify.harness.targets import targets
+from topo_verify.harness.work import Division, Loss, Work, in_order
 from topo_verify.harness.worker import WorkerProcess
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -226,10 +227,10 @@ def test_a_mapper_whose_source_changes_meanwhile_is_refused(
 ) -> None:
     begins = WorkerProcess.__init__
 
-    def begin(worker: WorkerProcess, serve: str, job: object) -> None:
+    def begin(worker: WorkerProcess, serve: str, job: object, folder_: str | None = None) -> None:
         with (folder / "mappers.py").open("a") as file:
             file.write("changed = True\n")
-        begins(worker, serve, job)
+        begins(worker, serve, job, folder_)
 
     monkeypatch.setattr(WorkerProcess, "__init__", begin)
     with pytest.raises(InputError, match="its source, or topo-verify's, has changed since"):

@@ -24,7 +24,7 @@ from topo_verify.harness.faults.detection import (
     Check,
     try_faults,
 )
-from topo_verify.harness.pool import processors
+from topo_verify.harness.work import processors
 from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.text import plural

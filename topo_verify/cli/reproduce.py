@@ -12,7 +12,6 @@ from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
-from topo_verify.harness.pool import processors
 from topo_verify.harness.reproduce.figures import (
     FIGURES,
     GRAPHS,
@@ -33,6 +32,7 @@ from topo_verify.harness.reproduce.points import (
     points_csv,
 )
 from topo_verify.harness.reproduce.store import RunStore
+from topo_verify.harness.work import processors
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.report.figures.names import SHORT
 from topo_verify.report.figures.page import PAGE, judged_sentence, page, stem

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain
@@ -21,15 +21,16 @@ from topo_verify.cli.searched import ByEdges, Counterexample, FailingClaim, Lost
 from topo_verify.cli.searched import show as show_entry
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
+from topo_verify.harness.cluster import Cluster, both_given, connected
 from topo_verify.harness.judge import Report
 from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.pool import processors
 from topo_verify.harness.search.choices import examinations
 from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
 from topo_verify.harness.tally import CostTotals, Failure, joint_judgements
 from topo_verify.harness.targets import target_text, targets
+from topo_verify.harness.work import processors
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.report.account import Account
@@ -84,6 +85,11 @@ class _SearchOptions:
     metavar="N",
     help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
+@click.option(
+    "--dask",
+    metavar="ADDRESS",
+    help="Work on the Dask cluster whose scheduler has this ADDRESS; local: start one here.",
+)
 @click.option("--ledger", metavar="FILE", help="Keep finished work in FILE and resume from it.")
 @click.option(
     "--depends",
@@ -114,6 +120,7 @@ def search(  # noqa: PLR0913  an argument an option
     edges: int,
     kind: str,
     workers: int | None,
+    dask: str | None,
     ledger: str | None,
     depends: tuple[str, ...],
     keep_going: bool,
@@ -145,13 +152,12 @@ def search(  # noqa: PLR0913  an argument an option
             limits=limits,
             in_process=in_process,
         )
-        for path in depends:
-            if not Path(path).is_file():
-                raise InputError(f"--depends {path}: there is no such file; name one that exists")
-        if ledger is not None:
-            watch()  # before a mapper is loaded
-        for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
-            yield from _searched(output, mappers, asked, found)
+        _require_files(depends)
+        with _cluster(dask, workers) as cluster:
+            if ledger is not None:
+                watch()  # before a mapper is loaded, and after Dask has read its settings
+            for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
+                yield from _searched(output, mappers, asked, found, cluster)
 
     def body(entries: Sequence[SearchEntry]) -> Iterator[Block]:
         return chain.from_iterable(show_entry(entry, worst=worst) for entry in entries)
@@ -162,6 +168,21 @@ def search(  # noqa: PLR0913  an argument an option
     found = FoundRuns(output)
     show = partial(_with_walk, body=body, found=found)
     return output.run("search", searches, show, account=account, in_process=in_process)
+
+
+def _require_files(depends: Sequence[str]) -> None:
+    for path in depends:
+        if not Path(path).is_file():
+            raise InputError(f"--depends {path}: there is no such file; name one that exists")
+
+
+def _cluster(dask: str | None, workers: int | None) -> AbstractContextManager[Cluster | None]:
+    """The Dask cluster, if one is asked for."""
+    if dask is None:
+        return nullcontext()
+    if workers is not None:
+        raise both_given(dask, workers)
+    return connected(dask)
 
 
 def _with_walk(
@@ -202,7 +223,11 @@ def _mappers(
 
 
 def _searched(
-    output: Output, mappers: tuple[Target, ...], asked: _SearchOptions, found: FoundRuns
+    output: Output,
+    mappers: tuple[Target, ...],
+    asked: _SearchOptions,
+    found: FoundRuns,
+    cluster: Cluster | None,
 ) -> Iterator[Result[SearchEntry]]:
     """The result of one search; after Ctrl-C, of the worlds done so far."""
     plan = Plan(
@@ -217,7 +242,14 @@ def _searched(
     )
     identity = None if asked.ledger is None else Identity(mappers, asked.depends)
     with _opened(output, asked, plan, mappers, identity) as ledger:
-        work = Search(plan, mappers, workers=asked.workers, ledger=ledger, identity=identity)
+        work = Search(
+            plan,
+            mappers,
+            workers=asked.workers,
+            cluster=cluster,
+            ledger=ledger,
+            identity=identity,
+        )
         try:
             work.work(output.progress)
             work.run_again(output.progress)

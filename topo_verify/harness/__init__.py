@@ -6,7 +6,9 @@ log_report.py a log judged with no world; open_doors.py: what is left to walk
 targets.py    what a TARGET means
 corpus.py     what WORLDS means
 tally.py      counts of runs judged in worlds, as values that add up
+work.py       what workers do, and what a lost task means; pieces.py: the parts of tasks
 pool.py       worker processes that may die or hang; worker.py is one of them
+cluster.py    the workers of a Dask cluster; cluster_worker.py is what runs on one
 progress.py   the progress callback, and the rate of progress
 ledger.py     the finished shards of a search, kept in a file
 gap.py        how far a rule is from the best possible

@@ -36,8 +36,9 @@ from topo_verify.harness.faults.checks import (
     proof,
     smallest,
 )
-from topo_verify.harness.pool import Loss, Pool, Work, in_order
+from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress
+from topo_verify.harness.work import Loss, Work, in_order
 from topo_verify.harness.worker import Beat, Handler
 
 Check = Literal["search", "properties", "proofs"]

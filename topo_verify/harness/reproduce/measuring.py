@@ -14,9 +14,10 @@ import msgspec
 
 from topo_verify.checkers import Finding
 from topo_verify.harness.judge import judge, undecided
-from topo_verify.harness.pool import Loss, Pool, Work
+from topo_verify.harness.pool import Pool
 from topo_verify.harness.reproduce.figures import Figure, FigureExtent, PolicyPair
 from topo_verify.harness.run import explore
+from topo_verify.harness.work import Loss, Work
 from topo_verify.harness.worker import Beat, Handler
 from topo_verify.robot.limits import Limits
 from topo_verify.world.resolve import resolve_world

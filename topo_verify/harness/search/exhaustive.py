@@ -14,12 +14,13 @@ there are (`WorldClass.count`). If they differ at the end of a search, that is a
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
-from contextlib import closing
+from contextlib import closing, nullcontext
 
 import msgspec
 
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
+from topo_verify.harness.cluster import Cluster, ClusterPool, both_given, connected
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress, ProgressRate
@@ -109,6 +110,7 @@ def search(  # noqa: PLR0913  an argument an option
     policies: Choices = "reference",
     limits: Limits | None = None,
     workers: int = 0,
+    dask: str | None = None,
     tell: Progress | None = None,
 ) -> SearchResult:
     """Examine a mapper in every world of a class with 1 … `edges` edges, smallest first.
@@ -121,13 +123,16 @@ def search(  # noqa: PLR0913  an argument an option
         policies: which choices an algorithm of the catalogue is tried with; `choices.py`.
         limits: of each run.
         workers: so many processes; 0: this one. Other processes are handed the TARGET's text.
+        dask: the address of a Dask scheduler, or `local`: its workers in place of processes here.
         tell: the progress callback.
     Raises:
         InputError: no such mapper; nothing knows how many worlds the class has; and the like.
         InternalError: mappers ran in another number of worlds than there are.
     """
     mappers = _targets(target)
-    if workers and not isinstance(target, str):
+    if workers and dask is not None:
+        raise both_given(dask, workers)
+    if (workers or dask is not None) and not isinstance(target, str):
         _require_texts(mappers)
     plan = Plan(
         targets=tuple(mapper.text for mapper in mappers),
@@ -137,8 +142,9 @@ def search(  # noqa: PLR0913  an argument an option
         keep_going=keep_going,
         limits=limits or Limits(),
     )
-    work = Search(plan, mappers, workers=workers)
-    work.work(tell)
+    with nullcontext() if dask is None else connected(dask) as cluster:
+        work = Search(plan, mappers, workers=workers, cluster=cluster)
+        work.work(tell)
     if isinstance(target, str):
         work.run_again(tell)
     return work.found()
@@ -173,6 +179,7 @@ class Search:
     Args:
         mappers: the targets of the plan, as they run in this process.
         workers: so many processes; 0: this one.
+        cluster: does the work in place of processes of this machine.
         ledger: has the tallies of finished shards, and is given those of new ones.
         identity: what the mappers rest on, if there is a ledger.
     Raises:
@@ -186,11 +193,13 @@ class Search:
         mappers: Sequence[Target],
         *,
         workers: int = 0,
+        cluster: Cluster | None = None,
         ledger: Ledger | None = None,
         identity: Identity | None = None,
     ) -> None:
         require_choices(mappers, plan)
         self.plan, self.mappers, self.workers, self.ledger = plan, mappers, workers, ledger
+        self.cluster = cluster
         self.identity = Identity(mappers) if identity is None and ledger is not None else identity
         self.totals = plan.totals()
         self.tallies = dict.fromkeys(self.totals, Tally())
@@ -279,8 +288,12 @@ class Search:
     ) -> Generator[tuple[Shard, ShardResult]]:
         """Shards and their results, as they are finished, here or in other processes."""
         beat = None if rate is None else rate.in_flight
-        if self.workers:
-            depends = None if self.identity is None else self.identity.depends
+        depends = None if self.identity is None else self.identity.depends
+        if self.cluster is not None:
+            work = shard_work(self.plan, self.mappers, depends)
+            with ClusterPool(self.cluster, work) as cluster:
+                yield from cluster.run(todo)
+        elif self.workers:
             work = shard_work(self.plan, self.mappers, depends)
             with Pool(work, self.workers, in_flight=beat) as pool:
                 yield from pool.run(todo)

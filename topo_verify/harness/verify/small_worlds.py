@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.harness.pool import processors
 from topo_verify.harness.progress import Progress
 from topo_verify.harness.search.exhaustive import Search, SearchResult
 from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.tally import joint_judgements
 from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import MAX_TIMEOUTS, claims_in_words, part_claims
+from topo_verify.harness.work import processors
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
