@@ -57,6 +57,11 @@ AHEAD = 2
 """How many tasks are handed out for each thread of the workers: none waits for the client."""
 
 
+_DO = f"__import__({cluster_worker.__name__!r}, fromlist=['do']).do(assignment)"
+"""What a worker evaluates. To send the function itself would end a worker that lacks topo_verify:
+Dask reads it before it knows of a task, so nobody could say what is missing."""
+
+
 class _Future(Protocol):
     """What is used of a future of Dask's."""
 
@@ -70,7 +75,7 @@ class _Future(Protocol):
 class _Client(Protocol):
     """What is used of a client of Dask's."""
 
-    def submit(self, function: Callable[[bytes], bytes], data: bytes, *, pure: bool) -> _Future: ...
+    def submit(self, function: Callable[..., Any], *args: Any, pure: bool) -> _Future: ...
     def nthreads(self) -> Mapping[str, int]: ...
     def cancel(self, futures: list[_Future], *, force: bool) -> None: ...
     def wait_for_workers(self, n_workers: int, timeout: float) -> None: ...
@@ -119,8 +124,7 @@ def connected(address: str) -> Generator[Cluster]:
         raise InputError(
             f"--dask {address} needs dask.distributed: pip install 'topo-verify[cluster]'"
         )
-    import dask
-
+    dask: Any = import_module("dask")
     # What its loggers tell of is told here in a sentence, or mended.
     names = ("distributed", "distributed.client", "distributed.worker", "tornado", "bokeh")
     with ExitStack() as stack:
@@ -132,7 +136,7 @@ def connected(address: str) -> Generator[Cluster]:
                 n_workers=processors(),
                 threads_per_worker=1,
                 processes=True,
-                dashboard_address=None,
+                dashboard_address=":0",  # a free port
                 silence_logs="CRITICAL",
                 preload=[cluster_worker.__name__],  # its `dask_setup`
             )
@@ -246,8 +250,8 @@ class ClusterPool(Generic[TaskT, ResultT]):
             msgspec.Raw(msgspec.json.encode(piece.task)),
             os.getcwd(),  # noqa: PTH109  a text
         )
-        data = msgspec.json.encode(assignment)
-        future = self._cluster.client.submit(cluster_worker.do, data, pure=False)
+        names = {"assignment": msgspec.json.encode(assignment)}
+        future = self._cluster.client.submit(eval, _DO, names, pure=False)
         self._at[future] = piece
         future.add_done_callback(self._done.put)
 
@@ -275,7 +279,10 @@ class ClusterPool(Generic[TaskT, ResultT]):
         if future.status == "error":
             self._lose(piece, future.exception(), alone=alone)
             return
-        match msgspec.json.decode(future.result(), type=TaskDone | WorkerFailed):
+        answer: TaskDone | WorkerFailed = msgspec.json.decode(
+            future.result(), type=TaskDone | WorkerFailed
+        )
+        match answer:
             case TaskDone(result):
                 self._pieces.finish(piece, msgspec.json.decode(result, type=self._work.result))
             case WorkerFailed(text, bug):
@@ -287,7 +294,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
 
         if not isinstance(error, KilledWorker):
             raise InputError(
-                f"--dask {self._cluster.address}: the scheduler or a worker cannot load topo-verify"
+                f"--dask {self._cluster.address}: a worker cannot load topo-verify"
                 f" ({type(error).__name__}: {error}): install the same version on every machine"
             ) from error
         if not alone:

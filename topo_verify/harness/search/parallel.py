@@ -180,6 +180,8 @@ def _survived(
         failing = {failure.rank for failure in tally.failures}
         if rank in seen | failing or any(one.start <= rank < one.stop for one in given_up):
             continue
+        if failing and rank > min(failing) and not plan.keep_going:
+            continue  # another worker was ahead: the search ends at the first failing world
         seen.add(rank)
         if loss.stranger:
             lost = LostWorker(shard.edges, rank, loss.cause)
