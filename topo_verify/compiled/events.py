@@ -1,0 +1,199 @@
+"""The trace of a compiled run: a stream of words, and the events of robot/events.py that they mean.
+
+    words                                                          event
+    MOVE door percept purpose                                      Move
+    POSE e n h1 … hn                                               Pose
+    REJECT e h length rule step expected observed sequence at      Reject
+           record contradiction k door1 … doork
+    CONFIRM e h rule                                               Confirm
+    AUGMENT e kind dart degree                                     Augment
+    FINISH cost                                                    Finish, without its map
+
+A percept is `degree * P`, and 1 + marker if the marker is here. What is absent is -1. `length` is
+that of the whole event, 13 + k. `purpose`, `rule` and `contradiction` are indices of `PURPOSES`,
+`RULES` and `CONTRADICTIONS`; `kind` is 1 (new) or 2 (loop). `record` is the dart that a record
+stands behind, followed in its order by the doors behind that dart.
+
+Two runs are equal if their words are equal. `digest` is a hash of 64 bits of them.
+
+Source: docs/semantics.md, section 13.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Literal, get_args
+
+from topo_verify.compiled.kernel import Words, entry
+from topo_verify.compiled.workspace import NTR, TR, P
+from topo_verify.errors import InternalError
+from topo_verify.robot import trace_store
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Evidence,
+    Finish,
+    Move,
+    Pose,
+    Record,
+    Reject,
+    RuleName,
+    Start,
+)
+from topo_verify.robot.percept import PURPOSES, Percept, Purpose
+
+MOVE, POSE, REJECT, CONFIRM, AUGMENT, FINISH = range(1, 7)
+
+WALK, CROSS, VALIDATE, RETRACE = range(4)
+"""Indices of `PURPOSES`."""
+
+RULES: tuple[RuleName, ...] = get_args(RuleName)
+BY_MOTION, BY_PREFIX, BY_HISTORY, BY_RECORDS, BY_FOLDING, BY_PLANAR = range(6)
+
+CONTRADICTIONS = (
+    "",
+    "two degrees, or the marker and its absence, at one place",
+    "a vertex would be itself, turned",
+    "a dart would be its own other end",
+    "two vertices of S would be one",
+    "it lies on another face than e",
+)
+UNLIKE, TURNED_ITSELF, OWN_OTHER_END, TWO_OF_S, OTHER_FACE = range(1, 6)
+
+NEW, LOOP = 1, 2
+KINDS: tuple[Literal["new", "loop"], ...] = ("new", "loop")
+
+ABSENT = -1
+
+REJECT_WORDS = 13
+"""Words of a rejection without the doors of a record."""
+
+
+@entry
+def digest(W: Words) -> int:
+    """A hash of 64 bits of the trace; it depends on every word and on their order."""
+    h = 1469598103934665603
+    for i in range(W[NTR]):
+        h = (h ^ W[TR + i]) * 1099511628211
+        h ^= (h >> 29) & 0x7FFFFFFFF  # the shift of a negative number keeps its sign
+    return h
+
+
+# ---------------------------------------------------------------- words of events
+
+
+def percept_word(percept: Percept | None) -> int:
+    """The word that stands for a percept; -1 for none."""
+    if percept is None:
+        return ABSENT
+    return percept.degree * P + (0 if percept.marker is None else 1 + percept.marker)
+
+
+def words(events: Iterable[Event]) -> list[int]:
+    """The words of a trace of a catalogue algorithm; its start and its map have none."""
+    row: list[int] = []
+    for event in events:
+        match event:
+            case Move(door, percept, purpose):
+                number = ABSENT if purpose is None else PURPOSES.index(purpose)
+                row += (MOVE, door, percept_word(percept), number)
+            case Pose(edge, hypotheses):
+                row += (POSE, edge, len(hypotheses), *hypotheses)
+            case Reject():
+                row += _reject_words(event)
+            case Confirm(edge, hypothesis, rule):
+                row += (CONFIRM, edge, hypothesis, RULES.index(rule))
+            case Augment(edge, kind, dart, degree):
+                row += (AUGMENT, edge, 1 + KINDS.index(kind), dart, degree)
+            case Finish(cost, _):
+                row += (FINISH, ABSENT if cost is None else cost)
+            case Start():
+                pass
+    return row
+
+
+def _reject_words(event: Reject) -> tuple[int, ...]:
+    """The words of a rejection."""
+    why = event.evidence
+    doors = () if why.record is None else why.record.doors
+    return (
+        REJECT,
+        event.edge,
+        event.hypothesis,
+        REJECT_WORDS + len(doors),
+        RULES.index(event.rule),
+        why.step,
+        percept_word(why.expected),
+        percept_word(why.observed),
+        ABSENT if why.sequence is None else why.sequence,
+        ABSENT if why.at is None else why.at,
+        ABSENT if why.record is None else why.record.dart,
+        CONTRADICTIONS.index(why.contradiction or ""),
+        len(doors),
+        *doors,
+    )
+
+
+# ---------------------------------------------------------------- events of words
+
+
+def percept_of(word: int) -> Percept:
+    """The percept that a word stands for."""
+    marker = word % P
+    return Percept(word // P, marker - 1 if marker else None)
+
+
+def spans(trace: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """Where each event of a trace begins and ends.
+
+    Raises:
+        InternalError: the words are not a trace.
+    """
+    at = 0
+    while at < len(trace):
+        kind = trace[at]
+        if not MOVE <= kind <= FINISH:
+            raise InternalError(f"word {at} of a compiled trace is {kind}, no kind of event")
+        length = (4, 0, 0, 4, 5, 2)[kind - 1]
+        if kind == POSE:
+            length = 3 + trace[at + 2]
+        elif kind == REJECT:
+            length = trace[at + 3]
+        yield at, at + length
+        at += length
+
+
+def decoded(trace: Sequence[int]) -> Iterator[Event]:
+    """The events of a trace, without start and finish, which need the world and the map."""
+    for at, end in spans(trace):
+        kind, *rest = trace[at:end]
+        if kind == MOVE:
+            door, percept, purpose = rest
+            yield trace_store.move(door, percept_of(percept), _purpose(purpose))
+        elif kind == POSE:
+            yield Pose(rest[0], tuple(rest[2:]))
+        elif kind == REJECT:
+            yield Reject(rest[0], rest[1], RULES[rest[3]], _evidence(rest))
+        elif kind == CONFIRM:
+            yield Confirm(rest[0], rest[1], RULES[rest[2]])
+        elif kind == AUGMENT:
+            yield Augment(rest[0], KINDS[rest[1] - 1], rest[2], rest[3])
+
+
+def _purpose(number: int) -> Purpose | None:
+    return None if number == ABSENT else PURPOSES[number]
+
+
+def _evidence(rest: Sequence[int]) -> Evidence:
+    """The evidence in the words of a rejection, its kind left out."""
+    _, _, _, _, step, expected, observed, sequence, at, record, wrong, _, *doors = rest
+    return Evidence(
+        step,
+        None if expected == ABSENT else percept_of(expected),
+        None if observed == ABSENT else percept_of(observed),
+        None if sequence == ABSENT else sequence,
+        None if at == ABSENT else at,
+        None if record == ABSENT else Record(record, tuple(doors)),
+        CONTRADICTIONS[wrong] or None,
+    )

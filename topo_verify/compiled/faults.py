@@ -1,0 +1,68 @@
+"""Mistakes to plant in the compiled mapper: some of those of topo_verify/faults, by number.
+
+A mistake stands where the reference's does: `if planted(W, SETS_OUT_UNTURNED)`. In every layout but
+`FAULTY` the question is answered when the kernels are compiled, so it costs nothing. The names are
+those of topo_verify/faults; docs/faults.md says what each does wrong.
+"""
+
+from __future__ import annotations
+
+from topo_verify.compiled.kernel import Words, kernel
+from topo_verify.compiled.workspace import FAULT, FAULTS
+
+(
+    LEAVES_OUT_THE_DARTS_OF_VK,
+    LEAVES_OUT_THE_DARTS_OF_V0,
+    TRIES_ONLY_THE_NEAREST_TWO,
+    CONFIRMS_WHAT_IS_ALONE,
+    FORGETS_ITS_ORIENTATION,
+    RESTORES_WITH_THE_WRONG_SIGN,
+    SETS_OUT_UNTURNED,
+    RETRACES_IN_THE_WRONG_ORDER,
+    RETRACES_ONE_EDGE_SHORT,
+    GOES_ON_AS_IF_JUST_COME_IN,
+    IGNORES_DIRECTION_AT_THE_END,
+    IGNORES_DIRECTION_BEHIND_E,
+    COUNTS_DOORS_ANTICLOCKWISE,
+    COMPARES_BEFORE_THE_DOOR,
+    TRACES_THROUGH_THE_UNEXPLORED,
+    TRACES_FROM_THE_FIRST_DART,
+    TAKES_UNKNOWN_FOR_A_MISMATCH,
+    RECORDS_A_LOOP_FROM_DART_0,
+    RECORDS_FROM_THE_NEAR_END,
+    TAKES_EACH_PLACE_FOR_KNOWN,
+    IDENTIFIES_WITHOUT_TURNING,
+    FORGETS_THAT_VU_MAY_BE_NEW,
+) = range(1, 23)
+
+PLANTED: dict[str, tuple[int, str]] = {
+    "leaves-out-the-darts-of-vk": (LEAVES_OUT_THE_DARTS_OF_VK, "basic"),
+    "leaves-out-the-darts-of-v0": (LEAVES_OUT_THE_DARTS_OF_V0, "basic"),
+    "tries-only-the-nearest-two": (TRIES_ONLY_THE_NEAREST_TWO, "basic"),
+    "confirms-what-is-alone": (CONFIRMS_WHAT_IS_ALONE, "basic"),
+    "forgets-its-orientation": (FORGETS_ITS_ORIENTATION, "basic"),
+    "restores-with-the-wrong-sign": (RESTORES_WITH_THE_WRONG_SIGN, "basic"),
+    "sets-out-unturned": (SETS_OUT_UNTURNED, "basic"),
+    "retraces-in-the-wrong-order": (RETRACES_IN_THE_WRONG_ORDER, "basic"),
+    "retraces-one-edge-short": (RETRACES_ONE_EDGE_SHORT, "basic"),
+    "goes-on-as-if-just-come-in": (GOES_ON_AS_IF_JUST_COME_IN, "basic"),
+    "ignores-direction-at-the-end": (IGNORES_DIRECTION_AT_THE_END, "basic"),
+    "ignores-direction-behind-e": (IGNORES_DIRECTION_BEHIND_E, "basic"),
+    "counts-doors-anticlockwise": (COUNTS_DOORS_ANTICLOCKWISE, "basic"),
+    "compares-before-the-door": (COMPARES_BEFORE_THE_DOOR, "enhancement-i"),
+    "traces-through-the-unexplored": (TRACES_THROUGH_THE_UNEXPLORED, "enhancement-ii"),
+    "traces-from-the-first-dart": (TRACES_FROM_THE_FIRST_DART, "enhancement-ii"),
+    "takes-unknown-for-a-mismatch": (TAKES_UNKNOWN_FOR_A_MISMATCH, "enhancement-ii"),
+    "records-a-loop-from-dart-0": (RECORDS_A_LOOP_FROM_DART_0, "enhancement-iii-all"),
+    "records-from-the-near-end": (RECORDS_FROM_THE_NEAR_END, "enhancement-iii-all"),
+    "takes-each-place-for-known": (TAKES_EACH_PLACE_FOR_KNOWN, "folding"),
+    "identifies-without-turning": (IDENTIFIES_WITHOUT_TURNING, "folding"),
+    "forgets-that-vu-may-be-new": (FORGETS_THAT_VU_MAY_BE_NEW, "folding"),
+}
+"""By name: the number of the mistake, and the algorithm in which it is made."""
+
+
+@kernel
+def planted(W: Words, number: int) -> bool:
+    """Whether the mapper makes this mistake."""
+    return FAULTS != 0 and W[FAULT] == number
