@@ -30,6 +30,7 @@ from topo_verify.cli.runs import (
 )
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
+from topo_verify.harness.engines import Engine, on_engine
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.player.recording import PlayedRun
@@ -72,6 +73,7 @@ class _ExploreOptions:
 @options.program
 @options.in_process
 @options.policies
+@options.engine
 @markers.option
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
 @player_option
@@ -92,6 +94,7 @@ def explore(  # noqa: PLR0913  an argument an option
     in_process: bool,
     pick: str | None,
     order: str | None,
+    engine: Engine,
     marker: int | Literal["all"] | None,
     trace: str | None,
     player: str | None,
@@ -108,7 +111,8 @@ def explore(  # noqa: PLR0913  an argument an option
 
     def runs() -> Iterator[Result[ExploreEntry]]:
         text = target_text(options.one_of(algorithm, target), command, "all")
-        found = targets(text, pick=pick, order=order, in_process=in_process)
+        named = targets(text, pick=pick, order=order, in_process=in_process)
+        found = on_engine(engine, named, limits)
         if marker == "all":
             markers.require_alone({"--trace": trace, "--player": player, "--gap": gap})
             starts = named_worlds(worlds)

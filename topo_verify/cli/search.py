@@ -22,9 +22,11 @@ from topo_verify.cli.searched import show as show_entry
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
 from topo_verify.harness.cluster import Cluster, both_given, connected
+from topo_verify.harness.engines import Engine
 from topo_verify.harness.judge import Report
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.search.choices import examinations
+from topo_verify.harness.search.compiled_shard import JUDGED_BY, EngineSeconds
 from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
@@ -52,6 +54,7 @@ class _SearchOptions:
     seed: int
     keep_going: bool
     policies: Choices
+    engine: Engine
     worst: bool
     compare: bool
     limits: Limits
@@ -105,6 +108,7 @@ class _SearchOptions:
     show_default=True,
     help="Use the reference policies, all named ones, or every possible choice.",
 )
+@options.engine
 @click.option("--worst", is_flag=True, help="Show the highest costs and the worlds that have them.")
 @click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
 @options.seed("Seed of the worlds that are run again.")
@@ -125,6 +129,7 @@ def search(  # noqa: PLR0913  an argument an option
     depends: tuple[str, ...],
     keep_going: bool,
     policies: Choices,
+    engine: Engine,
     worst: bool,
     compare: str | None,
     seed: int,
@@ -147,6 +152,7 @@ def search(  # noqa: PLR0913  an argument an option
             seed=seed,
             keep_going=keep_going,
             policies=policies,
+            engine=engine,
             worst=worst,
             compare=compare is not None,
             limits=limits,
@@ -239,6 +245,7 @@ def _searched(
         limits=asked.limits,
         seed=asked.seed,
         in_process=asked.in_process,
+        engine=asked.engine,
     )
     identity = None if asked.ledger is None else Identity(mappers, asked.depends)
     with _opened(output, asked, plan, mappers, identity) as ledger:
@@ -257,6 +264,8 @@ def _searched(
             # Yield before raising: `Output` prints what it has and then exits 3.
             yield _result(work.found(), asked)
             raise
+        if plan.engine == "compiled":
+            _note_seconds(output, work)
         result = work.found()
         reports = None if plan.choices == "reference" else partial(_reports, plan)
         for one in (result.counterexample, *(claim.smallest for claim in result.claims.values())):
@@ -265,6 +274,12 @@ def _searched(
                     mappers, one.world, one.claim, asked.limits, one.message, reports=reports
                 )
         yield _result(work.found(), asked)
+
+
+def _note_seconds(output: Output, work: Search) -> None:
+    """Enter the processor time of the engine and of the checkers, apart, into `timing`."""
+    known: EngineSeconds = output.timing.get("engine", EngineSeconds())
+    output.timing["engine"] = known + work.seconds
 
 
 def _reports(plan: Plan, target: Target, world: World) -> Iterator[Report]:
@@ -305,6 +320,9 @@ def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
         kind=found.plan.kind,
         edges=found.plan.edges,
         policies=found.plan.choices,
+        engine=found.plan.engine,
+        judged_by=JUDGED_BY if found.plan.engine == "compiled" else "the checkers",
+        by_checkers=tally.by_checkers if found.plan.engine == "compiled" else tally.worlds,
         checked=found.checked,
         total=found.total,
         verdict=found.verdict,

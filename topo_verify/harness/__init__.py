@@ -3,7 +3,7 @@
 run.py        the one way to run a mapper in a world
 judge.py      the judgement of a run by every claim
 log_report.py a log judged with no world; open_doors.py: what is left to walk
-targets.py    what a TARGET means
+targets.py    what a TARGET means; engines.py: what runs an algorithm of the catalogue
 corpus.py     what WORLDS means
 tally.py      counts of runs judged in worlds, as values that add up
 work.py       what workers do, and what a lost task means; pieces.py: the parts of tasks

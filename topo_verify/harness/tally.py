@@ -169,6 +169,7 @@ class Tally(msgspec.Struct, frozen=True):
         digest: a hash of what happened in every world; `observed.py`.
         sample: some of the failing worlds and some of the others, to be run again.
         lost: workers that a stranger may have killed.
+        by_checkers: in how many worlds the checkers judged again what another engine had judged.
     """
 
     worlds: int = 0
@@ -184,6 +185,7 @@ class Tally(msgspec.Struct, frozen=True):
     sample: tuple[Observation, ...] = ()
     lost: tuple[LostWorker, ...] = ()
     shares: dict[str, tuple[int, int]] = {}
+    by_checkers: int = 0
 
     def __add__(self, behind: Tally) -> Tally:
         statuses = {claim: dict(seen) for claim, seen in self.statuses.items()}
@@ -210,6 +212,7 @@ class Tally(msgspec.Struct, frozen=True):
             sampled(self.sample + behind.sample),
             self.lost + behind.lost,
             {claim: self._share(claim, behind) for claim in {**self.shares, **behind.shares}},
+            self.by_checkers + behind.by_checkers,
         )
 
     def _share(self, claim: str, behind: Tally) -> tuple[int, int]:

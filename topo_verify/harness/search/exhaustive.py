@@ -21,6 +21,7 @@ import msgspec
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.cluster import Cluster, ClusterPool, both_given, connected
+from topo_verify.harness.engines import Engine, require_compiled
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress, ProgressRate
@@ -32,11 +33,13 @@ from topo_verify.harness.search.again import (
     run_again,
     with_run_again,
 )
+from topo_verify.harness.search.by_checkers import Interrupted
 from topo_verify.harness.search.choices import require_choices
+from topo_verify.harness.search.compiled_shard import EngineSeconds, warm
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.parallel import shard_work
 from topo_verify.harness.search.plan import Choices, Plan, Shard
-from topo_verify.harness.search.shard import Interrupted, ShardResult, examine_shard
+from topo_verify.harness.search.shard import ShardResult, examine_shard
 from topo_verify.harness.tally import CostTotals, Failing, Failure, LostWorker, Tally
 from topo_verify.harness.targets import one_target, targets
 from topo_verify.programs.loader import Mapper, Target
@@ -111,6 +114,7 @@ def search(  # noqa: PLR0913  an argument an option
     limits: Limits | None = None,
     workers: int = 0,
     dask: str | None = None,
+    engine: Engine = "reference",
     tell: Progress | None = None,
 ) -> SearchResult:
     """Examine a mapper in every world of a class with 1 … `edges` edges, smallest first.
@@ -124,6 +128,7 @@ def search(  # noqa: PLR0913  an argument an option
         limits: of each run.
         workers: so many processes; 0: this one. Other processes are handed the TARGET's text.
         dask: the address of a Dask scheduler, or `local`: its workers in place of processes here.
+        engine: what runs algorithms of the catalogue; `compiled_shard.py`.
         tell: the progress callback.
     Raises:
         InputError: no such mapper; nothing knows how many worlds the class has; and the like.
@@ -141,6 +146,7 @@ def search(  # noqa: PLR0913  an argument an option
         choices=policies,
         keep_going=keep_going,
         limits=limits or Limits(),
+        engine=engine,
     )
     with nullcontext() if dask is None else connected(dask) as cluster:
         work = Search(plan, mappers, workers=workers, cluster=cluster)
@@ -182,9 +188,11 @@ class Search:
         cluster: does the work in place of processes of this machine.
         ledger: has the tallies of finished shards, and is given those of new ones.
         identity: what the mappers rest on, if there is a ledger.
+    Attributes:
+        seconds: what the compiled engine and the checkers took, if that engine is the plan's.
     Raises:
-        InputError: nothing knows how many worlds there are; a mapper has no such policies; workers
-            for a mapper that has no text.
+        InputError: nothing knows how many worlds there are; a mapper has no such policies, or the
+            engine cannot run it; workers for a mapper that has no text.
     """
 
     def __init__(
@@ -198,6 +206,8 @@ class Search:
         identity: Identity | None = None,
     ) -> None:
         require_choices(mappers, plan)
+        if plan.engine == "compiled":
+            require_compiled(mappers, plan.limits)
         self.plan, self.mappers, self.workers, self.ledger = plan, mappers, workers, ledger
         self.cluster = cluster
         self.identity = Identity(mappers) if identity is None and ledger is not None else identity
@@ -205,6 +215,7 @@ class Search:
         self.tallies = dict.fromkeys(self.totals, Tally())
         self.from_ledger = 0
         self.again: RunAgain | None = None
+        self.seconds = EngineSeconds()
 
     def run_again(self, tell: Progress | None = None) -> None:
         """Run some worlds again, each in a fresh process, if there is a TARGET to start it from."""
@@ -225,6 +236,8 @@ class Search:
         rate = ProgressRate(", ".join(self.plan.targets), sum(self.totals.values()), tell)
         timeouts = 0
         rate.in_flight(0)
+        if self.plan.engine == "compiled":
+            warm(self.plan)  # here, before the workers start, which then find it in the cache
         if self.ledger is not None:
             self._examine_again(self.ledger)
         try:
@@ -265,6 +278,7 @@ class Search:
                 while tally is None:
                     done, found = next(executed)
                     result = found.tally
+                    self.seconds += found.seconds or EngineSeconds()
                     # A shard in which a stranger may have killed a worker is tried anew next time.
                     if self.ledger is not None and not result.lost:
                         self.ledger.put(done, result, found.loaded)
@@ -299,9 +313,9 @@ class Search:
                 yield from pool.run(todo)
         else:
             for shard in todo:
-                tally = examine_shard(self.plan, self.mappers, shard, beat)
+                found = examine_shard(self.plan, self.mappers, shard, beat)
                 loaded = None if self.identity is None else self.identity.loaded()
-                yield shard, ShardResult(tally, loaded)
+                yield shard, msgspec.structs.replace(found, loaded=loaded)
 
     def _examine_again(self, ledger: Ledger) -> None:
         """Examine some of the ledger's shards, and compare.

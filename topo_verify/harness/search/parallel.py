@@ -10,6 +10,7 @@ sign of life): then the world is named and the verdict open.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from functools import reduce
@@ -20,6 +21,7 @@ import msgspec
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import replay_line
+from topo_verify.harness.search.compiled_shard import warm
 from topo_verify.harness.search.identity import Identity, merged, source_hash
 from topo_verify.harness.search.plan import Plan, Shard
 from topo_verify.harness.search.shard import ShardResult, examine_shard
@@ -109,7 +111,12 @@ def _work_of(job: SearchJob) -> Work[Shard, ShardResult]:
 def _joined(results: list[ShardResult]) -> ShardResult:
     tally = sum((result.tally for result in results), Tally())
     known = [result.loaded for result in results if result.loaded is not None]
-    return ShardResult(tally, reduce(_merged, known) if known else None)
+    seconds = [result.seconds for result in results if result.seconds is not None]
+    return ShardResult(
+        tally,
+        reduce(_merged, known) if known else None,
+        reduce(operator.add, seconds) if seconds else None,
+    )
 
 
 def _merged(one: Loaded, other: Loaded) -> Loaded:
@@ -216,10 +223,14 @@ def serve_shards(job: bytes) -> Generator[Handler]:
             " sources everywhere"
         )
 
+    if plan.engine == "compiled":
+        warm(plan)
     identity = None if search.depends is None else Identity(mappers, search.depends)
 
     def examine(shard: bytes, beat: Beat) -> ShardResult:
-        tally = examine_shard(plan, mappers, msgspec.json.decode(shard, type=Shard), beat)
-        return ShardResult(tally, None if identity is None else identity.loaded())
+        found = examine_shard(plan, mappers, msgspec.json.decode(shard, type=Shard), beat)
+        if identity is None:
+            return found
+        return msgspec.structs.replace(found, loaded=identity.loaded())
 
     yield examine
