@@ -93,6 +93,13 @@ SOURCES = [
         "planar",
         "rules",
         "exploration",
+        "judging.layout",
+        "judging.words",
+        "judging.justified",
+        "judging.truth",
+        "judging.fold",
+        "judging.entailed",
+        "judging.verdict",
     )
 ]
 """The modules with kernels, and with constants that kernels use."""
