@@ -13,6 +13,7 @@ from typing import Literal, get_args
 
 from topo_verify.algorithms import CATALOGUE, REFERENCE, Algorithm
 from topo_verify.compiled import require
+from topo_verify.compiled.faults import PLANTED
 from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Policies, Robot
@@ -30,9 +31,11 @@ class CompiledAlgorithm:
 
     Attributes:
         name: as in the catalogue.
+        fault: a mistake that is planted in it, by the name of the seeded fault; empty: none.
     """
 
     name: str
+    fault: str = ""
 
     @property
     def policies(self) -> Policies:
@@ -62,6 +65,12 @@ def on_engine(engine: Engine, targets: Iterable[Target], limits: Limits) -> tupl
         return found
     require_compiled(found, limits)
     return tuple(Target(target.text, CompiledAlgorithm(target.text)) for target in found)
+
+
+def planted(fault: str) -> CompiledAlgorithm | None:
+    """The compiled mapper with the mistake of this seeded fault; None if no kernel has it."""
+    found = PLANTED.get(fault)
+    return None if found is None else CompiledAlgorithm(found[1], fault)
 
 
 def require_compiled(targets: Iterable[Target], limits: Limits) -> None:

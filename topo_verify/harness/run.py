@@ -201,7 +201,7 @@ def _compiled(
     """The run of an algorithm by the compiled engine."""
     from topo_verify.compiled.explore import run_world
 
-    made = run_world(world, mapper.name, trace=trace, budget=limits.budget)
+    made = run_world(world, mapper.name, trace=trace, budget=limits.budget, fault=mapper.fault)
     return Exploration(
         world,
         target.text,
