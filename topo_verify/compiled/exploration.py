@@ -81,19 +81,42 @@ from topo_verify.compiled.workspace import (
 )
 
 
-@entry
+@kernel
 def explore(W: Words) -> int:
     """Map the world of the workspace: the cost in edge traversals; -1: `STOP` says why it ended."""
+    at = start(W)
+    while W[NU] > 0 and W[STOP] == 0:  # A1.3 A2.3 A3.4
+        at = settle(W, at)
+    return W[COST] if W[STOP] == 0 else -1  # A1.20 A2.28 A3.30
+
+
+@entry
+def explore_rounds(W: Words, at: int, rounds: int) -> int:
+    """Part of `explore`: so many rounds of its loop, so that the caller may stop in between.
+
+    Args:
+        at: what the part before returned; -1: there was none.
+    Returns:
+        The robot's reference dart on S. The run is over when U is empty or `STOP` is set.
+    """
+    if at < 0:
+        at = start(W)
+    while rounds > 0 and W[NU] > 0 and W[STOP] == 0:
+        at = settle(W, at)
+        rounds -= 1
+    return at
+
+
+@kernel
+def start(W: Words) -> int:
+    """Stand at the marker with S as it is there: v0 alone. Returns the reference dart, on S."""
     W[POS] = 0
     W[COST] = 0
     W[STOP] = 0
     W[NTR] = 0
     start_chart(W, sensed(W, 0))  # A1.1 A1.2 A2.1 A2.2 A3.1 A3.2
     start_rule(W)
-    at = 0  # the robot's reference dart, on S
-    while W[NU] > 0 and W[STOP] == 0:  # A1.3 A2.3 A3.4
-        at = settle(W, at)
-    return W[COST] if W[STOP] == 0 else -1  # A1.20 A2.28 A3.30
+    return 0
 
 
 @kernel

@@ -5,7 +5,7 @@ this costs what a local array would. (A tuple of eighteen arrays took 1.5 times 
 have 64 bits: narrower ones were not faster, and no sum overflows.
 
 There are layouts. `SMALL` is for worlds of up to 12 edges: what a run touches stays in the fastest
-cache of the processor. `FAULTY` has the same places and lets mistakes be planted (`faults.py`).
+cache of the processor. `FAULTY` has the same capacities and lets mistakes be planted (`faults.py`).
 `LARGE` is for worlds of up to 65,536 edges; pages that are never touched take no memory. The
 constants below are those of `SMALL`; `compiled` puts those of another layout in their place.
 
@@ -84,13 +84,18 @@ def row(name: str, capacity: str) -> int:
     return offset
 
 
-def layout(name: str, capacities: dict[str, int], *, faults: bool = False) -> Layout:
-    """The layout in which fields have these capacities, in the order of `FIELDS`."""
+def layout(name: str, capacities: dict[str, int], *, faults: bool = False, gap: int = 0) -> Layout:
+    """The layout in which fields have these capacities, in the order of `FIELDS`.
+
+    Args:
+        faults: whether mistakes can be planted.
+        gap: words between fields, in which a test sees what is written beyond one.
+    """
     constants = {**capacities, "FAULTS": int(faults)}
     end = 0
     for one_field in FIELDS:
         constants[one_field.name] = end
-        end += capacities.get(one_field.capacity, 1)
+        end += capacities.get(one_field.capacity, 1) + gap
     return Layout(name, {**constants, "SIZE": end})
 
 
@@ -220,7 +225,7 @@ STOP_FULL = 16  # a buffer is full; STOP - STOP_FULL is one of FULL_… below
 FULL_CHART, FULL_STEPS, FULL_RECORDS, FULL_PLACES, FULL_TRACE = range(5)
 
 SMALL = layout("small", CAPACITIES)
-FAULTY = layout("faulty", CAPACITIES, faults=True)
+FAULTY = layout("faulty", CAPACITIES, faults=True, gap=1)
 LARGE = layout(
     "large",
     {

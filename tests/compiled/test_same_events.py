@@ -1,0 +1,63 @@
+"""The compiled algorithms are the reference: every event of every run, the cost and the map.
+
+The whole comparison, which takes longer, is test_whole_comparison.py.
+"""
+
+from __future__ import annotations
+
+from itertools import islice
+from pathlib import Path
+
+import pytest
+
+from tests.compiled.twins import difference, differences, uniform
+from tests.helpers import EMPTY
+from topo_verify import World, families, worlds
+from topo_verify.algorithms import CATALOGUE
+from topo_verify.compiled.explore import KERNELS
+from topo_verify.world.resolve import resolve_world
+
+
+def test_every_algorithm_of_the_catalogue_has_a_kernel() -> None:
+    assert list(KERNELS) == list(CATALOGUE)
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_equal_events_in_every_world_to_4_edges(name: str) -> None:
+    small = (world for edges in range(1, 5) for world in worlds(edges=edges))
+    assert list(islice(differences(small, name), 3)) == []
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_equal_events_in_the_world_without_a_dart(name: str) -> None:
+    assert difference(EMPTY, name) is None
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_equal_events_in_uniform_worlds_of_7_to_12_edges(name: str) -> None:
+    some = (world for edges in range(7, 13) for world in uniform(edges, 20, seed=1))
+    assert list(islice(differences(some, name), 3)) == []
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize(
+    "world",
+    [
+        families.lattice(4, 5),
+        families.lattice(7, 7, holes=0.2, seed=3),
+        families.torus(3, 4),
+        families.random_genus(25, 2, seed=5),
+    ],
+    ids=["lattice", "lattice with holes", "torus", "genus 2"],
+)
+def test_equal_events_in_worlds_beyond_the_small_layout(name: str, world: World) -> None:
+    assert difference(world, name) is None
+
+
+DATA = Path(__file__).parent.parent / "data" / "worlds"
+NETWORKS = ("nyc", f"{DATA}/pp_mv_oberrhein.json", f"{DATA}/sumo_A10KW.json")
+
+
+@pytest.mark.parametrize("network", NETWORKS, ids=["nyc", "oberrhein", "A10KW"])
+def test_equal_events_in_a_real_network(network: str) -> None:
+    assert difference(resolve_world(network), "enhancement-iii-all+i") is None
