@@ -191,9 +191,8 @@ def module_source(layout: Layout, *, checked: bool = False) -> str:
     used = {node.id for f in functions for node in ast.walk(f) if isinstance(node, ast.Name)}
     options = f"boundscheck={checked}, _nrt={checked}, error_model='numpy'"
     lines = ["import numpy as np", "from numba import njit", ""]
-    inner = "no_cpython_wrapper=True, no_cfunc_wrapper=True"  # compiles in less time
-    lines += [f"kernel = njit({options}, {inner})"]
-    lines += [f"inlined = njit(forceinline=True, {options}, {inner})"]
+    inner = f"{options}, no_cpython_wrapper=True, no_cfunc_wrapper=True"  # compiles in less time
+    lines += [f"kernel = njit({inner})", f"inlined = njit(forceinline=True, {inner})"]
     lines += [f"entry = njit(cache=True, {options})", ""]
     lines += [f"{name} = {number}" for name, number in numbers.items() if name in used]
     lines += [f"\n{ast.unparse(ast.fix_missing_locations(function))}" for function in functions]
