@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -155,11 +156,11 @@ def test_a_large_world_is_judged_by_its_map_and_cost(monkeypatch: pytest.MonkeyP
 def test_a_wrong_map_of_a_large_world_is_a_finding(
     wrong: MapData, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from dataclasses import replace
+    def lies(*arguments: Any, **options: Any) -> tv.Exploration:
+        return replace(explore(*arguments, **options), map=wrong)
 
     monkeypatch.setattr(measuring, "LARGE", 2)
-    explored = measuring.explore
-    monkeypatch.setattr(measuring, "explore", lambda *a, **k: replace(explored(*a, **k), map=wrong))
+    monkeypatch.setattr(measuring, "explore", lies)
     brief = measured(planned("m3/14"), "compiled")
     assert [finding.claim for finding in brief.findings] == ["map-isomorphic"]
     assert (brief.held, brief.claims) == (1, 2)

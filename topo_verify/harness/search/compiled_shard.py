@@ -32,6 +32,9 @@ from topo_verify.harness.search.plan import Plan, Shard
 from topo_verify.harness.tally import (
     KEPT_FINDINGS,
     KEPT_RUNS,
+    KEPT_WORLDS,
+    CostComparison,
+    CostPair,
     CostTotals,
     Failing,
     Failure,
@@ -241,6 +244,9 @@ def _difference(
             return f"event {at} is {ours} by the reference, {theirs} by the compiled engine"
     if len(run.trace) != len(made.trace):
         return f"{len(run.trace)} events by the reference, {len(made.trace)} by the compiled engine"
+    if report.ok == bool(counts.failing):
+        words = ("a claim fails", "no claim fails")
+        return f"{words[report.ok]} by the checkers, {words[not report.ok]} by the compiled engine"
     for judgement in report.judgements:
         claim = judgement.claim
         seen = [status for status, runs in counts.statuses[claim].items() if runs]
@@ -306,6 +312,15 @@ def _claims(
                 smallest = msgspec.structs.replace(failure, findings=findings[:KEPT_FINDINGS])
                 claims[claim] = Failing(worlds, smallest)
     return claims
+
+
+def _compared(edges: int, counts: Sequence[ShardCounts]) -> CostComparison:
+    """The costs of the first algorithm beside those of the second, where there are two."""
+    if len(counts) != 2:
+        return CostComparison()
+    one = counts[0]
+    pairs = (CostPair(f"m{edges}/{rank}", cost, other) for rank, cost, other in one.dearer_worlds)
+    return CostComparison(one.dearer, one.cheaper, one.excess, tuple(pairs)[:KEPT_WORLDS])
 
 
 def _costs(edges: int, counts: ShardCounts) -> CostTotals:

@@ -208,6 +208,11 @@ class Search:
         require_choices(mappers, plan)
         if plan.engine == "compiled":
             require_compiled(mappers, plan.limits)
+            if plan.limits.budget is not None:
+                raise InputError(
+                    f"--engine compiled searches with the bound of claim 7 as its budget, got"
+                    f" --budget {plan.limits.budget}: leave out --budget, or --engine"
+                )
         self.plan, self.mappers, self.workers, self.ledger = plan, mappers, workers, ledger
         self.cluster = cluster
         self.identity = Identity(mappers) if identity is None and ledger is not None else identity
