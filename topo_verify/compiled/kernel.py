@@ -100,6 +100,7 @@ SOURCES = [
         "judging.fold",
         "judging.entailed",
         "judging.verdict",
+        "tally",
     )
 ]
 """The modules with kernels, and with constants that kernels use."""
