@@ -146,6 +146,16 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_a_world_that_takes_every_worker_with_it_is_undecided_and_convicts_nobody",
         r"test_results_are_equal_byte_for_byte_to_those_of_workers_here\[.*\]",
     ),
+    "harness/test_engines.py": (
+        r"test_a_seeded_fault_is_found_in_the_same_worlds_by_either_engine\[.*\]",
+        "test_both_engines_record_the_same_baseline",
+        "test_workers_use_the_engine_that_is_asked_for",
+    ),
+    "harness/search/test_compiled_shard.py": (
+        "test_slices_and_workers_change_nothing",
+        r"test_the_compiled_engine_counts_what_the_checkers_count\[.*\]",
+        "test_verify_goes_one_size_further_and_compares_the_engines",
+    ),
     "harness/baseline/test_compare.py": (
         "test_classes_of_the_extremes_have_names",
         "test_the_worlds_are_those_of_the_file",

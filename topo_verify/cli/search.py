@@ -26,7 +26,7 @@ from topo_verify.harness.engines import Engine
 from topo_verify.harness.judge import Report
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.search.choices import examinations
-from topo_verify.harness.search.compiled_shard import JUDGED_BY, EngineSeconds
+from topo_verify.harness.search.compiled_shard import JUDGED_BY
 from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
@@ -278,8 +278,9 @@ def _searched(
 
 def _note_seconds(output: Output, work: Search) -> None:
     """Enter the processor time of the engine and of the checkers, apart, into `timing`."""
-    known: EngineSeconds = output.timing.get("engine", EngineSeconds())
-    output.timing["engine"] = known + work.seconds
+    known = output.timing.setdefault("engine", {"engine": 0.0, "checkers": 0.0})
+    known["engine"] += work.seconds.engine
+    known["checkers"] += work.seconds.checkers
 
 
 def _reports(plan: Plan, target: Target, world: World) -> Iterator[Report]:

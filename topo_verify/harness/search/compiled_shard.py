@@ -288,7 +288,8 @@ def _as_tally(
         failures=tuple(kept),
         costs={one.algorithm: _costs(edges, one) for one in counts if one.worlds > one.failing},
         compared=_compared(edges, counts),
-        digest=f"{sum(one.digest for one in counts) % (1 << 64):064x}",
+        # In the highest 64 of 256 bits, where sums of digests wrap around as the engine's do.
+        digest=f"{sum(one.digest for one in counts) % (1 << 64) << 192:064x}",
         shares={
             claim: (
                 sum(one.shares[claim][0] for one in counts),
