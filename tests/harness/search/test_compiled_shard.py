@@ -150,7 +150,7 @@ def test_an_engine_that_judges_otherwise_is_our_bug(
     ("change", "words"),
     [
         (lambda run: {"cost": run.cost + 1}, r"cost \d+ by the reference, \d+ by the compiled"),
-        (lambda run: {"map": None}, r"cost \d+ by the reference, \d+ by the compiled"),
+        (lambda _run: {"map": None}, r"cost \d+ by the reference, \d+ by the compiled"),
         (lambda run: {"trace": run.trace[:-1]}, r"\d+ events by the reference, \d+ by the com"),
         (lambda run: {"trace": run.trace[::-1]}, r"event 0 is Start.* by the reference, Finish"),
     ],
