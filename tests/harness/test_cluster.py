@@ -22,7 +22,7 @@ from topo_verify import InputError, InternalError, errors
 from topo_verify.harness import cluster as clusters
 from topo_verify.harness import cluster_worker
 from topo_verify.harness.cluster import Cluster, ClusterPool, connected
-from topo_verify.harness.cluster_worker import Assignment, do
+from topo_verify.harness.cluster_worker import ClusterTask, do
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.search.exhaustive import Search, SearchResult, search
 from topo_verify.harness.search.identity import own_hash
@@ -343,7 +343,7 @@ def test_work_that_is_not_for_other_machines_is_our_bug() -> None:
 def assignment(**changed: Any) -> bytes:
     work = shard_work(Plan(targets=("basic",), edges=2), targets("basic"))
     assert work.remote is not None
-    usual = Assignment(
+    usual = ClusterTask(
         cluster_worker.VERSION,
         "1",
         own_hash(),

@@ -67,15 +67,16 @@ def test_a_budget_stops_the_compiled_engine_where_it_stops_the_reference() -> No
             {"mapper": CATALOGUE["basic"].with_policies(pick="last")},
             "policies nearest and shortest",
         ),
-        ({"mapper": lambda _robot: None}, "runs the algorithms of the catalogue, basic,"),
+        ({"mapper": print}, "runs the algorithms of the catalogue, basic,"),
         ({"limits": Limits(move_timeout=1.0)}, "leave out --move-timeout and --world-timeout"),
         ({"engine": "steam"}, "engine='steam': expected one of reference, compiled"),
         ({"engine": "reference", "trace": False}, "the reference engine always keeps the trace"),
     ],
 )
 def test_what_the_engine_cannot_run_is_refused(options: dict[str, Any], words: str) -> None:
+    asked: dict[str, Any] = {"mapper": "basic", "engine": "compiled", **options}
     with pytest.raises(InputError, match=words):
-        explore(NYC, **{"mapper": "basic", "engine": "compiled", **options})
+        explore(NYC, **asked)
 
 
 def test_without_numba_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

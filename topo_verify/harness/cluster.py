@@ -35,7 +35,7 @@ import msgspec
 
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness import cluster_worker
-from topo_verify.harness.cluster_worker import Assignment
+from topo_verify.harness.cluster_worker import ClusterTask
 from topo_verify.harness.pieces import Piece, Pieces
 from topo_verify.harness.search.identity import own_hash
 from topo_verify.harness.work import ResultT, TaskT, Work, processors
@@ -241,7 +241,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
             self._submit(piece)
 
     def _submit(self, piece: Piece[TaskT, ResultT]) -> None:
-        assignment = Assignment(
+        assignment = ClusterTask(
             cluster_worker.VERSION,
             metadata.version("topo-verify"),
             own_hash(),

@@ -36,7 +36,7 @@ VERSION = 1
 """The version of an assignment."""
 
 
-class Assignment(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class ClusterTask(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """One task, as a client sends it.
 
     Attributes:
@@ -61,7 +61,7 @@ def do(assignment: bytes) -> bytes:
     """The result of a task, a `TaskDone` or `WorkerFailed` as JSON; runs on a Dask worker.
 
     Args:
-        assignment: an `Assignment` as JSON.
+        assignment: an `ClusterTask` as JSON.
     """
     try:
         result = _mine().do(_require_ours(assignment))
@@ -72,7 +72,7 @@ def do(assignment: bytes) -> bytes:
     return msgspec.json.encode(TaskDone(msgspec.Raw(result)))
 
 
-def _require_ours(assignment: bytes) -> Assignment:
+def _require_ours(assignment: bytes) -> ClusterTask:
     """The assignment.
 
     Raises:
@@ -80,7 +80,7 @@ def _require_ours(assignment: bytes) -> Assignment:
     """
     here = metadata.version("topo-verify")
     try:
-        wanted = msgspec.json.decode(assignment, type=Assignment)
+        wanted = msgspec.json.decode(assignment, type=ClusterTask)
     except msgspec.MsgspecError:
         wanted = None
     if wanted is None or wanted.version != VERSION or wanted.own != own_hash():
@@ -121,7 +121,7 @@ class _Kept:
         self._of: tuple[str, bytes, str] = ("", b"", "")
         self._alarm: threading.Timer | None = None
 
-    def do(self, wanted: Assignment) -> bytes:
+    def do(self, wanted: ClusterTask) -> bytes:
         """The result of a task as JSON."""
         with self._lock:
             if self._alarm is not None:
@@ -140,7 +140,7 @@ class _Kept:
             self._alarm.start()
             return msgspec.json.encode(result)
 
-    def _ready(self, wanted: Assignment) -> tuple[Pool[Any, Any], Work[Any, Any]]:
+    def _ready(self, wanted: ClusterTask) -> tuple[Pool[Any, Any], Work[Any, Any]]:
         """The pool for tasks of this job, and what it does."""
         of = (wanted.remade, bytes(wanted.job), wanted.folder)
         if self._pool is None or self._work is None or self._of != of:

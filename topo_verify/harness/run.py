@@ -144,15 +144,10 @@ def explore(
     Raises:
         InputError: there is no such mapper or policy; the engine cannot run it.
     """
-    target = one_target(mapper, pick=pick, order=order)
     limits = limits or Limits()
-    if engine not in ENGINES:
-        raise InputError(f"engine={engine!r}: expected one of {', '.join(ENGINES)}")
-    (target,) = on_engine(engine, (target,), limits)
+    target = _on(engine, one_target(mapper, pick=pick, order=order), limits, trace=trace)
     if isinstance(target.mapper, CompiledAlgorithm):
         return _compiled(world, target, target.mapper, limits, trace=trace)
-    if not trace:
-        raise InputError("trace=False: the reference engine always keeps the trace; leave it out")
     budget = world.cost_bound if limits.budget is None else limits.budget
     robot = SimulatedRobot(world, budget)
     policies = policies_of(target)
@@ -182,6 +177,16 @@ def explore(
         limits,
         misbehaved,
     )
+
+
+def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Target:
+    """The mapper, to be run by this engine; an InputError if it cannot be."""
+    if engine not in ENGINES:
+        raise InputError(f"engine={engine!r}: expected one of {', '.join(ENGINES)}")
+    (found,) = on_engine(engine, (target,), limits)
+    if not trace and not isinstance(found.mapper, CompiledAlgorithm):
+        raise InputError("trace=False: the reference engine always keeps the trace; leave it out")
+    return found
 
 
 def _start(world: World, target: Target, policies: Policies | None) -> Start:

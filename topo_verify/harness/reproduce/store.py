@@ -59,7 +59,8 @@ class RunStore:
     """
 
     def __init__(self, path: Path, engine: Engine = "reference") -> None:
-        self.path, self.engine = path, engine
+        self.path = path
+        self.engine: Engine = engine
         self.runs: dict[PlannedRun, MeasuredRun] = {}
         self.repaired = False
         try:
