@@ -38,7 +38,9 @@ def make(run: PlannedRun) -> MeasuredRun:
     )
 
 
-def made_up(runs: list[PlannedRun], _workers: int) -> Iterator[MeasuredRun]:
+def made_up(
+    runs: list[PlannedRun], _workers: int, _engine: str = "reference"
+) -> Iterator[MeasuredRun]:
     return map(make, runs)
 
 
@@ -77,7 +79,9 @@ def test_the_same_bytes_however_many_workers_and_however_often_interrupted(
     assert call(f"{LINE} --out two --workers 2").exit_code == 0
     real = command.measured_runs
 
-    def cut_off(runs: list[PlannedRun], workers: int) -> Iterator[MeasuredRun]:
+    def cut_off(
+        runs: list[PlannedRun], workers: int, _engine: str = "reference"
+    ) -> Iterator[MeasuredRun]:
         for number, made in enumerate(real(runs, workers)):
             if number == 3:
                 raise KeyboardInterrupt
@@ -135,7 +139,9 @@ def test_a_claim_that_fails_in_a_run_is_a_finding(
 ) -> None:
     found = Finding("no-false-confirm", 3, None, None, "confirmed", replay="topo-verify replay x")
 
-    def faulty(runs: list[PlannedRun], _workers: int) -> Iterator[MeasuredRun]:
+    def faulty(
+        runs: list[PlannedRun], _workers: int, _engine: str = "reference"
+    ) -> Iterator[MeasuredRun]:
         first, *rest = map(make, runs)
         yield msgspec.structs.replace(first, held=9, findings=(found,))
         yield from rest
@@ -150,7 +156,9 @@ def test_a_claim_that_fails_in_a_run_is_a_finding(
 
 
 def test_a_run_out_of_time_is_incomplete(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    def slow(runs: list[PlannedRun], _workers: int) -> Iterator[MeasuredRun]:
+    def slow(
+        runs: list[PlannedRun], _workers: int, _engine: str = "reference"
+    ) -> Iterator[MeasuredRun]:
         first, *rest = map(make, runs)
         yield msgspec.structs.replace(first, undecided="out of time")
         yield from rest

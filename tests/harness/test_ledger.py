@@ -24,7 +24,7 @@ from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.search import exhaustive
 from topo_verify.harness.search.exhaustive import Search, SearchResult, search
 from topo_verify.harness.search.plan import SHARD, Plan, Shard
-from topo_verify.harness.search.shard import examine_shard
+from topo_verify.harness.search.shard import ShardResult, examine_shard
 from topo_verify.harness.tally import Tally
 from topo_verify.harness.targets import targets
 
@@ -73,7 +73,7 @@ def examined_again(monkeypatch: pytest.MonkeyPatch, plan: Plan = BASIC) -> list[
     """The shards of the ledger that a search which goes on examines again."""
     again: list[Shard] = []
 
-    def examine(*arguments: Any) -> Tally:
+    def examine(*arguments: Any) -> ShardResult:
         again.append(arguments[2])
         return examine_shard(*arguments)
 

@@ -19,12 +19,13 @@ import pytest
 
 from topo_verify import InputError, InternalError, Limits
 from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.pool import Division, Loss, Pool, Work, in_order
+from topo_verify.harness.pool import Pool
 from topo_verify.harness.search import parallel
 from topo_verify.harness.search.exhaustive import Search, SearchResult, search
 from topo_verify.harness.search.plan import SHARD, Plan, Shard
 from topo_verify.harness.tally import Tally
 from topo_verify.harness.targets import targets
+from topo_verify.harness.work import Division, Loss, Work, in_order
 from topo_verify.harness.worker import WorkerProcess
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -162,6 +163,17 @@ def test_a_crash_is_a_finding_even_if_the_world_passes_when_tried_again(
     assert found.claims["map-isomorphic"].worlds == 1
 
 
+@pytest.mark.parametrize(("keep_going", "failing"), [(False, 1), (True, 2)])
+def test_a_loss_behind_the_counterexample_is_not_counted(*, keep_going: bool, failing: int) -> None:
+    """Another worker was lost in m3/23 when m3/21 was convicted; whether it was is chance."""
+    plan = Plan(targets=("mappers.py:exits",), edges=3, keep_going=keep_going)
+    work = parallel.shard_work(plan, targets(plan.targets[0]))
+    first = work.lost(Shard(3, 21, 22), Loss("exit code 3", None, loading=False))
+    behind = Loss("exit code 3", None, loading=False)
+    result = work.survived(first, [(Shard(3, 23, 24), behind)], [Shard(3, 21, 22)])
+    assert result.tally.failing == failing
+
+
 def test_a_worker_that_is_killed_once_leaves_the_verdict_open() -> None:
     found = search("mappers.py:killed_once", edges=3, workers=2)
     assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 86, None)
@@ -226,10 +238,10 @@ def test_a_mapper_whose_source_changes_meanwhile_is_refused(
 ) -> None:
     begins = WorkerProcess.__init__
 
-    def begin(worker: WorkerProcess, serve: str, job: object) -> None:
+    def begin(worker: WorkerProcess, serve: str, job: object, folder_: str | None = None) -> None:
         with (folder / "mappers.py").open("a") as file:
             file.write("changed = True\n")
-        begins(worker, serve, job)
+        begins(worker, serve, job, folder_)
 
     monkeypatch.setattr(WorkerProcess, "__init__", begin)
     with pytest.raises(InputError, match="its source, or topo-verify's, has changed since"):

@@ -23,9 +23,9 @@ from topo_verify.harness.conform.conform import ConformTally, LevelResult
 from topo_verify.harness.conform.conform import conform as try_all
 from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
 from topo_verify.harness.corpus import Corpus, corpus_from
-from topo_verify.harness.pool import processors
 from topo_verify.harness.run import explore
 from topo_verify.harness.targets import target_arguments, target_text, targets
+from topo_verify.harness.work import processors
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
 from topo_verify.programs.program import PREFIX

@@ -31,6 +31,7 @@ from topo_verify.cli.runs import (
 )
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
+from topo_verify.harness.engines import Engine, on_engine
 from topo_verify.harness.run import explore as run_mapper
 from topo_verify.harness.targets import target_text, targets
 from topo_verify.player.recording import PlayedRun
@@ -80,6 +81,7 @@ class _ExploreOptions:
     metavar="LIST",
     help="Choose by these numbers, as 0,2,1: which e, which h next (one run only).",
 )
+@options.engine
 @markers.option
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
 @player_option
@@ -101,6 +103,7 @@ def explore(  # noqa: PLR0913  an argument an option
     pick: str | None,
     order: str | None,
     choices: str | None,
+    engine: Engine,
     marker: int | Literal["all"] | None,
     trace: str | None,
     player: str | None,
@@ -117,7 +120,8 @@ def explore(  # noqa: PLR0913  an argument an option
 
     def runs() -> Iterator[Result[ExploreEntry]]:
         text = target_text(options.one_of(algorithm, target), command, "all")
-        found = targets(text, pick=pick, order=order, in_process=in_process)
+        named = targets(text, pick=pick, order=order, in_process=in_process)
+        found = on_engine(engine, named, limits)
         if marker == "all":
             markers.require_alone({"--trace": trace, "--player": player, "--gap": gap})
             starts = named_worlds(worlds)

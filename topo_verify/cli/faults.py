@@ -13,8 +13,10 @@ from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns
+from topo_verify.compiled import require
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS, Fault
+from topo_verify.harness.engines import Engine, planted
 from topo_verify.harness.faults.checks import A_SECOND, EXAMPLES, LARGEST, STRATEGIES
 from topo_verify.harness.faults.detection import (
     CHECKS,
@@ -24,10 +26,12 @@ from topo_verify.harness.faults.detection import (
     Check,
     try_faults,
 )
-from topo_verify.harness.pool import processors
+from topo_verify.harness.run import explore
+from topo_verify.harness.work import processors
 from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.text import plural
+from topo_verify.world.rooted_map import World
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")
 WIDTHS = (29, 21, 13, 5, 3)
@@ -57,6 +61,7 @@ WIDTHS = (29, 21, 13, 5, 3)
     metavar="N",
     help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
+@options.engine
 @click.option(
     "--thorough",
     is_flag=True,
@@ -66,7 +71,13 @@ WIDTHS = (29, 21, 13, 5, 3)
 @output_options
 @report_options
 def faults(
-    output: Output, *, names: tuple[str, ...], checks: str, workers: int | None, thorough: bool
+    output: Output,
+    *,
+    names: tuple[str, ...],
+    checks: str,
+    workers: int | None,
+    engine: Engine,
+    thorough: bool,
 ) -> int:
     """Try the checks on mappers with one mistake each, and on some that differ harmlessly.
 
@@ -80,10 +91,17 @@ def faults(
     def tried() -> Iterator[Result[Caught]]:
         processes = processors() if workers is None else workers
         chosen = _named(names)
+        if engine == "compiled":
+            _warm(chosen)
         # The first fault may take a minute, and progress is otherwise shown after each.
         output.progress(chosen[0].name, 0, len(chosen))
         entries = try_faults(
-            chosen, by=_checks(checks), workers=processes, thorough=thorough, tell=output.progress
+            chosen,
+            by=_checks(checks),
+            workers=processes,
+            thorough=thorough,
+            engine=engine,
+            tell=output.progress,
         )
         for done, entry in enumerate(entries, 1):
             if output.exhibits and entry.search is not None and entry.search.world is not None:
@@ -109,6 +127,7 @@ def faults(
         live=Live(head, live, _end),
         account=lambda entries: faults_account(entries, checks, _show(entries), found),
         by=checks,
+        engine=engine,
     )
 
 
@@ -118,6 +137,14 @@ def _run_again(entry: Caught, world: str, found: FoundRuns) -> None:
     target = Target(entry.target, FAULTS[entry.name].mapper)
     for claim in entry.search.claims:
         found.run_again((target,), world, claim, A_SECOND, entry.search.message)
+        return
+
+
+def _warm(chosen: Sequence[Fault]) -> None:
+    """Have the kernels with mistakes compiled, before workers look for them in the cache."""
+    require("--engine compiled")
+    for mapper in filter(None, (planted(fault.name) for fault in chosen)):
+        explore(World.from_id("m1/0"), Target(mapper.name, mapper))
         return
 
 

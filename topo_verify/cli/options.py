@@ -13,6 +13,7 @@ import click
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import SUMMARY
 from topo_verify.errors import InputError
+from topo_verify.harness.engines import ENGINES
 from topo_verify.robot.limits import MOST_SECONDS, Limits
 
 
@@ -125,6 +126,15 @@ def make_folder(name: str, option: str) -> Path:
     except OSError as error:
         raise InputError(f"{option} {name}: cannot create this folder: {error.strerror}") from error
     return Path(name)
+
+
+engine = click.option(
+    "--engine",
+    type=click.Choice(ENGINES),
+    default="reference",
+    show_default=True,
+    help="What runs algorithms of the catalogue; compiled is faster and needs numba.",
+)
 
 
 in_process = click.option(

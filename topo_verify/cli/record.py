@@ -20,6 +20,7 @@ from topo_verify.harness.baseline import file
 from topo_verify.harness.baseline.record import MAX_TIMEOUTS, Recorded
 from topo_verify.harness.baseline.record import record as run_all
 from topo_verify.harness.corpus import DEFAULT, Corpus, corpus_from
+from topo_verify.harness.engines import Engine, on_engine
 from topo_verify.harness.targets import one_target, target_text
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
@@ -131,13 +132,15 @@ def _opened(
 )
 @options.seed("Seed of the generated worlds.")
 @mapper_options
+@options.engine
 @options.limits
 @output_options
-def record(
+def record(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
     mapper: MapperOpener,
     in_process: bool,
+    engine: Engine,
     out: str,
     worlds: tuple[str, ...],
     seed: int,
@@ -157,7 +160,8 @@ def record(
             if seen.entry.failed and len(failing) < SHOWN:
                 failing.append(seen)
 
-        with mapper() as target:
+        with mapper() as named:
+            (target,) = on_engine(engine, (named,), limits)
             made = run_all(
                 target,
                 corpus,

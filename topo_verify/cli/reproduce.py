@@ -12,7 +12,9 @@ from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
-from topo_verify.harness.pool import processors
+from topo_verify.compiled import require
+from topo_verify.errors import InputError
+from topo_verify.harness.engines import Engine
 from topo_verify.harness.reproduce.figures import (
     FIGURES,
     GRAPHS,
@@ -33,6 +35,7 @@ from topo_verify.harness.reproduce.points import (
     points_csv,
 )
 from topo_verify.harness.reproduce.store import RunStore
+from topo_verify.harness.work import processors
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.report.figures.names import SHORT
 from topo_verify.report.figures.page import PAGE, judged_sentence, page, stem
@@ -88,6 +91,7 @@ _Found = list[tuple[Figure, list[FigurePoint]]]
     help="Write CSV, SVG, PNG and Markdown here, and keep the runs: the next call goes on.",
 )
 @options.seed("Of the graphs.")
+@options.engine
 @click.option(
     "--workers",
     type=click.IntRange(min=1),
@@ -104,26 +108,31 @@ def reproduce(  # noqa: PLR0913  an argument an option
     graphs: int | None,
     out: str,
     seed: int,
+    engine: Engine,
     workers: int | None,
 ) -> int:
     """Draw the paper's Figures 3 and 6 a-f again: mean costs with standard errors.
 
     What the paper's text states stands in the same picture, and so do the least cost of a proof and
     the complete rule, folding. Every run is judged by every claim. Same options, same CSV to the
-    byte, however many processes there are and however often it was interrupted.
+    byte, however many processes there are and however often it was interrupted. With
+    --engine compiled lattices grow to 100x100.
     """
     usual = QUICK_GRAPHS if quick else GRAPHS
-    extent = FigureExtent(graphs or usual, quick, PAIRS if policies else (REFERENCE,), seed)
+    pairs, large = PAIRS if policies else (REFERENCE,), engine == "compiled" and not quick
+    extent = FigureExtent(graphs or usual, quick, pairs, seed, large)
     words = ["topo-verify", "reproduce", *(["--figure", figure] if figure != "all" else [])]
     words += ["--quick"] * quick + ["--policies"] * policies
     words += ["--graphs", str(graphs)] if graphs else []
     words += ["--seed", str(seed)] if seed else []
+    words += ["--engine", engine] if engine != "reference" else []
 
     def points() -> Iterator[Result[FigurePoint]]:
         figures = chosen_figures(figure)
+        _require_engine(engine, policies=policies)
         folder = options.make_folder(out, "--out")
         planned = planned_runs(figures, extent)
-        with RunStore(folder / STORE) as store:
+        with RunStore(folder / STORE, engine) as store:
             _make(output, store, planned, workers or processors())
             found = [(one, figure_points(one, extent, store.runs)) for one in figures]
             _write(output, folder, found, shlex.join([*words, "--out", out]))
@@ -142,6 +151,16 @@ def reproduce(  # noqa: PLR0913  an argument an option
     )
 
 
+def _require_engine(engine: Engine, *, policies: bool) -> None:
+    if engine == "compiled":
+        require("--engine compiled")
+        if policies:
+            raise InputError(
+                "--policies with --engine compiled: that engine knows the reference policies only;"
+                " leave one of the two out"
+            )
+
+
 def _make(output: Output, store: RunStore, planned: Sequence[PlannedRun], workers: int) -> None:
     """Make the runs that the store lacks; each is kept as soon as it is judged."""
     missing = store.missing(planned)
@@ -152,7 +171,7 @@ def _make(output: Output, store: RunStore, planned: Sequence[PlannedRun], worker
         output.note(f"{done} of {plural(len(planned), 'run')} are in {store.path}")
     output.timing["from_store"] = done
     try:
-        for made in measured_runs(missing, min(workers, len(missing)) or 1):
+        for made in measured_runs(missing, min(workers, len(missing)) or 1, store.engine):
             store.put(made)
             done += 1
             output.progress(f"{made.run.algorithm} in {made.run.world}", done, len(planned))

@@ -3,44 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import cast
 
 import click
 
-from topo_verify.algorithms import Algorithm
 from topo_verify.cli import options
 from topo_verify.cli.accounts import search_account
 from topo_verify.cli.failures import version
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import report_options
-from topo_verify.cli.searched import (
-    ByEdges,
-    Counterexample,
-    EveryCost,
-    FailingClaim,
-    Lost,
-    MostSaved,
-    SearchEntry,
-)
+from topo_verify.cli.search_entry import search_result
+from topo_verify.cli.searched import SearchEntry
 from topo_verify.cli.searched import show as show_entry
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
+from topo_verify.harness.cluster import Cluster, both_given, connected
+from topo_verify.harness.engines import Engine
 from topo_verify.harness.judge import Report
 from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.pool import processors
 from topo_verify.harness.search.choices import examinations
-from topo_verify.harness.search.exhaustive import Search, SearchResult, Size
+from topo_verify.harness.search.exhaustive import Search
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.plan import CHOICES, Choices, Plan
-from topo_verify.harness.search.states.every import judged_by
-from topo_verify.harness.tally import CostTotals, Failure, PolicyCosts, joint_judgements
-from topo_verify.harness.targets import one_target, target_text, targets
+from topo_verify.harness.targets import target_text, targets
+from topo_verify.harness.work import processors
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.report.account import Account
@@ -62,6 +53,7 @@ class _SearchOptions:
     seed: int
     keep_going: bool
     policies: Choices
+    engine: Engine
     worst: bool
     compare: bool
     limits: Limits
@@ -96,6 +88,11 @@ class _SearchOptions:
     metavar="N",
     help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
+@click.option(
+    "--dask",
+    metavar="ADDRESS",
+    help="Work on the Dask cluster whose scheduler has this ADDRESS; local: start one here.",
+)
 @click.option("--ledger", metavar="FILE", help="Keep finished work in FILE and resume from it.")
 @click.option(
     "--depends",
@@ -111,6 +108,7 @@ class _SearchOptions:
     show_default=True,
     help="Use the reference policies, all named ones, or every possible choice.",
 )
+@options.engine
 @click.option("--worst", is_flag=True, help="Show the highest costs and the worlds that have them.")
 @click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
 @options.seed("Seed of the worlds that are run again.")
@@ -126,10 +124,12 @@ def search(  # noqa: PLR0913  an argument an option
     edges: int,
     kind: str,
     workers: int | None,
+    dask: str | None,
     ledger: str | None,
     depends: tuple[str, ...],
     keep_going: bool,
     policies: Choices,
+    engine: Engine,
     worst: bool,
     compare: str | None,
     seed: int,
@@ -152,18 +152,18 @@ def search(  # noqa: PLR0913  an argument an option
             seed=seed,
             keep_going=keep_going,
             policies=policies,
+            engine=engine,
             worst=worst,
             compare=compare is not None,
             limits=limits,
             in_process=in_process,
         )
-        for path in depends:
-            if not Path(path).is_file():
-                raise InputError(f"--depends {path}: there is no such file; name one that exists")
-        if ledger is not None:
-            watch()  # before a mapper is loaded
-        for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
-            yield from _searched(output, mappers, asked, found)
+        _require_files(depends)
+        with _cluster(dask, workers) as cluster:
+            if ledger is not None:
+                watch()  # before a mapper is loaded, and after Dask has read its settings
+            for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
+                yield from _searched(output, mappers, asked, found, cluster)
 
     def body(entries: Sequence[SearchEntry]) -> Iterator[Block]:
         return chain.from_iterable(show_entry(entry, worst=worst) for entry in entries)
@@ -174,6 +174,21 @@ def search(  # noqa: PLR0913  an argument an option
     found = FoundRuns(output)
     show = partial(_with_walk, body=body, found=found)
     return output.run("search", searches, show, account=account, in_process=in_process)
+
+
+def _require_files(depends: Sequence[str]) -> None:
+    for path in depends:
+        if not Path(path).is_file():
+            raise InputError(f"--depends {path}: there is no such file; name one that exists")
+
+
+def _cluster(dask: str | None, workers: int | None) -> AbstractContextManager[Cluster | None]:
+    """The Dask cluster, if one is asked for."""
+    if dask is None:
+        return nullcontext()
+    if workers is not None:
+        raise both_given(dask, workers)
+    return connected(dask)
 
 
 def _with_walk(
@@ -214,7 +229,11 @@ def _mappers(
 
 
 def _searched(
-    output: Output, mappers: tuple[Target, ...], asked: _SearchOptions, found: FoundRuns
+    output: Output,
+    mappers: tuple[Target, ...],
+    asked: _SearchOptions,
+    found: FoundRuns,
+    cluster: Cluster | None,
 ) -> Iterator[Result[SearchEntry]]:
     """The result of one search; after Ctrl-C, of the worlds done so far."""
     plan = Plan(
@@ -226,17 +245,27 @@ def _searched(
         limits=asked.limits,
         seed=asked.seed,
         in_process=asked.in_process,
+        engine=asked.engine,
     )
     identity = None if asked.ledger is None else Identity(mappers, asked.depends)
     with _opened(output, asked, plan, mappers, identity) as ledger:
-        work = Search(plan, mappers, workers=asked.workers, ledger=ledger, identity=identity)
+        work = Search(
+            plan,
+            mappers,
+            workers=asked.workers,
+            cluster=cluster,
+            ledger=ledger,
+            identity=identity,
+        )
         try:
             work.work(output.progress)
             work.run_again(output.progress)
         except KeyboardInterrupt:
             # Yield before raising: `Output` prints what it has and then exits 3.
-            yield _result(work.found(), asked)
+            yield search_result(work.found(), compare=asked.compare)
             raise
+        if plan.engine == "compiled":
+            _note_seconds(output, work)
         result = work.found()
         reports = None if plan.choices == "reference" else partial(_reports, plan)
         for one in (result.counterexample, *(claim.smallest for claim in result.claims.values())):
@@ -244,7 +273,14 @@ def _searched(
                 found.run_again(
                     mappers, one.world, one.claim, asked.limits, one.message, reports=reports
                 )
-        yield _result(work.found(), asked)
+        yield search_result(work.found(), compare=asked.compare)
+
+
+def _note_seconds(output: Output, work: Search) -> None:
+    """Enter the processor time of the engine and of the checkers, apart, into `timing`."""
+    known = output.timing.setdefault("engine", {"engine": 0.0, "checkers": 0.0})
+    known["engine"] += work.seconds.engine
+    known["checkers"] += work.seconds.checkers
 
 
 def _reports(plan: Plan, target: Target, world: World) -> Iterator[Report]:
@@ -269,77 +305,3 @@ def _opened(
         if ledger.since is not None:
             output.timing["ledger"] = dict(zip(("first", "last"), ledger.since, strict=True))
         yield ledger
-
-
-def _result(found: SearchResult, asked: _SearchOptions) -> Result[SearchEntry]:
-    first = found.counterexample
-    tally = found.tally
-    # A claim that some runs were judged on is not listed, even if others declared nothing.
-    silent = (
-        c
-        for c, seen in tally.statuses.items()
-        if seen and seen.keys() <= {"not-declared", "not-asked"}
-    )
-    entry = SearchEntry(
-        target=",".join(found.plan.targets),
-        kind=found.plan.kind,
-        edges=found.plan.edges,
-        policies=found.plan.choices,
-        checked=found.checked,
-        total=found.total,
-        verdict=found.verdict,
-        from_ledger=found.from_ledger,
-        lost=tuple(Lost(one.world, one.how) for one in found.lost),
-        run_again=found.again,
-        counterexample=None if first is None else _counterexample(first),
-        by_edges=tuple(_by_edges(size, found.plan, asked) for size in found.by_edges),
-        claims=tuple(
-            FailingClaim(claim, failing.worlds, _counterexample(failing.smallest))
-            for claim, failing in found.claims.items()
-        ),
-        not_declared=tuple(silent),
-        judgements=joint_judgements(tally.statuses, tally.shares, ()),
-    )
-    return Result(entry, failed=found.verdict == "REFUTED", incomplete=found.verdict == "UNKNOWN")
-
-
-def _counterexample(failure: Failure) -> Counterexample:
-    return Counterexample(
-        failure.world, failure.edges, failure.claim, failure.message, failure.replay
-    )
-
-
-def _by_edges(size: Size, plan: Plan, asked: _SearchOptions) -> ByEdges:
-    costs = size.tally.costs.get(plan.targets[0], CostTotals())
-    return ByEdges(
-        edges=size.edges,
-        checked=size.checked,
-        total=size.total,
-        failing=size.failing,
-        undecided=size.tally.undecided,
-        runs=costs.runs,
-        max_cost=costs.most,
-        total_cost=costs.total,
-        attained=costs.attained,
-        worst=costs.worst,
-        compare=size.tally.compared if asked.compare else None,
-        every=_every(size, plan) if plan.choices == "every" else None,
-    )
-
-
-def _every(size: Size, plan: Plan) -> EveryCost:
-    """The range of the costs of the first mapper in the worlds of one size."""
-    target = plan.targets[0]
-    costs = size.tally.policy_costs.get(target, PolicyCosts())
-    saved = costs.most_saved
-    algorithm = one_target(target).mapper
-    return EveryCost(
-        worlds=costs.worlds,
-        states=costs.states,
-        choices=costs.choices,
-        cheapest=costs.cheapest,
-        reference=costs.reference,
-        dearest=costs.dearest,
-        most_saved=None if saved is None else MostSaved(saved.world, saved.cost, saved.other),
-        judged_by=judged_by(cast("Algorithm", algorithm), size.edges),
-    )

@@ -106,6 +106,8 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
         from_ledger: in how many of the checked worlds mappers ran before; in the others, now.
         lost: worlds in which a worker was lost that a stranger may have killed.
         run_again: what came of the worlds that were run again, alone and in a row.
+        engine: what ran and judged; judged_by: the same in words.
+        by_checkers: in how many worlds the checkers judged.
     """
 
     target: str
@@ -123,6 +125,9 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     from_ledger: int
     lost: tuple[Lost, ...]
     run_again: RunAgain | None
+    engine: str
+    judged_by: str
+    by_checkers: int
 
 
 # ---------------------------------------------------------------- for people
@@ -160,6 +165,8 @@ def show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
             f" {_some(others, len(others))}: it draws lots, or keeps something from world to world."
             " Seed it anew in each world, and the verdict can stand."
         )
+    if entry.engine != "reference":
+        yield Text(f"judged by {entry.judged_by}: {plural(entry.by_checkers, 'world')}")
     yield from _counterexamples(entry)
     if entry.verdict != "REFUTED":
         yield from unjudged(entry.target, "these worlds", entry.judgements)

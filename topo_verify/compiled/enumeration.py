@@ -56,7 +56,7 @@ from topo_verify.compiled.growth import (
     G_VERTICES,
     MOST_LISTED_EDGES,
 )
-from topo_verify.compiled.kernel import Table, Words, compiled, entry, inlined
+from topo_verify.compiled.kernel import Words, WordTable, compiled, entry, inlined
 from topo_verify.compiled.pruning import (
     begin_pruned,
     hang_pruned,
@@ -65,7 +65,7 @@ from topo_verify.compiled.pruning import (
     undo_hang_pruned,
     undo_join_pruned,
 )
-from topo_verify.compiled.workspace import AL, DG, SMALL, ST, Layout
+from topo_verify.compiled.workspace import AL, DG, SMALL, ST, WordLayout
 from topo_verify.errors import InputError
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
@@ -228,7 +228,7 @@ def count_worlds(W: Words, G: Words) -> int:
 
 
 @entry
-def list_worlds(W: Words, G: Words, rows: Table, most: int) -> int:
+def list_worlds(W: Words, G: Words, rows: WordTable, most: int) -> int:
     """Write the next worlds into rows, and return how many: rank, vertices, degrees, alpha."""
     m2 = G[G_DARTS]
     for i in range(most):
@@ -288,7 +288,7 @@ def ranked_tables(
     start: int = 0,
     stop: int | None = None,
     *,
-    layout: Layout = SMALL,
+    layout: WordLayout = SMALL,
 ) -> Iterator[tuple[int, rank_order.Table]]:
     """The same worlds as `pruned.ranked_tables` lists, with their ranks, by the kernel.
 

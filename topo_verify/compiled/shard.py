@@ -68,7 +68,7 @@ from topo_verify.compiled.tally import (
     enter_open,
     examine_worlds,
 )
-from topo_verify.compiled.workspace import FAULTY, SMALL, STOP_FULL, TRACE, Layout
+from topo_verify.compiled.workspace import FAULTY, SMALL, STOP_FULL, TRACE, WordLayout
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Event, Finish, Start
 from topo_verify.robot.simulator import first_percept
@@ -179,7 +179,7 @@ class _Shard:
         if claims not in (8, 9, 10):
             raise InputError(f"expected the first 8, 9 or 10 claims, got {claims}")
         self.names = tuple(algorithms)
-        self.layout: Layout = FAULTY if faults else SMALL
+        self.layout: WordLayout = FAULTY if faults else SMALL
         self.worlds = prepare(edges, WorldClass.parse(kind), start, stop)
         self.space = np.zeros(self.layout.at("SIZE"), np.int64)
         self.judge = np.zeros(JUDGE_SIZE, np.int64)

@@ -26,7 +26,7 @@ from topo_verify.compiled.judging.layout import (
     J_VERTICES,
 )
 from topo_verify.compiled.judging.verdict import is_world, judge
-from topo_verify.compiled.kernel import Table, Words, entry, kernel
+from topo_verify.compiled.kernel import Words, WordTable, entry, kernel
 from topo_verify.compiled.workspace import (
     BUDGET,
     FAULT,
@@ -90,7 +90,7 @@ MIXED = 0x9E3779B97F4A7C15 - (1 << 64)
 
 
 @entry
-def examine_worlds(W: Words, G: Words, J: Words, C: Words, T: Table, rows: int) -> int:
+def examine_worlds(W: Words, G: Words, J: Words, C: Words, T: WordTable, rows: int) -> int:
     """Examine the worlds to come: 0, or 1 where the verdict on row `C_ROW` in the last is open."""
     while True:
         if C[C_ROW] == 0:
@@ -147,7 +147,7 @@ def examine_run(
 
 
 @kernel
-def enter(J: Words, T: Table, row: int, rank: int, wrong: int) -> None:
+def enter(J: Words, T: WordTable, row: int, rank: int, wrong: int) -> None:
     """Count a run."""
     cost = J[J_COST]
     T[row, T_WORLDS] += 1
@@ -182,7 +182,7 @@ def enter(J: Words, T: Table, row: int, rank: int, wrong: int) -> None:
 
 
 @kernel
-def compare_costs(T: Table, rank: int) -> None:
+def compare_costs(T: WordTable, rank: int) -> None:
     """Compare what the two algorithms paid in the last world, if no claim fails."""
     cost = T[0, T_COST]
     other = T[1, T_COST]
@@ -200,7 +200,7 @@ def compare_costs(T: Table, rank: int) -> None:
 
 
 @entry
-def enter_open(J: Words, C: Words, T: Table, rows: int) -> int:
+def enter_open(J: Words, C: Words, T: WordTable, rows: int) -> int:
     """Count a run that the checkers judged, its verdict in J; 1 if that ends the walk."""
     wrong = 0
     for k in range(J[J_LEVEL]):

@@ -34,7 +34,7 @@ import msgspec
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.ledger_errors import changed, explained, no_ledger
 from topo_verify.harness.search.identity import merged, require_unchanged, source_hash
-from topo_verify.harness.search.plan import SHARD, Plan, Shard
+from topo_verify.harness.search.plan import Plan, Shard
 from topo_verify.harness.tally import Tally
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
@@ -353,7 +353,8 @@ def _meta(plan: Plan, mappers: Sequence[Target], tool: str) -> dict[str, str]:
         "policies": plan.choices,
         "keep-going": "yes" if plan.keep_going else "no",
         "limits": msgspec.json.encode(plan.limits).decode(),
-        "shard": str(SHARD[plan.choices]),
+        "engine": plan.engine,
+        "shard": str(plan.shard),
         "hash": source_hash(mappers),
     }
 

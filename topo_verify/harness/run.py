@@ -6,7 +6,9 @@ it raises, returns something else, exceeds its budget or loops without moving, t
 
     run = explore(world, "enhancement-ii")         # -> Exploration: map, cost, trace
 
-A TARGET's text runs in this process, or, with `in_process=False`, in one of its own.
+A TARGET's text runs in this process, or, with `in_process=False`, in one of its own. An algorithm
+of the catalogue may be run by the compiled engine (`engines.py`), which is given the world: what it
+delivers is judged like any trace.
 
 What this does not show: a mapper in the same process can be stopped only if it runs Python code and
 does not catch BaseException in a loop; see `topo_verify.robot.limits`. If it is determined to look,
@@ -20,8 +22,9 @@ from itertools import pairwise
 
 import msgspec
 
-from topo_verify.algorithms import Algorithm
 from topo_verify.checkers import check
+from topo_verify.errors import InputError
+from topo_verify.harness.engines import ENGINES, CompiledAlgorithm, Engine, on_engine, policies_of
 from topo_verify.harness.targets import one_target
 from topo_verify.programs.delivery import Undelivered, deliver
 from topo_verify.programs.loader import Mapper, Target
@@ -125,6 +128,8 @@ def explore(
     pick: str | None = None,
     order: str | None = None,
     limits: Limits | None = None,
+    engine: Engine = "reference",
+    trace: bool = True,
 ) -> Exploration:
     """Run a mapper in a world.
 
@@ -132,23 +137,21 @@ def explore(
         mapper: a callable, a name of the catalogue, or any other TARGET of one mapper.
         pick, order: policies, for algorithms of the catalogue; default: the reference policies.
         limits: moves and seconds; default: the bound of claim 7, 5 s between moves, 60 s in all.
+        engine: what runs an algorithm of the catalogue, "reference" or "compiled".
+        trace: keep the trace; False, for the compiled engine: cost and map at once, no trace.
     Returns:
         The run, also of a mapper that delivers no map: then `map` is None and `stopped` says why.
     Raises:
-        InputError: there is no such mapper or policy.
+        InputError: there is no such mapper or policy; the engine cannot run it.
     """
-    target = one_target(mapper, pick=pick, order=order)
     limits = limits or Limits()
+    target = _on(engine, one_target(mapper, pick=pick, order=order), limits, trace=trace)
+    if isinstance(target.mapper, CompiledAlgorithm):
+        return _compiled(world, target, target.mapper, limits, trace=trace)
     budget = world.cost_bound if limits.budget is None else limits.budget
     robot = SimulatedRobot(world, budget)
-    known = len(world.edges) <= rank_order.MAX_ID_EDGES
-    policies = target.mapper.policies if isinstance(target.mapper, Algorithm) else None
-    start = Start(
-        algorithm=target.text,
-        policies=policies,
-        world=world.id if known else None,
-        percept=first_percept(world),
-    )
+    policies = policies_of(target)
+    start = _start(world, target, policies)
     if isinstance(target.mapper, Program):
         target.mapper.start()  # here: no limit of a run counts what it takes to load a mapper
     finish, stopped, error, limit = _run(target.mapper, robot, limits)
@@ -159,12 +162,12 @@ def explore(
         misbehaved = target.mapper.misbehaved
         # Here and not in the next run: ending a process takes time that no limit should count.
         target.mapper.settle()
-    trace = (start, *robot.events)
+    events = (start, *robot.events)
     return Exploration(
         world,
         target.text,
         policies,
-        trace if finish is None else (*trace, finish),
+        events if finish is None else (*events, finish),
         None if finish is None else finish.map,
         stopped,
         error,
@@ -173,6 +176,48 @@ def explore(
         target.mapper,
         limits,
         misbehaved,
+    )
+
+
+def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Target:
+    """The mapper, to be run by this engine; an InputError if it cannot be."""
+    if engine not in ENGINES:
+        raise InputError(f"engine={engine!r}: expected one of {', '.join(ENGINES)}")
+    (found,) = on_engine(engine, (target,), limits)
+    if not trace and not isinstance(found.mapper, CompiledAlgorithm):
+        raise InputError("trace=False: the reference engine always keeps the trace; leave it out")
+    return found
+
+
+def _start(world: World, target: Target, policies: Policies | None) -> Start:
+    """The first event of a trace."""
+    known = len(world.edges) <= rank_order.MAX_ID_EDGES
+    return Start(
+        algorithm=target.text,
+        policies=policies,
+        world=world.id if known else None,
+        percept=first_percept(world),
+    )
+
+
+def _compiled(
+    world: World, target: Target, mapper: CompiledAlgorithm, limits: Limits, *, trace: bool
+) -> Exploration:
+    """The run of an algorithm by the compiled engine."""
+    from topo_verify.compiled.explore import run_world
+
+    made = run_world(world, mapper.name, trace=trace, budget=limits.budget, fault=mapper.fault)
+    return Exploration(
+        world,
+        target.text,
+        mapper.policies,
+        (_start(world, target, mapper.policies), *made.events) if trace else (),
+        made.map,
+        made.stopped,
+        cost=made.cost,
+        limit=None if made.map is not None else "budget",
+        mapper=mapper,
+        limits=limits,
     )
 
 

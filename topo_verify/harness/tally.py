@@ -202,6 +202,7 @@ class Tally(msgspec.Struct, frozen=True):
         digest: a hash of what happened in every world; `observed.py`.
         sample: some of the failing worlds and some of the others, to be run again.
         lost: workers that a stranger may have killed.
+        by_checkers: in how many worlds the checkers judged again what another engine had judged.
     """
 
     worlds: int = 0
@@ -218,6 +219,7 @@ class Tally(msgspec.Struct, frozen=True):
     lost: tuple[LostWorker, ...] = ()
     shares: dict[str, tuple[int, int]] = {}
     policy_costs: dict[str, PolicyCosts] = {}
+    by_checkers: int = 0
 
     def __add__(self, behind: Tally) -> Tally:
         statuses = {claim: dict(seen) for claim, seen in self.statuses.items()}
@@ -248,6 +250,7 @@ class Tally(msgspec.Struct, frozen=True):
             self.lost + behind.lost,
             {claim: self._share(claim, behind) for claim in {**self.shares, **behind.shares}},
             policy_costs,
+            self.by_checkers + behind.by_checkers,
         )
 
     def _share(self, claim: str, behind: Tally) -> tuple[int, int]:

@@ -107,12 +107,13 @@ class WorkerProcess:
     Args:
         serve: what it is to run, `module:function`; a `Serve`.
         job: what it is handed before its first task.
+        folder: where it is started; None: in the current folder.
     Attributes:
         ready: it has said that it waits for tasks.
         items: how many items of its task were finished when its heartbeat was last read.
     """
 
-    def __init__(self, serve: str, job: object) -> None:
+    def __init__(self, serve: str, job: object, folder: str | None = None) -> None:
         self._file = TemporaryFile()  # noqa: SIM115  closed by `kill`
         self.heartbeat = Heartbeat(self._file.fileno())
         arguments = (serve, str(os.getpid()), str(self.heartbeat.file))
@@ -121,6 +122,7 @@ class WorkerProcess:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             pass_fds=[self.heartbeat.file],
+            cwd=folder,
             process_group=0,  # Ctrl-C is for the parent; and what a mapper starts is killed with it
         )
         self.ready = False

@@ -8,9 +8,9 @@ import pytest
 
 from topo_verify import explore
 from topo_verify.faults import FAULTS
-from topo_verify.harness.pool import Loss
 from topo_verify.harness.reproduce import measuring
 from topo_verify.harness.reproduce.measuring import PlannedRun, measured, measured_runs
+from topo_verify.harness.work import Loss
 from topo_verify.robot.limits import Limits
 from topo_verify.world.resolve import resolve_world
 

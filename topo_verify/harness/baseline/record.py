@@ -21,10 +21,10 @@ from importlib import metadata
 
 import msgspec
 
-from topo_verify.algorithms import Algorithm
 from topo_verify.errors import InputError
 from topo_verify.harness.baseline.file import Baseline, BaselineEntry, Header
 from topo_verify.harness.corpus import Corpus
+from topo_verify.harness.engines import policies_of
 from topo_verify.harness.judge import Report, judge, replay_line
 from topo_verify.harness.judge import undecided as is_undecided
 from topo_verify.harness.progress import Progress
@@ -80,7 +80,7 @@ def record(
     header = Header(
         tool=metadata.version("topo-verify"),
         target=target.text,
-        policies=target.mapper.policies if isinstance(target.mapper, Algorithm) else None,
+        policies=policies_of(target),
         worlds=tuple(worlds),
         seed=seed,
         corpus=corpus.description,
@@ -137,7 +137,7 @@ def replay_command(target: Target, where: str, limits: Limits) -> str:
     if target.text.startswith(PREFIX):
         words = ("conform", *target_arguments(target.text), "--worlds", where, *limits.options)
         return shlex.join(["topo-verify", *words])
-    policies = target.mapper.policies if isinstance(target.mapper, Algorithm) else None
+    policies = policies_of(target)
     return replay_line(where, target.text, policies, limits.options)
 
 

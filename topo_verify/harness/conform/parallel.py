@@ -30,8 +30,9 @@ from topo_verify.harness.conform.outcome import (
     undecided_by_a_stranger,
 )
 from topo_verify.harness.corpus import Named
-from topo_verify.harness.pool import Loss, Pool, Work
+from topo_verify.harness.pool import Pool
 from topo_verify.harness.run import explore
+from topo_verify.harness.work import Loss, Work
 from topo_verify.harness.worker import Beat, Handler
 from topo_verify.robot.limits import Limits
 from topo_verify.world.rooted_map import World

@@ -19,6 +19,7 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.faults import Fault
 from topo_verify.faults.fault import ForwardingRobot
+from topo_verify.harness.engines import Engine, planted
 from topo_verify.harness.progress import Progress
 from topo_verify.harness.run import explore
 from topo_verify.harness.search.exhaustive import Size, search
@@ -120,6 +121,7 @@ def smallest(
     largest: int = LARGEST,
     workers: int = 0,
     thorough: bool = False,
+    engine: Engine = "reference",
     tell: Progress | None = None,
 ) -> Smallest:
     """Search the worlds of 1, 2, … edges up to the first size in which a claim fails.
@@ -127,8 +129,9 @@ def smallest(
     Args:
         first, largest: the first size at which to stop, and the last.
         thorough: count the failing worlds also of sizes beyond `COUNTED`.
+        engine: what runs the fault, if it has a kernel, in this process.
     """
-    target = Target(fault.target, fault)
+    target = Target(fault.target, (planted(fault.name) if engine == "compiled" else None) or fault)
     limits = A_SECOND if fault.harmless else None
     edges = first - 1
     while True:

@@ -27,6 +27,7 @@ import msgspec
 
 from topo_verify.errors import InternalError
 from topo_verify.faults import FAULTS, Fault
+from topo_verify.harness.engines import Engine
 from topo_verify.harness.faults.checks import (
     COUNTED,
     Examples,
@@ -36,8 +37,9 @@ from topo_verify.harness.faults.checks import (
     proof,
     smallest,
 )
-from topo_verify.harness.pool import Loss, Pool, Work, in_order
+from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress
+from topo_verify.harness.work import Loss, Work, in_order
 from topo_verify.harness.worker import Beat, Handler
 
 Check = Literal["search", "properties", "proofs"]
@@ -79,6 +81,7 @@ def try_faults(
     by: Sequence[Check] = CHECKS,
     workers: int = 0,
     thorough: bool = False,
+    engine: Engine = "reference",
     tell: Progress | None = None,
 ) -> Iterator[Caught]:
     """Try the checks on each of these faults.
@@ -88,18 +91,22 @@ def try_faults(
         workers: so many processes, each with a fault of its own; 0: this one.
         thorough: count the failing worlds of every size, and try the harmless differences in all
             worlds of 5 edges, too.
+        engine: what runs a fault that has a kernel, in worlds of up to `COUNTED` edges; the
+            checkers judge the runs. All other runs are by the reference.
         tell: the progress callback, called in the larger worlds.
     """
     faults = list(faults)
     # A worker finds a fault by its name alone, so any other is tried in this process.
     known = all(FAULTS.get(fault.name) is fault for fault in faults)
     if workers and known and len(faults) > 1:
-        with closing(_in_workers(faults, FaultsJob(tuple(by), thorough), workers)) as entries:
+        with closing(
+            _in_workers(faults, FaultsJob(tuple(by), thorough, engine), workers)
+        ) as entries:
             for fault, entry in entries:
                 yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
     else:
         for fault in faults:
-            entry = _begun(fault, by=by, thorough=thorough)
+            entry = _begun(fault, by=by, thorough=thorough, engine=engine)
             yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
 
 
@@ -108,6 +115,7 @@ class FaultsJob(msgspec.Struct, frozen=True):
 
     by: tuple[Check, ...]
     thorough: bool
+    engine: Engine
 
 
 def _in_workers(
@@ -137,17 +145,17 @@ def serve_faults(job: bytes) -> Generator[Handler]:
 
     def try_one(name: bytes, _beat: Beat) -> Caught:
         fault = FAULTS[msgspec.json.decode(name, type=str)]
-        return _begun(fault, by=asked.by, thorough=asked.thorough)
+        return _begun(fault, by=asked.by, thorough=asked.thorough, engine=asked.engine)
 
     yield try_one
 
 
-def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool) -> Caught:
+def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool, engine: Engine) -> Caught:
     """Try every check on a fault, the search in worlds of up to `COUNTED` edges."""
     last = (LARGEST_THOROUGH if thorough else LARGEST_HARMLESS) if fault.harmless else COUNTED
     return entry_of(
         fault,
-        smallest(fault, largest=last) if "search" in by else None,
+        smallest(fault, largest=last, engine=engine) if "search" in by else None,
         examples(fault) if "properties" in by else None,
         proof(fault) if "proofs" in by else None,
     )

@@ -41,6 +41,7 @@ class Setting:
         measure: what `size` counts, with its unit.
         family: the text of a world of one size and seed, as a WORLD argument names it.
         sizes: the sizes of the points; quick: those with `--quick`.
+        large: further sizes, for the compiled engine.
     """
 
     name: SettingName
@@ -48,6 +49,7 @@ class Setting:
     family: Callable[[int, int], str]
     sizes: tuple[int, ...]
     quick: tuple[int, ...]
+    large: tuple[int, ...] = ()
 
 
 LATTICE = Setting(
@@ -56,6 +58,7 @@ LATTICE = Setting(
     lambda size, seed: f"family:lattice({size},{size},holes=0.2,seed={seed})",
     (4, 6, 8, 10, 12, 15, 20),
     (4, 6, 8, 10),
+    (30, 40, 60, 80, 100),
 )
 
 DENSE = Setting(
@@ -228,16 +231,19 @@ class FigureExtent:
         quick: the small sizes only.
         policies: the pairs of policies.
         seed: of the graphs.
+        large: the large sizes, too.
     """
 
     graphs: int = GRAPHS
     quick: bool = False
     policies: tuple[PolicyPair, ...] = (REFERENCE,)
     seed: int = 0
+    large: bool = False
 
     def sizes(self, setting: Setting) -> tuple[int, ...]:
         """The sizes of the points in a setting."""
-        return setting.quick if self.quick else setting.sizes
+        sizes = setting.quick if self.quick else setting.sizes
+        return (*sizes, *setting.large) if self.large else sizes
 
     def worlds(self, setting: Setting, size: int) -> Iterator[str]:
         """The graphs of one point."""

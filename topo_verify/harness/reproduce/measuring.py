@@ -1,5 +1,9 @@
 """One run of a figure, judged by every claim, as a row; many of them, in worker processes.
 
+A run by the compiled engine is judged like any other, as long as the world has at most `LARGE`
+edges. In a larger one two claims are judged, `MAP_CLAIMS`: they need no trace, which would have
+millions of events.
+
 A row that convicts or decides nothing is a result like any other, except that a run which was out
 of time, or whose worker was killed, is not kept: the next call tries it again.
 """
@@ -13,14 +17,22 @@ from functools import lru_cache
 import msgspec
 
 from topo_verify.checkers import Finding
-from topo_verify.harness.judge import judge, undecided
-from topo_verify.harness.pool import Loss, Pool, Work
+from topo_verify.checkers.claims import LARGE
+from topo_verify.errors import InputError
+from topo_verify.harness.engines import Engine
+from topo_verify.harness.judge import judge, replay_line, undecided
+from topo_verify.harness.pool import Pool
 from topo_verify.harness.reproduce.figures import Figure, FigureExtent, PolicyPair
 from topo_verify.harness.run import explore
+from topo_verify.harness.work import Loss, Work
 from topo_verify.harness.worker import Beat, Handler
+from topo_verify.robot.events import MapData
 from topo_verify.robot.limits import Limits
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
+
+MAP_CLAIMS = ("map-isomorphic", "cost-within-bound")
+"""The claims that are judged without a trace."""
 
 LIMITS = Limits(move_timeout=60.0, world_timeout=600.0)
 """Of each run. The algorithms are ours: limits are there for a machine that stands still."""
@@ -52,6 +64,7 @@ class MeasuredRun(msgspec.Struct, frozen=True):
         least: the least cost of a proof in it, in edge traversals.
         cost: of the run, in edge traversals.
         held: how many claims held in it, of `claims` that were asked.
+        engine: what made the run.
         findings: what convicts the algorithm.
         undecided: why nothing was decided, or None.
     """
@@ -65,6 +78,7 @@ class MeasuredRun(msgspec.Struct, frozen=True):
     claims: int
     findings: tuple[Finding, ...] = ()
     undecided: str | None = None
+    engine: Engine = "reference"
 
 
 def planned_runs(figures: Sequence[Figure], extent: FigureExtent) -> list[PlannedRun]:
@@ -81,10 +95,16 @@ def planned_runs(figures: Sequence[Figure], extent: FigureExtent) -> list[Planne
     )
 
 
-def measured(planned: PlannedRun) -> MeasuredRun:
-    """The run, made here and judged by every claim."""
+def measured(planned: PlannedRun, engine: Engine = "reference") -> MeasuredRun:
+    """The run, made here and judged."""
     world = _world(planned.world)
-    made = explore(world, planned.algorithm, pick=planned.pick, order=planned.order, limits=LIMITS)
+    pick, order = planned.pick, planned.order
+    if engine == "compiled":
+        if len(world.edges) > LARGE:
+            return _measured_map(planned, world)
+        made = explore(world, planned.algorithm, pick=pick, order=order, engine=engine)
+    else:
+        made = explore(world, planned.algorithm, pick=pick, order=order, limits=LIMITS)
     report = judge(made, where=planned.world)
     why = None
     if undecided(made, report):
@@ -100,7 +120,47 @@ def measured(planned: PlannedRun) -> MeasuredRun:
         claims=len(report.claims),
         findings=() if why else report.findings,
         undecided=why,
+        engine=engine,
     )
+
+
+def _measured_map(planned: PlannedRun, world: World) -> MeasuredRun:
+    """A run of the compiled engine without its trace, judged by `MAP_CLAIMS`."""
+    made = explore(
+        world,
+        planned.algorithm,
+        pick=planned.pick,
+        order=planned.order,
+        engine="compiled",
+        trace=False,
+    )
+    right = made.map is not None and _is_world(made.map, world)
+    held = {"map-isomorphic": right, "cost-within-bound": made.cost <= world.cost_bound}
+    where, line = planned.world, replay_line(planned.world, planned.algorithm, None, ())
+    findings = [
+        Finding(claim, None, "it holds", None, made.stopped or "it fails", None, where, line)
+        for claim in MAP_CLAIMS
+        if not held[claim]
+    ]
+    return MeasuredRun(
+        run=planned,
+        vertices=len(world.vertices),
+        edges=len(world.edges),
+        least=world.least_cost(),
+        cost=made.cost,
+        held=sum(held.values()),
+        claims=len(held),
+        findings=tuple(findings),
+        engine="compiled",
+    )
+
+
+def _is_world(found: MapData, world: World) -> bool:
+    """Whether a map is isomorphic to a world, the marker on the marker."""
+    try:
+        return World.from_map(found).code == world.code
+    except InputError:
+        return False
 
 
 @lru_cache(maxsize=64)  # the lines of a point share their graphs
@@ -108,14 +168,19 @@ def _world(text: str) -> World:
     return resolve_world(text)
 
 
-def measured_runs(planned: Iterable[PlannedRun], workers: int) -> Iterator[MeasuredRun]:
+def measured_runs(
+    planned: Iterable[PlannedRun], workers: int, engine: Engine = "reference"
+) -> Iterator[MeasuredRun]:
     """The runs as they are finished; made in this process if `workers` is 1."""
+    if engine == "compiled":
+        # Here, before the workers start: they find the kernels in the cache.
+        explore(World.from_id("m1/0"), engine=engine)
     if workers == 1:
-        yield from map(measured, planned)
+        yield from (measured(one, engine) for one in planned)
         return
     work = Work(
         serve=f"{__name__}:serve_measured",
-        job=None,
+        job=engine,
         result=MeasuredRun,
         lost=_lost,
         silence=SILENCE,
@@ -130,11 +195,12 @@ def _lost(planned: PlannedRun, loss: Loss) -> MeasuredRun:
 
 
 @contextmanager
-def serve_measured(_job: bytes) -> Generator[Handler]:
+def serve_measured(job: bytes) -> Generator[Handler]:
     """Make the runs that come; see `topo_verify.harness.worker`."""
+    engine: Engine = msgspec.json.decode(job, type=Engine)
 
     def handle(task: bytes, _beat: Beat) -> MeasuredRun:
-        return measured(msgspec.json.decode(task, type=PlannedRun))
+        return measured(msgspec.json.decode(task, type=PlannedRun), engine)
 
     yield handle
 

@@ -19,6 +19,7 @@ from typing import Any, Self
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.harness.engines import Engine
 from topo_verify.harness.reproduce.measuring import MeasuredRun, PlannedRun
 from topo_verify.harness.search.identity import source_hash
 from topo_verify.text import shown
@@ -33,6 +34,7 @@ class StoreHeader(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     format: str
     version: int
     sources: str
+    engine: Engine = "reference"
 
 
 class StoredLine(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -47,6 +49,7 @@ class RunStore:
 
     Args:
         path: the file; it is made if it is missing.
+        engine: what makes the runs; a store never mixes engines.
     Attributes:
         runs: what is done.
         repaired: half a line was cut off at its end.
@@ -55,8 +58,9 @@ class RunStore:
             be written.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, engine: Engine = "reference") -> None:
         self.path = path
+        self.engine: Engine = engine
         self.runs: dict[PlannedRun, MeasuredRun] = {}
         self.repaired = False
         try:
@@ -111,7 +115,7 @@ class RunStore:
         self._file.seek(0)
         data = self._file.read()
         whole = data[: data.rfind(b"\n") + 1]
-        header = StoreHeader(FORMAT, VERSION, source_hash(()))
+        header = StoreHeader(FORMAT, VERSION, source_hash(()), self.engine)
         if not whole and line_of(header).startswith(data):  # new, or killed over its first line
             self._file.truncate(0)
             self._write(header)
@@ -132,6 +136,8 @@ class RunStore:
             raise self._refused("it is no store of reproduce") from error
         if found.format != FORMAT:
             raise self._refused(f"it is {shown(found.format)}, no store of reproduce")
+        if found.engine != header.engine:
+            raise self._refused(f"the {found.engine} engine made its runs, not the {self.engine}")
         if found != header:
             raise self._refused("its runs were made by another version of topo-verify")
 

@@ -2,7 +2,7 @@
 
 exhaustive.py  adds up shards in their order, and gives the verdict
 plan.py        what is searched, as data; the shards
-shard.py       examines one shard
+shard.py       examines one shard: by_checkers.py, or compiled_shard.py
 tallier.py     makes its tally, run by run
 choices.py     the choices that the paper leaves open: policies, and every choice
 parallel.py    shards as tasks of the worker pool

@@ -14,12 +14,14 @@ there are (`WorldClass.count`). If they differ at the end of a search, that is a
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
-from contextlib import closing
+from contextlib import closing, nullcontext
 
 import msgspec
 
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError
+from topo_verify.harness.cluster import Cluster, ClusterPool, both_given, connected
+from topo_verify.harness.engines import Engine, require_compiled
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.pool import Pool
 from topo_verify.harness.progress import Progress, ProgressRate
@@ -31,11 +33,13 @@ from topo_verify.harness.search.again import (
     run_again,
     with_run_again,
 )
+from topo_verify.harness.search.by_checkers import Interrupted
 from topo_verify.harness.search.choices import require_choices
+from topo_verify.harness.search.compiled_shard import EngineSeconds, warm
 from topo_verify.harness.search.identity import Identity
 from topo_verify.harness.search.parallel import shard_work
 from topo_verify.harness.search.plan import Choices, Plan, Shard
-from topo_verify.harness.search.shard import Interrupted, ShardResult, examine_shard
+from topo_verify.harness.search.shard import ShardResult, examine_shard
 from topo_verify.harness.tally import CostTotals, Failing, Failure, LostWorker, Tally
 from topo_verify.harness.targets import one_target, targets
 from topo_verify.programs.loader import Mapper, Target
@@ -109,6 +113,8 @@ def search(  # noqa: PLR0913  an argument an option
     policies: Choices = "reference",
     limits: Limits | None = None,
     workers: int = 0,
+    dask: str | None = None,
+    engine: Engine = "reference",
     tell: Progress | None = None,
 ) -> SearchResult:
     """Examine a mapper in every world of a class with 1 … `edges` edges, smallest first.
@@ -121,13 +127,17 @@ def search(  # noqa: PLR0913  an argument an option
         policies: which choices an algorithm of the catalogue is tried with; `choices.py`.
         limits: of each run.
         workers: so many processes; 0: this one. Other processes are handed the TARGET's text.
+        dask: the address of a Dask scheduler, or `local`: its workers in place of processes here.
+        engine: what runs algorithms of the catalogue; `compiled_shard.py`.
         tell: the progress callback.
     Raises:
         InputError: no such mapper; nothing knows how many worlds the class has; and the like.
         InternalError: mappers ran in another number of worlds than there are.
     """
     mappers = _targets(target)
-    if workers and not isinstance(target, str):
+    if workers and dask is not None:
+        raise both_given(dask, workers)
+    if (workers or dask is not None) and not isinstance(target, str):
         _require_texts(mappers)
     plan = Plan(
         targets=tuple(mapper.text for mapper in mappers),
@@ -136,9 +146,11 @@ def search(  # noqa: PLR0913  an argument an option
         choices=policies,
         keep_going=keep_going,
         limits=limits or Limits(),
+        engine=engine,
     )
-    work = Search(plan, mappers, workers=workers)
-    work.work(tell)
+    with nullcontext() if dask is None else connected(dask) as cluster:
+        work = Search(plan, mappers, workers=workers, cluster=cluster)
+        work.work(tell)
     if isinstance(target, str):
         work.run_again(tell)
     return work.found()
@@ -173,11 +185,14 @@ class Search:
     Args:
         mappers: the targets of the plan, as they run in this process.
         workers: so many processes; 0: this one.
+        cluster: does the work in place of processes of this machine.
         ledger: has the tallies of finished shards, and is given those of new ones.
         identity: what the mappers rest on, if there is a ledger.
+    Attributes:
+        seconds: what the compiled engine and the checkers took, if that engine is the plan's.
     Raises:
-        InputError: nothing knows how many worlds there are; a mapper has no such policies; workers
-            for a mapper that has no text.
+        InputError: nothing knows how many worlds there are; a mapper has no such policies, or the
+            engine cannot run it; workers for a mapper that has no text.
     """
 
     def __init__(
@@ -186,16 +201,26 @@ class Search:
         mappers: Sequence[Target],
         *,
         workers: int = 0,
+        cluster: Cluster | None = None,
         ledger: Ledger | None = None,
         identity: Identity | None = None,
     ) -> None:
         require_choices(mappers, plan)
+        if plan.engine == "compiled":
+            require_compiled(mappers, plan.limits)
+            if plan.limits.budget is not None:
+                raise InputError(
+                    f"--engine compiled searches with the bound of claim 7 as its budget, got"
+                    f" --budget {plan.limits.budget}: leave out --budget, or --engine"
+                )
         self.plan, self.mappers, self.workers, self.ledger = plan, mappers, workers, ledger
+        self.cluster = cluster
         self.identity = Identity(mappers) if identity is None and ledger is not None else identity
         self.totals = plan.totals()
         self.tallies = dict.fromkeys(self.totals, Tally())
         self.from_ledger = 0
         self.again: RunAgain | None = None
+        self.seconds = EngineSeconds()
 
     def run_again(self, tell: Progress | None = None) -> None:
         """Run some worlds again, each in a fresh process, if there is a TARGET to start it from."""
@@ -216,6 +241,8 @@ class Search:
         rate = ProgressRate(", ".join(self.plan.targets), sum(self.totals.values()), tell)
         timeouts = 0
         rate.in_flight(0)
+        if self.plan.engine == "compiled":
+            warm(self.plan)  # here, before the workers start, which then find it in the cache
         if self.ledger is not None:
             self._examine_again(self.ledger)
         try:
@@ -256,6 +283,7 @@ class Search:
                 while tally is None:
                     done, found = next(executed)
                     result = found.tally
+                    self.seconds += found.seconds or EngineSeconds()
                     # A shard in which a stranger may have killed a worker is tried anew next time.
                     if self.ledger is not None and not result.lost:
                         self.ledger.put(done, result, found.loaded)
@@ -279,16 +307,20 @@ class Search:
     ) -> Generator[tuple[Shard, ShardResult]]:
         """Shards and their results, as they are finished, here or in other processes."""
         beat = None if rate is None else rate.in_flight
-        if self.workers:
-            depends = None if self.identity is None else self.identity.depends
+        depends = None if self.identity is None else self.identity.depends
+        if self.cluster is not None:
+            work = shard_work(self.plan, self.mappers, depends)
+            with ClusterPool(self.cluster, work) as cluster:
+                yield from cluster.run(todo)
+        elif self.workers:
             work = shard_work(self.plan, self.mappers, depends)
             with Pool(work, self.workers, in_flight=beat) as pool:
                 yield from pool.run(todo)
         else:
             for shard in todo:
-                tally = examine_shard(self.plan, self.mappers, shard, beat)
+                found = examine_shard(self.plan, self.mappers, shard, beat)
                 loaded = None if self.identity is None else self.identity.loaded()
-                yield shard, ShardResult(tally, loaded)
+                yield shard, msgspec.structs.replace(found, loaded=loaded)
 
     def _examine_again(self, ledger: Ledger) -> None:
         """Examine some of the ledger's shards, and compare.

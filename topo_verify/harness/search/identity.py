@@ -42,7 +42,7 @@ _PACKAGE = Path(errors.__file__).resolve().parent
 
 def source_hash(mappers: Iterable[Target]) -> str:
     """A hash of topo_verify and of the files that name these mappers, as they are now."""
-    digest = sha256(_own().encode())
+    digest = sha256(own_hash().encode())
     for mapper in mappers:
         if not isinstance(mapper.mapper, Algorithm):
             for path, made in sorted(loaded.hashes(named_files(mapper.text)).items()):
@@ -51,8 +51,8 @@ def source_hash(mappers: Iterable[Target]) -> str:
 
 
 @cache
-def _own() -> str:
-    """The hash of topo_verify's sources."""
+def own_hash() -> str:
+    """The hash of topo_verify's sources, as they were when this process first asked."""
     digest = sha256()
     for path in sorted(_PACKAGE.rglob("*.py")):
         digest.update(f"\0{path.relative_to(_PACKAGE)}\0".encode() + path.read_bytes())

@@ -10,6 +10,7 @@ sign of life): then the world is named and the verdict open.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from functools import reduce
@@ -20,12 +21,13 @@ import msgspec
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
 from topo_verify.harness.judge import replay_line
-from topo_verify.harness.pool import Division, Loss, Work
+from topo_verify.harness.search.compiled_shard import warm
 from topo_verify.harness.search.identity import Identity, merged, source_hash
 from topo_verify.harness.search.plan import Plan, Shard
 from topo_verify.harness.search.shard import ShardResult, examine_shard
 from topo_verify.harness.tally import Failing, Failure, LostWorker, Tally, with_failure
 from topo_verify.harness.targets import targets
+from topo_verify.harness.work import Division, Loss, Remote, Work
 from topo_verify.harness.worker import Beat, Handler
 from topo_verify.programs.loaded import Loaded, watch
 from topo_verify.programs.loader import Target
@@ -34,6 +36,9 @@ from topo_verify.world.enumeration.pruned import ranked_tables
 
 GRACE = 5.0
 """Seconds without a heartbeat, beyond all limits of a run, until a worker is given up."""
+
+MACHINES = "the Dask worker, each time"
+"""What was lost with a world, if it was no process of its own."""
 
 
 class SearchJob(msgspec.Struct, frozen=True):
@@ -58,6 +63,18 @@ def shard_work(
         mappers: the targets of the plan, as this process found them.
         depends: further files that they depend on; None: what they load is not asked for.
     """
+    return _work_of(
+        SearchJob(plan, source_hash(mappers), None if depends is None else tuple(depends))
+    )
+
+
+def remade(job: bytes) -> Work[Shard, ShardResult]:
+    """The same work on another machine, made of its job as JSON."""
+    return _work_of(msgspec.json.decode(job, type=SearchJob))
+
+
+def _work_of(job: SearchJob) -> Work[Shard, ShardResult]:
+    plan = job.plan
 
     def lost(shard: Shard, loss: Loss) -> ShardResult:
         """The shard has one world, which is to blame; or none, if it was cut behind the last."""
@@ -72,7 +89,7 @@ def shard_work(
     silence = GRACE + max(plan.limits.world_timeout, Limits().world_timeout)
     return Work(
         serve=f"{__name__}:serve_shards",
-        job=SearchJob(plan, source_hash(mappers), None if depends is None else tuple(depends)),
+        job=job,
         result=ShardResult,
         lost=lost,
         survived=lambda result, losses, given_up: _survived(plan, result, losses, given_up),
@@ -82,13 +99,24 @@ def shard_work(
             join=_joined,
             last=lambda result: result.tally.failing > 0 and not plan.keep_going,
         ),
+        remote=Remote(
+            remade=f"{__name__}:{remade.__name__}",
+            task=Shard,
+            parts=_parts,
+            lost=lambda shard: _open(plan, shard),
+        ),
     )
 
 
 def _joined(results: list[ShardResult]) -> ShardResult:
     tally = sum((result.tally for result in results), Tally())
     known = [result.loaded for result in results if result.loaded is not None]
-    return ShardResult(tally, reduce(_merged, known) if known else None)
+    seconds = [result.seconds for result in results if result.seconds is not None]
+    return ShardResult(
+        tally,
+        reduce(_merged, known) if known else None,
+        reduce(operator.add, seconds) if seconds else None,
+    )
 
 
 def _merged(one: Loaded, other: Loaded) -> Loaded:
@@ -103,6 +131,23 @@ def _cut(plan: Plan, shard: Shard, worlds: int) -> list[Shard]:
     at = min(worlds, len(ranks) - 1)
     cuts = [shard.start, *ranks[max(at, 1) : at + 2], shard.stop]
     return [Shard(shard.edges, start, stop) for start, stop in pairwise(cuts)]
+
+
+PARTS = 16
+"""A shard with which machines were lost is cut into so many parts."""
+
+
+def _parts(shard: Shard) -> list[Shard]:
+    """Parts of a shard, about equal."""
+    width = -(-(shard.stop - shard.start) // PARTS)
+    starts = range(shard.start, shard.stop, width)
+    return [Shard(shard.edges, start, min(start + width, shard.stop)) for start in starts]
+
+
+def _open(plan: Plan, shard: Shard) -> ShardResult:
+    """The result of a shard of one rank with which machines were lost: its world is undecided."""
+    lost = tuple(LostWorker(shard.edges, rank, MACHINES) for rank in _ranks(plan, shard))
+    return ShardResult(Tally(worlds=len(lost), undecided=len(lost), lost=lost))
 
 
 def _ranks(plan: Plan, shard: Shard) -> list[int]:
@@ -142,6 +187,8 @@ def _survived(
         failing = {failure.rank for failure in tally.failures}
         if rank in seen | failing or any(one.start <= rank < one.stop for one in given_up):
             continue
+        if failing and rank > min(failing) and not plan.keep_going:
+            continue  # another worker was ahead: the search ends at the first failing world
         seen.add(rank)
         if loss.stranger:
             lost = LostWorker(shard.edges, rank, loss.cause)
@@ -172,13 +219,18 @@ def serve_shards(job: bytes) -> Generator[Handler]:
     if source_hash(mappers) != search.sources:
         raise InputError(
             f"target {plan.targets[0]!r}: its source, or topo-verify's, has changed since the"
-            " search began: start it again"
+            " search began, or is another one on this machine: start it again, with the same"
+            " sources everywhere"
         )
 
+    if plan.engine == "compiled":
+        warm(plan)
     identity = None if search.depends is None else Identity(mappers, search.depends)
 
     def examine(shard: bytes, beat: Beat) -> ShardResult:
-        tally = examine_shard(plan, mappers, msgspec.json.decode(shard, type=Shard), beat)
-        return ShardResult(tally, None if identity is None else identity.loaded())
+        found = examine_shard(plan, mappers, msgspec.json.decode(shard, type=Shard), beat)
+        if identity is None:
+            return found
+        return msgspec.structs.replace(found, loaded=identity.loaded())
 
     yield examine

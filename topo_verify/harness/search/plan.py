@@ -9,6 +9,7 @@ from typing import Literal, get_args
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.harness.engines import Engine
 from topo_verify.harness.observed import Sampler
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
@@ -21,6 +22,9 @@ CHOICES: tuple[Choices, ...] = get_args(Choices)
 
 SHARD: dict[Choices, int] = {"reference": 400, "all": 12, "every": 8}
 """How many worlds a shard has on average: a fraction of a second of work, where one world is."""
+
+COMPILED_SHARD = 500_000
+"""How many worlds a shard of the compiled engine has on average: about two seconds of work."""
 
 
 class Shard(msgspec.Struct, frozen=True):
@@ -44,6 +48,7 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
         limits: of one run.
         seed: of what is drawn: the worlds that are run again.
         in_process: mappers that are not of the catalogue share the process of the harness.
+        engine: what runs the algorithms of the catalogue.
     """
 
     targets: tuple[str, ...]
@@ -55,6 +60,7 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
     limits: Limits = Limits()
     seed: int = 0
     in_process: bool = True
+    engine: Engine = "reference"
 
     def __post_init__(self) -> None:
         if self.edges < 1:
@@ -62,6 +68,11 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
         if self.choices not in CHOICES:
             raise InputError(
                 f"no policies {self.choices!r}: a search goes through {', '.join(CHOICES)}"
+            )
+        if self.engine == "compiled" and self.choices != "reference":
+            raise InputError(
+                f"--engine compiled with --policies {self.choices}: it knows the reference policies"
+                " only; leave one of the two out"
             )
 
     @property
@@ -84,11 +95,16 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True):
         """Which worlds are run again."""
         return Sampler(self.seed, sum(self.totals().values()))
 
+    @property
+    def shard(self) -> int:
+        """How many worlds a shard has on average."""
+        return COMPILED_SHARD if self.engine == "compiled" else SHARD[self.choices]
+
     def shards(self) -> Iterator[Shard]:
         """The shards. They depend on the plan alone, so a later search finds them in a ledger."""
         for edges, worlds in self.totals().items():
             ranks = rank_order.count(edges)
-            width = max(1, ranks * SHARD[self.choices] // max(1, worlds))
+            width = max(1, ranks * self.shard // max(1, worlds))
             for start in range(0, ranks, width):
                 yield Shard(edges, start, min(start + width, ranks))
 

@@ -1,21 +1,18 @@
-"""Examines one shard: runs every mapper in every world of it and judges every claim."""
+"""Examines one shard: every mapper in every world of it, by the engine of the plan."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 
 import msgspec
 
-from topo_verify.harness.search.choices import examinations
+from topo_verify.harness.search.by_checkers import Interrupted, examine_by_checkers, plain
+from topo_verify.harness.search.compiled_shard import CompiledShard, EngineSeconds
 from topo_verify.harness.search.plan import Plan, Shard
-from topo_verify.harness.search.tallier import Tallier
 from topo_verify.harness.tally import Tally
 from topo_verify.harness.worker import Beat
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
-from topo_verify.world.enumeration.pruned import ranked_tables
-from topo_verify.world.rooted_map import World
 
 
 class ShardResult(msgspec.Struct, frozen=True):
@@ -24,60 +21,30 @@ class ShardResult(msgspec.Struct, frozen=True):
     Attributes:
         tally: of its worlds.
         loaded: what the mappers had loaded then; None: nobody asked.
+        seconds: what the compiled engine and the checkers took; None: the checkers did all.
     """
 
     tally: Tally
     loaded: Loaded | None = None
-
-
-class Interrupted(KeyboardInterrupt):
-    """Ctrl-C came in the middle of a shard.
-
-    Attributes:
-        tally: of the worlds of the shard that were finished.
-    """
-
-    def __init__(self, tally: Tally) -> None:
-        super().__init__()
-        self.tally = tally
+    seconds: EngineSeconds | None = None
 
 
 def examine_shard(
     plan: Plan, mappers: Sequence[Target], shard: Shard, beat: Beat | None = None
-) -> Tally:
-    """The tally of every mapper in every world of a shard.
-
-    A plan that does not keep going has it end at the first world in which a claim fails.
+) -> ShardResult:
+    """What every mapper did in every world of a shard.
 
     Args:
-        beat: called before each run and each judgement: (worlds of the shard that are finished).
+        beat: called before anything that may take long: (worlds of the shard that are finished).
     Raises:
         Interrupted: Ctrl-C.
+        InternalError: the compiled engine and the checkers disagree.
     """
-    tallier = Tallier(shard.edges, tuple(target.text for target in mappers), plan.sampler)
-    counts = tallier.counts
-
-    def beats() -> None:
-        if beat is not None:
-            beat(counts.worlds)
-
+    if plan.engine == "reference":
+        return ShardResult(examine_by_checkers(plan, mappers, shard, beat))
+    made = CompiledShard(plan, mappers, shard)
     try:
-        for rank, table in ranked_tables(shard.edges, plan.world_class, shard.start, shard.stop):
-            world = World.from_code(table)
-            tallier.open(rank)
-            for target in mappers:
-                note = partial(tallier.enter_range, target.text)
-                for run, report, killed in examinations(target, plan, world, beats, note):
-                    tallier.enter(run, report, killed)
-            if tallier.close() and not plan.keep_going:
-                break
-            if counts.timeouts == plan.max_timeouts:
-                break
+        made.examine(beat or (lambda _worlds: None))
     except KeyboardInterrupt:
-        raise Interrupted(_plain(tallier.tally())) from None
-    return _plain(tallier.tally())
-
-
-def _plain(tally: Tally) -> Tally:
-    """The same tally as it comes out of a ledger or another process: data, no mapper's objects."""
-    return msgspec.json.decode(msgspec.json.encode(tally), type=Tally)
+        raise Interrupted(plain(made.tally())) from None
+    return ShardResult(plain(made.tally()), seconds=made.seconds)

@@ -1,5 +1,9 @@
 """The part `small-worlds`: exhaustive search with every mapper in every world up to a size.
 
+Where the compiled engine is installed, it goes one size further for algorithms of the catalogue.
+It also does the sizes that the checkers judged, and must count there what they counted: the status
+of each claim and its share, costs, worst worlds. A difference is a bug of ours.
+
 Only algorithms of the catalogue run in workers. A user's mapper runs in this process, so that
 Ctrl-C reaches it; its few thousand runs take seconds.
 """
@@ -8,14 +12,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import msgspec
+
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.harness.pool import processors
+from topo_verify.compiled import available
+from topo_verify.errors import InternalError
 from topo_verify.harness.progress import Progress
 from topo_verify.harness.search.exhaustive import Search, SearchResult
 from topo_verify.harness.search.plan import Plan
 from topo_verify.harness.tally import joint_judgements
 from topo_verify.harness.verify.parts import Part
 from topo_verify.harness.verify.trials import MAX_TIMEOUTS, claims_in_words, part_claims
+from topo_verify.harness.work import processors
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -25,9 +33,15 @@ WORTH = 4
 
 
 class SmallWorlds:
-    """Runs every mapper in every world of 1 … `edges` edges, judges every claim. A `PartJob`."""
+    """Runs every mapper in every world of 1 … `edges` edges, judges every claim. A `PartJob`.
 
-    def __init__(self, edges: int, targets: Sequence[Target], limits: Limits) -> None:
+    Args:
+        further: one size more by the compiled engine, where it is installed.
+    """
+
+    def __init__(
+        self, edges: int, targets: Sequence[Target], limits: Limits, *, further: bool = False
+    ) -> None:
         ours = all(CATALOGUE.get(target.text) == target.mapper for target in targets)
         plan = Plan(
             targets=tuple(target.text for target in targets),
@@ -38,14 +52,39 @@ class SmallWorlds:
         )
         workers = processors() if ours and edges >= WORTH else 0
         self.search = Search(plan, targets, workers=workers)
+        self.further: Search | None = None
+        if ours and further and available() and limits == Limits():
+            plan = msgspec.structs.replace(plan, edges=edges + 1, engine="compiled")
+            plan = msgspec.structs.replace(plan, max_timeouts=None)
+            self.further = Search(plan, targets, workers=workers)
 
     def work(self, tell: Progress) -> None:
-        """Search every world of each size."""
+        """Search every world of each size.
+
+        Raises:
+            InternalError: the compiled engine counts something else than the checkers.
+        """
         self.search.work(lambda _what, done, total: tell("small-worlds", done, total))
+        if self.further is not None and self.search.found().verdict == "EXHAUSTED":
+            self.further.work(lambda _what, done, total: tell("small-worlds", done, total))
+            self._require_same(self.further)
+
+    def _require_same(self, further: Search) -> None:
+        for edges, tally in self.search.tallies.items():
+            other = further.tallies[edges]
+            for name in ("worlds", "failing", "undecided", "statuses", "shares", "costs"):
+                ours, theirs = getattr(tally, name), getattr(other, name)
+                if ours != theirs:
+                    raise InternalError(
+                        f"in the worlds of {plural(edges, 'edge')} the engines disagree on {name}:"
+                        f" {ours} by the checkers, {theirs} by the compiled engine"
+                    )
 
     def part(self, *, interrupted: bool = False) -> Part:
         """The part's result so far."""
         found = self.search.found()
+        if self.further is not None and found.verdict == "EXHAUSTED":
+            found = self.further.found()
         tally = found.tally
         claims = part_claims(tally.statuses)
         findings = tuple(finding for failure in tally.failures for finding in failure.findings)
@@ -76,6 +115,11 @@ def _summary(found: SearchResult, claims: dict[str, dict[str, int]], *, interrup
         words += claims_in_words(claims)
     if tally.undecided:
         words += f"; {plural(tally.undecided, 'run')} not decided"
+    if found.plan.engine == "compiled":
+        words += (
+            f"; those of {plural(found.plan.edges, 'edge')} by the compiled engine, and"
+            f" {plural(tally.by_checkers, 'world')} by both"
+        )
     if interrupted:
         return words + "; interrupted"
     if tally.worlds < found.total:

@@ -5,7 +5,7 @@ For a mapper of the user's four parts are done: `counts` and `proofs` do not dep
 | part | content | quick |
 | --- | --- | --- |
 | `counts` | the numbers of worlds of 1 to 6 edges equal those of formulas | 1 to 5 |
-| `small-worlds` | every world of 1 to 5 edges, every mapper, every claim | 1 to 3 |
+| `small-worlds` | every world of 1 to 5 edges, with numba to 6; every mapper and claim | 1 to 3 |
 | `proofs` | theorems on worlds of any size; negatives and mutants | the first |
 | `sampled-worlds` | 200 worlds of 6 to 30 edges, drawn uniformly among those of a size | 40 |
 | `generated-worlds` | 160 worlds as property tests draw them, 20 of each strategy | 40 |
@@ -83,7 +83,7 @@ def _jobs(
     others = left_out(targets)
     if "counts" not in others:
         yield Counts(5 if quick else 6)
-    yield SmallWorlds(largest, targets, limits)
+    yield SmallWorlds(largest, targets, limits, further=not quick)
     if "proofs" not in others:
         yield Proofs(quick=quick)
     yield Trials(

@@ -1,0 +1,79 @@
+"""What a large search takes: the tables of docs/scale.md.
+
+    .venv/bin/python benchmarks/scale.py [--worlds N]
+
+A slice of N worlds from the middle of each size is examined by the compiled engine, with 8, 9 and
+10 claims, and searched as `search --engine compiled` does it, with a part judged by the checkers.
+Times are processor time of one process; a loaded machine makes them longer.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from time import process_time
+
+from topo_verify.compiled.shard import examine_range
+from topo_verify.harness.search.compiled_shard import CompiledShard, warm
+from topo_verify.harness.search.plan import Plan, Shard
+from topo_verify.harness.targets import targets
+from topo_verify.world.enumeration import rank_order
+
+ALGORITHMS = ("basic", "enhancement-iii-all+i", "folding")
+CORES = (2, 64, 1000)
+
+
+def taken(do: Callable[[], object]) -> float:
+    """Seconds of processor time."""
+    begin = process_time()
+    do()
+    return process_time() - begin
+
+
+def duration(seconds: float) -> str:
+    """A duration as one reads it."""
+    for unit, size in (("days", 86400), ("h", 3600), ("min", 60)):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{seconds:.0f} s"
+
+
+def main() -> None:
+    """Print the tables."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--worlds", type=int, default=50_000)
+    worlds = parser.parse_args().worlds
+    print("| algorithm | m | claims 1-8 | 1-9 | all ten | and the checkers |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: |")
+    whole: dict[tuple[str, int], float] = {}
+    for algorithm in ALGORITHMS:
+        plan = Plan(targets=(algorithm,), edges=9, engine="compiled")
+        warm(plan)
+        for edges in (7, 8, 9):
+            start = rank_order.count(edges) // 2
+            row = [
+                taken(
+                    lambda c=c, m=edges, a=algorithm, s=start: examine_range(
+                        [a], m, "any", s, s + worlds, claims=c
+                    )
+                )
+                for c in (8, 9, 10)
+            ]
+            shard = CompiledShard(plan, targets(algorithm), Shard(edges, start, start + worlds))
+            row.append(taken(lambda shard=shard: shard.examine(lambda _worlds: None)))
+            whole[algorithm, edges] = row[-1] / worlds
+            cells = " | ".join(f"{1e6 * seconds / worlds:.2f}" for seconds in row)
+            print(f"| {algorithm} | {edges} | {cells} |", flush=True)
+    print(f"\n| algorithm | m | worlds | {' | '.join(f'{n} cores' for n in CORES)} |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: |")
+    for algorithm in ALGORITHMS:
+        for edges in (8, 9, 10):
+            # One size more costs as much more for each world as the last one did.
+            grown = whole[algorithm, 9] ** 2 / whole[algorithm, 8]
+            seconds = whole.get((algorithm, edges), grown) * rank_order.count(edges)
+            cells = " | ".join(duration(seconds / cores) for cores in CORES)
+            print(f"| {algorithm} | {edges} | {rank_order.count(edges):,} | {cells} |")
+
+
+if __name__ == "__main__":
+    main()
