@@ -175,7 +175,7 @@ Definition true_wherever L M ev := forall W v, world W -> visits W L v ->
   exists phi, embedded M W phi /\ true_event W M phi ev.
 
 (** The invariant of the sketch holds after a loop that is in every world. *)
-Lemma loop_true L M s e h p q : true_sketch L M s -> In (e, p) (opened s) -> In (h, q) (opened s) ->
+Lemma loop_decided L M s e h p q : true_sketch L M s -> In (e, p) (opened s) -> In (h, q) (opened s) ->
   h <> e -> holds L (Leads p q) ->
   true_sketch L (augment_loop M e h) {| size := size s; opened := but h (but e (opened s)) |}.
 Proof.
@@ -225,7 +225,7 @@ Proof.
 Qed.
 
 (** The invariant of the sketch holds after a new vertex that is new in every world. *)
-Lemma new_true L M s e p q d : true_sketch L M s -> In (e, p) (opened s) -> holds L (Leads p q) ->
+Lemma new_decided L M s e p q d : true_sketch L M s -> In (e, p) (opened s) -> holds L (Leads p q) ->
   (forall h r, In (h, r) (but e (opened s)) -> holds L (LeadsNot p r)) ->
   has_degree (table_of (sights L)) d q = true ->
   true_sketch L (augment_new M e d) {| size := size s + d;
@@ -304,7 +304,7 @@ Proof.
     apply K; auto.
   - simpl. destruct (has_degree _ d q) eqn:G; [|discriminate].
     destruct (Nat.eqb_spec h e); [discriminate|].
-    intros E. injection E as <-. split; [apply loop_true with p q; auto|].
+    intros E. injection E as <-. split; [apply loop_decided with p q; auto|].
     intros W v HW V. destruct (D W v HW V) as (_ & phi & E & F). exists phi. split; auto.
     split; [eauto|]. split; [eauto|]. rewrite (F _ _ Pe), (F _ _ Ph). split; [apply K; auto|].
     apply (has_degree_true L); auto.
@@ -316,7 +316,7 @@ Proof.
     destruct (Nat.eqb_spec a (size s)); [|discriminate].
     destruct (all_refuted _ _ _ _) eqn:R; [|discriminate].
     assert (R' := all_refuted_true L m p _ HM rs R). intros E. injection E as <-.
-    split; [apply new_true with p; auto|].
+    split; [apply new_decided with p; auto|].
     intros W v HW V. destruct (D W v HW V) as (WM & phi & E & F). exists phi. split; auto.
     split; [eauto|]. split; [congruence|]. exists (dart W v (abs q)).
     assert (Hb : alpha W (phi e) = Some (dart W v (abs q))) by (rewrite (F _ _ Pe); apply K; auto).

@@ -3,7 +3,7 @@
     The counterexample to claim 4 without the direction is in docs/semantics.md, section 10. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
-From Topo Require Import World Rotation Embedding Augment Records Mapper Search Policies.
+From Topo Require Import World Rotation Embedding Augment Program Ways ReferencePolicies Algorithms.
 
 (** The map with sigma and alpha given as lists, and this root. *)
 Definition of_lists s a r := {| darts := length s; sigma := fun d => nth d s 0;
@@ -12,14 +12,14 @@ Definition of_lists s a r := {| darts := length s; sigma := fun d => nth d s 0;
 (** The lists of sigma and alpha of a map, and its root. *)
 Definition to_lists M := (map (sigma M) (seq 0 (darts M)), map (alpha M) (seq 0 (darts M)), root M).
 
-(** The decision procedure for [world]; bfs decides whether the map is connected. *)
+(** The decision procedure for [world]; the tree decides whether the map is connected. *)
 Definition is_worldb W := (root W <? darts W) && forallb (fun d => (sigma W d <? darts W) &&
     forallb (fun e => negb (sigma W d =? sigma W e) || (d =? e)) (seq 0 (darts W)) &&
     match alpha W d with
     | Some e => (e <? darts W) && negb (e =? d) &&
                 match alpha W e with Some x => x =? d | None => false end
     | None => false
-    end && existsb (fun y => snd y =? d) (flat_map (exits W) (bfs W (darts W) [(root W, [])])))
+    end && existsb (fun x => fst x =? lowest W d) (tree_from W (root W)))
   (seq 0 (darts W)).
 
 (** What is walked to is reached. *)
@@ -38,7 +38,7 @@ Proof.
   assert (D : forall d, d < darts W -> sigma W d < darts W /\
     (forall e, e < darts W -> sigma W d = sigma W e -> d = e) /\
     (exists e, alpha W d = Some e /\ e < darts W /\ e <> d /\ alpha W e = Some d) /\
-    existsb (fun y => snd y =? d) (flat_map (exits W) (bfs W (darts W) [(root W, [])])) = true).
+    existsb (fun x => fst x =? lowest W d) (tree_from W (root W)) = true).
   { intros d Hd. specialize (H d). rewrite in_seq, !andb_true_iff, forallb_forall in H.
     destruct H as [[[A B] C] F]; [lia|]. repeat split; auto.
     - apply Nat.ltb_lt; auto.
@@ -53,12 +53,13 @@ Proof.
     replace e with x by congruence. auto. }
   split; auto.
   - intros d Hd. destruct (D d Hd) as (_ & _ & (x & Hx & _) & _). congruence.
-  - intros d Hd. destruct (D d Hd) as (_ & _ & _ & F). apply existsb_exists in F as (y & Hy & Ey).
-    apply Nat.eqb_eq in Ey. apply in_flat_map in Hy as (x & Hx & Hy).
-    apply in_map_iff in Hy as (k & <- & _). simpl in Ey. subst d. apply reach_turn.
-    destruct (search_good W (root W) WW R (darts W) [(root W, [])]) as [G _]; [|simpl; lia|].
-    { apply good_seen_start; auto. }
-    apply (walk_reach _ _ (snd x) (root W)); [constructor|]. apply (s_walk _ _ _ G x Hx).
+  - intros d Hd. destruct (D d Hd) as (_ & _ & _ & F).
+    apply existsb_exists in F as ((v, (n, b)) & I & E).
+    simpl in E. apply Nat.eqb_eq in E. subst v. destruct (tree_good W (root W) WW R) as [G _].
+    destruct (descend_spec W (root W) WW _ G n d b Hd I) as (_ & Lq & Eq & Hw).
+    destruct (lowest_turn W WW _ _ Lq R Eq) as (k & _ & Ek).
+    apply (reach_sym W d (root W)); auto. rewrite <- Ek. apply reach_turn.
+    eapply walk_reach; [constructor|exact Hw].
 Qed.
 
 (** A torus: two vertices, three edges, sigma = (0 1 2)(3 4 5), alpha = (0 3)(1 4)(2 5). *)
@@ -68,7 +69,8 @@ Definition torus := of_lists [1;2;0;4;5;3] [3;4;5;0;1;2] 0.
 Example torus_world : world torus. Proof. apply is_worldb_true; reflexivity. Qed.
 
 (** The mapper, run by Coq in the torus, delivers the torus. *)
-Example torus_built : option_map to_lists (explores rule_history torus) =
+Example torus_built : option_map (fun run => to_lists (fst (fst run))) (perform torus 0
+    (run_of enhancement_ii nearest way_to shortest 6 (percept torus 0))) =
   Some ([1;2;0;4;5;3], [Some 3; Some 4; Some 5; Some 0; Some 1; Some 2], 0).
 Proof. reflexivity. Qed.
 

@@ -1,84 +1,80 @@
-(** An executable mapper: the loop of docs/semantics.md, section 4, with retracing (sections
-    5 to 7).
+(** An executable mapper: the loop of docs/semantics.md, section 4, with every motion and rule of
+    section 7 (listings 1, 2 and 3 of the paper).
 
-    The mapper is a function of [see] and [go] alone, so it cannot look at the world. The policies
-    are parameters: which dart is explored next, by which way, in which order hypotheses are tested,
-    and which of them the rule rejects.
+    The mapper is a program, so it cannot look at the world. The policies, the motion and the rule
+    are parameters.
 
-    M     the map S                      St    the type of the robot's states
-    e     the dart being explored        v     the robot: a state, and how far it has turned
-    pu    the percept behind e           H     the hypotheses
-    h     a hypothesis                   k, w  a door, doors *)
+    M     the map S                      T     what the rule remembers of earlier edges
+    e     the dart being explored        v     the robot: what it senses, and how far it has turned
+    pu    the percept behind e           H     the hypotheses, each with its way home
+    h     a hypothesis                   k, w  a door, doors
+    ds    the doors from vu to where the robot stands, qs the percepts behind them
+    log   the sequences of this edge, the last one first *)
 From Coq Require Import Arith Lia List Bool Permutation.
 Import ListNotations.
-From Topo Require Import World Rotation Embedding Vertices Augment.
+From Topo Require Import World Rotation Embedding Vertices Augment Program.
 
-Section Mapper.
-Variables (St : Type) (see : St -> Percept) (go : St -> nat -> option St).
+(** The robot: what it senses, and how far it has turned away from its reference dart. *)
+Definition robot : Type := Percept * nat.
 
-(** The policies: the dart explored next, the way to a dart, the order of the tests, what to keep. *)
-Variables (pick : Map -> nat -> option nat) (path : Map -> nat -> nat -> list nat * nat)
-          (order : Map -> list nat -> list nat)
-          (keep : Map -> list (list nat * list Percept) -> nat -> bool).
+(** A sequence: doors that were executed behind e, up to the one where a percept differed, and the
+    percepts behind them. *)
+Definition sequence : Type := list nat * list Percept.
 
-(** The robot: its state, and how far it has turned away from its reference dart. *)
-Definition robot : Type := St * nat.
+(** A hypothesis: the dart, and the doors of its way home. *)
+Definition hypothesis : Type := nat * list nat.
+
+(** A rule: what it remembers, at the start and after each edge; and which hypotheses it keeps. It
+    sees the map, e, the percept behind e, all sequences of this edge and, by its memory, all
+    earlier ones. When it learns, the map has grown: e and the dart of entry are partners. *)
+Record Rule := { memory : Type; fresh : memory;
+  keep : Map -> nat -> Percept -> memory -> list sequence -> hypothesis -> bool;
+  learn : Map -> nat -> nat -> memory -> list sequence -> memory }.
+
+(** A motion: which hypothesis is walked next, and how many of the doors ds it shares. *)
+Definition Motion : Type := list nat -> list hypothesis -> option (hypothesis * nat).
 
 (** Leave by door k, counted from the direction in which the robot faces. *)
-Definition go_on (v : robot) k : option robot :=
-  match go (fst v) ((snd v + k) mod fst (see (fst v))) with
-  | Some s => Some (s, 0) | None => None end.
+Definition go_on (v : robot) k : program robot :=
+  Leave ((snd v + k) mod fst (fst v)) (fun q => Return (q, 0)).
 
 (** Undo the move by door k. *)
-Definition go_back (v : robot) k : option robot :=
-  match go (fst v) (snd v) with
-  | Some s => Some (s, (fst (see s) - k) mod fst (see s)) | None => None end.
+Definition go_back (v : robot) k : program robot :=
+  Leave (snd v) (fun q => Return (q, (fst q - k) mod fst q)).
 
 (** Take the doors w one after the other. *)
-Fixpoint execute (v : robot) w : option robot :=
-  match w with
-  | [] => Some v
-  | k :: w => match go_on v k with Some v => execute v w | None => None end
-  end.
+Fixpoint execute (v : robot) w : program robot :=
+  match w with [] => Return v | k :: w => bind (go_on v k) (fun v => execute v w) end.
 
-(** Validation by motion of the hypothesis that the robot is at dart x: execute w; at the first
-    percept that differs from the map's, retrace. Returns whether all percepts agreed, the
-    percepts, and the robot. *)
-Fixpoint follow M x w (v : robot) : option (bool * list Percept * robot) :=
+(** Undo the doors ks, which are listed from the last one to the first. *)
+Fixpoint undo (v : robot) ks : program robot :=
+  match ks with [] => Return v | k :: ks => bind (go_back v k) (fun v => undo v ks) end.
+
+(** The robot is believed to be at dart x: execute w, up to the first percept that differs from the
+    map's. Returns whether all agreed, the percepts, and the robot, which stays. *)
+Fixpoint follow M x w (v : robot) : program (bool * list Percept * robot) :=
   match w with
-  | [] => Some (true, [], v)
+  | [] => Return (true, [], v)
   | k :: w =>
-    match move M x k, go_on v k with
-    | Some x, Some v =>
-      let q := see (fst v) in
-      if percept_eqb (percept M x) q then
-        match follow M x w v with
-        | Some (true, qs, v) => Some (true, q :: qs, v)
-        | Some (false, qs, v) => option_map (fun v => (false, q :: qs, v)) (go_back v k)
-        | None => None
-        end
-      else option_map (fun v => (false, [q], v)) (go_back v k)
-    | _, _ => None
+    match move M x k with
+    | Some y => bind (go_on v k) (fun u =>
+        if percept_eqb (percept M y) (fst u)
+        then bind (follow M y w u) (fun r => Return (fst (fst r), fst u :: snd (fst r), snd r))
+        else Return (false, [fst u], u))
+    | None => Stuck
     end
   end.
 
-(** Test the hypotheses H in their order until one is confirmed. The rule is told the doors
-    executed so far behind this edge, with their percepts (log). *)
-Fixpoint test_all M pu log v H : option (option nat * robot) :=
-  match H with
-  | [] => Some (None, v)
-  | h :: H =>
-    if keep M log h then
-      if percept_eqb (percept M h) pu then
-        let w := fst (path M h (root M)) in
-        match follow M h w v with
-        | Some (true, _, v) => Some (Some h, v)
-        | Some (false, qs, v) => test_all M pu ((firstn (length qs) w, qs) :: log) v H
-        | None => None
-        end
-      else test_all M pu log v H
-    else test_all M pu log v H
-  end.
+(** Do two lists of percepts agree? *)
+Fixpoint percepts_eqb (ps qs : list Percept) := match ps, qs with
+  | [], [] => true | p :: ps, q :: qs => percept_eqb p q && percepts_eqb ps qs | _, _ => false end.
+
+(** [percepts_eqb] decides equality of lists of percepts. *)
+Lemma percepts_eqb_spec ps : forall qs, reflect (ps = qs) (percepts_eqb ps qs).
+Proof.
+  induction ps as [|p ps IH]; intros [|q qs]; simpl; try (constructor; congruence).
+  destruct (percept_eqb_spec p q), (IH qs); simpl; constructor; congruence.
+Qed.
 
 (** Do two percepts have the same signature: equal degrees, and the marker at both or at neither? *)
 Definition same_signature (p q : Percept) :=
@@ -89,43 +85,78 @@ Definition same_signature (p q : Percept) :=
 Lemma same_signature_refl p : same_signature p p = true.
 Proof. unfold same_signature. rewrite Nat.eqb_refl. destruct (snd p); auto. Qed.
 
+Section Mapper.
+Variables (pick : Map -> nat -> option nat) (path : Map -> nat -> nat -> list nat * nat)
+          (order : Map -> list nat -> list nat) (motion : Motion) (rule : Rule).
+
+(** Test hypotheses until one is confirmed or none is left. The rule is put to all that remain; the
+    motion chooses one; the robot goes back to where its way parts from the doors ds; what the
+    shared doors showed is compared, and the other doors are executed. Returns the dart confirmed,
+    the sequences, and the robot, which goes back to vu if none was. n bounds the number of tests. *)
+Fixpoint test_all n M e pu T (log : list sequence) ds qs v (H : list hypothesis)
+  : program (option nat * list sequence * robot) :=
+  let none := bind (undo v (rev ds)) (fun v => Return (None, log, v)) in
+  match n with
+  | 0 => none
+  | S n =>
+    let K := filter (keep rule M e pu T log) H in
+    match motion ds K with
+    | None => none
+    | Some ((h, w), s) =>
+      let K := filter (fun c => negb (fst c =? h)) K in
+      bind (undo v (rev (skipn s ds))) (fun v =>
+        match percepts M h w, walk M h (firstn s w) with
+        | Some ps, Some x =>
+          if percept_eqb (percept M h) pu && percepts_eqb (firstn s ps) (firstn s qs)
+          then bind (follow M x (skipn s w) v) (fun r =>
+            let '(matched, more, v) := r in
+            let ds := firstn s ds ++ firstn (length more) (skipn s w) in
+            let qs := firstn s qs ++ more in
+            if matched : bool then Return (Some h, log, v)
+            else test_all n M e pu T ((ds, qs) :: log) ds qs v K)
+          else test_all n M e pu T log (firstn s ds) (firstn s qs) v K
+        | _, _ => Stuck
+        end)
+    end
+  end.
+
 (** H: the open darts other than e whose vertices have the signature of the percept pu. *)
 Definition hypotheses M e pu := order M (filter (fun h => negb (h =? e) && negb (explored M h)
   && same_signature (percept M h) pu) (seq 0 (darts M))).
 
-(** The state of an exploration: the map, the dart of it where the robot is, the robot. *)
-Definition state : Type := Map * nat * robot.
+(** The state of an exploration: the map, the dart of it where the robot is, the robot, and what
+    the rule remembers. *)
+Definition state : Type := Map * nat * robot * memory rule.
 
-(** Explore dart e: walk to it, cross it, validate, augment. None means that the robot could not
-    make a move that the map predicts. *)
-Definition round (st : state) e : option state :=
-  let '(M, p, v) := st in
-  let '(w, k) := path M p e in
-  match execute v (w ++ [k]) with
-  | None => None
-  | Some v => let pu := see (fst v) in
-    match test_all M pu [] v (hypotheses M e pu) with
-    | None => None
-    | Some (Some h, v) => match walk M h (fst (path M h (root M))) with
-                          | Some r => Some (augment_loop M e h, r, v) | None => None end
-    | Some (None, v) => Some (augment_new M e (fst pu), darts M, v)
-    end
-  end.
+(** Explore dart e: walk to it, cross it, validate, augment, learn. *)
+Definition round (st : state) e : program state :=
+  let '(M, p, v, T) := st in
+  let (w, k) := path M e p in
+  bind (execute v (w ++ [k])) (fun v =>
+    let home := path M (root M) in
+    let H := map (fun h => (h, fst (home h))) (hypotheses M e (fst v)) in
+    bind (test_all (length H) M e (fst v) T [] [] [] v H) (fun r =>
+      match r with
+      | (Some h, log, v') => match walk M h (fst (home h)) with
+          | Some x => let N := augment_loop M e h in Return (N, x, v', learn rule N e h T log)
+          | None => Stuck end
+      | (None, log, v') => let N := augment_new M e (fst (fst v)) in
+          Return (N, darts M, v', learn rule N e (darts M) T log)
+      end)).
 
-(** Explore one dart after the other until none is open. None means that the fuel, a bound on the
-    number of rounds, was used up, or that a round failed. *)
-Fixpoint explore fuel (st : state) : option state :=
-  let '(M, p, v) := st in
-  match pick M p with
-  | None => Some st
+(** Explore one dart after the other until none is open, and deliver the map. The fuel bounds the
+    number of rounds. *)
+Fixpoint explore fuel (st : state) : program Map :=
+  match pick (fst (fst (fst st))) (snd (fst (fst st))) with
+  | None => Return (fst (fst (fst st)))
   | Some e => match fuel with
-              | 0 => None
-              | S fuel => match round st e with Some st => explore fuel st | None => None end
+              | 0 => Stuck
+              | S fuel => bind (round st e) (explore fuel)
               end
   end.
 
-(** The state at the start: the map is v0, and the robot is at its first dart. *)
-Definition initial_state s : state := (initial (fst (see s)), 0, (s, 0)).
+(** The state at the start, where q is sensed: the map is v0, and the robot is at its first dart. *)
+Definition initial_state (q : Percept) : state := (initial (fst q), 0, (q, 0), fresh rule).
 End Mapper.
 Arguments round : simpl never.
 
@@ -136,22 +167,45 @@ Definition good_pick (pick : Map -> nat -> option nat) := forall M p,
   | None => forall d, d < darts M -> alpha M d <> None
   end.
 
-(** The contract of a path policy: its doors and its last turn lead from p to e. *)
+(** The contract of a path policy: its doors and its last turn lead to e from p, and it has fewer
+    doors than the map has vertices. *)
 Definition good_path (path : Map -> nat -> nat -> list nat * nat) :=
   forall M p e, is_map M -> connected M -> p < darts M -> e < darts M ->
-  exists q, walk M p (fst (path M p e)) = Some q /\
-            snd (path M p e) < degree M q /\ turn M (snd (path M p e)) q = e.
-
-(** The second contract of a path policy: its ways have fewer doors than the map has vertices. *)
-Definition short_path (path : Map -> nat -> nat -> list nat * nat) :=
-  forall M p e, is_map M -> connected M -> p < darts M -> e < darts M ->
-  length (fst (path M p e)) < vertices M.
+  length (fst (path M e p)) < vertices M /\
+  exists q, walk M p (fst (path M e p)) = Some q /\
+            snd (path M e p) < degree M q /\ turn M (snd (path M e p)) q = e.
 
 (** The contract of an order policy: it permutes the hypotheses. *)
 Definition good_order (order : Map -> list nat -> list nat) :=
   forall M l, Permutation (order M l) l.
 
-(** The contract of a rule (claim 3): it keeps the true hypothesis. *)
-Definition good_keep (keep : Map -> list (list nat * list Percept) -> nat -> bool) :=
-  forall M W phi a log h, is_map M -> is_map W -> embedded M W phi -> h < darts M ->
-  (forall w ps, In (w, ps) log -> percepts W a w = Some ps) -> phi h = a -> keep M log h = true.
+(** The contract of a motion: it chooses one of the hypotheses if there is one, and the doors that
+    it takes for shared are. *)
+Definition good_motion (motion : Motion) := forall ds K,
+  match motion ds K with
+  | None => K = []
+  | Some (c, s) => In c K /\ s <= length ds /\ s <= length (snd c) /\ firstn s (snd c) = firstn s ds
+  end.
+
+(** The contract of a rule: what it remembers is true in the sense of some invariant, which the
+    rule's learning keeps; and then it keeps the true hypothesis (claim 3). Here phi embeds the map
+    M in the world W, and e leads to the dart h of the map. *)
+Record good_rule (R : Rule) (true_of : Map -> Map -> (nat -> nat) -> memory R -> Prop) : Prop := {
+  fresh_true : forall W phi d, world W -> embedded (initial d) W phi ->
+    true_of (initial d) W phi (fresh R);
+  keep_true : forall M W phi T e log h w r, world W -> is_map M -> embedded M W phi ->
+    true_of M W phi T -> e < darts M -> alpha M e = None -> h < darts M ->
+    alpha W (phi e) = Some (phi h) -> walk M h w = Some r ->
+    (forall s, In s log -> percepts W (phi h) (fst s) = Some (snd s)) ->
+    keep R M e (percept M h) T log (h, w) = true;
+  loop_true : forall M W phi T e h log, world W -> is_map M -> embedded M W phi ->
+    true_of M W phi T -> e < darts M -> h < darts M -> alpha M e = None -> alpha M h = None ->
+    embedded (augment_loop M e h) W phi -> is_map (augment_loop M e h) ->
+    (forall s, In s log -> percepts W (phi h) (fst s) = Some (snd s)) ->
+    true_of (augment_loop M e h) W phi (learn R (augment_loop M e h) e h T log);
+  new_true : forall M W phi T e a log, world W -> is_map M -> embedded M W phi ->
+    true_of M W phi T -> e < darts M -> alpha M e = None -> alpha W (phi e) = Some a ->
+    let N := augment_new M e (degree W a) in let psi := extend phi (darts M) W a in
+    embedded N W psi -> is_map N ->
+    (forall s, In s log -> percepts W a (fst s) = Some (snd s)) ->
+    true_of N W psi (learn R N e (darts M) T log) }.

@@ -1,253 +1,171 @@
-(** The mapper of Mapper.v ends with the world, whatever its policies (claim 5).
+(** The mapper of Mapper.v ends with the world, whatever its policies, its motion and its rule; and
+    what that costs (claims 5 and 7).
 
-    W is the world, M the map, phi their correspondence; v is the robot; e is the dart being
-    explored, a the dart of the world behind it, H the hypotheses. The policies fulfil the contracts
-    of Mapper.v, and nothing else is known of them.
+    W is the world, M the map, phi their correspondence; v is the robot, b its reference dart in W;
+    e is the dart being explored, a the dart of the world behind it, H the hypotheses; T is what the
+    rule remembers. The policies, the motion and the rule fulfil the contracts of Mapper.v, and
+    nothing else is known of them.
 
     The proof is the invariant [invariant]: [initial_invariant] says that it holds at the start,
     [round_spec] that a round keeps it, [explore_invariant] that it holds at the end and implies
-    the claim. *)
+    the claim. Each of the m rounds walks to e, which takes at most n - 1 moves, crosses it, and tests
+    at most 2m - 1 hypotheses with at most 2(n - 1) moves each. *)
 From Coq Require Import Arith Lia List Bool Permutation.
 Import ListNotations.
-From Topo Require Import World Rotation Embedding Augment Mapper.
+From Topo Require Import World Rotation Embedding Vertices Augment Program Mapper Validation.
 
 Section Correct.
 Variables (pick : Map -> nat -> option nat) (path : Map -> nat -> nat -> list nat * nat)
-          (order : Map -> list nat -> list nat)
-          (keep : Map -> list (list nat * list Percept) -> nat -> bool).
+          (order : Map -> list nat -> list nat) (motion : Motion) (rule : Rule)
+          (true_of : Map -> Map -> (nat -> nat) -> memory rule -> Prop).
 Hypotheses (Gpick : good_pick pick) (Gpath : good_path path) (Gorder : good_order order)
-           (Gkeep : good_keep keep).
+           (Gmotion : good_motion motion) (Grule : good_rule rule true_of).
 Variable W : Map.
 Hypothesis HW : world W.
 Let WW : is_map W := world_is_map W HW.
 
-Notation go_on := (go_on nat (percept W) (move W)).
-Notation go_back := (go_back nat (percept W) (move W)).
-Notation execute := (execute nat (percept W) (move W)).
-Notation follow := (follow nat (percept W) (move W)).
-Notation test_all := (test_all nat (percept W) (move W) path keep).
-Notation round := (round nat (percept W) (move W) path order keep).
-Notation explore := (explore nat (percept W) (move W) pick path order keep).
-
-(** The dart of the world that the robot faces. *)
-Definition current (v : nat * nat) := turn W (snd v) (fst v).
-
-(** The robot is at a dart of the world and has turned by less than the degree. *)
-Definition ok (v : nat * nat) := fst v < darts W /\ snd v < degree W (fst v).
-
-(** The robot faces a dart of the world. *)
-Lemma ok_current v : ok v -> current v < darts W.
-Proof. intros [A _]. apply turn_lt; auto. Qed.
-
-(** [go_on] makes the move of the world from the dart that the robot faces. *)
-Lemma go_on_spec v k : ok v -> k < degree W (current v) -> exists s,
-  go_on v k = Some (s, 0) /\ ok (s, 0) /\ move W (current v) k = Some s.
-Proof.
-  destruct v as [a t]. unfold ok, current, Mapper.go_on, move. simpl. intros [La Lt] Hk.
-  assert (D := Hk). rewrite degree_turn in D by auto.
-  rewrite (proj2 (Nat.ltb_lt _ _) Hk).
-  rewrite (proj2 (Nat.ltb_lt ((t + k) mod degree W a) _)) by (apply Nat.mod_upper_bound; lia).
-  rewrite turn_mod, Nat.add_comm, turn_add by auto.
-  assert (L : turn W k (turn W t a) < darts W) by auto using turn_lt.
-  destruct (alpha W (turn W k (turn W t a))) as [s|] eqn:Es; [|destruct (world_total W HW _ L Es)].
-  exists s. assert (Ls : s < darts W) by (eapply alpha_ok; eauto).
-  repeat split; auto. apply degree_spec; auto.
-Qed.
-
-(** [go_back] undoes a move: afterwards the robot faces the dart from which it left. *)
-Lemma go_back_spec v a k : ok v -> a < darts W -> move W a k = Some (current v) ->
-  exists v', go_back v k = Some v' /\ ok v' /\ current v' = a.
-Proof.
-  destruct v as [s t]. unfold ok, current, Mapper.go_back, move. simpl. intros [Ls Lt] La Hm.
-  destruct (Nat.ltb_spec k (degree W a)) as [Hk|]; [|discriminate].
-  apply (alpha_ok W WW) in Hm; auto using turn_lt. destruct Hm as (_ & _ & Hm).
-  rewrite (proj2 (Nat.ltb_lt _ _) Lt), Hm.
-  eexists. split; [reflexivity|]. simpl. rewrite degree_turn by auto.
-  repeat split; auto using turn_lt.
-  - apply Nat.mod_upper_bound. lia.
-  - rewrite <- (degree_turn W WW k a) at 2 by auto.
-    rewrite turn_mod, <- turn_add by auto using turn_lt.
-    replace (degree W a - k + k) with (degree W a) by lia. apply degree_spec; auto.
-Qed.
-
-(** [execute] makes the walk of the world. *)
-Lemma execute_spec w k : forall v b, ok v -> walk W (current v) (w ++ [k]) = Some b ->
-  execute v (w ++ [k]) = Some (b, 0) /\ ok (b, 0).
-Proof.
-  induction w as [|j w IH]; simpl; intros v b Hv Hw.
-  - destruct (move W (current v) k) as [x|] eqn:Em; [|discriminate].
-    destruct (go_on_spec v k Hv) as (s & -> & Hs & Em'); [eapply move_door; eauto|].
-    replace b with s by congruence. auto.
-  - destruct (move W (current v) j) as [x|] eqn:Em; [|discriminate].
-    destruct (go_on_spec v j Hv) as (s & -> & Hs & Em'); [eapply move_door; eauto|].
-    apply IH; auto. unfold current. simpl. congruence.
-Qed.
-
-(** Validation by motion returns the percepts of the world along w. If all agree with the map,
-    the robot is at the end of w; else it is back where it began, and the hypothesis is false for
-    every correspondence. *)
-Lemma follow_spec M (WM : is_map M) w : forall x v r, ok v -> x < darts M ->
-  percept M x = percept W (current v) -> walk M x w = Some r ->
-  exists b qs v', follow M x w v = Some (b, qs, v') /\ ok v' /\
-    percepts W (current v) (firstn (length qs) w) = Some qs /\
-    if b then walk W (current v) w = Some (current v') /\ percept M r = percept W (current v')
-    else current v' = current v /\ forall phi, embedded M W phi -> phi x <> current v.
-Proof.
-  induction w as [|k w IH]; simpl; intros x v r Hv Hx Hp Hw.
-  - exists true, [], v. injection Hw as <-. simpl. auto.
-  - destruct (move M x k) as [y|] eqn:Ey; [|discriminate].
-    assert (Hk : k < degree W (current v)) by (injection Hp as <- _; eapply move_door; eauto).
-    destruct (go_on_spec v k Hv Hk) as (s & -> & Hs & Em). simpl.
-    assert (Hy : y < darts M) by (eapply move_lt; eauto).
-    assert (Back : forall v', ok v' -> current v' = s ->
-      exists v2, go_back v' k = Some v2 /\ ok v2 /\ current v2 = current v).
-    { intros v' Hv' <-. apply go_back_spec; auto using ok_current. }
-    destruct (percept_eqb_spec (percept M y) (percept W s)) as [Eq|Ne].
-    + destruct (IH y (s, 0) r Hs Hy Eq Hw) as (b & qs & v' & -> & Hv' & Hq & Hb).
-      change (current (s, 0)) with s in *. destruct b.
-      * exists true, (percept W s :: qs), v'. simpl. rewrite Em, Hq. auto.
-      * destruct Hb as [Ec Hn]. destruct (Back v' Hv' Ec) as (v2 & -> & Hv2 & Ec2).
-        exists false, (percept W s :: qs), v2. simpl. rewrite Em, Hq. repeat split; auto; try apply Hv2.
-        intros phi HE Ephi. apply (Hn phi HE). apply (embedded_move M W phi) in Ey; auto. congruence.
-    + destruct (Back (s, 0) Hs eq_refl) as (v2 & -> & Hv2 & Ec2).
-      exists false, [percept W s], v2. simpl. rewrite Em. repeat split; auto; try apply Hv2.
-      intros phi HE Ephi. apply Ne. apply (embedded_move M W phi) in Ey; auto.
-      rewrite <- (percept_agree M W phi) by auto. congruence.
-Qed.
-
-(** Testing returns the true hypothesis, and the robot is where the map says; or it returns None,
-    and no hypothesis is true. *)
-Lemma test_all_spec M phi a (WM : is_map M) (CM : connected M) (E : embedded M W phi) : forall H log v,
-  ok v -> current v = a -> (forall h, In h H -> h < darts M) ->
-  (forall w ps, In (w, ps) log -> percepts W a w = Some ps) ->
-  exists o v', test_all M (percept W a) log v H = Some (o, v') /\ ok v' /\
-    match o with
-    | Some h => In h H /\ phi h = a /\
-                exists r, walk M h (fst (path M h (root M))) = Some r /\ current v' = phi r
-    | None => current v' = a /\ forall h, In h H -> phi h <> a
-    end.
-Proof.
-  intros H. induction H as [|h H IH]; simpl; intros log v Hv Ha HH Hlog.
-  { exists None, v. repeat split; auto; apply Hv. }
-  assert (Skip : phi h <> a -> forall log v, ok v -> current v = a ->
-    (forall w ps, In (w, ps) log -> percepts W a w = Some ps) ->
-    exists o v', test_all M (percept W a) log v H = Some (o, v') /\ ok v' /\
-    match o with
-    | Some h' => (h = h' \/ In h' H) /\ phi h' = a /\
-                exists r, walk M h' (fst (path M h' (root M))) = Some r /\ current v' = phi r
-    | None => current v' = a /\ forall h', h = h' \/ In h' H -> phi h' <> a
-    end).
-  { intros N log' u Hu Hua Hl.
-    destruct (IH log' u Hu Hua (fun h Hh => HH h (or_intror Hh)) Hl) as (o & u' & -> & Hu' & Ho).
-    exists o, u'. repeat split; auto; try apply Hu'. destruct o as [h'|].
-    - destruct Ho as (A & B & C). auto.
-    - destruct Ho as [A B]. split; auto. intros h' [<-|Hh]; auto. }
-  assert (Lh : h < darts M) by auto.
-  destruct (keep M log h) eqn:K.
-  2: { apply Skip; auto. intros Eh. rewrite (Gkeep M W phi a log h) in K; auto. discriminate. }
-  destruct (percept_eqb_spec (percept M h) (percept W a)) as [Ep|Np].
-  2: { apply Skip; auto. intros <-. apply Np. symmetry. apply percept_agree; auto. }
-  destruct (Gpath M h (root M) WM CM Lh (root_lt M WM)) as (r & Hr & Hk & Er).
-  rewrite <- Ha in Ep. destruct (follow_spec M WM _ h v r Hv Lh Ep Hr)
-    as ([] & qs & v' & -> & Hv' & Hq & Hb).
-  - destruct Hb as [Hw Hp]. exists (Some h), v'.
-    destruct (marker_of M r _ Hk Er) as [j Hj].
-    assert (Eh : current v = phi h).
-    { apply (confirm M W phi WM WW E (current v) h (fst (path M h (root M))) (current v') r j);
-        auto using ok_current. injection Hp as _ Hp. congruence. }
-    repeat split; auto; try apply Hv'; [congruence|]. exists r. split; auto.
-    apply (forward_walk M W phi) in Hr; auto. rewrite <- Eh, Hw in Hr. congruence.
-  - destruct Hb as [Hc Hn]. apply Skip; auto; [rewrite <- Ha; auto|congruence|].
-    intros w ps [Eq|Hin]; auto. injection Eq as <- <-. congruence.
-Qed.
-
-(** The invariant of exploration: the map is well formed, connected and embedded in the world,
-    and the robot faces the dart of the world that corresponds to the map's dart p. *)
-Definition invariant (st : Map * nat * (nat * nat)) := let '(M, p, v) := st in
-  is_map M /\ connected M /\ ok v /\ p < darts M /\ exists phi, embedded M W phi /\ current v = phi p.
+(** The invariant of exploration: the map is well formed, connected and embedded in the world, the
+    robot faces the dart of the world that corresponds to the map's dart p, and what the rule
+    remembers is true. *)
+Definition invariant (st : state rule) b := let '(M, p, v, T) := st in
+  is_map M /\ connected M /\ p < darts M /\
+  exists phi, embedded M W phi /\ true_of M W phi T /\ facing W v b (phi p).
 
 (** The invariant holds at the start. *)
-Lemma initial_invariant : invariant (initial_state nat (percept W) (root W)).
+Lemma initial_invariant : invariant (initial_state rule (percept W (root W))) (root W).
 Proof.
   assert (R := root_lt W WW). destruct (degree_spec W WW _ R) as (A & B & C).
-  refine (conj (is_map_initial _ A) (conj (connected_initial _ A) (conj (conj R A) (conj A _)))).
-  exists (fun x => turn W x (root W)). split; [apply embedded_initial|]; auto.
+  assert (E := embedded_initial W WW).
+  refine (conj (is_map_initial _ A) (conj (connected_initial _ A) (conj A (ex_intro _ _ (conj E
+    (conj _ _)))))); [|unfold facing; simpl; auto].
+  apply (fresh_true rule true_of Grule); auto.
 Qed.
 
-(** A round keeps the invariant and explores two more darts. *)
-Lemma round_spec M p v e : invariant (M, p, v) -> e < darts M -> alpha M e = None ->
-  exists M' p' v', round (M, p, v) e = Some (M', p', v') /\ invariant (M', p', v') /\
-    known M' = 2 + known M.
+(** H contains exactly the darts that can be the other end of e. *)
+Lemma hypotheses_spec M e q h : In h (hypotheses order M e q) <->
+  h < darts M /\ h <> e /\ alpha M h = None /\ same_signature (percept M h) q = true.
 Proof.
-  intros (WM & CM & Hv & Hp & phi & E & Hcur) He Oe. unfold Mapper.round.
-  assert (G := Gpath M p e WM CM Hp He). destruct (path M p e) as [w k].
-  destruct G as (q & Hw & Hk & Eq). simpl in *.
-  assert (Lq := walk_lt M WM w p q Hp Hw).
+  assert (P := fun l => conj (Permutation_in h (Gorder M l))
+    (Permutation_in h (Permutation_sym (Gorder M l)))).
+  unfold hypotheses. rewrite (P _ : In h (order M _) <-> In h _), filter_In, in_seq, !andb_true_iff.
+  unfold explored. destruct (alpha M h), (Nat.eqb_spec h e); simpl; intuition (try lia; congruence).
+Qed.
+
+(** There are fewer hypotheses than darts. *)
+Lemma hypotheses_less M e q : e < darts M -> S (length (hypotheses order M e q)) <= darts M.
+Proof.
+  intros He. set (H := hypotheses order M e q).
+  change (S (length H)) with (length (e :: H)). rewrite <- (seq_length (darts M) 0).
+  apply NoDup_incl_length.
+  - constructor; [intros I; apply hypotheses_spec in I; tauto|].
+    apply (Permutation_NoDup (Permutation_sym (Gorder M _))), NoDup_filter, seq_NoDup.
+  - intros h [<-|I]; apply in_seq; [|apply hypotheses_spec in I]; lia.
+Qed.
+
+(** A round keeps the invariant and explores two more darts, at a cost of at least 1 and at most
+    n + (darts - 1) * 2(n - 1), where n is the number of vertices of the map. *)
+Lemma round_spec M p v T b e : invariant (M, p, v, T) b -> e < darts M -> alpha M e = None ->
+  does W b (round path order motion rule (M, p, v, T) e) (fun st b' cost => invariant st b' /\
+    known (fst (fst (fst st))) = 2 + known M /\
+    1 <= cost <= vertices M + (darts M - 1) * (2 * (vertices M - 1))).
+Proof.
+  intros (WM & CM & Hp & phi & E & HT & Hv) He Oe. unfold round.
+  destruct (Gpath M p e WM CM Hp He) as (Sp & q & Hw & Hk & Eq). destruct (path M e p) as (w, k).
+  simpl in Sp, Hw, Hk, Eq. assert (Lq := walk_lt M WM w p q Hp Hw).
   destruct (alpha W (phi e)) as [a|] eqn:Ha;
     [|destruct (world_total W HW (phi e) (phi_lt _ _ _ E e He) Ha)].
   assert (La : a < darts W) by (eapply alpha_ok; eauto; apply (phi_lt _ _ _ E); auto).
-  assert (Hwk : walk W (current v) (w ++ [k]) = Some a).
-  { rewrite Hcur, walk_app, (forward_walk M W phi WM WW E w p q) by auto. simpl.
+  assert (Hwk : walk W (phi p) (w ++ [k]) = Some a).
+  { rewrite walk_app, (forward_walk M W phi WM WW E w p q) by auto. simpl.
     unfold move. rewrite (embedded_degree M W phi) by auto.
     rewrite (proj2 (Nat.ltb_lt _ _) Hk), <- (embedded_turn M W phi), Eq, Ha by auto. auto. }
-  destruct (execute_spec w k v a Hv Hwk) as [-> Ok]. simpl fst.
-  set (H := hypotheses order M e (percept W a)).
-  assert (HH : forall h, In h H <-> h < darts M /\ h <> e /\ alpha M h = None /\
-                          same_signature (percept M h) (percept W a) = true).
-  { intros h. assert (P := fun l => conj (Permutation_in h (Gorder M l))
-      (Permutation_in h (Permutation_sym (Gorder M l)))).
-    unfold H, hypotheses. rewrite (P _ : In h (order M _) <-> In h _), filter_In, in_seq, !andb_true_iff.
-    unfold explored. destruct (alpha M h), (Nat.eqb_spec h e); simpl; intuition (try lia; congruence). }
-  destruct (test_all_spec M phi a WM CM E H [] (a, 0) Ok eq_refl) as ([h|] & v' & -> & Hv' & Ho).
-  { intros h Hh. apply HH, Hh. }
-  { simpl. tauto. }
-  - destruct Ho as (Hin & Eh & r & Hr & Er). rewrite Hr.
-    apply HH in Hin as (Lh & Nh & Oh & _).
-    exists (augment_loop M e h), r, v'. split; auto. split.
-    + refine (conj (is_map_loop M e h WM He Lh Nh Oe Oh) (conj (connected_loop M e h Oe Oh CM)
-        (conj Hv' (conj (walk_lt M WM _ h r Lh Hr) _)))).
-      exists phi. split; auto. apply embedded_loop; auto. congruence.
-    + apply loop_two_more; auto.
-  - destruct Ho as [Ec Hn]. destruct (degree_spec W WW a La) as (D & _).
+  eapply does_bind; [apply (execute_spec W HW w k v b (phi p) a Hv Hwk)|].
+  intros u b1 n1 (-> & Hu & ->). assert (Eu : fst u = percept W a) by apply Hu. rewrite Eu.
+  set (home := path M (root M)). set (H := hypotheses order M e (percept W a)).
+  assert (Home : forall g, In g (map (fun h => (h, fst (home h))) H) ->
+    leads_home M (vertices M - 1) g /\ In (fst g) H /\ snd g = fst (home (fst g))).
+  { intros g I. apply in_map_iff in I as (h & <- & I). split; [|auto].
+    apply hypotheses_spec in I as (Lh & _).
+    destruct (Gpath M h (root M) WM CM Lh (root_lt M WM)) as (Sh & r & Hr & Hj & Er).
+    repeat split; simpl; auto; [fold home in Sh; lia|]. exists r. eauto. }
+  assert (NH := hypotheses_less M e (percept W a) He). fold H in NH.
+  eapply does_bind.
+  { apply (test_all_spec motion rule true_of Gmotion Grule M W phi T e a WM HW E HT He Oe Ha
+      (vertices M - 1) _ [] [] [] u a a); auto; [intros s []|intros g I; apply Home, I]. }
+  intros ((o, log), u') b2 n2 (Hlog & Hc & Ho). rewrite map_length in Hc. simpl in Hc.
+  assert (B : length H * (2 * (vertices M - 1)) <= (darts M - 1) * (2 * (vertices M - 1)))
+    by (apply Nat.mul_le_mono_r; lia).
+  destruct o as [h|].
+  - destruct Ho as (Eh & w' & x & I & Hx & Hu'). apply Home in I as (_ & I & Ew). simpl in I, Ew.
+    subst w'. rewrite Hx. apply hypotheses_spec in I as (Lh & Nh & Oh & _).
+    assert (Hal : alpha W (phi e) = Some (phi h)) by congruence.
+    assert (WL := is_map_loop M e h WM He Lh Nh Oe Oh). assert (EL := embedded_loop M W phi e h WW E He
+      Lh Hal).
+    apply does_return. split; [|split; [apply loop_two_more; auto|lia]].
+    refine (conj WL (conj (connected_loop M e h Oe Oh CM) (conj (walk_lt M WM _ h x Lh Hx)
+      (ex_intro _ phi (conj EL (conj _ Hu')))))).
+    apply (loop_true rule true_of Grule); auto. rewrite Eh. auto.
+  - destruct Ho as [Hu' Hn]. destruct (degree_spec W WW a La) as (D & _).
     assert (N : is_new M phi a).
-    { intros h Lh Eh. apply (Hn h); auto. apply HH.
-      destruct (posed M W phi WM WW E e a h He Oe Ha Lh Eh) as (A & B & C).
-      repeat split; auto. rewrite C. apply same_signature_refl. }
-    exists (augment_new M e (degree W a)), (darts M), v'. split; auto. split.
-    + refine (conj (is_map_new M e _ WM He Oe D) (conj (connected_new M e _ WM He Oe CM)
-        (conj Hv' (conj _ _)))); [simpl; lia|].
-      exists (extend phi (darts M) W a). split; [apply embedded_new; auto|].
-      unfold extend. rewrite Nat.ltb_irrefl, Nat.sub_diag. auto.
-    + apply new_two_more; auto.
+    { intros h Lh Eh. destruct (posed M W phi WM WW E e a h He Oe Ha Lh Eh) as (A & A' & A'').
+      apply (Hn (h, fst (home h))); auto. apply in_map_iff. exists h. split; auto.
+      apply hypotheses_spec. repeat split; auto. rewrite A''. apply same_signature_refl. }
+    assert (WN := is_map_new M e _ WM He Oe D). assert (EN := embedded_new M W phi e a WM WW E He Ha N).
+    apply does_return. split; [|split; [apply new_two_more; auto|lia]].
+    refine (conj WN (conj (connected_new M e _ WM He Oe CM) (conj _ (ex_intro _ _ (conj EN (conj _
+      _)))))).
+    + simpl. lia.
+    + apply (new_true rule true_of Grule); auto.
+    + unfold extend. rewrite Nat.ltb_irrefl, Nat.sub_diag. auto.
 Qed.
 
-(** From every state with the invariant, and with fuel for the edges left, exploration ends with
-    a map isomorphic to the world. *)
-Lemma explore_invariant fuel : forall M p v, invariant (M, p, v) -> darts W <= 2 * fuel + known M ->
-  exists st, explore fuel (M, p, v) = Some st /\ isomorphic (fst (fst st)) W.
+(** From every state with the invariant, and with fuel for the edges left, exploration delivers a
+    map isomorphic to the world. The r rounds cost at least r and at most r times the bound of a
+    round. *)
+Lemma explore_invariant fuel : forall st b, invariant st b ->
+  darts W <= 2 * fuel + known (fst (fst (fst st))) ->
+  does W b (explore pick path order motion rule fuel st) (fun M _ cost => isomorphic M W /\
+    exists r, darts W = 2 * r + known (fst (fst (fst st))) /\
+    r <= cost <= r * (vertices W + (darts W - 1) * (2 * (vertices W - 1)))).
 Proof.
-  assert (Size : forall M p v, invariant (M, p, v) -> darts M <= darts W).
-  { intros M p v (_ & _ & _ & _ & phi & E & _). apply (pigeon phi); apply E. }
-  induction fuel as [|fuel IH]; simpl; intros M p v I Hf;
-    assert (G := Gpick M p); destruct (pick M p) as [e|].
-  - destruct G as [He Oe]. apply Size in I.
-    assert (known M < darts M); [|lia]. apply count_lt with e; auto.
-    unfold explored. rewrite Oe. auto.
-  - exists (M, p, v). split; auto. destruct I as (WM & CM & _ & _ & phi & E & _).
-    apply (closed_isomorphic M W phi); auto. apply world_connected; auto.
-  - destruct G as [He Oe].
-    destruct (round_spec M p v e I He Oe) as (M' & p' & v' & -> & I' & K).
-    apply IH; auto. lia.
-  - exists (M, p, v). split; auto. destruct I as (WM & CM & _ & _ & phi & E & _).
-    apply (closed_isomorphic M W phi); auto. apply world_connected; auto.
+  induction fuel as [|fuel IH]; intros (((M, p), v), T) b I Hf; simpl in *;
+    assert (G := Gpick M p); assert (I' := I); destruct I' as (WM & CM & Hp & phi & E & _);
+    assert (Size : darts M <= darts W) by (apply (pigeon phi); apply E);
+    destruct (pick M p) as [e|].
+  1: { destruct G as [He Oe]. assert (known M < darts M); [|lia]. apply count_lt with e; auto.
+       unfold explored. rewrite Oe. auto. }
+  1, 3: assert (Iso := closed_isomorphic M W phi WM E (world_connected W HW) G);
+        apply does_return; split; auto; exists 0; rewrite (known_all M G), (proj1 Iso); lia.
+  destruct G as [He Oe].
+  assert (V := embedded_vertices M W phi WM WW E).
+  eapply does_bind; [apply (round_spec M p v T b e I He Oe)|].
+  intros st b1 n1 (I1 & K1 & C1). eapply does_weaken; [apply (IH st b1 I1); lia|].
+  intros M' b2 n2 (Iso & r & D & C2). split; auto. exists (S r). split; [lia|].
+  set (n := vertices W) in *.
+  assert (B : (darts M - 1) * (2 * (vertices M - 1)) <= (darts W - 1) * (2 * (n - 1)))
+    by (apply Nat.mul_le_mono; lia).
+  simpl. lia.
 Qed.
 
-(** Claim 5: in every world, and for all policies that fulfil their contracts, exploration ends
-    after at most as many rounds as the world has edges, with a map isomorphic to the world. *)
-Theorem explore_correct fuel : darts W <= 2 * fuel -> exists st,
-  explore fuel (initial_state nat (percept W) (root W)) = Some st /\ isomorphic (fst (fst st)) W.
+(** The mapper as a whole: it begins with what is sensed at the start. *)
+Definition mapper fuel : Percept -> program Map :=
+  fun q => explore pick path order motion rule fuel (initial_state rule q).
+
+(** Claims 5 and 7: in every world, and for all policies, motions and rules that fulfil their
+    contracts, exploration ends after at most as many rounds as the world has edges, with a map
+    isomorphic to the world. It costs at least m moves and at most m (n + (2m - 1) 2(n - 1)), where
+    the world has m edges and n vertices. *)
+Theorem explore_correct fuel : darts W <= 2 * fuel ->
+  does W (root W) (mapper fuel (percept W (root W))) (fun M _ cost =>
+    isomorphic M W /\ exists m, darts W = 2 * m /\
+    m <= cost <= m * (vertices W + (2 * m - 1) * (2 * (vertices W - 1)))).
 Proof.
-  intros Hf. assert (I := initial_invariant). unfold initial_state in *.
-  eapply explore_invariant; eauto. lia.
+  intros Hf. eapply does_weaken; [apply (explore_invariant fuel _ _ initial_invariant); lia|].
+  intros M b n (Iso & r & D & C). split; auto. exists r.
+  change (darts W = 2 * r + known (initial (degree W (root W)))) in D.
+  assert (Z : known (initial (degree W (root W))) = 0).
+  { unfold known. generalize (darts (initial (degree W (root W)))). intros k.
+    induction k as [|k IH]; simpl; auto. }
+  rewrite Z in D. split; [lia|]. replace (2 * r - 1) with (darts W - 1) by lia. exact C.
 Qed.
 End Correct.

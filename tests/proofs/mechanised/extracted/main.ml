@@ -1,0 +1,52 @@
+(* The main program of the extracted mappers. It reads from standard input how many runs there are,
+   and for each run
+
+     algorithm pick order           names of the catalogue
+     n, then n times: next          the next dart clockwise, for each dart
+     n, then n times: other         the other dart of its edge
+
+   separated by white space; the root is dart 0. For each run it prints the doors that the robot takes,
+   or "stuck", on one line. *)
+open Mappers
+
+let algorithm = function
+  | "basic" -> basic
+  | "enhancement-i" -> enhancement_i
+  | "enhancement-ii" -> enhancement_ii
+  | "enhancement-ii+i" -> enhancement_ii_i
+  | "enhancement-iii-one" -> enhancement_iii_one
+  | "enhancement-iii-one+i" -> enhancement_iii_one_i
+  | "enhancement-iii-all" -> enhancement_iii_all
+  | "enhancement-iii-all+i" -> enhancement_iii_all_i
+  | name -> failwith ("no algorithm " ^ name)
+
+let pick = function
+  | "nearest" -> nearest
+  | "first" -> first_open
+  | "last" -> last_open
+  | name -> failwith ("no pick policy " ^ name)
+
+let order = function
+  | "shortest" -> shortest
+  | "oldest" -> oldest
+  | "newest" -> newest
+  | name -> failwith ("no order policy " ^ name)
+
+let word () = Scanf.scanf " %s" Fun.id
+let number () = Scanf.scanf " %d" Fun.id
+let numbers () = let n = number () in Array.init n (fun _ -> number ())
+
+let world () =
+  let next = numbers () in
+  let other = numbers () in
+  { darts = Array.length next; sigma = Array.get next; alpha = (fun d -> Some other.(d)); root = 0 }
+
+let run () =
+  let algorithm = algorithm (word ()) in
+  let pick = pick (word ()) in
+  let order = order (word ()) in
+  match doors_taken algorithm pick way_to order (world ()) with
+  | Some doors -> print_endline (String.concat " " (List.map string_of_int doors))
+  | None -> print_endline "stuck"
+
+let () = for _ = 1 to number () do run () done
