@@ -82,7 +82,7 @@ def replay(W: Words, J: Words) -> None:
             return
         kind = W[i]
         if kind == MOVE:
-            follow(W, J, i)
+            follow_move(W, J, i)
         else:
             J[J_SAW_POSE - POSE + kind] = 1
             if kind == REJECT and W[i + 4] == BY_PLANAR:
@@ -149,7 +149,7 @@ def lesser(W: Words, dart: int) -> int:
 
 
 @inlined
-def follow(W: Words, J: Words, i: int) -> None:
+def follow_move(W: Words, J: Words, i: int) -> None:
     """One move: the position, the percept (claim 1), and the word of the excursion."""
     J[J_COST] += 1
     J[J_DOORS_HASH] = (J[J_DOORS_HASH] ^ W[i + 1]) * HASH_PRIME
