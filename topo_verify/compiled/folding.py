@@ -128,7 +128,7 @@ def refute_by_folding(W: Words, h: int) -> bool:
     elif W[NJOINED] == 0:
         return False  # its layer stays as it is
     else:
-        wrong = follow(W, h)
+        wrong = follow_layer(W, h)
     if wrong == 0:
         keep_layer(W, h)
     take_back(W)
@@ -140,7 +140,7 @@ def refute_by_folding(W: Words, h: int) -> bool:
 
 
 @kernel
-def follow(W: Words, h: int) -> int:
+def follow_layer(W: Words, h: int) -> int:
     """Fold what was joined since into the layer of a hypothesis. Returns the contradiction."""
     lay_again(W, h)
     for i in range(W[NJOINED]):
