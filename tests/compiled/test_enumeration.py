@@ -109,15 +109,19 @@ def test_as_plain_python_the_kernel_lists_the_same(text: str) -> None:
     assert [row[: len(want)] for row, want in zip(rows, expected, strict=False)] == expected[:400]
 
 
+def never(*_words: object) -> int:
+    return 0
+
+
 def test_a_pruner_that_forgets_what_it_undid_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     right = first_rows("simple", 5)
-    monkeypatch.setattr(pruning, "neighbours_undo_join", lambda *_: None)
+    monkeypatch.setattr(pruning, "neighbours_undo_join", never)
     assert first_rows("simple", 5) != right
 
 
 def test_a_pruner_that_miscounts_a_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     right = first_rows("genus<=1", 4)
-    monkeypatch.setattr(pruning, "word_is_odd", lambda *_: 0)
+    monkeypatch.setattr(pruning, "word_is_odd", never)
     assert first_rows("genus<=1", 4) != right
 
 
