@@ -7,8 +7,9 @@ Where the kernel leaves a verdict open (`judging/`), the reference's checkers ju
 that did not fit into the workspace is made again before, in a larger one. Either is then counted
 like any other.
 
-What a run costs: for `basic` with 6 edges claims 1 to 8 took 1.02 microseconds, mapper included,
-claim 9 0.48 more and claim 10 0.27 more (noisy). Enumeration takes 0.02.
+What a run costs, without its trace and with nine and ten claims judged, is printed by
+
+    .venv/bin/python benchmarks/compiled.py --only basic nine ten
 
 What this does not show: that the kernels are right; tests hold them to the reference, and a search
 has a sample judged by the checkers.
