@@ -11,7 +11,7 @@ with 8 edges, one world in sixteen, and count the rest in proportion, unless `--
 The ratio to C is of `compiled_twin.c` (cc -O2 -march=native), which runs before and after the
 kernel in the same row; costs and numbers of worlds must be the same, or the row fails.
 
-Where the time goes stands in topo_verify/compiled/enumeration.py and shard.py.
+What bounds the speed of an enumeration stands in topo_verify/compiled/enumeration.py.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 import topo_verify as tv
@@ -35,12 +37,29 @@ def test_a_world_may_be_numbered_as_it_likes() -> None:
     assert run_world(turned, trace=True) == run_world(world, trace=True)
 
 
-def test_a_run_that_fills_the_small_layout_is_made_in_the_large_one(
+def test_a_run_that_fills_its_trace_is_made_again_with_more_room(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     whole = run_world(WORLD, "enhancement-ii", trace=True)
     monkeypatch.setitem(workspace.CAPACITIES, "TRACE", 20)
     assert run_world(WORLD, "enhancement-ii", trace=True) == whole
+
+
+def test_a_run_that_fills_the_small_layout_is_made_in_the_large_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    whole, run, used = run_world(WORLD, "basic", trace=True), explore.CompiledJob.run, list[str]()
+
+    def full(job: explore.CompiledJob, layout: workspace.WordLayout, room: int) -> Any:
+        space = run(job, layout, room)
+        used.append(layout.name)
+        if layout is workspace.SMALL:
+            space[layout.at("STOP")] = workspace.STOP_FULL + workspace.FULL_CHART
+        return space
+
+    monkeypatch.setattr(explore.CompiledJob, "run", full)
+    assert run_world(WORLD, "basic", trace=True) == whole
+    assert used == ["small", "large"]
 
 
 def test_a_trace_grows_until_it_holds_the_run(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import ast
+import fcntl
+import subprocess
+import sys
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
@@ -49,10 +52,9 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 def test_every_index_is_unsigned() -> None:
     functions = [n for n in ast.parse(module_source(SMALL)).body if isinstance(n, ast.FunctionDef)]
     slices = [n.slice for f in functions for n in ast.walk(f) if isinstance(n, ast.Subscript)]
-    # A table has an index a dimension.
-    indexes = [i for one in slices for i in (one.elts if isinstance(one, ast.Tuple) else [one])]
-    assert len(indexes) > len(slices)
-    assert {ast.unparse(one).partition("(")[0] for one in indexes} == {"np.uint64"}
+    slices = [i for one in slices for i in (one.elts if isinstance(one, ast.Tuple) else [one])]
+    assert slices
+    assert {ast.unparse(one).partition("(")[0] for one in slices} == {"np.uint64"}
 
 
 def test_every_layout_has_its_own_constants() -> None:
@@ -90,6 +92,26 @@ def test_machine_code_is_kept_and_found_again(
             path.name: path.stat().st_mtime_ns for path in (folder / "__pycache__").iterdir()
         }.items()
     )
+
+
+def test_processes_do_not_compile_the_same_kernels_at_the_same_time(cache: Path) -> None:
+    code = (
+        "from topo_verify.compiled.events import digest\n"
+        "from topo_verify.compiled.kernel import compiled\n"
+        "from topo_verify.compiled.workspace import SMALL\n"
+        "compiled(digest, SMALL)"
+    )
+    path = Path(str(kernel.machine_code(SMALL, checked=False).__file__))  # written, not compiled
+    assert path.parent.parent == cache
+    with (path.parent / "lock").open("a") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        other = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True)
+        assert other.stderr is not None
+        assert "another process compiles kernels: waiting for it" in other.stderr.readline()
+        assert not list(path.parent.glob("__pycache__/*.nbi"))
+    with other:
+        assert "compiling digest" in other.stderr.read()
+    assert other.returncode == 0
 
 
 def test_a_change_in_any_kernel_is_a_change_of_all_machine_code(

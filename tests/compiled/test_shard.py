@@ -8,10 +8,13 @@ import pytest
 
 pytest.importorskip("numba", reason="the compiled engine needs numba")
 
+from tests.compiled.judged import as_judged, counted
 from topo_verify import CATALOGUE, worlds
 from topo_verify.checkers import CLAIMS, check
+from topo_verify.compiled.events import words
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.shard import ShardCounts, examine_range
+from topo_verify.compiled.workspace import TRACE
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
 from topo_verify.harness.run import explore
@@ -23,7 +26,7 @@ from topo_verify.world.rooted_map import World
 def judged_by_checkers(mapper: Mapper | str, edges: int) -> dict[str, object]:
     """What the reference comes to: statuses, shares, costs and failing ranks."""
     statuses = {claim: Counter[str]() for claim in CLAIMS}
-    shares = dict.fromkeys(CLAIMS, (0, 0))
+    shares: dict[str, tuple[int, int]] = dict.fromkeys(CLAIMS, (0, 0))
     costs: list[int] = []
     failing: list[int] = []
     for rank, world in enumerate(worlds(edges=edges)):
@@ -106,6 +109,25 @@ def test_two_algorithms_are_compared_world_by_world() -> None:
     for rank, cost, other in ours.dearer_worlds:
         world = World.from_id(f"m5/{rank}")
         assert (explore(world, "basic").cost, explore(world, "enhancement-i").cost) == (cost, other)
+
+
+@pytest.mark.parametrize("room", [0, 60, 300])
+def test_a_trace_that_does_not_fit_changes_no_count(room: int) -> None:
+    names = ["basic", "folding+planar"]
+    assert examine_range(names, 3, room=room) == examine_range(names, 3)
+
+
+LONG_TRACE = 273_516
+"""The rank of a world with 7 edges in which the planar prior is wrong and the run is long."""
+
+
+def test_a_run_of_more_words_than_the_workspace_has_is_judged_by_the_checkers() -> None:
+    world = World.from_id(f"m7/{LONG_TRACE}")
+    run = explore(world, "folding+planar", engine="compiled")
+    assert len(words(run.trace)) > TRACE
+    (counts,) = examine_range(["folding+planar"], 7, start=LONG_TRACE, stop=LONG_TRACE + 1)
+    assert counted(counts) == as_judged(check(world, run.trace, run.stopped))
+    assert counts.failing_ranks == (LONG_TRACE,)
 
 
 def test_a_class_is_examined_alone() -> None:

@@ -15,9 +15,11 @@ array of its own, `G`, so it stops at each world and goes on behind it:
 For a class other than `any` the pruners of `pruning.py` are asked before each step, and told of
 each step back.
 
-What it costs (one core): 16 ns a world in class `any`, about 50 ns where branches are pruned. A
-planar world with 8 edges takes 2.9 steps; each reads what the one before has written, and that is
-the limit (benchmarks/compiled.py).
+What it costs is printed, class by class and beside C, by
+
+    .venv/bin/python benchmarks/compiled.py --only enumeration
+
+Each step reads what the one before has written, so steps do not overlap: that is the limit.
 
 Source: docs/semantics.md, section 12.
 """

@@ -3,8 +3,9 @@
     run = run_world(world, "enhancement-ii", trace=True)     # -> CompiledRun
 
 Worlds of up to 12 edges run in the small layout, others in the large one, which takes up to 65,536
-edges. A run that needs more room than the small layout has is made again in the large one. Between
-rounds of the loop a run can be interrupted (Ctrl-C).
+edges. A run whose trace is longer than there is room for is made again with four times the room; a
+run that needs more of anything else than the small layout has, in the large one. Between rounds of
+the loop a run can be interrupted (Ctrl-C).
 
 What this does not show: whether the run is the reference's. tests/compiled compares the two.
 """
@@ -77,7 +78,7 @@ MOST_EDGES = 1 << 16
 """The most edges of a world that the large layout has room for."""
 
 TRACE_ROOM = 1 << 20
-"""Words of trace for which the large layout has room at first; four times as many on each try."""
+"""Words of trace for which the large layout has room at first."""
 
 ROUNDS = 64
 """Edges that are explored before Python is asked whether to go on."""
@@ -140,17 +141,18 @@ def run_world(
     if fault and not small:
         most = CAPACITIES["WORLD_DARTS"] // 2
         raise InputError(f"faults are planted in worlds of up to {most} edges, not in this one")
+    layout, room = LARGE, TRACE_ROOM
     if small:
-        layout = FAULTY if fault else SMALL
-        space = job.run(layout, CAPACITIES["TRACE"])
-        if fault or space[layout.at("STOP")] < STOP_FULL:
-            return job.result(space, layout)
-    room = TRACE_ROOM
+        layout, room = FAULTY if fault else SMALL, CAPACITIES["TRACE"]
     while True:
-        space = job.run(LARGE, room if trace else 1)
-        if space[LARGE.at("STOP")] != STOP_FULL + FULL_TRACE:
-            return job.result(space, LARGE)
-        room *= 4
+        space = job.run(layout, room if trace else 1)
+        stop = space[layout.at("STOP")]
+        if stop == STOP_FULL + FULL_TRACE:
+            room *= 4
+        elif stop >= STOP_FULL and layout is SMALL:
+            layout = LARGE
+        else:
+            return job.result(space, layout)
 
 
 def _require_room(world: World) -> None:

@@ -20,16 +20,19 @@ every process): an integer in the workspace selects.
 
 The cache: `$TOPO_VERIFY_CACHE`, or `topo-verify` in `$XDG_CACHE_HOME` or `~/.cache`; without a home
 that can be written, a folder that lasts as long as the process. It may be deleted at any time.
+While one process compiles the kernels of a folder, others that need them wait for its lock.
 """
 
 from __future__ import annotations
 
 import ast
+import fcntl
 import os
 import platform
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from hashlib import sha256
 from importlib import import_module
@@ -116,8 +119,7 @@ def kernel(function: F) -> F:
 def inlined(function: F) -> F:
     """The function itself. The mark says that it becomes a part of each kernel that calls it.
 
-    For what is short and called all the time: a call passes each array as seven numbers. By calls,
-    enumeration took up to three times as long, and `basic` twice as long.
+    For what is short and called all the time: a call passes each array as seven numbers.
     """
     return function
 
@@ -141,11 +143,35 @@ def compiled(function: F, layout: WordLayout, *, checked: bool = False) -> F:
     module = machine_code(layout, checked)
     dispatcher = getattr(module, function.__name__)
     if not dispatcher.signatures:
-        folder = Path(str(module.__file__)).parent / "__pycache__"
-        if not any(folder.glob(f"{module.__name__}.{function.__name__}-*.nbi")):
-            _say(f"compiling {function.__name__} for this machine: once, 10 to 30 s …")
-        dispatcher.compile(_signature(function))
+        path = Path(str(module.__file__))
+        if _is_kept(path, function.__name__):
+            dispatcher.compile(_signature(function))
+        else:
+            with _alone(path, function.__name__):
+                if not _is_kept(path, function.__name__):
+                    _say(
+                        f"compiling {function.__name__} for this machine: once, up to a minute"
+                        f" (kept in {path.parent})"
+                    )
+                dispatcher.compile(_signature(function))
     return cast("F", dispatcher)
+
+
+def _is_kept(path: Path, name: str) -> bool:
+    """Whether the cache has the machine code of an entry of the module in this file."""
+    return any((path.parent / "__pycache__").glob(f"{path.stem}.{name}-*.nbi"))
+
+
+@contextmanager
+def _alone(path: Path, name: str) -> Generator[None]:
+    """No other process compiles kernels of this folder meanwhile; one that ends lets go of it."""
+    with (path.parent / "lock").open("a") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            _say(f"another process compiles kernels: waiting for it before {name}, up to a minute")
+            fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 def _say(sentence: str) -> None:

@@ -3,11 +3,13 @@
     (counts,) = examine_range(["basic"], 7, "any", 0, 10_000)
     counts.failing, counts.claims["map-isomorphic"]
 
-Where the kernel leaves a verdict open (`judging/`), the run is made again with a trace by the same
-kernel, and the reference's checkers judge that trace; it is then counted like any other.
+Where the kernel leaves a verdict open (`judging/`), the reference's checkers judge the trace. A run
+that did not fit into the workspace is made again before, in a larger one. Either is then counted
+like any other.
 
-What a run costs: for `basic` with 6 edges claims 1 to 8 took 1.02 microseconds, mapper included,
-claim 9 0.48 more and claim 10 0.27 more (noisy). Enumeration takes 0.02.
+What a run costs, without its trace and with nine and ten claims judged, is printed by
+
+    .venv/bin/python benchmarks/compiled.py --only basic nine ten
 
 What this does not show: that the kernels are right; tests hold them to the reference, and a search
 has a sample judged by the checkers.
@@ -15,7 +17,7 @@ has a sample judged by the checkers.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
@@ -23,17 +25,19 @@ import msgspec
 from topo_verify.checkers import CLAIMS, check
 from topo_verify.compiled import require
 from topo_verify.compiled.enumeration import prepare
-from topo_verify.compiled.events import decoded
-from topo_verify.compiled.explore import KERNELS, map_of
+from topo_verify.compiled.explore import KERNELS, CompiledJob, run_world
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.growth import G_VERTICES
 from topo_verify.compiled.judging.layout import (
+    J_COST,
+    J_DOORS_HASH,
     J_JUDGED,
     J_OF,
     J_STATUS,
     JUDGE_SIZE,
     STATUSES,
 )
+from topo_verify.compiled.judging.truth import HASH_PRIME
 from topo_verify.compiled.kernel import compiled
 from topo_verify.compiled.tally import (
     C_LEVEL,
@@ -70,7 +74,7 @@ from topo_verify.compiled.tally import (
 )
 from topo_verify.compiled.workspace import FAULTY, SMALL, STOP_FULL, TRACE, WordLayout
 from topo_verify.errors import InputError
-from topo_verify.robot.events import Event, Finish, Start
+from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.simulator import first_percept
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.rooted_map import World
@@ -142,6 +146,7 @@ def examine_range(
     claims: int = ALL_CLAIMS,
     stop_at_first: bool = False,
     faults: Mapping[str, str] | None = None,
+    room: int = TRACE,
 ) -> tuple[ShardCounts, ...]:
     """Run algorithms in every world of a range, and judge the runs: the counts of each.
 
@@ -150,12 +155,15 @@ def examine_range(
         claims: only the first so many claims: 8, 9 or 10.
         stop_at_first: end behind the first world in which a claim fails.
         faults: for some of the names, the mistake to plant; the name may be any text then.
+        room: for traces of so many words, at most `TRACE`; a longer one takes longer, for its run
+            is made a second time. The counts do not depend on it.
     Raises:
-        InputError: numba is not installed, there is no such algorithm or fault, or so many edges
-            cannot be listed.
+        InputError: numba is not installed, there is no such algorithm or fault, so many edges
+            cannot be listed, or a faulty mapper needs more room than any workspace has.
     """
     require("the compiled engine")
     shard = _Shard(algorithms, edges, kind, start, stop, claims, stop_at_first, faults or {})
+    shard.space[shard.layout.at("ROOM")] = min(room, TRACE)
     shard.examine()
     return shard.counts()
 
@@ -178,7 +186,7 @@ class _Shard:
 
         if claims not in (8, 9, 10):
             raise InputError(f"expected the first 8, 9 or 10 claims, got {claims}")
-        self.names = tuple(algorithms)
+        self.names, self.faults = tuple(algorithms), faults
         self.layout: WordLayout = FAULTY if faults else SMALL
         self.worlds = prepare(edges, WorldClass.parse(kind), start, stop)
         self.space = np.zeros(self.layout.at("SIZE"), np.int64)
@@ -188,13 +196,23 @@ class _Shard:
         self.table = np.zeros((len(self.names), T_COLUMNS), np.int64)
         self.undecided = [0] * len(self.names)
         for row, name in zip(self.table, self.names, strict=True):
-            number, algorithm = _fault(faults[name]) if name in faults else (0, name)
+            number, algorithm = self._fault(name)
             if algorithm not in KERNELS:
                 known = ", ".join(KERNELS)
                 raise InputError(f"expected an algorithm of the catalogue, got {name!r}: {known}")
             row[T_RULE], row[T_MOTION] = KERNELS[algorithm]
             row[T_FAULT] = number
         self.claims = tuple(CLAIMS)[:claims]
+
+    def _fault(self, name: str) -> tuple[int, str]:
+        """The number of the mistake, 0: none, and the algorithm. Raises InputError."""
+        if name not in self.faults:
+            return 0, name
+        fault = self.faults[name]
+        if fault not in PLANTED:
+            known = ", ".join(PLANTED)
+            raise InputError(f"expected a fault that has a kernel, got {fault!r}: {known}")
+        return PLANTED[fault]
 
     def examine(self) -> None:
         """Examine all worlds of the range."""
@@ -205,27 +223,30 @@ class _Shard:
                 return
 
     def _judge_by_checkers(self) -> None:
-        """Put the verdict of the checkers on the run in the workspace into the judge's array."""
-        place, space, J = self.layout.at, self.space, self.judge
-        stopped = int(space[place("STOP")])
-        if stopped >= STOP_FULL:
-            raise InputError(
-                f"a run needs more room than {TRACE} words of trace: use the reference engine"
-            )
-        vertices, first = int(self.worlds[G_VERTICES]), place("DG")
-        degrees = space[first : first + vertices].tolist()
-        alpha = space[place("AL") : place("AL") + sum(degrees)].tolist()
-        world = World.from_code((tuple(degrees), tuple(alpha)))
-        words = space[place("TR") : place("TR") + int(space[place("NTR")])].tolist()
-        events: list[Event] = [Start(percept=first_percept(world)), *decoded(words)]
-        if not stopped:
-            events.append(Finish(int(space[place("COST")]), map_of(space, self.layout)))
-        judgements = check(world, events, "it was stopped" if stopped else None)[: len(self.claims)]
+        """Put the verdict of the checkers on the last run into the judge's array."""
+        row, J = int(self.control[C_ROW]), self.judge
+        world, name = self._world(), self.names[row]
+        algorithm, fault = self._fault(name)[1], self.faults.get(name, "")
+        if self.space[self.layout.at("STOP")] < STOP_FULL:
+            job = CompiledJob(world, algorithm, trace=True, budget=world.cost_bound, fault=fault)
+            run = job.result(self.space, self.layout)
+        else:
+            run = run_world(world, algorithm, trace=True, fault=fault)
+            J[J_COST], J[J_DOORS_HASH] = run.cost, doors_hash(run.events)
+        events = (Start(percept=first_percept(world)), *run.events)
+        judgements = check(world, events, run.stopped)[: len(self.claims)]
         for k, one in enumerate(judgements):
             J[J_STATUS + k], J[J_JUDGED + k] = STATUSES.index(one.status), one.judged
             J[J_OF + k] = one.of
         found = {one.status for one in judgements}
-        self.undecided[int(self.control[C_ROW])] += "undecided" in found and "failed" not in found
+        self.undecided[row] += "undecided" in found and "failed" not in found
+
+    def _world(self) -> World:
+        """The world that lies in the workspace."""
+        first, ends = self.layout.at("DG"), self.layout.at("AL")
+        degrees = self.space[first : first + int(self.worlds[G_VERTICES])].tolist()
+        alpha = self.space[ends : ends + sum(degrees)].tolist()
+        return World.from_code((tuple(degrees), tuple(alpha)))
 
     # ------------------------------------------------------------ the counts
 
@@ -243,7 +264,7 @@ class _Shard:
         columns = (T_DEARER_RANKS, T_DEARER_COSTS, T_DEARER_OTHERS)
         dearer = zip(*(kept(column, T_DEARER) for column in columns), strict=True)
         places = list(enumerate(self.claims))
-        statuses = {
+        statuses: dict[str, dict[str, int]] = {
             claim: dict(zip(STATUSES, row[T_STATUS + k * STATUS_COUNT :], strict=False))
             for k, claim in places
         }
@@ -274,9 +295,10 @@ class _Shard:
         )
 
 
-def _fault(name: str) -> tuple[int, str]:
-    """The number of a mistake and the algorithm that it is planted in. Raises InputError."""
-    if name not in PLANTED:
-        known = ", ".join(PLANTED)
-        raise InputError(f"expected a fault that has a kernel, got {name!r}: {known}")
-    return PLANTED[name]
+def doors_hash(events: Iterable[Event]) -> int:
+    """The hash of the doors of a run, a signed integer of 64 bits: `follow` of judging/truth.py."""
+    mixed = 0
+    for event in events:
+        if isinstance(event, Move):
+            mixed = (mixed ^ event.door) * HASH_PRIME % (1 << 64)
+    return mixed - (1 << 64 if mixed >> 63 else 0)

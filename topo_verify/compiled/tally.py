@@ -1,6 +1,7 @@
 """Runs algorithms in every world of a rank range, judges each run, and counts what came of it.
 
-`T` has one row for each algorithm: what it is, and its counts. Mirrors harness/search/tallier.py.
+`T` has one row for each algorithm: what it is, and its counts. `ROOM` says how long a trace may be.
+Mirrors harness/search/tallier.py.
 Differs: the kernel counts each algorithm alone; it keeps ranks, no findings. A run whose verdict is
 open ends the walk, so that Python has the checkers judge it and `enter_open` count it.
 """
@@ -31,11 +32,9 @@ from topo_verify.compiled.workspace import (
     BUDGET,
     FAULT,
     MOTION,
-    ROOM,
     RULE,
     STOP,
     STOP_FULL,
-    TRACE,
     TRACING,
 )
 
@@ -132,7 +131,6 @@ def examine_run(
     W[FAULT] = fault
     W[BUDGET] = bound
     W[TRACING] = 1
-    W[ROOM] = TRACE
     cost = explore(W)
     J[J_DARTS] = G[G_DARTS]
     J[J_VERTICES] = vertices

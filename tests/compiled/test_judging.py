@@ -1,0 +1,166 @@
+"""The judge of the compiled engine says of every run what the checkers say, claim by claim.
+
+Its kernels run here as plain Python, except where the machine code is asked by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from itertools import chain
+
+import pytest
+
+pytest.importorskip("numba", reason="the compiled engine needs numba")
+
+from tests.compiled.judged import (
+    Judged,
+    Run,
+    by_checkers,
+    by_judge,
+    counted,
+    doctored,
+    plant,
+    run_of,
+    sampled,
+)
+from topo_verify import CATALOGUE, World, worlds
+from topo_verify.checkers import CLAIMS
+from topo_verify.compiled.faults import PLANTED
+from topo_verify.compiled.shard import examine_range
+from topo_verify.compiled.workspace import TRACE
+from topo_verify.faults import FAULTS
+from topo_verify.world.enumeration import rank_order
+
+MAPPERS = (*CATALOGUE, *PLANTED)
+
+Difference = tuple[str, Judged, Judged | None]
+
+
+def runs(world: World, name: str, ways: int) -> Iterator[Run]:
+    """The run of a mapper, right or with a mistake, and so many doctored ones."""
+    run = run_of(world, FAULTS.get(name, name), name)
+    return chain((run,), doctored(run, ways))
+
+
+def differences(world: World, name: str, ways: int) -> Iterator[Difference]:
+    """The runs in this world of which the judge says something else, or nothing."""
+    for run in runs(world, name, ways):
+        expected, found = by_checkers(run), by_judge(run)
+        if found != expected and not (found is None and run.is_map_doctored):
+            yield run.what, expected, found
+
+
+@pytest.mark.parametrize("name", MAPPERS)
+def test_every_run_to_3_edges_has_the_verdict_of_the_checkers(name: str) -> None:
+    small = (world for edges in range(1, 4) for world in worlds(edges=edges))
+    assert [found for world in small for found in differences(world, name, 1)] == []
+
+
+@pytest.mark.parametrize("name", MAPPERS)
+def test_sampled_runs_with_4_edges_have_the_verdict_of_the_checkers(name: str) -> None:
+    some = sampled(4, 20)
+    assert [found for world in some for found in differences(world, name, 2)] == []
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("room", [TRACE, 50], ids=["fits", "does-not-fit"])
+def test_machine_code_gives_each_run_the_verdict_of_the_checkers(name: str, room: int) -> None:
+    for world in chain(worlds(edges=2), sampled(3, 20), sampled(4, 10)):
+        edges, rank = (int(part) for part in str(world.name)[1:].split("/"))
+        (counts,) = examine_range([name], edges, start=rank, stop=rank + 1, room=room)
+        assert counted(counts) == by_checkers(run_of(world, name, name)), world.name
+
+
+# ---------------------------------------------------------------- the whole comparison
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", MAPPERS)
+def test_every_run_with_4_edges_has_the_verdict_of_the_checkers(name: str) -> None:
+    found = [one for world in worlds(edges=4) for one in differences(world, name, 1)]
+    if name == "folding+planar":  # some verdicts are open: only the checkers look for a witness
+        found = [one for one in found if one[2] is not None]
+    assert found == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", MAPPERS)
+@pytest.mark.parametrize("edges", range(5, 9), ids=lambda edges: f"edges-{edges}")
+def test_runs_in_60_worlds_of_a_size_have_the_verdict_of_the_checkers(
+    edges: int, name: str
+) -> None:
+    opened = 0
+    for world in sampled(edges, 60):
+        for what, expected, found in differences(world, name, 1):
+            assert found is None, (what, expected)
+            opened += 1
+    assert opened == 0 or name == "folding+planar"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", MAPPERS)
+def test_machine_code_gives_every_run_to_4_edges_the_verdict_of_the_checkers(name: str) -> None:
+    faults = {name: name} if name in FAULTS else None
+    for edges in range(1, 5):
+        for rank, world in enumerate(worlds(edges=edges)):
+            (counts,) = examine_range([name], edges, start=rank, stop=rank + 1, faults=faults)
+            run = run_of(world, FAULTS.get(name, name), name)
+            assert counted(counts) == by_checkers(run), (
+                f"m{edges}/{rank} of {rank_order.count(edges)}"
+            )
+
+
+# ---------------------------------------------------------------- mistakes in the judge
+
+MISTAKES = [
+    (1, "truth.follow", "if W[i + 2] != percept:", "if W[i + 2] >> 16 != percept >> 16:"),
+    (1, "truth.follow", "J[J_FOLLOWED] += 1", "J[J_FOLLOWED] += 2"),
+    (2, "truth.pose", "if wrong or not has_truth:", "if wrong:"),
+    (2, "truth.pose", "edge < 0 or J[J_AT] != W[AL + J[J_PHI + e]]", "edge < 0"),
+    (3, "truth.decide", "opened and truth >= 0 and truth == h", "opened and 0 < truth < h"),
+    (3, "truth.augment", "if is_new and truth >= 0:", "if False:"),
+    (3, "truth.settle_hypothesis", "&= ~(1 << h)", "&= ~(2 << h)"),
+    (4, "truth.decide", "if truth < 0 or truth != h:", "if truth >= 0 and truth != h:"),
+    (4, "verdict.share_out", "max(confirmations, loops)", "confirmations"),
+    (5, "verdict.is_world", "elif J[J_IMAGE + other] != image:", "elif J[J_IMAGE + other] < 0:"),
+    (5, "verdict.judge_delivery", "if J[J_SPOILED] != 0 or not delivered:", "if not delivered:"),
+    (6, "verdict.judge_delivery", "J[J_REPORTED] not in (-1, cost)", "J[J_REPORTED] > cost"),
+    (7, "verdict.judge_delivery", "cost < J[J_DARTS] // 2", "cost < J[J_DARTS] // 4"),
+    (7, "verdict.judge_delivery", "cost > J[J_BOUND]", "cost >= J[J_BOUND] + 4"),
+    (8, "justified.percepts_agree", "or W[i + 6] != expected", ""),
+    (8, "justified.unjustified", "if W[k] == h:", "if W[k] != h:"),
+    (8, "justified.cites_in_vain", "== 0:", "< 0:"),
+    (9, "verdict.proves_map", "elif J[J_IMAGE + other] != image:", "elif False:"),
+    (9, "fold.make_one", "J[F_OFFSET + a] = offset", "J[F_OFFSET + a] = 0"),
+    (9, "fold.fold_move", "find_node(J, 0) != node or", "False and"),
+    (10, "entailed.conclude_event", "not may_be_apart(J, e, other)", "True"),
+    (10, "entailed.may_be_known", "if J[F_DEGREE + node] != degree:", "if degree < 0:"),
+    (10, "entailed.may_lead_to", "return wrong == 0", "return True"),
+]
+"""Of the judge: the claim that a mistake is in, the kernel, what stands there, the mistake."""
+
+
+@cache
+def judged_runs() -> tuple[tuple[Run, Judged], ...]:
+    """Runs right, wrong and doctored, with the verdict of the checkers."""
+    small = chain(worlds(edges=1), worlds(edges=2), sampled(3, 20), sampled(4, 4))
+    every = (run for world in small for name in MAPPERS for run in runs(world, name, 3))
+    return tuple((run, by_checkers(run)) for run in every)
+
+
+def test_every_claim_has_a_mistake_and_the_judge_as_it_is_has_none() -> None:
+    assert {claim for claim, *_ in MISTAKES} == set(range(1, len(CLAIMS) + 1))
+    verdicts = [(run.is_map_doctored, by_judge(run), expected) for run, expected in judged_runs()]
+    assert all(
+        found == expected or (doctored and not found) for doctored, found, expected in verdicts
+    )
+
+
+@pytest.mark.parametrize(("claim", "place", "right", "wrong"), MISTAKES)
+def test_a_mistake_in_the_judge_is_seen_in_its_claim(
+    monkeypatch: pytest.MonkeyPatch, claim: int, place: str, right: str, wrong: str
+) -> None:
+    plant(monkeypatch, place, right, wrong)
+    verdicts = ((by_judge(run), expected) for run, expected in judged_runs())
+    assert any(found and found[claim - 1] != expected[claim - 1] for found, expected in verdicts)
