@@ -111,13 +111,21 @@ def test_as_plain_python_the_kernel_lists_the_same(text: str) -> None:
 
 def test_a_pruner_that_forgets_what_it_undid_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     right = first_rows("simple", 5)
-    monkeypatch.setattr(pruning, "neighbours_undo_join", lambda *_: None)
+
+    def forgets(*_: object) -> None:
+        """Undo nothing."""
+
+    monkeypatch.setattr(pruning, "neighbours_undo_join", forgets)
     assert first_rows("simple", 5) != right
 
 
 def test_a_pruner_that_miscounts_a_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     right = first_rows("genus<=1", 4)
-    monkeypatch.setattr(pruning, "word_is_odd", lambda *_: 0)
+
+    def even(*_: object) -> int:
+        return 0
+
+    monkeypatch.setattr(pruning, "word_is_odd", even)
     assert first_rows("genus<=1", 4) != right
 
 
