@@ -136,6 +136,7 @@ LONG: dict[str, tuple[str, ...]] = {
     ),
     "compiled/test_shard.py": (
         "test_a_range_stops_behind_its_first_failing_world",
+        "test_a_run_of_more_words_than_the_workspace_has_is_judged_by_the_checkers",
         r"test_a_seeded_fault_has_the_verdicts_that_the_checkers_give\[.*\]",
     ),
     "docs/test_pages.py": (r"test_what_a_page_says_can_be_done_and_prints_what_it_shows\[.*\]",),
