@@ -114,8 +114,8 @@ def test_machine_code_gives_every_run_to_4_edges_the_verdict_of_the_checkers(nam
 # ---------------------------------------------------------------- mistakes in the judge
 
 MISTAKES = [
-    (1, "truth.follow", "if W[i + 2] != percept:", "if W[i + 2] >> 16 != percept >> 16:"),
-    (1, "truth.follow", "J[J_FOLLOWED] += 1", "J[J_FOLLOWED] += 2"),
+    (1, "truth.follow_move", "if W[i + 2] != percept:", "if W[i + 2] >> 16 != percept >> 16:"),
+    (1, "truth.follow_move", "J[J_FOLLOWED] += 1", "J[J_FOLLOWED] += 2"),
     (2, "truth.pose", "if wrong or not has_truth:", "if wrong:"),
     (2, "truth.pose", "edge < 0 or J[J_AT] != W[AL + J[J_PHI + e]]", "edge < 0"),
     (3, "truth.decide", "opened and truth >= 0 and truth == h", "opened and 0 < truth < h"),

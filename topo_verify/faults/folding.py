@@ -9,7 +9,7 @@ from topo_verify.algorithms.folding import FoldingRule, NodeDart, PartialFold
 from topo_verify.algorithms.motion import Hypothesis
 from topo_verify.faults.fault import Fault, mapper
 from topo_verify.robot.events import MapDart
-from topo_verify.robot.percept import Percept
+from topo_verify.robot.percept import Door, Percept
 
 
 def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
@@ -23,25 +23,24 @@ def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
     return rule
 
 
-class _StaysIdentified(PartialFold):
+class _StaysKnown(PartialFold):
     def layer(self) -> PartialFold:
         layer = super().layer()
-        # The reference notes apart what it identifies under a hypothesis.
-        layer.leader = self.leader
+        layer.known = self.known  # the reference notes apart what is known under a hypothesis
         return layer
 
 
 keeps_an_assumption_for_good = Fault(
     name="keeps-an-assumption-for-good",
     part="folding",
-    why="what was identified under a hypothesis stays identified when that is dropped",
-    claim="map-entailed",
-    mapper=mapper("folding", rule=_folding(_StaysIdentified)),
+    why="a place that became a vertex of S under a hypothesis stays one when that is dropped",
+    claim="true-hypothesis-kept",
+    mapper=mapper("folding", rule=_folding(_StaysKnown)),
 )
 
 
 class _AllKnown(PartialFold):
-    def add(self, percept: Percept, *, known: bool = True) -> NodeDart:
+    def add(self, percept: Percept, *, known: bool = True) -> int:
         return super().add(percept, known=known)
 
 
@@ -56,11 +55,8 @@ takes_each_place_for_known = Fault(
 
 
 class _Unturned(PartialFold):
-    def add(self, percept: Percept, *, known: bool = False) -> NodeDart:
-        first = super().add(percept, known=known)
-        # The reference lays two nodes on each other from any dart on, this one from their first.
-        self.seen.around[first:] = [self.seen.around[first]] * percept.degree
-        return first
+    def _merge(self, small: int, large: int, turned: Door) -> None:
+        super()._merge(small, large, 0 * turned)  # the reference turns them against each other
 
 
 identifies_without_turning = Fault(
@@ -76,7 +72,7 @@ identifies_without_turning = Fault(
 class _FromDoor0(FoldingRule):
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         super().arrive(chart, e, percept)
-        self.vu = self.fold.seen.node[self.vu]
+        self.vu = self.vu[0], 0
 
 
 enters_old_places_by_door_0 = Fault(
