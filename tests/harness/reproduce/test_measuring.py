@@ -47,7 +47,7 @@ def test_a_seeded_fault_is_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_run_out_of_time_convicts_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(measuring, "LIMITS", Limits(world_timeout=1e-4))
-    row = measured(PlannedRun("family:lattice(12,12,seed=1)", "basic", "nearest", "shortest"))
+    row = measured(PlannedRun("family:lattice(30,30,seed=1)", "basic", "nearest", "shortest"))
     assert row.findings == ()
     assert row.undecided is not None
 
