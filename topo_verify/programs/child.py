@@ -45,7 +45,7 @@ from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 GRACE = 0.3
 """Seconds between SIGTERM and SIGKILL; also the time to end after a `stop` message."""
 
-LAST_WORDS = 0.5
+LAST_WORDS = 2.0
 """Seconds between the end of a program's output and its exit status, at most."""
 
 CHUNK = 2**16
@@ -337,7 +337,9 @@ class Child:
     def exit_status(self) -> str | None:
         """The exit status in words; None if the program still runs after `LAST_WORDS` seconds."""
         # Not by the wall clock: on a busy machine a program that dies waits for a processor, too.
-        clock = self._stopwatch()
+        clock = Stopwatch(
+            lambda: tasks_of(self.process)
+        )  # it answers no more: each wait is excused
         while (status := self._status()) is None:
             if clock.seconds() > LAST_WORDS:
                 return None
