@@ -146,7 +146,7 @@ def examine_run(
 
 @kernel
 def enter(J: Words, T: WordTable, row: int, rank: int, wrong: int) -> None:
-    """Count a run."""
+    """Count a judged run in its row."""
     cost = J[J_COST]
     T[row, T_WORLDS] += 1
     digest = (J[J_DOORS_HASH] ^ cost) * MIXED

@@ -73,7 +73,7 @@ def do(assignment: bytes) -> bytes:
 
 
 def _require_ours(assignment: bytes) -> ClusterTask:
-    """The assignment.
+    """The assignment, if it comes from the same topo-verify.
 
     Raises:
         InputError: the client has another topo-verify.

@@ -94,7 +94,7 @@ class _Scripted:
     executed: list[Executed] = field(default_factory=list[Executed])
 
     def pick(self, chart: Chart, at: MapDart) -> MapDart:
-        """The next e."""
+        """The edge e that the script names next."""
         self.chart, self.at, self.executed = chart, at, []
         self.e = self._chosen(None, tuple(chart.unexplored), ())
         return self.e
