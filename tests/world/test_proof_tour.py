@@ -9,6 +9,7 @@ from tests.helpers import EMPTY, any_world, path, worlds
 from topo_verify import World, families
 from topo_verify.checkers import Fold
 from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.world.proof_tour import BreadthFirstTree
 
 
 def proved(world: World, doors: tuple[int, ...]) -> bool:
@@ -51,6 +52,13 @@ def test_it_proves_larger_worlds_at_the_least_cost(world: World) -> None:
 def test_it_proves_worlds_of_the_families_at_the_least_cost(world: World) -> None:
     assert proved(world, world.proof_tour())
     assert len(world.proof_tour()) == world.least_cost()
+
+
+@given(any_world(max_edges=20))
+def test_the_weight_of_a_chord_is_the_length_of_its_loop(world: World) -> None:
+    tree = BreadthFirstTree(world.code)
+    for chord in tree.chords:
+        assert tree.weight(chord) == len(tree.loop(chord))
 
 
 def test_one_vertex_is_proved_by_walking_each_of_its_loops_once() -> None:

@@ -19,7 +19,7 @@ Source: docs/semantics.md, section 11.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, chain
@@ -72,16 +72,15 @@ class BreadthFirstTree:
         alpha = self.table[1]
         return tuple(d for d, other in enumerate(alpha) if d < other and other not in entries)
 
-    def climb(self, vertex: int) -> Iterator[int]:
-        """The vertices from this one up to v0, both included."""
-        while vertex:
+    def climb(self, vertex: int, goals: Container[int] = (0,)) -> Iterator[int]:
+        """The vertices from this one up to the first of the goals, which is left out."""
+        while vertex not in goals:
             yield vertex
             vertex = self.parent[vertex]
-        yield 0
 
     def home(self, vertex: int) -> list[int]:
         """The darts to leave by on the tree path from this vertex to v0."""
-        return [self.first[v] for v in self.climb(vertex) if v]
+        return [self.first[v] for v in self.climb(vertex)]
 
     def down(self, vertex: int) -> list[int]:
         """The darts to leave by on the tree path from v0 to this vertex."""
@@ -130,11 +129,7 @@ def covering_walk(
     core = {0, *(tree.vertex[dart] for trip in trips for dart in trip)}
     branches = _branches(tree, core, needed)
     last = _dearest(tree, core, branches)
-    onward = set[int]()  # the branches on the way to the last vertex, which is walked at the end
-    for v in tree.climb(last):
-        if v in core:
-            break
-        onward.add(v)
+    onward = {*tree.climb(last, core)}  # the way to the last vertex, which is walked at the end
     children: dict[int, list[int]] = {}
     for v in branches:
         if v not in onward:
@@ -149,13 +144,10 @@ def covering_walk(
 
 def _branches(tree: BreadthFirstTree, core: set[int], needed: Iterable[int]) -> list[int]:
     """The vertices outside the core on the tree paths to the needed ones, ascending."""
-    found = set[int]()
+    reached = {*core}
     for goal in needed:
-        for v in tree.climb(goal):
-            if v in core or v in found:
-                break
-            found.add(v)
-    return sorted(found)
+        reached.update([*tree.climb(goal, reached)])
+    return sorted(reached - core)
 
 
 def _dearest(tree: BreadthFirstTree, core: set[int], branches: Iterable[int]) -> int:
