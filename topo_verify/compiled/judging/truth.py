@@ -235,7 +235,9 @@ def pose(W: Words, J: Words, i: int, edge: int, truth: int) -> None:
     J[J_TURNED] = 0
     J[J_WORD_SIZE] = 0
     J[J_FIRST_SEQUENCE] = J[J_SEQUENCES]
-    wrong = edge < 0 or J[J_AT] != W[AL + J[J_PHI + e]]
+    wrong = edge < 0 or J[J_CROSSED] & (1 << edge) == 0
+    if not wrong and J[J_AT] != W[AL + J[J_PHI + e]]:
+        J[J_FULL] = 1  # a late pose: no kernel makes one, so it is left to the checkers
     has_truth = truth < 0
     hypotheses = 0
     for k in range(i + 3, i + 3 + number):
