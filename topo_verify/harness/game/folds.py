@@ -1,0 +1,173 @@
+"""Folds as values: what a history has shown, in a numbering that makes equal folds equal.
+
+A **fold code** is the fold of a history (docs/semantics.md, section 11) in the numbering of the
+canonical code (section 12): the degrees of its vertices, and the other end of each dart, `OPEN`
+where it was never crossed. The marker points at dart 0, and vertex 0 is the only one that saw it.
+Two histories have one code exactly if their folds are isomorphic.
+
+This is written apart from `checkers.Fold`, which grows in place and keeps every visit; a test
+compares the two.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cache
+from itertools import accumulate, combinations
+
+FoldCode = tuple[tuple[int, ...], tuple[int, ...]]
+"""Degrees of the vertices, and alpha on their darts."""
+
+Sight = tuple[int, int]
+"""A percept: the degree, and the door that the marker points at, or `ABSENT`."""
+
+OPEN = -1
+ABSENT = -1
+
+
+def first_fold(degree: int) -> FoldCode:
+    """The fold at the start: the vertex of the marker, nothing crossed."""
+    return (degree,), (OPEN,) * degree
+
+
+@cache
+def vertices(degrees: tuple[int, ...]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """The first dart of each vertex; and the vertex of each dart."""
+    first = tuple(accumulate(degrees, initial=0))[:-1]
+    return first, tuple(v for v, degree in enumerate(degrees) for _ in range(degree))
+
+
+def open_darts(code: FoldCode) -> list[int]:
+    """The darts that were never crossed, neither way, ascending."""
+    return [dart for dart, end in enumerate(code[1]) if end == OPEN]
+
+
+def distances(code: FoldCode, start: int) -> list[int]:
+    """The distance of each vertex from one of them, along crossed edges."""
+    degrees, alpha = code
+    first, vertex = vertices(degrees)
+    found = {start: 0}
+    queue = [start]
+    for v in queue:
+        for dart in range(first[v], first[v] + degrees[v]):
+            if (end := alpha[dart]) != OPEN and vertex[end] not in found:
+                found[vertex[end]] = found[v] + 1
+                queue.append(vertex[end])
+    return [found[v] for v in range(len(degrees))]
+
+
+def crossed(code: FoldCode, dart: int, seen: Sight) -> tuple[FoldCode, int]:
+    """The fold after an open dart was crossed and this was seen; and the dart of arrival.
+
+    Without the marker there the place is a new vertex of the fold. With it the place is v0, and if
+    the edge by which the robot came is known already, then the two ends of it that are known are
+    one dart, and so on.
+    """
+    degrees, alpha = code
+    degree, marker = seen
+    sigma, ends = _sigma(degrees), list(alpha)
+    if marker == ABSENT:
+        arrival = len(ends)
+        sigma += [*range(arrival + 1, arrival + degree), arrival]
+        ends += [OPEN] * degree
+        ends[dart], ends[arrival] = arrival, dart
+        return _numbered(sigma, ends, arrival)
+    arrival = -marker % degrees[0]
+    if ends[arrival] == OPEN:
+        ends[dart], ends[arrival] = arrival, dart
+        return _numbered(sigma, ends, arrival)
+    return _numbered(*_identified(sigma, ends, dart, ends[arrival])[:2], arrival)
+
+
+def quotients(code: FoldCode) -> Iterator[FoldCode]:
+    """The fold, and every fold that arises from it by taking vertices for one, each once.
+
+    They are the ways in which a world may lie below the fold: the part of it that was seen.
+    """
+    found, todo = {code}, [code]
+    while todo:
+        yield (code := todo.pop())
+        degrees, alpha = code
+        first, _ = vertices(degrees)
+        for u, v in combinations(range(1, len(degrees)), 2):  # v0 is no other vertex
+            for turn in range(degrees[u] if degrees[u] == degrees[v] else 0):
+                merged = _quotient(degrees, alpha, first[u], first[v] + turn)
+                if merged is not None and merged not in found:
+                    found.add(merged)
+                    todo.append(merged)
+
+
+def _quotient(
+    degrees: tuple[int, ...], alpha: tuple[int, ...], one: int, other: int
+) -> FoldCode | None:
+    """The fold in which two darts are one; None if that contradicts."""
+    first, vertex = vertices(degrees)
+    sigma, ends, names = _identified(_sigma(degrees), list(alpha), one, other)
+    for v, start in enumerate(first):
+        if len({names[dart] for dart in range(start, start + degrees[v])}) < degrees[v]:
+            return None  # a vertex would be itself, turned
+    for dart, name in enumerate(names):
+        if ends[name] == name or (vertex[name] == 0) != (vertex[dart] == 0):
+            return None  # a dart would be its own other end, or a vertex without the marker v0
+    return _numbered(sigma, ends, 0)[0]
+
+
+def _sigma(degrees: Sequence[int]) -> list[int]:
+    sigma = list[int]()
+    for degree in degrees:
+        start = len(sigma)
+        sigma += [*range(start + 1, start + degree), start]
+    return sigma
+
+
+def _identified(
+    sigma: list[int], ends: list[int], one: int, other: int
+) -> tuple[list[int], list[int], list[int]]:
+    """Sigma, alpha and the name of each dart, when two darts are one and all that follows is drawn.
+
+    A dart is named by the least of those that it is one with. Only names have a sigma and an alpha.
+    """
+    parent = list(range(len(sigma)))
+
+    def name(dart: int) -> int:
+        while parent[dart] != dart:
+            dart = parent[dart]
+        return dart
+
+    pairs = [(one, other)]
+    while pairs:
+        a, b = sorted(map(name, pairs.pop()))
+        if a == b:
+            continue
+        parent[b] = a
+        pairs.append((sigma[a], sigma[b]))
+        if ends[a] == OPEN:
+            ends[a] = ends[b]
+        elif ends[b] != OPEN:
+            pairs.append((ends[a], ends[b]))
+    names = list(map(name, parent))
+    return (
+        [names[dart] for dart in sigma],
+        [OPEN if end == OPEN else names[end] for end in ends],
+        names,
+    )
+
+
+def _numbered(sigma: Sequence[int], ends: Sequence[int], at: int) -> tuple[FoldCode, int]:
+    """The code of what hangs together with dart 0; and the number of the dart `at`."""
+    number, order, degrees = dict[int, int](), list[int](), list[int]()
+
+    def take(dart: int) -> None:
+        degrees.append(0)
+        while dart not in number:
+            number[dart] = len(order)
+            order.append(dart)
+            degrees[-1] += 1
+            dart = sigma[dart]
+
+    take(0)
+    for dart in order:
+        if ends[dart] != OPEN and ends[dart] not in number:
+            take(ends[dart])
+    alpha = tuple(OPEN if ends[dart] == OPEN else number[ends[dart]] for dart in order)
+    return (tuple(degrees), alpha), number[at]

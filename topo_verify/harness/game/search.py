@@ -1,0 +1,164 @@
+"""The value of a game of robot against world: the least cost, in the worst case or in sum.
+
+The robot makes a **choice**: so many moves. The world answers with what is seen then; each answer
+leaves some of the worlds open, a **state**, or none, and the game is over. The value of a state is
+
+    worst case   least over the choices of   moves + the greatest value over the answers
+    sum          least over the choices of   moves · worlds + the sum of the values
+
+where `worlds` is how many worlds the state leaves open. The sum, divided by the number of worlds at
+the start, is the mean if each is equally likely.
+
+**Search.** To ask whether a value is at most a limit, only choices whose lower bound is within the
+limit need a look. The limit is the lower bound that is known of the state itself; if the answer is
+no, the least value that is still possible is the next one. So bounds rise until one is the value.
+They are kept. Every move costs, so this ends, also where moves go in circles. Where it takes too
+long it ends with the bounds so far: the count of states is limited, not the time, so that two calls
+end alike.
+
+**Parts.** To play against a part of the worlds costs no more than to play against all: the worst
+case is no better for all, and the sum is at least the sum over the parts. So the values of parts
+are a lower bound. A state says which parts are worth the search.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Iterable, Sequence
+from typing import Generic, NamedTuple, Protocol, TypeVar
+
+from topo_verify.errors import InternalError
+
+S = TypeVar("S", bound=Hashable)
+
+
+class Least(NamedTuple):
+    """A cost that no robot undercuts.
+
+    Attributes:
+        cost: in moves.
+        is_value: some robot attains it; otherwise the search was cut short.
+    """
+
+    cost: int
+    is_value: bool
+
+
+class _OutOfStates(Exception):
+    """As many states as are allowed were met."""
+
+
+class GameChoice(NamedTuple, Generic[S]):
+    """So many moves, and the states that their answers leave open."""
+
+    moves: int
+    left: tuple[S, ...]
+
+
+class Rules(Protocol[S]):
+    """The rules of a game."""
+
+    def choices(self, state: S, /) -> Iterable[GameChoice[S]]:
+        """What the robot may do next; one of them ends every game that can be ended."""
+        ...
+
+    def worlds(self, state: S, /) -> int:
+        """How many worlds a state leaves open, of those that count."""
+        ...
+
+    def parts(self, state: S, /) -> Sequence[S]:
+        """States that leave open a part of the worlds each and all of them together; or none."""
+        ...
+
+    def bounds(self, state: S, /) -> Iterable[int]:
+        """Of a state without parts: for each world a cost that no robot undercuts, at least 1."""
+        ...
+
+
+class Solver(Generic[S]):
+    """The values of the states of a game, for one of the two aims.
+
+    Args:
+        rules: of the game.
+        mean: the least sum is sought, in place of the least worst case.
+        most_states: when so many states are met, the search is cut short.
+    """
+
+    def __init__(self, rules: Rules[S], *, mean: bool, most_states: float = math.inf) -> None:
+        self._rules, self._mean, self._most_states = rules, mean, most_states
+        self._bound = dict[S, float]()
+        self._choices = dict[S, Sequence[GameChoice[S]]]()
+        self._solved, self._parted = set[S](), set[S]()
+
+    @property
+    def states(self) -> int:
+        """How many states were met."""
+        return len(self._bound)
+
+    def least(self, state: S) -> Least:
+        """The value of a state, or the bound that was reached."""
+        try:
+            return Least(int(self.value(state)), is_value=True)
+        except _OutOfStates:
+            return Least(int(self.bound(state)), is_value=False)
+
+    def value(self, state: S, limit: float = math.inf) -> float:
+        """The value of a state; or, if it is above the limit, a lower bound above the limit."""
+        bound = self.bound(state)
+        if bound <= limit and state not in self._parted:
+            bound = self._by_parts(state, bound, limit)
+        while bound <= limit and state not in self._solved:
+            found = self._attempt(state, bound)
+            if found < bound:
+                raise InternalError(f"{state} has the value {found}, below its bound {bound}")
+            if found == bound:
+                self._solved.add(state)
+            self._bound[state] = bound = found
+        return bound
+
+    def bound(self, state: S) -> float:
+        """The best lower bound on the value of a state that is known."""
+        if state not in self._bound:
+            parts = self._rules.parts(state)
+            bounds = map(self.bound, parts) if parts else self._rules.bounds(state)
+            self._bound[state] = sum(bounds) if self._mean else max(bounds)
+        return self._bound[state]
+
+    def _by_parts(self, state: S, bound: float, limit: float) -> float:
+        """A lower bound by the values of the parts, or by as many as bring it above the limit."""
+        parts = self._rules.parts(state)
+        bound = self._bound[state] = max(bound, self._answers(parts, 0, limit))
+        if bound <= limit:
+            self._parted.add(state)
+        return bound
+
+    def _attempt(self, state: S, limit: float) -> float:
+        """The value if it is at most the limit; else a lower bound above the limit."""
+        if state not in self._choices:
+            if self.states > self._most_states:
+                raise _OutOfStates
+            self._choices[state] = tuple(self._rules.choices(state))
+        weight = self._rules.worlds(state) if self._mean else 1
+        least = math.inf
+        for choice in self._choices[state]:
+            least = min(least, self._answers(choice.left, choice.moves * weight, limit))
+            if least <= limit:
+                break
+        return least
+
+    def _answers(self, states: Sequence[S], paid: int, limit: float) -> float:
+        """What was paid and the value over these states; or a lower bound above the limit."""
+        if not self._mean:
+            total = paid + max(map(self.bound, states), default=0)
+            for state in states:
+                if total > limit:
+                    break
+                total = max(total, paid + self.value(state, limit - paid))
+            return total
+        total = paid + sum(map(self.bound, states))
+        for state in states:
+            if total > limit:
+                break
+            bound = self.bound(state)
+            total += self.value(state, limit - total + bound) - bound
+        return total
