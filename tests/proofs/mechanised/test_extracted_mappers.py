@@ -92,7 +92,8 @@ def taken_in_coq(mappers: Path, jobs: Sequence[Job]) -> list[list[int]]:
     lines = [str(len(jobs)), *map(told, jobs)]
     ran = toolchain.run([str(mappers)], mappers.parent, timeout=LIMIT, stdin="\n".join(lines))
     assert ran.accepted, ran.output
-    return [[int(door) for door in line.split()] for line in ran.output.splitlines()]
+    lines = [line.removeprefix("doors").split() for line in ran.output.splitlines()]
+    return [[int(door) for door in line] for line in lines]
 
 
 def taken_here(job: Job) -> list[int]:
@@ -110,14 +111,14 @@ def differing(mappers: Path, jobs: Iterable[Job]) -> list[Job]:
 
 @pytest.mark.parametrize("name", PAPER)
 def test_both_take_the_same_doors_in_small_worlds(mappers: Path, name: str) -> None:
-    small = [*worlds(range(1, 4)), *map(resolve_world, (*FAMILIES, TELLING))]
+    small = [*worlds(range(4)), *map(resolve_world, (*FAMILIES, TELLING))]
     assert differing(mappers, (Job(name, world) for world in small)) == []
 
 
 @pytest.mark.parametrize("name", PAPER)
 def test_both_take_the_same_doors_in_every_world_to_5_edges(mappers: Path, name: str) -> None:
-    every = [Job(name, world) for world in worlds(range(1, 6))]
-    assert len(every) == 8_954
+    every = [Job(name, world) for world in worlds(range(6))]
+    assert len(every) == 8_955
     assert differing(mappers, every) == []
 
 
@@ -129,7 +130,7 @@ def test_both_take_the_same_doors_in_large_worlds(mappers: Path, name: str) -> N
 @pytest.mark.parametrize("pick", ["nearest", "first", "last"])
 @pytest.mark.parametrize("order", ["shortest", "oldest", "newest"])
 def test_both_take_the_same_doors_with_every_policy(mappers: Path, pick: str, order: str) -> None:
-    some = [*worlds(range(1, 4)), *map(resolve_world, FAMILIES[:3])]
+    some = [*worlds(range(4)), *map(resolve_world, FAMILIES[:3])]
     jobs = (Job(name, world, pick, order) for name in PAPER for world in some)
     assert differing(mappers, jobs) == []
 

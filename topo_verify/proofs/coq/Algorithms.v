@@ -21,11 +21,6 @@ Definition algorithm : Type := Rule * Motion.
 Definition run_of (A : algorithm) pick path order fuel :=
   mapper pick path order (snd A) (fst A) fuel.
 
-(** The doors that the robot takes in W. The tests compare them with those of the Python code. *)
-Definition doors_taken (A : algorithm) pick path order W :=
-  match perform W (root W) (run_of A pick path order (darts W) (percept W (root W))) with
-  | Some (_, _, ms) => Some (map fst ms) | None => None end.
-
 (** In every world and with all policies the algorithm ends with a map that is isomorphic to the
     world. It makes at least m moves and at most m (n + (2m - 1) 2(n - 1)), where the world has m
     edges and n vertices. *)

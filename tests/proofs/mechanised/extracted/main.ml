@@ -5,8 +5,8 @@
      n, then n times: next          the next dart clockwise, for each dart
      n, then n times: other         the other dart of its edge
 
-   separated by white space; the root is dart 0. For each run it prints the doors that the robot takes,
-   or "stuck", on one line. *)
+   separated by white space; the root is dart 0, and without a dart it is the world without an edge. For
+   each run it prints "doors" and the doors that the robot takes, or "stuck", on one line. *)
 open Mappers
 
 let algorithm = function
@@ -39,14 +39,16 @@ let numbers () = let n = number () in Array.init n (fun _ -> number ())
 let world () =
   let next = numbers () in
   let other = numbers () in
-  { darts = Array.length next; sigma = Array.get next; alpha = (fun d -> Some other.(d)); root = 0 }
+  let alpha d = Some other.(d) in
+  if next = [||] then Point
+  else Edges { darts = Array.length next; sigma = Array.get next; alpha; root = 0 }
 
 let run () =
   let algorithm = algorithm (word ()) in
   let pick = pick (word ()) in
   let order = order (word ()) in
   match doors_taken algorithm pick way_to order (world ()) with
-  | Some doors -> print_endline (String.concat " " (List.map string_of_int doors))
+  | Some doors -> print_endline (String.concat " " ("doors" :: List.map string_of_int doors))
   | None -> print_endline "stuck"
 
 let () = for _ = 1 to number () do run () done
