@@ -4,8 +4,10 @@ Coq extracts the mapper of coq/Mapper.v, with the rules, motions and policies of
 a program in OCaml. It is a second implementation of docs/semantics.md, sections 2 to 7, and what is
 proved of it is proved of the doors that are compared here.
 
-What this does not show: that the two declare the same decisions; what random policies do; anything
-about `folding` and `planar`, which are not written in Coq.
+Of random policies it is told what Python's generator chose: it is proved for any choices.
+
+What this does not show: that the two declare the same decisions; anything about `folding` and
+`planar`, which are not written in Coq.
 """
 
 from __future__ import annotations
@@ -14,7 +16,8 @@ import shutil
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from random import Random
+from typing import Any, ClassVar, NamedTuple
 
 import pytest
 
@@ -50,7 +53,7 @@ LARGER = (
 
 
 class Job(NamedTuple):
-    """A run: the algorithm, its policies, the world."""
+    """A run: the algorithm, its policies with their choices, the world."""
 
     algorithm: str
     world: World
@@ -133,6 +136,52 @@ def test_both_take_the_same_doors_with_every_policy(mappers: Path, pick: str, or
     some = [*worlds(range(4)), *map(resolve_world, FAMILIES[:3])]
     jobs = (Job(name, world, pick, order) for name in PAPER for world in some)
     assert differing(mappers, jobs) == []
+
+
+class Recorded(Random):
+    """A generator that keeps its choices, edge by edge: places in what it chose from."""
+
+    picks: ClassVar[list[int]] = []
+    deals: ClassVar[list[list[int]]] = []
+    """For each pick those that shuffled the hypotheses; none where there was no hypothesis."""
+
+    def choice(self, seq: Any) -> Any:
+        """An element, as always."""
+        taken = super().choice(seq)
+        self.picks.append(seq.index(taken))
+        self.deals.append([])
+        return taken
+
+    def shuffle(self, x: Any) -> None:
+        """Shuffles, as always."""
+        left = list(x)
+        super().shuffle(x)
+        for one in x:
+            self.deals[-1].append(left.index(one))
+            left.remove(one)
+
+
+def told_choices(world: World, name: str, seed: int) -> tuple[Job, list[int]]:
+    """A run with random policies, told with the choices that were made, and its doors."""
+    Recorded.picks.clear()
+    Recorded.deals.clear()
+    taken = taken_here(Job(name, world, f"random({seed})", f"random({seed})"))
+    deals = (f"{len(deal)} {' '.join(map(str, deal))}" for deal in Recorded.deals)
+    pick = f"random {len(Recorded.picks)} {' '.join(map(str, Recorded.picks))}"
+    order = f"random {len(Recorded.deals)} {' '.join(deals)}"
+    return Job(name, world, pick, order), taken
+
+
+@pytest.mark.parametrize("name", PAPER)
+def test_both_take_the_same_doors_with_what_the_generator_chose(
+    mappers: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.setattr(choices, "Random", Recorded)
+    some = [*worlds(range(4)), *map(resolve_world, FAMILIES)]
+    runs = [told_choices(world, name, seed) for seed in range(2) for world in some]
+    assert taken_in_coq(mappers, [job for job, _ in runs]) == [taken for _, taken in runs]
+    (job, one), (_, other) = (told_choices(resolve_world(TELLING), name, s) for s in range(2))
+    assert taken_in_coq(mappers, [job]) == [one] != [other]
 
 
 def test_other_algorithms_and_policies_take_other_doors(mappers: Path) -> None:

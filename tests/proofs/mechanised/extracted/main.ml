@@ -1,7 +1,9 @@
 (* The main program of the extracted mappers. It reads from standard input how many runs there are,
    and for each run
 
-     algorithm pick order           names of the catalogue
+     algorithm pick order           names of the catalogue. After a pick "random" stands the list of its
+                                    choices, after an order "random" a list of lists; a list is its
+                                    length and its elements
      n, then n times: next          the next dart clockwise, for each dart
      n, then n times: other         the other dart of its edge
 
@@ -20,21 +22,27 @@ let algorithm = function
   | "enhancement-iii-all+i" -> enhancement_iii_all_i
   | name -> failwith ("no algorithm " ^ name)
 
+let word () = Scanf.scanf " %s" Fun.id
+let number () = Scanf.scanf " %d" Fun.id
+let many read = let n = number () in Array.init n (fun _ -> read ())
+let numbers () = many number
+
+(* After the last choice there is nothing left to choose. *)
+let choice_of choices none i = if i < Array.length choices then choices.(i) else none
+
 let pick = function
+  | "random" -> drawn (choice_of (numbers ()) 0)
   | "nearest" -> nearest
   | "first" -> first_open
   | "last" -> last_open
   | name -> failwith ("no pick policy " ^ name)
 
 let order = function
+  | "random" -> shuffled (choice_of (many (fun () -> Array.to_list (numbers ()))) [])
   | "shortest" -> shortest
   | "oldest" -> oldest
   | "newest" -> newest
   | name -> failwith ("no order policy " ^ name)
-
-let word () = Scanf.scanf " %s" Fun.id
-let number () = Scanf.scanf " %d" Fun.id
-let numbers () = let n = number () in Array.init n (fun _ -> number ())
 
 let world () =
   let next = numbers () in
