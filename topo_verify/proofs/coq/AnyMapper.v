@@ -68,7 +68,8 @@ Proof.
     exists M, ms, m. rewrite P, (described_edges M W HW I). auto.
 Qed.
 
-(** The eight algorithms of the paper map every world, with edges or not. *)
+(** The eight algorithms of the paper map every world, with edges or not.
+    Paper, I, II-C: "With a directional marker the world can be mapped deterministically." *)
 Theorem all_eight_mapped : Forall maps_any [basic; enhancement_i; enhancement_ii; enhancement_ii_i;
   enhancement_iii_one; enhancement_iii_one_i; enhancement_iii_all; enhancement_iii_all_i].
 Proof.
@@ -99,7 +100,8 @@ Proof.
     split; unfold strategy_in; [intros i k E; rewrite (Ed i k E)|rewrite El]; auto.
 Qed.
 
-(** Claim 5 in the model of all mappers: the strategy is right in every world, with edges or not. *)
+(** Claim 5 in the model of all mappers: the strategy is right in every world, with edges or not.
+    Not in the paper. *)
 Theorem strategy_in_sound A pick path order : maps_all A -> good_pick pick -> good_path path ->
   good_order order -> sound_any (strategy_in A pick path order).
 Proof.

@@ -252,7 +252,8 @@ Definition summary l : option (N * N * (N * N)) := match read l with
        N.of_nat (decisions (events c))))
   | None => None end%N.
 
-(** The theorem about certificates: numbers that pass the check say what is true. *)
+(** The theorem about certificates: numbers that pass the check say what is true.
+    Not in the paper. *)
 Theorem check_numbers_correct l : check_numbers l = true -> proves_itself l.
 Proof.
   unfold check_numbers, proves_itself. destruct (read l) as [c|]; [|discriminate].

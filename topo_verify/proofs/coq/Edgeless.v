@@ -21,7 +21,8 @@ Definition ends_any (f : any_strategy) L M :=
 Definition sound_any f := forall w L M, shows_log w L -> ends_any f L M -> alike M w.
 
 (** Claim 9, for all worlds: a log is closed, or that of the point, exactly if all worlds that show
-    it are one. *)
+    it are one.
+    Not in the paper. *)
 Theorem closed_any_iff w L : shows_log w L ->
   (closed_any L <-> forall w', shows_log w' L -> alike w w').
 Proof.
@@ -35,7 +36,8 @@ Proof.
       apply (H (Edges W')). simpl. auto.
 Qed.
 
-(** Claim 9, for all worlds: a mapper that is right in every world leaves such a log in each. *)
+(** Claim 9, for all worlds: a mapper that is right in every world leaves such a log in each.
+    Not in the paper. *)
 Theorem sound_any_closed f : sound_any f -> forall w L M, shows_log w L -> ends_any f L M ->
   closed_any L.
 Proof.
@@ -46,7 +48,8 @@ Proof.
   destruct M as [|M]; simpl in *; [destruct A|]. rewrite <- (proj1 A). apply A'.
 Qed.
 
-(** Section 11, for all worlds: such a mapper makes at least LB moves; in the point that is none. *)
+(** Section 11, for all worlds: such a mapper makes at least LB moves; in the point that is none.
+    Not in the paper. *)
 Theorem sound_any_cost f : sound_any f -> forall W L M depth up, shows_log (Edges W) L ->
   ends_any f L M -> breadth_first W depth up -> least_cost W depth up <= length (moves L).
 Proof.

@@ -2,9 +2,10 @@
 
     A generator remembers how often it was asked, and a policy in Coq is a function of S. But S tells
     how many edges have been explored, and so which choice it is: pick and order are asked once for
-    each edge, or order not at all where there is no hypothesis. Here c and ks are any sequences of choices: c i is the one that picks the dart after i
-    edges, ks i are those that shuffle the hypotheses then. What holds for every sequence holds for
-    the choices of Python's generator in any run.
+    each edge, or order not at all where there is no hypothesis. Here c and ks are any sequences of
+    choices: c i is the one that picks the dart after i edges, ks i are those that shuffle the
+    hypotheses then. What holds for every sequence holds for the choices of Python's generator in any
+    run.
 
     M is a map, p the dart where the robot is, e a dart, k a choice, l a list of darts. *)
 From Coq Require Import Arith Lia List Bool Permutation.
@@ -72,7 +73,8 @@ Proof.
 Qed.
 
 (** Claims 5 and 7 with random policies: whatever the choices, an algorithm of the paper ends with
-    the world, within the bound. *)
+    the world, within the bound.
+    Paper, I, II-C: "With a directional marker the world can be mapped deterministically." *)
 Theorem random_mapped A c ks W : maps_all A -> world W -> exists M b ms m,
   perform W (root W) (run_of A (drawn c) way_to (shuffled ks) (darts W) (percept W (root W))) =
     Some (M, b, ms) /\
