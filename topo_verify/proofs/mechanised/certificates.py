@@ -238,6 +238,9 @@ def build(folder: Path, *, timeout: float) -> None:
         )
 
 
+UNPROVED = "its numbers are no certificate, or their evidence does not prove what they state"
+"""The reason why a checker refuses numbers."""
+
 _SUMMARY = re.compile(r"= Some \((\d), (\d), \((\d+), (\d+)\)\)")
 
 
@@ -249,7 +252,8 @@ def by_kernel(folder: Path, numbers: Sequence[int], *, timeout: float) -> Certif
     found = _SUMMARY.search(ran.output)
     # The theorem must be free of axioms: coqc accepts files with axioms, too.
     if not ran.accepted or toolchain.NO_AXIOMS not in ran.output or found is None:
-        return CertificateCheck(accepted=False, by=toolchain.version(), why=ran.output[-300:])
+        why = f"{UNPROVED} ({ran.output[-300:]})"
+        return CertificateCheck(accepted=False, by=toolchain.version(), why=why)
     return _accepted(toolchain.version(), map(int, found.groups()))
 
 
@@ -273,7 +277,8 @@ def extracted(folder: Path, numbers: Sequence[int], *, timeout: float) -> Certif
     ran = toolchain.run([str(program)], folder, timeout=timeout, stdin=stdin)
     word, *summary = ran.output.split() or [""]
     if not ran.accepted or word != "accepted":
-        return CertificateCheck(accepted=False, by=by, why=ran.output[-300:] or "refused")
+        why = f"{UNPROVED} ({ran.output[-300:]})"
+        return CertificateCheck(accepted=False, by=by, why=why)
     return _accepted(by, map(int, summary))
 
 

@@ -82,7 +82,7 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
     _one("coq-explored", "MapperCorrect.explore_correct", "map-isomorphic cost-within-bound",
         "The mapper ends with the world, within the bound, if each part keeps its contract."),
     _one("coq-cost", "Algorithms.cost_within_bound", "cost-within-bound cost-honest",
-        "With any sound rule it makes at least m and at most m (n + (2m - 1) 2(n - 1)) moves."),
+        "With any sound rule the mapper makes m to m (n + (2m - 1) 2(n - 1)) moves."),
     _one("coq-bound-order", "Algorithms.bound_order", "cost-within-bound",
         "This bound is at most 4 m m n."),
     _one("coq-ways", "Ways.way_to_good", "map-isomorphic cost-within-bound",
