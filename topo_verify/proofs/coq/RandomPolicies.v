@@ -16,7 +16,7 @@ From Topo Require Import World Vertices Augment Program Mapper Ways ReferencePol
 Definition edges_explored M := Nat.div2 (known M).
 
 (** Pick policy random: the choice, modulo their number, counts the open darts. *)
-Definition drawn (c : nat -> nat) M (p : nat) :=
+Definition chosen_dart (c : nat -> nat) M (p : nat) :=
   nth_error (opens M) (c (edges_explored M) mod length (opens M)).
 
 (** The elements of l in the order in which the choices take them out, each modulo the number left. *)
@@ -29,9 +29,9 @@ Fixpoint dealt ks (l : list nat) := match ks with
 Definition shuffled (ks : nat -> list nat) M l := dealt (ks (edges_explored M)) l.
 
 (** Whatever the choices, the pick policy fulfils its contract. *)
-Theorem drawn_good c : good_pick (drawn c).
+Theorem chosen_dart_good c : good_pick (chosen_dart c).
 Proof.
-  apply pick_among. intros M p. unfold drawn. set (i := _ mod _).
+  apply pick_among. intros M p. unfold chosen_dart. set (i := _ mod _).
   destruct (nth_error (opens M) i) as [e|] eqn:E; [apply (nth_error_In _ _ E)|].
   apply nth_error_None in E. destruct (opens M) as [|d l]; auto. unfold i in E.
   assert (B := Nat.mod_upper_bound (c (edges_explored M)) (length (d :: l))).
@@ -51,11 +51,11 @@ Theorem shuffled_good ks : good_order (shuffled ks).
 Proof. intros M l. apply dealt_permutes. Qed.
 
 (** Every open dart can be chosen: no pick of a generator is left out. *)
-Theorem drawn_any M e : e < darts M -> alpha M e = None -> exists k, forall c p,
-  c (edges_explored M) = k -> drawn c M p = Some e.
+Theorem chosen_dart_any M e : e < darts M -> alpha M e = None -> exists k, forall c p,
+  c (edges_explored M) = k -> chosen_dart c M p = Some e.
 Proof.
   intros He Oe. destruct (In_nth_error (opens M) e) as [k E]; [apply opens_spec; auto|].
-  exists k. intros c p <-. unfold drawn. rewrite Nat.mod_small; auto.
+  exists k. intros c p <-. unfold chosen_dart. rewrite Nat.mod_small; auto.
   apply nth_error_Some. congruence.
 Qed.
 
@@ -76,8 +76,8 @@ Qed.
     the world, within the bound.
     Paper, I, II-C: "With a directional marker the world can be mapped deterministically." *)
 Theorem random_mapped A c ks W : maps_all A -> world W -> exists M b ms m,
-  perform W (root W) (run_of A (drawn c) way_to (shuffled ks) (darts W) (percept W (root W))) =
+  perform W (root W) (run_of A (chosen_dart c) way_to (shuffled ks) (darts W) (percept W (root W))) =
     Some (M, b, ms) /\
   isomorphic M W /\ darts W = 2 * m /\
   m <= length ms <= m * (vertices W + (2 * m - 1) * (2 * (vertices W - 1))).
-Proof. intros G. apply G; [apply drawn_good|apply way_to_good|apply shuffled_good]. Qed.
+Proof. intros G. apply G; [apply chosen_dart_good|apply way_to_good|apply shuffled_good]. Qed.

@@ -4,6 +4,6 @@ From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From Topo Require Import Ways ReferencePolicies Algorithms RandomPolicies AnyMapper.
 
 Extraction "mappers.ml" doors_taken way_to nearest first_open last_open shortest oldest newest
-  drawn shuffled
+  chosen_dart shuffled
   basic enhancement_i enhancement_ii enhancement_ii_i enhancement_iii_one enhancement_iii_one_i
   enhancement_iii_all enhancement_iii_all_i.

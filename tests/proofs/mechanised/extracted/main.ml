@@ -31,7 +31,7 @@ let numbers () = many number
 let choice_of choices none i = if i < Array.length choices then choices.(i) else none
 
 let pick = function
-  | "random" -> drawn (choice_of (numbers ()) 0)
+  | "random" -> chosen_dart (choice_of (numbers ()) 0)
   | "nearest" -> nearest
   | "first" -> first_open
   | "last" -> last_open
