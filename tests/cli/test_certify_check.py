@@ -58,8 +58,8 @@ def test_a_certificate_is_accepted_and_says_what_it_states(call: Call, results: 
         "why": "",
     }
     text = " ".join(call("certify --check run.cert").stdout.split())
-    assert "every world that shows this log is isomorphic to this map" in text
-    assert "The delivered map is that map. Its decisions follow: 20 of 20." in text
+    assert "one world alone shows its log, and it is the map in the certificate" in text
+    assert "The delivered map is that world. Proved to follow: 20 of 20 decisions." in text
 
 
 # ---------------------------------------------------------------- refused

@@ -16,6 +16,7 @@ from topo_verify.errors import InternalError
 from topo_verify.harness.log_report import Certificate
 from topo_verify.report.blocks import Block, Bullets, Text
 from topo_verify.robot.events import Trace
+from topo_verify.text import plural
 from topo_verify.world.formats import files
 
 if TYPE_CHECKING:
@@ -173,16 +174,16 @@ def _stem(traces: Sequence[str], number: int) -> str:
 
 
 _STATED = {
-    "map": "every world that shows this log is isomorphic to this map",
-    "undetermined": "two worlds that differ show this log",
-    "impossible": "no world shows this log",
+    "map": "one world alone shows its log, and it is the map in the certificate",
+    "undetermined": "two worlds that differ show its log, so it proves no map",
+    "impossible": "no world shows its log",
 }
 
 
 def show_proof(proof: KernelCheck) -> Iterator[Block]:
     """The lines that tell of a certificate: what it states, who accepted it, how to check it."""
     outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
-    delivered = " The delivered map is that map." if proof.delivered else ""
+    delivered = " The delivered map is that world." if proof.delivered else ""
     decisions = _decisions_sentence(proof.decisions)
     yield Text("")
     yield Text(
@@ -238,9 +239,9 @@ def show_received(entries: Sequence[CertificateEntry]) -> Iterator[Block]:
             word = "NOT CHECKED" if entry.accepted is None else f"REFUSED by {entry.by}"
             yield Text(f"{entry.certificate}: {word}: {entry.why}")
             continue
-        delivered = " The delivered map is that map." if entry.delivered else ""
-        of = f"{entry.decisions.certified} of {entry.decisions.total}"
-        decisions = f" Its decisions follow: {of}." if entry.decisions.total else ""
+        delivered = " The delivered map is that world." if entry.delivered else ""
+        of = f"{entry.decisions.certified} of {plural(entry.decisions.total, 'decision')}"
+        decisions = f" Proved to follow: {of}." if entry.decisions.total else ""
         yield Text(
             f"{entry.certificate}: accepted by {entry.by}: {_STATED[entry.statement]}."
             f"{delivered}{decisions}"

@@ -49,6 +49,33 @@ def unexplained(text: str) -> list[str]:
     return [name for i, name in items if i == 0 or not lines[i - 1].rstrip().endswith("*)")]
 
 
+PAPER = Path(__file__).parents[3] / "docs" / "explanation" / "paper.md"
+"""The page that goes through the paper sentence by sentence."""
+
+CITED = re.compile(r'\bPaper, ([^:"]+): "([^"]+)"$')
+"""The end of a comment that names a sentence of the paper, with its section."""
+
+
+def sentences() -> set[tuple[str, str]]:
+    """The sentences of the paper, each with its section, as the page about them has them."""
+    table = PAPER.read_text(encoding="utf-8").partition("## Sentence by sentence")[2]
+    rows = re.findall(r"^\| (\S[^|]*) \| (\S[^|]*) \|", table.partition("\n## ")[0], re.MULTILINE)
+    return {(section, sentence) for section, sentence in rows}
+
+
+def sourceless(text: str, theorem: str) -> bool:
+    """Whether the words above a theorem name no sentence of the paper, nor say that it has none."""
+    before = re.split(
+        rf"^(?:Theorem|Lemma|Corollary|Example) {theorem}\b", text, flags=re.MULTILINE
+    )
+    comment = before[0].rpartition("(**")[2].strip()
+    words = " ".join(comment.removesuffix("*)").split())
+    stated = words.endswith(". Not in the paper.")
+    cited = CITED.search(words)
+    named = cited is not None and cited.start() > 0 and cited.groups() in sentences()
+    return not comment.endswith("*)") or not (stated or named)
+
+
 def readme() -> str:
     return (toolchain.SOURCES / "README.md").read_text()
 
@@ -84,6 +111,33 @@ def test_each_way_to_claim_without_proof_is_seen(gap: str) -> None:
 def test_every_definition_and_theorem_opens_with_its_meaning() -> None:
     assert {name: lost for name, text in sources().items() if (lost := unexplained(text))} == {}
     assert unexplained("Lemma a : True.\n(** Told. *)\nLemma b : True.") == ["a"]
+
+
+def test_every_theorem_of_the_catalogue_names_the_papers_sentence_or_says_that_there_is_none() -> (
+    None
+):
+    texts = sources()
+    assert [one.name for one in STATEMENTS if sourceless(texts[one.file], one.theorem)] == []
+
+
+BOUND = 'Paper, I: "The worst case is O(m²n) edge traversals."'
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (BOUND, ""),
+        (BOUND, "Not in another paper."),
+        (BOUND, BOUND.replace("m²n", "n")),
+        (BOUND, BOUND.replace("I", "II-C")),
+        ("*)\nTheorem", "*)\nDefinition other := 0.\nTheorem"),
+    ],
+    ids=["left out", "neither", "another sentence", "another section", "not directly above"],
+)
+def test_a_theorem_without_the_papers_sentence_is_found(old: str, new: str) -> None:
+    text = f"(** The bound is so large.\n    {BOUND} *)\nTheorem bound_order m n : True."
+    assert not sourceless(text, "bound_order")
+    assert sourceless(text.replace(old, new), "bound_order")
 
 
 def test_no_file_is_too_long_and_no_line_too_wide() -> None:

@@ -11,8 +11,9 @@
       log        percept, number of events, events; 0, or 1 and the delivered map
       percept    degree, optional direction of the marker
       event      0 door percept; 1 e h (reject); 2 e h (confirm); 3 e h d (loop); 4 e a d (new)
-      map        rotations (a list of lists), pairs (a list), the marked dart
-      claim      0 table, evidence, 0 or 1 and the numbering of the delivered map (the map is proved)
+      map        rotations (a list of lists), pairs (a list), the marked dart (0 if there is none)
+      claim      0 table, evidence, 0 or 1 and the numbering of the delivered map (the map is proved;
+                 a table without a row is the world of one vertex without an edge)
                  1 table (two worlds show the log); 2 evidence, conflict (no world shows the log)
       decisions  merges of the log; for each decision the list of its reasons, none if it is not
                  proved
@@ -20,8 +21,8 @@
     A list is its length and its elements. An optional number is 0, or the number plus 1. *)
 From Coq Require Import List NArith Bool.
 Import ListNotations.
-From Topo Require Import World Log Undetermined Table TableCorrect Checker CheckerCorrect Events
-  Decisions DecisionsCorrect Delivered.
+From Topo Require Import World Log AnyWorld Undetermined Table TableCorrect Checker CheckerCorrect
+  Events Decisions DecisionsCorrect Delivered.
 
 (** What a certificate claims of its log, with the evidence: this table is its map, and if it is
     numbered, the delivered map; two worlds show the log; no world shows it. *)
@@ -36,39 +37,98 @@ Record certificate := { sensed : Percept; events : list event; handed : option D
 (** The moves of the certificate's log. *)
 Definition log_in c := log_after (sensed c) (events c).
 
+(** The world that the table describes; without a row it is the point. *)
+Definition world_of (t : map_table) := match t with [] => Point | _ => Edges (map_of t) end.
+
+(** The delivery is right in w. Of the point it is one vertex without a dart, and no pair. *)
+Definition right_in D w := match w with
+  | Point => rotations D = [[]] /\ pairs D = []
+  | Edges W => right_delivery D W end.
+
 (** What is proved of a certificate: its claim about the log of its moves, and that each decision
-    with a reason follows from the events before it. *)
+    with a reason follows from the events before it. In the point no decision is true. *)
 Definition says c := match claimed c with
-  | Proved t _ numbering => world (map_of t) /\ replays (map_of t) (log_in c) /\
-      forall W, world W -> replays W (log_in c) -> isomorphic (map_of t) W /\
-        (numbering <> None -> exists D, handed c = Some D /\ right_delivery D W)
+  | Proved t _ numbering => shows_log (world_of t) (log_in c) /\
+      forall w, shows_log w (log_in c) -> alike (world_of t) w /\
+        (numbering <> None -> exists D, handed c = Some D /\ right_in D w)
   | Undecided _ => undetermined (log_in c)
-  | Absurd _ _ => forall W, world W -> ~ replays W (log_in c) end /\
+  | Absurd _ _ => forall w, ~ shows_log w (log_in c) end /\
   forall before e after, events c = before ++ e :: after -> is_decision e = true ->
-    reasoned (reasons c) (decisions before) -> event_follows (sensed c) before e.
+    reasoned (reasons c) (decisions before) ->
+    event_follows (sensed c) before e /\ ~ shows_log Point (log_after (sensed c) before).
+
+(** The check of a delivery of the point. *)
+Definition no_dart D := match rotations D, pairs D with [[]], [] => true | _, _ => false end.
+
+(** The check of the claim that the table is the map of the log. *)
+Definition shown L t ev := match t with [] => of_point L | _ => certified L t ev end.
+
+(** The check that the delivered map is the table. *)
+Definition delivered D t psi := match t with [] => no_dart D | _ => check_delivery D t psi end.
 
 (** The check of a certificate. *)
 Definition accepts c := match claimed c with
-  | Proved t ev numbering => certified (log_in c) t ev && match numbering, handed c with
+  | Proved t ev numbering => shown (log_in c) t ev && match numbering, handed c with
       | None, _ => true
-      | Some psi, Some D => check_delivery D t psi
+      | Some psi, Some D => delivered D t psi
       | Some _, None => false end
   | Undecided t => refute (log_in c) t
-  | Absurd ev x => impossible (log_in c) ev x end &&
+  | Absurd ev x => impossible (log_in c) ev x && negb (of_point (log_in c)) end &&
   decided (sensed c) (events c) (merges c) (reasons c).
+
+(** A table that [shown] accepts is the only world that shows the log. *)
+Lemma shown_correct L t ev : shown L t ev = true ->
+  shows_log (world_of t) L /\ forall w, shows_log w L -> alike (world_of t) w.
+Proof.
+  destruct t as [|r t]; unfold shown; intros H.
+  - apply of_point_spec in H. split; auto. intros [|W] Sh; simpl; auto.
+    destruct (edges_seen W L); [apply Sh..|apply H].
+  - apply certified_correct in H as (A & B & C). split; [simpl; auto|]. intros [|W] Sh.
+    + destruct (edges_seen (map_of (r :: t)) L A B). apply Sh.
+    + apply C; apply Sh.
+Qed.
+
+(** A delivery that [delivered] accepts is right in every world that is the table. *)
+Lemma delivered_correct L D t psi w : shows_log (world_of t) L -> delivered D t psi = true ->
+  alike (world_of t) w -> right_in D w.
+Proof.
+  destruct t as [|r t], w as [|W]; simpl; try tauto.
+  - intros _. unfold no_dart. destruct (rotations D) as [|[|x l] [|l' ls]], (pairs D); try discriminate.
+    auto.
+  - intros [HW _] C. apply (check_delivery_right D (r :: t) psi W HW C).
+Qed.
+
+(** At a vertex without a door no decision is proved: the map S has no open dart. *)
+Lemma nothing_decided es ev rss q : fst q = 0 -> decided q es ev rss = true -> forall n,
+  ~ reasoned rss n.
+Proof.
+  unfold decided, reasoned, first_sketch. intros ->. generalize (outset q) as m. revert rss ev.
+  set (s := {| size := 0; opened := seen_from _ 0 0 _ |}).
+  induction es as [|e es IH]; intros rss ev m H n.
+  - destruct rss; [|discriminate]. destruct n; auto.
+  - simpl in H. destruct (is_decision e) eqn:De; [|apply (IH rss ev _ H)].
+    destruct rss as [|[|r rs] rss]; [destruct n; auto| |].
+    + apply andb_true_iff in H as [_ H]. destruct n as [|n]; [auto|apply (IH rss ev m H n)].
+    + destruct (settle m ev) as [m' ev'].
+      assert (J : judge m' s e (r :: rs) = None) by (destruct e; simpl; destruct rs, r; auto).
+      rewrite J in H. discriminate.
+Qed.
 
 (** What [accepts] accepts is true. *)
 Theorem accepts_correct c : accepts c = true -> says c.
 Proof.
-  unfold accepts, says. rewrite andb_true_iff. intros [H D].
-  split; [|apply (decided_correct (sensed c) (events c) (merges c)), D].
-  destruct (claimed c) as [t ev numbering|t|ev x].
-  - apply andb_true_iff in H as [H N]. apply certified_correct in H as (A & B & C).
-    split; auto. split; auto. intros W HW R. split; auto. intros S.
-    destruct numbering as [psi|], (handed c) as [d|]; try discriminate; try (destruct S; auto; fail).
-    exists d. split; auto. apply (check_delivery_right d t psi W); auto.
-  - apply (refute_correct _ t), H.
-  - apply (impossible_correct _ ev x), H.
+  unfold accepts, says. rewrite andb_true_iff. intros [H D]. split.
+  - destruct (claimed c) as [t ev numbering|t|ev x].
+    + apply andb_true_iff in H as [H N]. apply shown_correct in H as [A B]. split; auto.
+      intros w Sh. split; auto. intros S.
+      destruct numbering as [psi|], (handed c) as [d|]; try discriminate; try (destruct S; auto; fail).
+      exists d. split; auto. apply (delivered_correct (log_in c) d t psi w); auto.
+    + apply (refute_correct _ t), H.
+    + apply andb_true_iff in H as [H P]. intros [|W] Sh.
+      * apply of_point_spec in Sh. rewrite Sh in P. discriminate.
+      * apply (impossible_correct _ ev x H W); apply Sh.
+  - intros before e after E De R. split; [apply (decided_correct _ _ _ _ D before e after); auto|].
+    intros [Sq _]. simpl in Sq. apply (nothing_decided _ _ _ _ (f_equal fst Sq) D _ R).
 Qed.
 
 (** A reader takes what it reads from the front of the list; it may refuse. *)
@@ -192,7 +252,8 @@ Definition summary l : option (N * N * (N * N)) := match read l with
        N.of_nat (decisions (events c))))
   | None => None end%N.
 
-(** The theorem about certificates: numbers that pass the check say what is true. *)
+(** The theorem about certificates: numbers that pass the check say what is true.
+    Not in the paper. *)
 Theorem check_numbers_correct l : check_numbers l = true -> proves_itself l.
 Proof.
   unfold check_numbers, proves_itself. destruct (read l) as [c|]; [|discriminate].

@@ -294,7 +294,8 @@ Proof.
 Qed.
 
 (** Claim 9, the verdict PROVED: if [certified] accepts, the table is a world that shows the log,
-    and every world that shows the log is isomorphic to it. *)
+    and every world that shows the log is isomorphic to it.
+    Not in the paper. *)
 Theorem certified_correct L t ev : certified L t ev = true ->
   world (map_of t) /\ replays (map_of t) L /\
   forall W, world W -> replays W L -> isomorphic (map_of t) W.
@@ -338,7 +339,8 @@ Proof.
 Qed.
 
 (** Claim 9, the verdict REFUTED where no world exists: if [impossible] accepts, no world shows
-    the log. *)
+    the log.
+    Not in the paper. *)
 Theorem impossible_correct L ev c : impossible L ev c = true ->
   forall W, world W -> ~ replays W L.
 Proof.
@@ -368,7 +370,8 @@ Proof.
   apply C. exists W, v. split; auto. split; auto. intros a b [I|[]]. injection I as <- <-. auto.
 Qed.
 
-(** Claim 10, reject: if [rejected] accepts, no world that shows the log has an edge from p to q. *)
+(** Claim 10, reject: if [rejected] accepts, no world that shows the log has an edge from p to q.
+    Not in the paper. *)
 Theorem rejected_correct L p q ev c : rejected L p q ev c = true ->
   forall W v, world W -> visits W L v -> alpha W (dart W v (abs p)) <> Some (dart W v (abs q)).
 Proof.
@@ -378,7 +381,8 @@ Proof.
 Qed.
 
 (** Claim 10, confirm: if [confirmed] accepts, every world that shows the log has an edge from p
-    to q. *)
+    to q.
+    Not in the paper. *)
 Theorem confirmed_correct L p q ev a : confirmed L p q ev a = true ->
   forall W v, world W -> visits W L v -> alpha W (dart W v (abs p)) = Some (dart W v (abs q)).
 Proof.

@@ -379,7 +379,8 @@ Proof.
         rewrite map_app, ?app_comm_cons, nth_error_app1; auto; apply nth_error_Some; congruence.
 Qed.
 
-(** Claim 10: if [decided] accepts, each decision with reasons follows from the events before it. *)
+(** Claim 10: if [decided] accepts, each decision with reasons follows from the events before it.
+    Not in the paper. *)
 Theorem decided_correct p es ev rss : decided p es ev rss = true ->
   forall before e after, es = before ++ e :: after -> is_decision e = true ->
   reasoned rss (decisions before) -> event_follows p before e.

@@ -115,7 +115,8 @@ Proof.
 Qed.
 End Check.
 
-(** Claim 9: a delivery that the check accepts is right in every world that is the proved map. *)
+(** Claim 9: a delivery that the check accepts is right in every world that is the proved map.
+    Not in the paper. *)
 Theorem check_delivery_right D t psi W : world (map_of t) -> check_delivery D t psi = true ->
   isomorphic (map_of t) W -> right_delivery D W.
 Proof.

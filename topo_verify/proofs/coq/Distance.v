@@ -87,7 +87,8 @@ Proof.
     apply (in_seq (S n) 0). lia.
 Qed.
 
-(** Every world has a breadth-first tree. *)
+(** Every world has a breadth-first tree.
+    Not in the paper. *)
 Theorem breadth_first_exists : exists depth up, breadth_first W depth up.
 Proof.
   destruct (choice 0 (fun d n => within n d = true /\ forall m, within m d = true -> n <= m)

@@ -1,30 +1,11 @@
-(** All worlds, the one without an edge among them (docs/semantics.md, sections 1 and 11).
+(** Claim 9 and the least cost for all worlds, the one without an edge among them (docs/semantics.md,
+    sections 1 and 11).
 
-    In World.v a map has a root, so the world of one vertex and no dart (m = 0) is left out. Here it
-    is put beside the others: w is any world, the point or a world W with edges. L is a log, f a
-    mapper, M the map that it delivers.
-
-    In the point a robot senses degree 0 and cannot move; in every other world it senses a degree
-    above 0. So the first percept tells the point from all others, and what holds for worlds with
-    edges holds for all. SCEPTICS READ every definition of this file. *)
+    w is any world, the point or a world W with edges; L is a log, f a mapper, M the map that it
+    delivers. SCEPTICS READ every definition of this file. *)
 From Coq Require Import Arith Lia List.
 Import ListNotations.
-From Topo Require Import World Rotation Log Determined Entailed Sound Distance LeastCost.
-
-(** Any world: the point, or a world with edges. *)
-Inductive any_world := Point | Edges (W : Map).
-
-(** The percept of a robot in the point. *)
-Definition nothing_there : Percept := (0, None).
-
-(** The world w shows the log L. *)
-Definition shows_log w L := match w with
-  | Point => start L = nothing_there /\ moves L = []
-  | Edges W => world W /\ replays W L end.
-
-(** Two worlds are one up to the numbering of the darts. *)
-Definition alike w w' := match w, w' with
-  | Point, Point => True | Edges W, Edges W' => isomorphic W W' | _, _ => False end.
+From Topo Require Import World Rotation Log Determined Entailed Sound Distance LeastCost AnyWorld.
 
 (** The log is that of the point, or it is closed. *)
 Definition closed_any L := start L = nothing_there /\ moves L = [] \/ closed L.
@@ -39,15 +20,9 @@ Definition ends_any (f : any_strategy) L M :=
 (** The mapper f is right in every world in which it ends. *)
 Definition sound_any f := forall w L M, shows_log w L -> ends_any f L M -> alike M w.
 
-(** No world with edges shows the log of the point. *)
-Lemma edges_seen W L : world W -> replays W L -> start L <> nothing_there.
-Proof.
-  intros HW [R _] E. rewrite E in R. assert (WW := world_is_map W HW). injection R as R _.
-  destruct (degree_spec W WW (root W)) as (D & _); [apply root_lt; auto|]. lia.
-Qed.
-
 (** Claim 9, for all worlds: a log is closed, or that of the point, exactly if all worlds that show
-    it are one. *)
+    it are one.
+    Not in the paper. *)
 Theorem closed_any_iff w L : shows_log w L ->
   (closed_any L <-> forall w', shows_log w' L -> alike w w').
 Proof.
@@ -61,7 +36,8 @@ Proof.
       apply (H (Edges W')). simpl. auto.
 Qed.
 
-(** Claim 9, for all worlds: a mapper that is right in every world leaves such a log in each. *)
+(** Claim 9, for all worlds: a mapper that is right in every world leaves such a log in each.
+    Not in the paper. *)
 Theorem sound_any_closed f : sound_any f -> forall w L M, shows_log w L -> ends_any f L M ->
   closed_any L.
 Proof.
@@ -72,7 +48,8 @@ Proof.
   destruct M as [|M]; simpl in *; [destruct A|]. rewrite <- (proj1 A). apply A'.
 Qed.
 
-(** Section 11, for all worlds: such a mapper makes at least LB moves; in the point that is none. *)
+(** Section 11, for all worlds: such a mapper makes at least LB moves; in the point that is none.
+    Not in the paper. *)
 Theorem sound_any_cost f : sound_any f -> forall W L M depth up, shows_log (Edges W) L ->
   ends_any f L M -> breadth_first W depth up -> least_cost W depth up <= length (moves L).
 Proof.

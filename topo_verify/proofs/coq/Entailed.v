@@ -27,7 +27,8 @@ Proof.
 Qed.
 
 (** If the fold of L with A is consistent, some world shows L and has the edges A: the quotient
-    with leaves hung on its open darts. *)
+    with leaves hung on its open darts.
+    Not in the paper. *)
 Theorem consistent_possible A L : consistent A L -> possible A L.
 Proof.
   intros C. destruct (quotient_exists L A C) as (M & u & Q).
@@ -71,7 +72,8 @@ Proof.
 Qed.
 
 (** Claim 10: no world that shows L has an edge from p to q exactly if the fold with that edge is
-    inconsistent. *)
+    inconsistent.
+    Not in the paper. *)
 Theorem rejection_entailed_iff L p q : valid L p -> valid L q ->
   ((forall W v, world W -> visits W L v -> alpha W (dart W v p) <> Some (dart W v q)) <->
    ~ consistent [(p, q)] L).
@@ -85,7 +87,8 @@ Proof.
 Qed.
 
 (** Claim 10: every world that shows L has an edge from p to q exactly if the fold of L alone
-    makes p and q partners. *)
+    makes p and q partners.
+    Not in the paper. *)
 Theorem confirmation_entailed_iff L p q : consistent nothing L -> valid L p -> valid L q ->
   ((forall W v, world W -> visits W L v -> alpha W (dart W v p) = Some (dart W v q)) <->
    exists p' q', link nothing L p' q' /\ same nothing L p p' /\ same nothing L q q').
@@ -111,7 +114,8 @@ Proof.
     apply (link_sound W L v nothing HW V (fits_nothing W v)); auto.
 Qed.
 
-(** Claim 9: a log that some world shows is closed or undetermined. *)
+(** Claim 9: a log that some world shows is closed or undetermined.
+    Not in the paper. *)
 Theorem closed_or_undetermined W L : world W -> replays W L -> closed L \/ undetermined L.
 Proof.
   intros HW R. apply replays_visits in R as [v V]; [|apply HW].
@@ -125,7 +129,8 @@ Proof.
     apply T, turn_lt; [apply Q|]. apply (v_lt M L u (q_visits _ _ _ _ Q)).
 Qed.
 
-(** Claim 9: a log is closed exactly if all worlds that show it are isomorphic. *)
+(** Claim 9: a log is closed exactly if all worlds that show it are isomorphic.
+    Not in the paper. *)
 Theorem closed_iff_determined W L : world W -> replays W L ->
   (closed L <-> forall W', world W' -> replays W' L -> isomorphic W W').
 Proof.

@@ -157,7 +157,8 @@ Proof.
     exists (phi (root M)). repeat split; [apply root_lt; auto|apply (phi_root _ _ _ E)].
 Qed.
 
-(** Claim 3 for rule folding: true assumptions are never contradictory. *)
+(** Claim 3 for rule folding: true assumptions are never contradictory.
+    Not in the paper. *)
 Theorem folding_true (A : nat -> nat -> Prop) : (forall e h, A e h ->
   alpha W (phi e) = Some (phi h)) -> ~ contradictory A.
 Proof.
@@ -190,7 +191,8 @@ Proof.
 Qed.
 
 (** Claim 4 for rule folding: if the place behind e is identified with a known dart h without an
-    assumed edge, e leads to h. *)
+    assumed edge, e leads to h.
+    Not in the paper. *)
 Theorem folding_confirms e h : identified (fun _ _ => False) (Ghost e [], 0) (Known h, 0) ->
   h < darts M /\ alpha W (phi e) = Some (phi h).
 Proof.

@@ -44,7 +44,9 @@ Proof.
   destruct (IH v) as (A & B & C). rewrite C. repeat split; auto; lia.
 Qed.
 
-(** Motion overlap chooses a hypothesis, and the doors that it takes for shared are. *)
+(** Motion overlap chooses a hypothesis, and the doors that it takes for shared are.
+    Paper, III-A: "Stage 2: the robot stays, takes the longest overlap, and walks only what is not
+    shared." *)
 Theorem overlap_good : good_motion overlap.
 Proof.
   intros ds K. induction K as [|c K IH]; simpl; auto. destruct (common_spec (snd c) ds) as (A & B & C).
@@ -79,7 +81,8 @@ Definition rule_prefix :=
 Definition rule_history := forgetful (fun M c s => agrees M (fun _ _ => None) (fst c) (fst s) (snd s)).
 
 (** Rule prefix rejects no more than rules history and records: what agrees with the whole map agrees
-    on the common doors. *)
+    on the common doors.
+    Paper, III-B: "It incorporates stage 1 of Enhancement I." *)
 Theorem prefix_weaker M T own : forall h w ps,
   agrees M T h w ps = true -> agrees_on_way M h own w ps = true.
 Proof.
@@ -103,14 +106,18 @@ Qed.
 Theorem rule_none_good : good_rule rule_none (fun _ _ _ _ => True).
 Proof. apply forgetful_good. auto. Qed.
 
-(** Claim 3 for rule history: it rejects only false hypotheses. *)
+(** Claim 3 for rule history: it rejects only false hypotheses.
+    Paper, III-B: "Every sequence executed for e is traced on S from the hypothesis; a mismatch
+    rejects it." *)
 Theorem rule_history_good : good_rule rule_history (fun _ _ _ _ => True).
 Proof.
   apply forgetful_good. intros M W phi h w u ps HW WM E Lh Hp.
   apply (agrees_true M W phi); auto; [apply HW|red; discriminate].
 Qed.
 
-(** Claim 3 for rule prefix: it rejects only false hypotheses. *)
+(** Claim 3 for rule prefix: it rejects only false hypotheses.
+    Paper, III-A: "Stage 1: what was seen on shared first doors rejects other hypotheses without
+    motion." *)
 Theorem rule_prefix_good : good_rule rule_prefix (fun _ _ _ _ => True).
 Proof.
   apply forgetful_good. intros M W phi h w u ps HW WM E Lh Hp.
@@ -229,7 +236,8 @@ Proof.
 Qed.
 
 (** Claim 3 for rule records, one-level and all-level: the records are true, and true records reject
-    only false hypotheses. *)
+    only false hypotheses.
+    Paper, III-C: "After e is validated, what was seen behind unexplored edges is recorded." *)
 Theorem rule_records_good levels : good_rule (rule_records levels) true_records.
 Proof.
   assert (Learned : forall M W phi e h (T : list record_of) log, is_map M -> is_map W ->

@@ -88,7 +88,8 @@ Proof.
     discriminate Q. apply in_seq; lia.
 Qed.
 
-(** Every world has a justified run that ends with the world. *)
+(** Every world has a justified run that ends with the world.
+    Not in the paper. *)
 Theorem run_exists W : world W -> exists M T, run W M T /\ isomorphic M W.
 Proof.
   intros HW.

@@ -23,7 +23,8 @@ Definition ends (f : Strategy) L M :=
 (** The mapper f is right in every world in which it ends. *)
 Definition sound f := forall W L M, world W -> replays W L -> ends f L M -> isomorphic M W.
 
-(** Claim 9: a mapper that is right in every world ends with a closed log in every world. *)
+(** Claim 9: a mapper that is right in every world ends with a closed log in every world.
+    Not in the paper. *)
 Theorem sound_closed f : sound f ->
   forall W L M, world W -> replays W L -> ends f L M -> closed L.
 Proof.
@@ -33,7 +34,8 @@ Proof.
 Qed.
 
 (** Claim 9, the converse: a mapper that ends only with closed logs, and delivers worlds that
-    show them, is right in every world. *)
+    show them, is right in every world.
+    Not in the paper. *)
 Theorem closed_sound f :
   (forall L M, ends f L M -> closed L /\ world M /\ replays M L) -> sound f.
 Proof.
@@ -51,7 +53,8 @@ Proof.
 Qed.
 
 (** Claim 7, the lower bound for every mapper that is right in every world: it makes at least m
-    moves, where the world has 2 m darts. *)
+    moves, where the world has 2 m darts.
+    Paper, I, II-B: "O(m) is a trivial lower bound." *)
 Theorem sound_cost f : sound f -> forall W L M, world W -> replays W L -> ends f L M ->
   darts W <= 2 * length (moves L).
 Proof.

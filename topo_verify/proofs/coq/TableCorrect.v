@@ -48,7 +48,8 @@ Proof.
     destruct (move (map_of t) a k) as [b|]; [|discriminate]. bools. rewrite IH; simpl; congruence.
 Qed.
 
-(** Claim 9, the verdict REFUTED: if [refute] accepts, two worlds of different size show the log. *)
+(** Claim 9, the verdict REFUTED: if [refute] accepts, two worlds of different size show the log.
+    Not in the paper. *)
 Theorem refute_correct L t : refute L t = true -> undetermined L.
 Proof.
   unfold refute. intros H. apply andb_true_iff in H as [E H].

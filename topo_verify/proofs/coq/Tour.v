@@ -147,7 +147,8 @@ End Tour.
 (** The log of the tour. *)
 Definition tour_log W depth up := walk_log W (tour W depth up).
 
-(** Section 11: in every world the tour proves the map in LB moves. *)
+(** Section 11: in every world the tour proves the map in LB moves.
+    Not in the paper. *)
 Theorem tour_exact W depth up : world W -> breadth_first W depth up ->
   replays W (tour_log W depth up) /\ closed (tour_log W depth up) /\
   length (moves (tour_log W depth up)) = least_cost W depth up.
@@ -160,7 +161,8 @@ Proof.
     apply (closed_least_cost W _ v depth up HW V C B).
 Qed.
 
-(** LB is the least number of moves of a log that proves the map; so it does not depend on the tree. *)
+(** LB is the least number of moves of a log that proves the map; so it does not depend on the tree.
+    Paper, I, II-B: "O(m) is a trivial lower bound." *)
 Theorem least_cost_exact W : world W -> exists lb, (forall depth up, breadth_first W depth up ->
     least_cost W depth up = lb) /\
   (exists L, replays W L /\ closed L /\ length (moves L) = lb) /\
@@ -183,7 +185,8 @@ Definition script L0 (M0 : Map) : Strategy := fun L =>
   then if percept_eqb (start L) (start L0) then inr M0 else inl 0
   else inl (nth (length (moves L)) (map fst (moves L0)) 0).
 
-(** Section 11: some mapper that is right in every world makes exactly LB moves in W. *)
+(** Section 11: some mapper that is right in every world makes exactly LB moves in W.
+    Not in the paper. *)
 Theorem least_cost_attained W depth up : world W -> breadth_first W depth up ->
   exists f L, sound f /\ replays W L /\ ends f L W /\ length (moves L) = least_cost W depth up.
 Proof.

@@ -356,7 +356,8 @@ Proof.
 Qed.
 End Image.
 
-(** A homing walk that crosses every edge has a closed log: it proves the map. *)
+(** A homing walk that crosses every edge has a closed log: it proves the map.
+    Not in the paper. *)
 Theorem walk_closed W depth up ds : world W -> breadth_first W depth up -> path W (root W) ds ->
   homing W depth up false ds = true ->
   (forall b, b < darts W -> exists d, In d ds /\ edge W d = edge W b) -> closed (walk_log W ds).

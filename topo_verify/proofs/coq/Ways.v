@@ -323,7 +323,8 @@ Proof.
 Qed.
 End Trees.
 
-(** The ways of the tree lead to their dart and are shorter than the number of vertices. *)
+(** The ways of the tree lead to their dart and are shorter than the number of vertices.
+    Not in the paper. *)
 Theorem way_to_good : good_path way_to.
 Proof.
   intros M p e WM CM Hp He. destruct (tree_good M e WM He) as [G R].

@@ -2,7 +2,7 @@
 
     THIS FILE IS WHAT A SCEPTIC READS. It contains definitions only, no theorem. It says what
     sections 1 to 3 of docs/semantics.md say, with the same names. Worlds have any number of darts
-    but 0: the world without an edge (m = 0) is left out.
+    but 0: the world without an edge (m = 0) has no root; AnyWorld.v puts it beside the others.
 
     M, W    a map, a world                            a, b, d, e    darts: 0, 1, ..., darts M - 1
     sigma   the next dart clockwise at a vertex       k, j          doors, offsets at a vertex

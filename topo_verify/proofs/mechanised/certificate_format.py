@@ -226,12 +226,15 @@ def _is_natural(event: Event) -> bool:
 
 
 def _is_map(delivered: MapData) -> bool:
-    """Whether a delivered value has darts that are natural numbers, edges of two, and a marker."""
+    """Whether a delivered value has darts that are natural numbers, edges of two, and a marker.
+
+    The map of the world without an edge has no marker.
+    """
     darts = [*chain.from_iterable(delivered.vertices), *chain.from_iterable(delivered.edges)]
     return (
-        delivered.marker is not None
+        (delivered.marker is None) == (delivered.vertices == ((),))
         and all(len(edge) == 2 for edge in delivered.edges)
-        and all(0 <= dart <= LARGEST for dart in (*darts, delivered.marker))
+        and all(0 <= dart <= LARGEST for dart in (*darts, delivered.marker or 0))
     )
 
 

@@ -17,7 +17,10 @@ A certificate is data (`certificate_format.py`). One fixed file checks it, coq/C
 take the kernel minutes; they go to the same checker, extracted as a program in OCaml, which trusts
 Coq's extraction and the OCaml compiler besides the kernel.
 
-What this does not show: that the percepts are what happened, or anything of the world with no edge.
+The log of the world without an edge (degree 0, no move) has a certificate as well: its table has no
+row. A certificate in which some world shows the log speaks of all worlds, that one among them.
+
+What this does not show: that the percepts are what happened.
 
 Source: docs/mechanised.md; docs/semantics.md, section 11.
 """
@@ -43,7 +46,7 @@ from topo_verify.proofs.mechanised.certificate_format import (
     CoqCertificate,
 )
 from topo_verify.proofs.mechanised.decision_evidence import evidence_for_decisions
-from topo_verify.proofs.mechanised.evidence import MapRow, fold_log
+from topo_verify.proofs.mechanised.evidence import FoldedLog, MapRow, fold_log
 from topo_verify.robot.events import Event, Finish, MapData, Move, Start
 from topo_verify.robot.percept import Percept
 
@@ -52,6 +55,9 @@ LIBRARY = "Certificate"
 
 LONG = 200_000
 """Certificates of more numbers are checked by the extracted program, if OCaml is installed."""
+
+EDGELESS = FoldedLog(table=(), meetings=(), conflict=None)
+"""The fold of the log of the world without an edge: a map without a dart, and no evidence."""
 
 _PROGRAM = ("certifier.mli", "certifier.ml", "driver.ml")
 
@@ -82,15 +88,16 @@ def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
     """The certificate of what a log proves, with its evidence.
 
     Raises:
-        InputError: the trace is out of order; or the theory cannot state the log: it is of the
-            world without edges, has numbers below 0, or too many doors.
+        InputError: the trace is out of order; or the theory cannot state the log: it has numbers
+            below 0, or too many doors.
     """
     require_order(trace)
     percepts, doors = _walk(trace)
     _require_statable(percepts, doors)
-    fold = fold_log(percepts, doors)
+    edgeless = not doors and percepts[0] == Percept(0, None)
+    fold = EDGELESS if edgeless else fold_log(percepts, doors)
     shown: CertifiedStatement = "map" if fold.closed else "undetermined"
-    # After a conflict the table is empty, and `closed` is true of an empty table.
+    # After a conflict the table is empty, too, and `closed` is true of an empty table.
     statement = "impossible" if fold.conflict else shown
     log = certificate_format.stated_log(trace)
     delivered = log[-1]
@@ -125,11 +132,6 @@ def _walk(trace: Sequence[Event]) -> tuple[tuple[Percept, ...], tuple[int, ...]]
 
 def _require_statable(percepts: Sequence[Percept], doors: Sequence[int]) -> None:
     """Raise InputError if the theory cannot state this log."""
-    if not doors and percepts[0] == Percept(0, None):
-        raise InputError(
-            "the world without edges has no dart, and is outside the theory of the proofs in Coq:"
-            " leave out --kernel"
-        )
     sensed = chain.from_iterable((p.degree, p.marker or 0) for p in percepts)
     if min(chain(doors, sensed)) < 0:
         raise InputError(
@@ -147,8 +149,11 @@ def numbering_of(delivered: MapData, table: Sequence[MapRow]) -> tuple[tuple[int
     """The correspondence of a delivered map with a proved one; None if it is another map.
 
     It lists for each dart of the delivered map, in order, the dart of the table, and for each dart
-    of the table the place of the delivered one in that order.
+    of the table the place of the delivered one in that order. The map without an edge has one
+    vertex, no dart, and an empty correspondence.
     """
+    if not table:
+        return () if delivered.vertices == ((),) and not delivered.edges else None
     labels = list(chain.from_iterable(delivered.vertices))
     place = {label: i for i, label in enumerate(labels)}
     after = {r[i - 1]: dart for r in delivered.vertices for i, dart in enumerate(r)}
@@ -233,6 +238,9 @@ def build(folder: Path, *, timeout: float) -> None:
         )
 
 
+UNPROVED = "its numbers are no certificate, or their evidence does not prove what they state"
+"""The reason why a checker refuses numbers."""
+
 _SUMMARY = re.compile(r"= Some \((\d), (\d), \((\d+), (\d+)\)\)")
 
 
@@ -244,7 +252,8 @@ def by_kernel(folder: Path, numbers: Sequence[int], *, timeout: float) -> Certif
     found = _SUMMARY.search(ran.output)
     # The theorem must be free of axioms: coqc accepts files with axioms, too.
     if not ran.accepted or toolchain.NO_AXIOMS not in ran.output or found is None:
-        return CertificateCheck(accepted=False, by=toolchain.version(), why=ran.output[-300:])
+        why = f"{UNPROVED} ({ran.output[-300:]})"
+        return CertificateCheck(accepted=False, by=toolchain.version(), why=why)
     return _accepted(toolchain.version(), map(int, found.groups()))
 
 
@@ -268,7 +277,8 @@ def extracted(folder: Path, numbers: Sequence[int], *, timeout: float) -> Certif
     ran = toolchain.run([str(program)], folder, timeout=timeout, stdin=stdin)
     word, *summary = ran.output.split() or [""]
     if not ran.accepted or word != "accepted":
-        return CertificateCheck(accepted=False, by=by, why=ran.output[-300:] or "refused")
+        why = f"{UNPROVED} ({ran.output[-300:]})"
+        return CertificateCheck(accepted=False, by=by, why=why)
     return _accepted(by, map(int, summary))
 
 
