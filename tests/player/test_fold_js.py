@@ -62,7 +62,7 @@ def in_python(trace: Trace) -> dict[str, Any]:
         if followed(fold, event):
             return {"counts": counts, "doubts": doubts[:-1], "broken": when}
         if not isinstance(event, Move):
-            counts.append((fold.open_darts(), fold.darts()))
+            counts.append((fold.open_darts(), sum(map(fold.degree, fold.roots()))))
     return {"counts": counts, "doubts": doubts, "worlds": [fold.world(1), fold.world(2)]}
 
 
