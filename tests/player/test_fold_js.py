@@ -97,7 +97,7 @@ def golden(names: Iterable[str]) -> list[Trace]:
 
 def guesses() -> list[Trace]:
     """Traces with decisions that do not follow: of guessers, and of planar ones without a plane."""
-    names = ("concludes-by-elimination", "confirms-what-is-alone", "identifies-without-turning")
+    names = ("concludes-by-elimination", "confirms-what-is-alone", "takes-each-place-for-known")
     mappers: list[Mapper | str] = [*(FAULTS[name] for name in names), "folding+planar"]
     found = [world for world in worlds([2, 3]) if world.is_planar][::4]
     return [without_the_prior(explore(world, by).trace) for by in mappers for world in found]
