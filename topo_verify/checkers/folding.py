@@ -90,6 +90,9 @@ class Ends:
         return [(dart, end) for dart in darts if (end := self.get(node, dart)) is not None]
 
 
+Looks = dict[tuple[int, bool], Place]
+"""What may be behind a dart: for each signature that is seen there, one place."""
+
 Met = tuple[str, Sequence[Place]]
 """A contradiction, and the places at which it is met."""
 
@@ -186,24 +189,26 @@ class Fold:
                 else:
                     self._ends.put(*place, end)
 
-    def _behind(self, place: Place) -> dict[tuple[int, bool], Place]:
-        """The other end of a dart, by what is seen there; nothing if the dart is open."""
-        end = self.partner(place)
-        return {} if end is None else {self._seen[end[0]].signature: end}
+    def _behind(self, place: Place, drawn: dict[Place, Looks]) -> Looks:
+        """The other ends of a dart: those drawn so far, or the one of the fold, if it has one."""
+        if place not in drawn:
+            end = self.partner(place)
+            drawn[place] = {} if end is None else {self._seen[end[0]].signature: end}
+        return drawn[place]
 
     def contradictions(self, one: Place, other: Place, apart: Sequence[Place]) -> Iterator[Met]:
         """Those that follow if the two are ends of one edge, and no two of `apart` one vertex.
 
-        What follows is the least relation of places in which those that are one have next ones
-        clockwise that are one, and other ends that are one if they look alike. So which kinds are
-        met does not depend on the order. The fold stays as it is.
+        What follows is the least relation in which next ones clockwise of what is one are one, and
+        so are other ends that look alike: it does not depend on the order. The fold stays as it is.
         """
         same: dict[Place, Place] = {}  # of a place that is one with another: such a one
-        ends: dict[Place, dict[tuple[int, bool], Place]] = {}  # behind a place: one of each look
+        ends: dict[Place, Looks] = {}
+        one, other = self.find(one), self.find(other)
         waiting = [(one, other, True), (other, one, True)]  # ends of one edge; False: one dart
 
         def find(place: Place) -> Place:
-            while (place := self.find(place)) in same:
+            while place in same:
                 place = same[place]
             return place
 
@@ -211,7 +216,7 @@ class Fold:
             one, other, are_ends = waiting.pop()
             (a, i), (b, j) = one, other = find(one), find(other)
             if are_ends:
-                behind = ends.setdefault(one, self._behind(one))
+                behind = self._behind(one, ends)
                 waiting.append((other, behind.setdefault(self._seen[b].signature, other), False))
                 if one == other:
                     yield OWN_END, [one]
@@ -220,13 +225,13 @@ class Fold:
             elif one != other:
                 if a == b:
                     yield TURNED, [one, other]
-                for door in range(self.degree(a)):
-                    one, other = find((a, i + door)), find((b, j + door))
+                for door in range(n := self.degree(a)):
+                    one, other = find((a, (i + door) % n)), find((b, (j + door) % n))
                     if one != other:
                         same[one] = other
-                        behind = ends.setdefault(one, self._behind(one))
+                        behind = self._behind(one, ends)
                         waiting += [(other, end, True) for end in behind.values()]
-        if len({find(place)[0] for place in apart}) < len(apart):
+        if len({find(self.find(place))[0] for place in apart}) < len(apart):
             yield TWO_OF_S, apart
 
     def alike(self) -> Iterator[Pair]:
