@@ -104,7 +104,7 @@ def test_false_evidence_of_the_complete_rule_is_caught(changes: dict[str, Any], 
 @pytest.mark.parametrize(
     ("place", "kinds"),
     [
-        ("m2/4", {TURNED}),
+        ("m2/4", {TURNED, OWN}),
         ("m4/36", {CLASH}),
     ],
 )

@@ -45,10 +45,13 @@ def test_equal_events_in_uniform_worlds_of_7_to_12_edges(name: str) -> None:
     [
         families.lattice(4, 5),
         families.lattice(7, 7, holes=0.2, seed=3),
+        families.lattice(10, 10, holes=0.2, seed=1),
         families.torus(3, 4),
+        families.torus(6, 6),
+        families.king(6, 6),
         families.random_genus(25, 2, seed=5),
     ],
-    ids=["lattice", "lattice with holes", "torus", "genus 2"],
+    ids=["lattice", "holes", "more holes", "torus", "larger torus", "king", "genus 2"],
 )
 def test_equal_events_in_worlds_beyond_the_small_layout(name: str, world: World) -> None:
     assert difference(world, name) is None

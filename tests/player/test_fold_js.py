@@ -62,7 +62,7 @@ def in_python(trace: Trace) -> dict[str, Any]:
         if followed(fold, event):
             return {"counts": counts, "doubts": doubts[:-1], "broken": when}
         if not isinstance(event, Move):
-            counts.append((fold.open_darts(), fold.darts()))
+            counts.append((fold.open_darts(), sum(map(fold.degree, fold.roots()))))
     return {"counts": counts, "doubts": doubts, "worlds": [fold.world(1), fold.world(2)]}
 
 
@@ -97,7 +97,7 @@ def golden(names: Iterable[str]) -> list[Trace]:
 
 def guesses() -> list[Trace]:
     """Traces with decisions that do not follow: of guessers, and of planar ones without a plane."""
-    names = ("concludes-by-elimination", "confirms-what-is-alone", "identifies-without-turning")
+    names = ("concludes-by-elimination", "confirms-what-is-alone", "takes-each-place-for-known")
     mappers: list[Mapper | str] = [*(FAULTS[name] for name in names), "folding+planar"]
     found = [world for world in worlds([2, 3]) if world.is_planar][::4]
     return [without_the_prior(explore(world, by).trace) for by in mappers for world in found]

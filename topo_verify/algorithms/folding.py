@@ -14,14 +14,14 @@ hypothesis is left then, it is concluded without motion.
 
     letter       what it is
     e, h, vu     as in exploration.py
-    NodeDart     (node, door): a dart of a node; different pairs may be the same dart
+    NodeDart     a dart of a node, as a number; different numbers may be the same dart
 
 **What a test costs.** A test folds in a layer above what was seen; with the contradiction the layer
 is dropped. If there is none the layer is kept: behind the same e the hypothesis is tested again
 after each mismatch, and then only the places seen since are folded in. (Folding anew each time is
 quadratic in the places behind open edges.) One test takes time nearly linear in its identifications
-(union-find with offsets, by size). The code is written apart from `checkers/folding.py`; tests
-compare them.
+(union-find, by size), and a long run makes tens of millions of them; so `_fold` has its look-ups
+written out. The code is written apart from `checkers/folding.py`; tests compare them.
 
 Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite graphs", Invent. Math.
 71 (1983).
@@ -38,154 +38,206 @@ from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.robot.events import Evidence, MapDart
 from topo_verify.robot.percept import Door, Percept
 
-NodeDart = tuple[int, Door]
+NodeDart = int
+"""A dart of a node. They are numbered from 1, so that 0 is none."""
+
+OWN_END = "a dart would be its own other end"
+UNLIKE = "two degrees, or the marker and its absence, at one place"
+
+
+class SeenPlaces:
+    """What was seen, and what follows from that alone. Node by node, its darts clockwise.
+
+    Attributes, per dart: `node` (the first dart of its node), `around` (the darts of its node,
+    clockwise from it), `looks` (the signature of its node); `leader` (0, or a dart that it is),
+    `behind` (if it has no leader: 0, or the other end, or a dart that this leads). `weight`, per
+    node: how many it stands for, itself not counted. `known`: the nodes that are vertices of S.
+    """
+
+    def __init__(self) -> None:
+        """Nothing is seen yet."""
+        self.node: list[NodeDart] = [0]
+        self.around: list[tuple[NodeDart, ...]] = [()]
+        self.looks: list[tuple[int, bool]] = [(0, False)]
+        self.leader, self.behind, self.weight = [0], [0], [0]
+        self.known: set[NodeDart] = set()
+        self.joined: list[tuple[NodeDart, NodeDart]] = []  # every edge, in the order of `join`
+        self.merges = 0  # how many times places were identified
+
+    def add(self, percept: Percept) -> NodeDart:
+        """Add a node with this percept at its first dart, which is returned."""
+        first, degree = len(self.node), percept.degree
+        darts = range(first, first + degree)
+        self.node += [first] * degree
+        self.around += [(*darts[door:], *darts[:door]) for door in range(degree)]
+        self.looks += [percept.signature] * degree
+        for numbers in (self.leader, self.behind, self.weight):
+            numbers.extend([0] * degree)
+        return first
 
 
 class PartialFold:
     """Nodes, their identifications so far, and what lies behind their doors.
 
-    A fold may be a **layer** above another one: it reads through to the fold below and leaves it as
-    it is. So to undo is to drop the layer. A layer copies the doors of a node when it first puts an
-    end there; of what is joined below afterwards it learns by `follow`.
+    A fold may be a **layer** above another one: it reads through to what that has seen, and leaves
+    it as it is. So to undo is to drop the layer. Of what is joined below afterwards it learns by
+    `follow`.
 
     Every method that identifies returns "" or the contradiction it met. After a contradiction the
     fold is of no more use.
     """
 
     def __init__(self, below: PartialFold | None = None) -> None:
-        # As seen at each node with door 0 as the reference dart; a layer adds no nodes.
-        self.signatures: list[tuple[int, bool]] = [] if below is None else below.signatures
-        # Of an identified node: the leader, and by how many doors it is turned against it.
-        self.leader: dict[int, tuple[int, Door]] = {}
-        self.weight: dict[int, int] = {}  # how many nodes a leader stands for, if more than one
-        self.behind: dict[int, dict[Door, NodeDart]] = {}
-        self.known: set[int] = set()  # is it (has it been folded into) a vertex of S?
-        self.joined: list[tuple[NodeDart, NodeDart]] = []  # every edge, in the order of `join`
         self.below = below
-        self._leader, self._weight, self._behind, self._known = (
-            ({}, {}, {}, set[int]())
-            if below is None
-            else (below.leader, below.weight, below.behind, below.known)
-        )
-        self._merges, self._followed = len(self._leader), 0 if below is None else len(below.joined)
+        self.seen: SeenPlaces = SeenPlaces() if below is None else below.seen
+        # What is found beyond `seen`, by dart or node as there.
+        self.leader: dict[NodeDart, NodeDart] = {}
+        self.behind: dict[NodeDart, NodeDart] = {}
+        self.weight: dict[NodeDart, int] = {}
+        self._merges, self._followed = self.seen.merges, len(self.seen.joined)
 
     def layer(self) -> PartialFold:
         """An empty layer above this fold."""
         return type(self)(self)
 
-    def add(self, percept: Percept, *, known: bool = False) -> int:
-        """Add a node with this percept at its door 0. Returns the node."""
-        node = len(self.signatures)
-        self.signatures.append(percept.signature)
+    def add(self, percept: Percept, *, known: bool = False) -> NodeDart:
+        """Add a node with this percept at its door 0. Returns the dart of that door."""
+        first = self.seen.add(percept)
         if known:
-            self.known.add(node)
-        self.behind[node] = {}
-        return node
+            self.seen.known.add(first)
+        return first
 
-    def resolve(self, place: NodeDart) -> NodeDart:
-        """The pair that stands for all pairs that are the same dart."""
-        node, door = place
-        leader, below = self.leader, self._leader
-        while (up := leader.get(node) or below.get(node)) is not None:
-            node, turned = up
-            door += turned
-        return node, door % self.signatures[node][0]
+    def turn(self, dart: NodeDart, door: Door) -> NodeDart:
+        """The dart that is so many doors clockwise from this one."""
+        first = self.seen.node[dart]
+        return first + (dart - first + door) % self.seen.looks[dart][0]
 
-    def is_known(self, node: int) -> bool:
-        """Whether a leader is a vertex of S."""
-        return node in self.known or node in self._known
+    def resolve(self, dart: NodeDart) -> NodeDart:
+        """The dart that stands for all that are the same dart."""
+        while up := self.leader.get(dart) or self.seen.leader[dart]:
+            dart = up
+        return dart
 
-    def across(self, place: NodeDart) -> NodeDart | None:
-        """The other end of a dart's edge; None if nothing was seen behind it."""
-        node, door = self.resolve(place)
-        return self._doors(node).get(door)
+    def is_known(self, dart: NodeDart) -> bool:
+        """Whether the dart is one of a vertex of S."""
+        return self.seen.node[self.resolve(dart)] in self.seen.known
+
+    def across(self, dart: NodeDart) -> NodeDart:
+        """The other end of a dart's edge; 0 if nothing was seen behind it."""
+        dart = self.resolve(dart)
+        return self.behind.get(dart) or self.seen.behind[dart]
+
+    def know(self, dart: NodeDart) -> None:
+        """Take note that the dart is one of a vertex of S."""
+        self.seen.known.add(self.seen.node[self.resolve(dart)])
 
     def join(self, one: NodeDart, other: NodeDart) -> str:
         """Join two darts to one edge, and fold."""
-        self.joined.append((one, other))
+        if self.below is None:
+            self.seen.joined.append((one, other))
         one, other = self.resolve(one), self.resolve(other)
         if one == other:
-            return "a dart would be its own other end"
+            return OWN_END
         had, has = self.across(one), self.across(other)
-        if had is None:
-            self._put(one, other)
-        if has is None:
-            self._put(other, one)
-        return (had and self.identify(had, other)) or (has and self.identify(has, one)) or ""
+        if not had:
+            self.behind[one] = other
+        if not has:
+            self.behind[other] = one
+        # The last pair is folded first: what is behind h, if anything, with the vertex of e in S.
+        return self._drawn([pair for pair in ((had, other), (has, one)) if pair[0]])
 
     def identify(self, one: NodeDart, other: NodeDart) -> str:
         """Make two darts one, and fold."""
-        resolve, leader, below = self.resolve, self.leader, self._leader
-        waiting = [(one, other)]
+        return self._drawn([(one, other)], one_partner=False)
+
+    def _drawn(self, pairs: list[tuple[NodeDart, NodeDart]], *, one_partner: bool = True) -> str:
+        """Fold; where nothing was assumed, take what was found for seen, or drop it if it clashes.
+
+        (It never clashes in a world. What was found halfway would lead later folds in circles.)
+        """
+        wrong = self._fold(pairs, one_partner=one_partner)
+        if self.below is None:
+            self._keep(right=not wrong)
+        return wrong
+
+    def _fold(  # noqa: C901, PLR0912  one kernel, since it runs by the million
+        self, waiting: list[tuple[NodeDart, NodeDart]], *, one_partner: bool = True
+    ) -> str:
+        """Make the two darts of each pair one, and draw what follows.
+
+        Args:
+            one_partner: the two darts of each pair have one partner, so nothing more is to be
+                drawn from what lies behind them.
+        """
+        seen, leader, behind, weight = self.seen, self.leader, self.behind, self.weight
+        node, around, looks, known = seen.node, seen.around, seen.looks, seen.known
+        leader_seen, behind_seen, weight_seen = seen.leader, seen.behind, seen.weight
+        if any(looks[one] != looks[other] for one, other in waiting):
+            return UNLIKE
         while waiting:
-            one, other = waiting.pop()
-            (small, k), (large, n) = resolve(one), resolve(other)
+            small, large = waiting.pop()
+            while up := leader.get(small) or leader_seen[small]:
+                small = up
+            while up := leader.get(large) or leader_seen[large]:
+                large = up
             if small == large:
-                if k != n:
-                    return "a vertex would be itself, turned"
                 continue
-            if self._size(small) > self._size(large):  # keeps every chain of leaders short
-                small, k, large, n = large, n, small, k
-            if wrong := self._clash(small, large):
-                return wrong
-            self._merge(small, large, n - k)
-            turned, degree = leader[small][1], self.signatures[small][0]
-            doors = self._doors(large)
-            for door, end in self._doors(small).items():
-                moved = large, (door + turned) % degree
-                # Ends were resolved when they were put, so most of them stand for themselves.
-                place = resolve(end) if end[0] in leader or end[0] in below else end
-                if place == moved:
-                    return "a dart would be its own other end"
-                beyond = doors.get(moved[1])
-                if beyond is None:
-                    doors = self._put(moved, place)
-                elif beyond != place:
-                    waiting.append((beyond, place))
+            if node[small] == node[large]:
+                return "a vertex would be itself, turned"
+            if node[small] in known:  # it leads whatever is identified with it
+                if node[large] in known:
+                    return "two vertices of S would be one"
+                small, large = large, small
+            elif node[large] not in known:
+                s, n = node[small], node[large]
+                light, heavy = weight.get(s) or weight_seen[s], weight.get(n) or weight_seen[n]
+                if light > heavy:  # keeps every chain of leaders short
+                    small, large, n = large, small, s
+                weight[n] = light + 1 + heavy
+            # Alike, so of one degree.
+            for dart, same in zip(around[small], around[large]):  # noqa: B905  made by the million
+                leader[dart] = same
+                end = behind.get(dart) or behind_seen[dart]
+                if not end or (one_partner and dart == small):
+                    continue
+                while up := leader.get(end) or leader_seen[end]:
+                    end = up
+                if end == same:
+                    return OWN_END
+                beyond = behind.get(same) or behind_seen[same]
+                if not beyond:
+                    behind[same] = end
+                elif beyond != end:
+                    if looks[beyond] != looks[end]:
+                        return UNLIKE
+                    waiting.append((beyond, end))
         return ""
 
-    def _clash(self, small: int, large: int) -> str:
-        """Why two nodes cannot be one vertex, judged by what was seen at them; "" if they can."""
-        if self.signatures[small] != self.signatures[large]:
-            return "two degrees, or the marker and its absence, at one place"
-        both = self.is_known(small) and self.is_known(large)
-        return "two vertices of S would be one" if both else ""
+    def _keep(self, *, right: bool) -> None:
+        """Take for seen what was found, if it is right; and begin anew."""
+        seen = self.seen
+        seen.merges += len(self.leader) if right else 0
+        for found, kept in (
+            (self.leader, seen.leader),
+            (self.behind, seen.behind),
+            (self.weight, seen.weight),
+        ):
+            for place, number in found.items() if right else ():
+                kept[place] = number
+            found.clear()
 
-    def _merge(self, small: int, large: int, turned: Door) -> None:
-        """Make `large` the leader of `small`, whose door k is door k + turned of `large`."""
-        self.weight[large] = self._size(small) + self._size(large)
-        self.leader[small] = large, turned
-        if self.is_known(small):
-            self.known.add(large)
-
-    def _size(self, node: int) -> int:
-        """How many nodes a leader stands for."""
-        return self.weight.get(node) or self._weight.get(node, 1)
-
-    def _doors(self, node: int) -> dict[Door, NodeDart]:
-        """The doors of a leader with something behind them, and the other ends, as they came."""
-        doors = self.behind.get(node)
-        return self._behind[node] if doors is None else doors
-
-    def _put(self, place: NodeDart, beyond: NodeDart) -> dict[Door, NodeDart]:
-        """Note one end of an edge behind the other. Returns the doors there."""
-        node, door = place
-        if node not in self.behind:  # of the fold below, which stays as it is
-            self.behind[node] = self._behind[node].copy()
-        self.behind[node][door] = beyond
-        return self.behind[node]
-
-    def follow(self) -> bool:
+    def follow(self) -> str | None:
         """Fold in what was joined below since this layer was made or last followed.
 
         Returns:
-            Whether the layer still stands. It does not if it meets a contradiction now, or if
-            places were identified below, which a layer made before cannot be told.
+            As the methods that identify; or None if places were identified below, of which a layer
+            that was made before cannot be told.
         """
-        assert self.below is not None
-        new = self.below.joined[self._followed :]
+        new = self.seen.joined[self._followed :]
         self._followed += len(new)
-        return len(self._leader) == self._merges and not any(self.join(*edge) for edge in new)
+        if self.seen.merges != self._merges:
+            return None
+        return next((wrong for edge in new if (wrong := self.join(*edge))), "")
 
 
 class FoldingRule(NoRule):
@@ -194,20 +246,19 @@ class FoldingRule(NoRule):
     def __init__(self) -> None:
         self.fold = PartialFold()
         self.entries: list[NodeDart] = []  # of each vertex of S: its first dart
-        self.e: NodeDart = (0, 0)
-        self.vu: NodeDart = (0, 0)
+        self.e: NodeDart = 0
+        self.vu: NodeDart = 0
         self.assumed: dict[MapDart, PartialFold] = {}  # of each hypothesis kept: its layer
 
     def node_dart(self, chart: Chart, dart: MapDart) -> NodeDart:
-        """The node and door of a dart of S."""
+        """The dart of a node that a dart of S is."""
         v = chart.vertex[dart]
-        node, door = self.entries[v]
-        return node, door + dart - chart.first[v]
+        return self.fold.turn(self.entries[v], dart - chart.first[v])
 
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         """Take note of vu, which is a place seen before, or a new ghost."""
         if not self.entries:
-            self.entries.append((self.fold.add(chart.percepts[0], known=True), 0))
+            self.entries.append(self.fold.add(chart.percepts[0], known=True))
         self.e = self.node_dart(chart, e)
         self.vu = self._cross(self.e, percept)
         self.assumed.clear()
@@ -215,30 +266,28 @@ class FoldingRule(NoRule):
     def _cross(self, exit_place: NodeDart, percept: Percept) -> NodeDart:
         """The dart by which the robot comes in behind an exit; adds a ghost if it is new there."""
         beyond = self.fold.across(exit_place)
-        if beyond is None:
-            beyond = (self.fold.add(percept), 0)
+        if not beyond:
+            beyond = self.fold.add(percept)
             self.fold.join(exit_place, beyond)
             if percept.marker is not None:
-                self.fold.identify((beyond[0], percept.marker), (0, 0))
+                self.fold.identify(self.fold.turn(beyond, percept.marker), self.entries[0])
         return beyond
 
     def observe(self, sequence: Executed) -> None:
         """Keep every percept of an executed sequence."""
-        node, door = self.vu
-        for step, turn in enumerate(sequence.doors, 1):
-            node, door = self._cross((node, door + turn), sequence.percepts[step])
+        at = self.vu
+        for step, door in enumerate(sequence.doors, 1):
+            at = self._cross(self.fold.turn(at, door), sequence.percepts[step])
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
         """Why no world allows the hypothesis, if none does."""
         layer = self.assumed.pop(hypothesis.dart, None)
-        if layer is None or not layer.follow():
+        wrong = None if layer is None else layer.follow()
+        if layer is None or wrong is None:
             layer = self.fold.layer()
-            # Folded anew, so that the contradiction does not depend on what had been kept.
             wrong = layer.join(self.e, self.node_dart(chart, hypothesis.dart))
-        else:
-            wrong = ""
         if not wrong:
             self.assumed[hypothesis.dart] = layer
             return None
@@ -246,8 +295,7 @@ class FoldingRule(NoRule):
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The last hypothesis, once vu is known to be a vertex of S."""
-        node, _ = self.fold.resolve(self.vu)
-        return remaining[0] if len(remaining) == 1 and self.fold.is_known(node) else None
+        return remaining[0] if len(remaining) == 1 and self.fold.is_known(self.vu) else None
 
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
@@ -255,6 +303,6 @@ class FoldingRule(NoRule):
         """Note which vertex of S vu is: a new one, or that of `entry`."""
         if len(self.entries) < len(chart.first):
             self.entries.append(self.vu)
-            self.fold.known.add(self.fold.resolve(self.vu)[0])
+            self.fold.know(self.vu)
         else:
             self.fold.join(self.e, self.node_dart(chart, entry))

@@ -19,12 +19,13 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterator, Sequence
 from contextlib import suppress
+from copy import deepcopy
 from functools import lru_cache
 from itertools import islice
-from typing import NamedTuple, assert_never
+from typing import NamedTuple
 
 from topo_verify.checkers.darts import KnownDart
-from topo_verify.checkers.folding import Contradiction, Fold, Place
+from topo_verify.checkers.folding import Contradiction, Fold, Pair
 from topo_verify.checkers.map_on_fold import MapOnFold
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, MapData, Move, Reject, Start
@@ -158,8 +159,8 @@ def _is_met(on_fold: MapOnFold, event: Event) -> bool:
     if event.rule == "planar":
         cited = event.evidence.contradiction == "it lies on another face than e"
         return cited and h not in on_fold.face(e)
-    places = on_fold.place(e), on_fold.place(h)
-    return event.evidence.contradiction in on_fold.fold.contradictions(*places, on_fold.entries)
+    met = on_fold.fold.contradictions(on_fold.place(e), on_fold.place(h), on_fold.entries)
+    return any(contradiction == event.evidence.contradiction for contradiction, _ in met)
 
 
 def _unknown_dart(on_fold: MapOnFold, event: Concluded) -> str:
@@ -179,38 +180,35 @@ def _doubt(
     Its darts are unexplored darts of S. `tries`: only a planar world counts as a witness.
     """
     e = KnownDart(event.edge)
-    match event:
-        case Reject(_, h):
-            return _may_lead_to(on_fold, e, [KnownDart(h)], tries)
-        case Confirm(_, h):
-            return _may_be_apart(on_fold, e, KnownDart(h), None)
-        case Augment(_, "new", _, degree):
-            ends = [h for h in on_fold.others(e) if (e, h) not in refuted]
-            return _may_be_known(on_fold, e, degree) or _may_lead_to(on_fold, e, ends, tries)
-        case Augment(_, _, h, degree):
-            return _may_be_apart(on_fold, e, KnownDart(h), degree)
-        case _:
-            assert_never(event)
+    if isinstance(event, Reject):
+        return _may_lead_to(on_fold, e, [KnownDart(event.hypothesis)], tries)
+    if isinstance(event, Confirm):
+        return _may_be_apart(on_fold, e, KnownDart(event.hypothesis), None)
+    if event.kind == "loop":
+        return _may_be_apart(on_fold, e, KnownDart(event.dart), event.degree)
+    ends = [h for h in on_fold.others(e) if (e, h) not in refuted]
+    return _may_be_known(on_fold, e, event.degree) or _may_lead_to(on_fold, e, ends, tries)
 
 
 def _may_lead_to(on_fold: MapOnFold, e: KnownDart, ends: list[KnownDart], tries: Tries) -> Doubt:
     """Folding with e joined to each of these must contradict; else the fold shows an end of e."""
     fold, doubt = on_fold.fold, FOLLOWS
     face = ends if tries is None else on_fold.face(e)
-    for end in (end for end in ends if end in face):
-        with suppress(Contradiction), fold.assuming(on_fold.place(e), on_fold.place(end)):
-            if tries is None:
-                return "the edge may well lead there", fold.world()
-            if witness := _planar_folding(fold, tuple(islice(fold.alike(), FURTHER)), tries):
-                return "the edge may well lead there", witness
-            if next(tries, None) is None:
-                doubt = UNDECIDED
+    for places in ((on_fold.place(e), on_fold.place(end)) for end in ends if end in face):
+        if any(fold.contradictions(*places, ())):
+            continue
+        joined = deepcopy(fold)
+        joined.join(*places)
+        if tries is None:
+            return "the edge may well lead there", joined.world()
+        if witness := _planar_folding(joined, tuple(islice(joined.alike(), FURTHER)), tries):
+            return "the edge may well lead there", witness
+        if next(tries, None) is None:
+            doubt = UNDECIDED
     return doubt
 
 
-def _planar_folding(
-    fold: Fold, pairs: Sequence[tuple[Place, Place]], tries: Iterator[int]
-) -> World | None:
+def _planar_folding(fold: Fold, pairs: Sequence[Pair], tries: Iterator[int]) -> World | None:
     """The fold, or what it becomes if some of these pairs are each one dart, if it is planar."""
     world = fold.world()
     if world.is_planar:
@@ -218,8 +216,10 @@ def _planar_folding(
     for number, pair in enumerate(pairs, 1):
         if next(tries, None) is None:
             break
-        with suppress(Contradiction), fold.assuming(*pair, same=True):
-            if found := _planar_folding(fold, pairs[number:], tries):
+        with suppress(Contradiction):
+            further = deepcopy(fold)
+            further.identify(*pair)
+            if found := _planar_folding(further, pairs[number:], tries):
                 return found
     return None
 

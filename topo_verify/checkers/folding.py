@@ -15,7 +15,7 @@ that shows this history; so the result maps into all of them, dart by dart.
 - A **contradiction** (two degrees at one place, the marker seen at one and not at the other, a
   vertex turned against itself, a dart its own partner, a door that is not there) says that no world
   shows this history; and under an assumption, that it is false in every world that does. The first
-  one refutes; `contradictions` folds on past it and lists every kind that is met.
+  one refutes; `contradictions` folds on past it, and tells of every kind that follows.
 
 What this does not show: that the percepts are true (claim 1 does), or anything for a mapper that
 may assume more than "some connected embedded graph", as that it is planar.
@@ -27,9 +27,7 @@ Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite grap
 from __future__ import annotations
 
 from array import array
-from collections import deque
-from collections.abc import Generator, Iterator, MutableSequence, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from topo_verify.robot.percept import Door, Percept
@@ -38,8 +36,13 @@ from topo_verify.world.rooted_map import World
 Place = tuple[int, int]
 """A dart of the fold: a node and one of its doors. Different places may be one dart."""
 
-Undo = tuple[int, int | None]
-"""What is to be undone: a dart got its other end; or a node got a parent, and None."""
+Pair = tuple[Place, Place]
+"""Two places that are, or may be, one dart."""
+
+UNLIKE = "two degrees, or the marker and its absence, at one place"
+TURNED = "a vertex would be itself, turned"
+OWN_END = "a dart would be its own other end"
+TWO_OF_S = "two vertices of S would be one"
 
 NARROW = 64
 """A node of at most so many doors has room for the other end of each; a wider one has a table.
@@ -58,7 +61,7 @@ class Ends:
     def __init__(self) -> None:
         self._first = array("q")  # of each narrow node: where its darts begin in `_narrow`
         self._narrow = array("q")  # the node of the other end in the upper 32 bits, its dart; or -1
-        self._wide: dict[int, dict[int, Place | None]] = {}
+        self._wide: dict[int, dict[int, Place]] = {}
 
     def add(self, degree: int) -> None:
         """Let there be one more node, all its darts open."""
@@ -74,12 +77,12 @@ class Ends:
         end = self._narrow[self._first[node] + dart]
         return None if end < 0 else (end >> 32, end & 0xFFFFFFFF)
 
-    def put(self, node: int, dart: int, end: Place | None) -> None:
-        """Note the other end of a dart, or that it is open."""
+    def put(self, node: int, dart: int, end: Place) -> None:
+        """Note the other end of a dart."""
         if node in self._wide:
             self._wide[node][dart] = end
         else:
-            self._narrow[self._first[node] + dart] = -1 if end is None else end[0] << 32 | end[1]
+            self._narrow[self._first[node] + dart] = end[0] << 32 | end[1]
 
     def of(self, node: int, degree: int) -> list[tuple[int, Place]]:
         """The darts of a node of this degree that are not open, each with its other end."""
@@ -87,12 +90,19 @@ class Ends:
         return [(dart, end) for dart in darts if (end := self.get(node, dart)) is not None]
 
 
+Looks = dict[tuple[int, bool], Place]
+"""What may be behind a dart: for each signature that is seen there, one place."""
+
+Met = tuple[str, Sequence[Place]]
+"""A contradiction, and the places at which it is met."""
+
+
 class Contradiction(Exception):
     """No world shows this history (under the assumption made)."""
 
 
 class Fold:
-    """The fold of a history. Grows by `move`; `assuming` looks ahead and returns.
+    """The fold of a history. Grows by `move`; `contradictions` looks ahead.
 
     Attributes:
         at: where the robot stands: a node, and its reference dart there.
@@ -103,8 +113,6 @@ class Fold:
         # Dart d of a node is dart d + offset of its parent; as many nodes as its size are one.
         self._parent, self._offset, self._size = array("i"), array("i"), array("i")
         self._ends = Ends()
-        self._undo: MutableSequence[Undo] = deque(maxlen=0)  # kept only under an assumption
-        self._met: set[str] | None = None  # the contradictions so far, while they are listed
         self.at: Place = (self._visit(percept), 0)
 
     def _visit(self, percept: Percept) -> int:
@@ -128,10 +136,9 @@ class Fold:
         self.at = there, entry = self.find(known or (self._visit(percept), 0))
         self._require_alike(self._seen[there], percept)
         if known is None:
-            self._ends.put(*left, self.at)
-            self._ends.put(*self.at, left)
+            self.join(left, self.at)
         if marker is not None:
-            self._identify((there, entry + marker), (0, 0))
+            self.identify((there, entry + marker), (0, 0))
 
     def find(self, place: Place) -> Place:
         """The one place that stands for all that are the same dart."""
@@ -146,87 +153,88 @@ class Fold:
         return None if end is None else self.find(end)
 
     def join(self, one: Place, other: Place) -> None:
-        """Make the two the ends of one edge, and draw what follows. Raises Contradiction."""
+        """Make the two, of which nothing contradicts, the ends of one edge; draw what follows."""
         for place, end in ((one, other), (other, one)):
-            if known := self._put(self.find(place), end):
-                self._identify(known, end)
+            if known := self.partner(place):
+                self.identify(known, end)
+            else:
+                self._ends.put(*self.find(place), end)
 
-    def _meet(self, contradiction: str) -> None:
-        if self._met is None:
-            raise Contradiction(contradiction)
-        self._met.add(contradiction.partition(":")[0])
+    def _require_alike(self, one: Percept, other: Percept) -> None:
+        """Raise Contradiction unless two percepts may be of one place."""
+        if not one.is_like(other):
+            raise Contradiction(f"{UNLIKE}: {other} and {one}")
 
-    def _require_alike(self, one: Percept, other: Percept) -> bool:
-        """Whether two percepts may be of one place; if not, that is a contradiction."""
-        if not (alike := one.is_like(other)):
-            clash = "two degrees, or the marker and its absence, at one place"
-            self._meet(f"{clash}: {other} and {one}")
-        return alike
-
-    def _identify(self, one: Place, other: Place) -> None:
+    def identify(self, one: Place, other: Place) -> None:
         """Make the two one dart, and draw what follows. Raises Contradiction."""
         pairs = [(one, other)]
         while pairs:
             (a, i), (b, j) = map(self.find, pairs.pop())
             if a == b:
                 if i != j:
-                    self._meet("a vertex would be itself, turned")
+                    raise Contradiction(TURNED)
                 continue
             if self._size[a] > self._size[b]:
                 (a, i), (b, j) = (b, j), (a, i)
-            if not self._require_alike(self._seen[a], self._seen[b]):
-                continue
-            # Paths are never shortened: to undo a union is to cut one link, and unions by size keep
-            # the paths logarithmic.
+            self._require_alike(self._seen[a], self._seen[b])
+            # Unions by size keep the paths logarithmic.
             self._parent[a], self._offset[a] = b, j - i
             self._size[b] += self._size[a]
-            self._undo.append((a, None))
-            for dart, end in self._ends.of(a, self.degree(a)):
-                if known := self._put(self.find((a, dart)), end):
+            for dart, beyond in self._ends.of(a, self.degree(a)):
+                place, end = self.find((a, dart)), self.find(beyond)
+                if place == end:
+                    raise Contradiction(OWN_END)
+                if known := self._ends.get(*place):
                     pairs.append((known, end))
-
-    def _put(self, place: Place, end: Place) -> Place | None:
-        """Put an end behind an open place; or return what is there, which must be the same dart."""
-        known, end = self._ends.get(*place), self.find(end)
-        if place == end:
-            self._meet("a dart would be its own other end")
-            return None
-        if known is None:
-            self._ends.put(*place, end)
-            self._undo.append(place)
-        return known
-
-    @contextmanager
-    def assuming(self, one: Place, other: Place, *, same: bool = False) -> Generator[None]:
-        """Inside the block the two are ends of one edge; after it the fold is as before.
-
-        Args:
-            same: they are one dart, instead.
-        Raises Contradiction at the head of the block, if there is one; nothing remains of it.
-        """
-        outer, self._undo = self._undo, list[Undo]()
-        try:
-            (self._identify if same else self.join)(one, other)
-            yield
-        finally:
-            for node, dart in reversed(self._undo):
-                if dart is not None:
-                    self._ends.put(node, dart, None)
                 else:
-                    self._size[self._parent[node]] -= self._size[node]
-                    self._parent[node], self._offset[node] = node, 0
-            self._undo = outer
+                    self._ends.put(*place, end)
 
-    def contradictions(self, one: Place, other: Place, apart: Sequence[Place] = ()) -> set[str]:
-        """The contradictions if the two are ends of one edge, and no two of `apart` one vertex."""
-        self._met = met = set[str]()
-        with self.assuming(one, other):
-            self._met = None
-            if len({self.find(place)[0] for place in apart}) < len(apart):
-                met.add("two vertices of S would be one")
-        return met
+    def _behind(self, place: Place, drawn: dict[Place, Looks]) -> Looks:
+        """The other ends of a dart: those drawn so far, or the one of the fold, if it has one."""
+        if place not in drawn:
+            end = self.partner(place)
+            drawn[place] = {} if end is None else {self._seen[end[0]].signature: end}
+        return drawn[place]
 
-    def alike(self) -> Iterator[tuple[Place, Place]]:
+    def contradictions(self, one: Place, other: Place, apart: Sequence[Place]) -> Iterator[Met]:
+        """Those that follow if the two are ends of one edge, and no two of `apart` one vertex.
+
+        What follows is the least relation in which next ones clockwise of what is one are one, and
+        so are other ends that look alike: it does not depend on the order. The fold stays as it is.
+        """
+        same: dict[Place, Place] = {}  # of a place that is one with another: such a one
+        ends: dict[Place, Looks] = {}
+        one, other = self.find(one), self.find(other)
+        waiting = [(one, other, True), (other, one, True)]  # ends of one edge; False: one dart
+
+        def find(place: Place) -> Place:
+            while place in same:
+                place = same[place]
+            return place
+
+        while waiting:
+            one, other, are_ends = waiting.pop()
+            (a, i), (b, j) = one, other = find(one), find(other)
+            if are_ends:
+                behind = self._behind(one, ends)
+                waiting.append((other, behind.setdefault(self._seen[b].signature, other), False))
+                if one == other:
+                    yield OWN_END, [one]
+                if len(behind) > 1:
+                    yield UNLIKE, [*behind.values()]
+            elif one != other:
+                if a == b:
+                    yield TURNED, [one, other]
+                for door in range(n := self.degree(a)):
+                    one, other = find((a, (i + door) % n)), find((b, (j + door) % n))
+                    if one != other:
+                        same[one] = other
+                        behind = self._behind(one, ends)
+                        waiting += [(other, end, True) for end in behind.values()]
+        if len({find(self.find(place))[0] for place in apart}) < len(apart):
+            yield TWO_OF_S, apart
+
+    def alike(self) -> Iterator[Pair]:
         """The pairs of places that may be one dart: each two vertices once in every turn."""
         for one, other in combinations(self.roots(), 2):
             if self._seen[one].is_like(self._seen[other]):
@@ -240,31 +248,26 @@ class Fold:
         """How many darts were never crossed, neither way."""
         return sum(self.degree(v) - len(self._ends.of(v, self.degree(v))) for v in self.roots())
 
-    def darts(self) -> int:
-        """How many darts there are."""
-        return sum(self._seen[node].degree for node in self.roots())
-
     def roots(self) -> list[int]:
         """One node for each place of the fold."""
         return [node for node, parent in enumerate(self._parent) if node == parent]
 
     def world(self, pendant_length: int = 1) -> World:
         """The fold as a world, with a path of so many vertices hung on every open dart."""
-        first, count = dict[int, int](), 0  # of each node, the number of its dart 0
+        number, vertices = dict[Place, int](), list[tuple[int, ...]]()
         for node in self.roots():
-            first[node], count = count, count + self.degree(node)
-        vertices = [tuple(range(dart, dart + self.degree(node))) for node, dart in first.items()]
-        edges: list[tuple[int, int]] = []
-        for node, start in first.items():
-            for dart in range(self.degree(node)):
-                here, end = start + dart, self.partner((node, dart))
-                if end is None:
-                    last = count + 2 * (pendant_length - 1)
-                    vertices += [*((d, d + 1) for d in range(count, last, 2)), (last,)]
-                    edges += [(here, count), *((d + 1, d + 2) for d in range(count, last, 2))]
-                    count = last + 1
-                elif here < (there := first[end[0]] + end[1]):  # an edge is met at both its ends
-                    edges.append((here, there))
+            darts = range(len(number), len(number) + self.degree(node))
+            vertices.append(tuple(darts))
+            number |= {(node, door): dart for door, dart in enumerate(darts)}
+        count, edges = len(number), list[tuple[int, int]]()
+        for place, here in number.items():
+            end = self.partner(place)
+            if end is None:
+                path = range(count, count + 2 * pendant_length - 1)  # two darts a vertex, then one
+                vertices += [*zip(path[:-1:2], path[1::2], strict=True), (path[-1],)]
+                edges += zip((here, *path[1::2]), path[::2], strict=True)
+                count = path.stop
+            elif here < number[end]:  # an edge is met at both its ends
+                edges.append((here, number[end]))
         # The robot starts at v0, its reference dart the marked one; the least world has no dart.
-        node, dart = self.find((0, 0)) if count else (0, 0)
-        return World.from_rotations(vertices, edges, first[node] + dart if count else None)
+        return World.from_rotations(vertices, edges, number[self.find((0, 0))] if count else None)

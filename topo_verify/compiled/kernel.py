@@ -103,6 +103,7 @@ SOURCES = [
         "judging.justified",
         "judging.truth",
         "judging.fold",
+        "judging.consequences",
         "judging.entailed",
         "judging.verdict",
         "tally",

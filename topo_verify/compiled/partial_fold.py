@@ -1,10 +1,13 @@
-"""Nodes, their identifications so far, and what lies behind their doors.
+"""Places that were seen, their identifications so far, and what lies behind their doors.
 
-Mirrors: algorithms/folding.py, `PartialFold`. Differs: a test of a hypothesis folds in the one fold
-there is (`LAYER` is set), and each change is noted and taken back. The reference drops a layer, and
-keeps it while it stands; what it cites is always of a layer made anew, and so the same. The doors
-of a node are visited in the order in which they were filled, as those of the reference's
-dictionaries: that decides which contradiction is met first.
+Mirrors: algorithms/folding.py, `SeenPlaces` and `PartialFold`, with the same numbers for darts and
+the same order of identifications, which decides what contradiction is met first. Differs: there is
+one fold, and a **layer** is a list of changes. Whatever is found is noted and taken back, unless it
+follows from what was seen alone. A layer that is kept is its changes, and they are made again
+before it folds on: so it reads through to what was joined below since, as the reference's does.
+
+A change is one word: where, and what stands there (the new word in a layer, the old one in what is
+to be taken back). `around` is written out: the darts of a node are numbers in a row.
 
 Source: docs/semantics.md, section 11.
 """
@@ -19,226 +22,265 @@ from topo_verify.compiled.faults import (
 )
 from topo_verify.compiled.kernel import Words, kernel
 from topo_verify.compiled.workspace import (
-    BASE,
-    BEHIND_DOOR,
-    BEHIND_NODE,
-    FILLED,
+    BEHIND,
+    CHANGED,
+    CHANGES,
     FULL_PLACES,
     KNOWN,
-    LAYER,
+    LAID,
+    LAYER_END,
+    LAYER_FIRST,
+    LAYER_WORDS,
+    LAYERS_EVEN,
+    LAYERS_ODD,
     LEADER,
+    LOOKS,
     MASK,
-    NPLACE_DOORS,
-    NPLACES,
-    NUNDO,
-    OFFSET,
-    ORDER,
-    PLACE_DOORS,
-    PLACES,
+    MERGES,
+    NCHANGES,
+    NLAYER_WORDS,
+    NODE,
+    NPLACE_DARTS,
+    PLACE_DARTS,
     SHIFT,
-    SIGNATURE,
+    STAGE,
     STOP,
     STOP_FULL,
-    UNDO,
-    UNDO_FILL,
-    UNDO_KNOWN,
-    UNDO_MERGE,
     WAITING,
     WEIGHT,
 )
 
+WORD = 32
+"""A change is `where << WORD`, and what stands there."""
+
 
 @kernel
 def add_place(W: Words, percept: int, known: int) -> int:
-    """Add a node with this percept at its door 0. Returns the node."""
-    node = W[NPLACES]
-    base = W[NPLACE_DOORS]
+    """Add a node with this percept at its first dart, which is returned; 0: `STOP` is set."""
+    first = W[NPLACE_DARTS]
     degree = percept >> SHIFT
-    if node >= PLACES or base + degree > PLACE_DOORS:
+    if first + degree > PLACE_DARTS:
         W[STOP] = STOP_FULL + FULL_PLACES
         return 0
-    W[LEADER + node] = node
-    W[OFFSET + node] = 0
-    W[WEIGHT + node] = 1
-    W[SIGNATURE + node] = 2 * degree + ((percept & MASK) > 0)
-    W[KNOWN + node] = 1 if planted(W, TAKES_EACH_PLACE_FOR_KNOWN) else known
-    W[BASE + node] = base
-    W[FILLED + node] = 0
-    for i in range(base, base + degree):
-        W[BEHIND_NODE + i] = -1
-    W[NPLACES] = node + 1
-    W[NPLACE_DOORS] = base + degree
-    return node
+    for dart in range(first, first + degree):
+        W[NODE + dart] = first
+        W[LOOKS + dart] = 2 * degree + ((percept & MASK) > 0)
+        W[LEADER + dart] = 0
+        W[BEHIND + dart] = 0
+        W[WEIGHT + dart] = 0
+    W[KNOWN + first] = 1 if planted(W, TAKES_EACH_PLACE_FOR_KNOWN) else known
+    W[NPLACE_DARTS] = first + degree
+    return first
 
 
 @kernel
-def resolve(W: Words, node: int, door: int) -> tuple[int, int]:
-    """The pair that stands for all pairs that are the same dart."""
-    degree = W[SIGNATURE + node] >> 1
-    while door >= degree:
-        door -= degree
-    up = W[LEADER + node]
-    while up != node:
-        door += W[OFFSET + node]
-        if door >= degree:
-            door -= degree
-        node = up
-        up = W[LEADER + node]
-    return node, door
+def turn_at_place(W: Words, dart: int, door: int) -> int:
+    """The dart that is so many doors clockwise from this one."""
+    first = W[NODE + dart]
+    return first + (dart - first + door) % (W[LOOKS + dart] >> 1)
 
 
 @kernel
-def across(W: Words, node: int, door: int) -> tuple[int, int]:
-    """The other end of a dart's edge; (-1, 0) if nothing was seen behind it."""
-    node, door = resolve(W, node, door)
-    i = W[BASE + node] + door
-    if W[BEHIND_NODE + i] < 0:
-        return -1, 0
-    return W[BEHIND_NODE + i], W[BEHIND_DOOR + i]
+def resolve(W: Words, dart: int) -> int:
+    """The dart that stands for all that are the same dart."""
+    up = W[LEADER + dart]
+    while up != 0:
+        dart = up
+        up = W[LEADER + dart]
+    return dart
 
 
 @kernel
-def join_places(W: Words, one: int, k: int, other: int, n: int) -> int:
-    """Join two darts to one edge, and fold. Returns the contradiction; 0: none."""
-    one, k = resolve(W, one, k)
-    other, n = resolve(W, other, n)
-    if one == other and k == n:
-        return OWN_OTHER_END
-    had, had_door = across(W, one, k)
-    has, has_door = across(W, other, n)
-    if had < 0:
-        put(W, one, k, other, n)
-    if has < 0:
-        put(W, other, n, one, k)
-    wrong = 0
-    if had >= 0:
-        wrong = identify(W, had, had_door, other, n)
-    if wrong == 0 and has >= 0:
-        wrong = identify(W, has, has_door, one, k)
-    return wrong
+def across(W: Words, dart: int) -> int:
+    """The other end of a dart's edge; 0 if nothing was seen behind it."""
+    return W[BEHIND + resolve(W, dart)]
 
 
 @kernel
-def identify(W: Words, one: int, k: int, other: int, n: int) -> int:
-    """Make two darts one, and fold. Returns the contradiction; 0: none."""
+def join_seen(W: Words, one: int, other: int) -> None:
+    """Join two darts to one edge, and fold; nothing is assumed."""
+    take_for_seen(W, join_places(W, one, other))
+
+
+@kernel
+def identify_seen(W: Words, one: int, other: int) -> None:
+    """Make two darts one, and fold; nothing is assumed."""
     W[WAITING] = one
-    W[WAITING + 1] = k
-    W[WAITING + 2] = other
-    W[WAITING + 3] = n
-    waiting = 4
-    while waiting > 0:
-        waiting -= 4
-        i = WAITING + waiting
-        small, k = resolve(W, W[i], W[i + 1])
-        large, n = resolve(W, W[i + 2], W[i + 3])
-        if small == large:
-            if k != n:
-                return TURNED_ITSELF
-            continue
-        if W[WEIGHT + small] > W[WEIGHT + large]:  # keeps every chain of leaders short
-            small, large = large, small
-            k, n = n, k
-        if W[SIGNATURE + small] != W[SIGNATURE + large]:
+    W[WAITING + 1] = other
+    take_for_seen(W, fold(W, 2, 0))
+
+
+@kernel
+def join_places(W: Words, one: int, other: int) -> int:
+    """Join two darts to one edge, and fold. Returns the contradiction; 0: none."""
+    one = resolve(W, one)
+    other = resolve(W, other)
+    if one == other:
+        return OWN_OTHER_END
+    had = W[BEHIND + one]
+    has = W[BEHIND + other]
+    if had == 0:
+        change(W, BEHIND + one, other)
+    if has == 0:
+        change(W, BEHIND + other, one)
+    # The last pair is folded first: what is behind h, if anything, with the vertex of e in S.
+    waiting = 0
+    if had != 0:
+        W[WAITING] = had
+        W[WAITING + 1] = other
+        waiting = 2
+    if has != 0:
+        W[WAITING + waiting] = has
+        W[WAITING + waiting + 1] = one
+        waiting += 2
+    return fold(W, waiting, 1)
+
+
+@kernel
+def fold(W: Words, waiting: int, one_partner: int) -> int:
+    """Make the two darts of each pair one, and draw what follows. Returns the contradiction.
+
+    Args:
+        waiting: how many words of pairs wait.
+        one_partner: whether the two darts of each pair have one partner, so that nothing more is to
+            be drawn from what lies behind them.
+    """
+    for i in range(WAITING, WAITING + waiting, 2):
+        if W[LOOKS + W[i]] != W[LOOKS + W[i + 1]]:
             return UNLIKE
-        if W[KNOWN + small] != 0 and W[KNOWN + large] != 0:
-            return TWO_OF_S
-        merge(W, small, large, n - k)
-        waiting = move_doors(W, small, large, waiting)
+    while waiting > 0:
+        waiting -= 2
+        small = resolve(W, W[WAITING + waiting])
+        large = resolve(W, W[WAITING + waiting + 1])
+        if small == large:
+            continue
+        s = W[NODE + small]
+        n = W[NODE + large]
+        if s == n:
+            return TURNED_ITSELF
+        if W[KNOWN + s] != 0:  # it leads whatever is identified with it
+            if W[KNOWN + n] != 0:
+                return TWO_OF_S
+            small, large = large, small
+        elif W[KNOWN + n] == 0:
+            light = W[WEIGHT + s]
+            heavy = W[WEIGHT + n]
+            if light > heavy:  # keeps every chain of leaders short
+                small, large = large, small
+                n = s
+            change(W, WEIGHT + n, light + 1 + heavy)
+        waiting = lay(W, small, large, waiting, one_partner)
         if waiting < 0:
-            return OWN_OTHER_END
+            return -waiting
         if W[STOP] != 0:
             return UNLIKE
     return 0
 
 
 @kernel
-def merge(W: Words, small: int, large: int, turned: int) -> None:
-    """Make `large` the leader of `small`, whose door k is door k + turned of `large`."""
-    if turned < 0:
-        turned += W[SIGNATURE + small] >> 1
-    if planted(W, IDENTIFIES_WITHOUT_TURNING):
-        turned = 0
-    W[WEIGHT + large] += W[WEIGHT + small]
-    W[LEADER + small] = large
-    W[OFFSET + small] = turned
-    note(W, small, UNDO_MERGE)
-    if W[KNOWN + small] != 0 and W[KNOWN + large] == 0:
-        W[KNOWN + large] = 1
-        note(W, large, UNDO_KNOWN)
+def lay(W: Words, small: int, large: int, waiting: int, one_partner: int) -> int:
+    """Make each dart of a node one with that of its leader, from these two on, clockwise.
 
-
-@kernel
-def move_doors(W: Words, small: int, large: int, waiting: int) -> int:
-    """Put the doors of a node to those of its leader. Returns the words that are waiting then.
-
-    It returns -1 where a dart would be its own other end.
+    Returns the words of pairs that wait then; or the contradiction, as a negative number.
     """
-    degree = W[SIGNATURE + small] >> 1
-    turned = W[OFFSET + small]
-    base = W[BASE + small]
-    for number in range(W[FILLED + small]):
-        door = W[ORDER + base + number]
-        moved = door + turned
-        if moved >= degree:
-            moved -= degree
-        node, k = resolve(W, W[BEHIND_NODE + base + door], W[BEHIND_DOOR + base + door])
-        if node == large and k == moved:
-            return -1
-        i = W[BASE + large] + moved
-        if W[BEHIND_NODE + i] < 0:
-            put(W, large, moved, node, k)
-        elif W[BEHIND_NODE + i] != node or W[BEHIND_DOOR + i] != k:
-            if waiting + 4 > PLACE_DOORS:
-                W[STOP] = STOP_FULL + FULL_PLACES
-                return 0
-            W[WAITING + waiting] = W[BEHIND_NODE + i]
-            W[WAITING + waiting + 1] = W[BEHIND_DOOR + i]
-            W[WAITING + waiting + 2] = node
-            W[WAITING + waiting + 3] = k
-            waiting += 4
+    W[LAID] += 1
+    degree = W[LOOKS + small] >> 1  # alike, so of one degree
+    dart = small
+    same = large
+    if planted(W, IDENTIFIES_WITHOUT_TURNING):
+        dart = W[NODE + small]
+        same = W[NODE + large]
+    beyond_dart = W[NODE + small] + degree
+    beyond_same = W[NODE + large] + degree
+    for _ in range(degree):
+        change(W, LEADER + dart, same)
+        end = W[BEHIND + dart]
+        if end != 0 and not (one_partner != 0 and dart == small):
+            end = resolve(W, end)
+            if end == same:
+                return -OWN_OTHER_END
+            beyond = W[BEHIND + same]
+            if beyond == 0:
+                change(W, BEHIND + same, end)
+            elif beyond != end:
+                if W[LOOKS + beyond] != W[LOOKS + end]:
+                    return -UNLIKE
+                if waiting + 2 > PLACE_DARTS:
+                    W[STOP] = STOP_FULL + FULL_PLACES
+                    return waiting
+                W[WAITING + waiting] = beyond
+                W[WAITING + waiting + 1] = end
+                waiting += 2
+        dart += 1
+        if dart == beyond_dart:
+            dart -= degree
+        same += 1
+        if same == beyond_same:
+            same -= degree
     return waiting
 
 
-@kernel
-def put(W: Words, node: int, door: int, beyond_node: int, beyond_door: int) -> None:
-    """Note one end of an edge behind the other, which is a dart of a leader with nothing behind."""
-    base = W[BASE + node]
-    W[BEHIND_NODE + base + door] = beyond_node
-    W[BEHIND_DOOR + base + door] = beyond_door
-    W[ORDER + base + W[FILLED + node]] = door
-    W[FILLED + node] += 1
-    note(W, node, UNDO_FILL)
-
-
-# ---------------------------------------------------------------- a layer
+# ---------------------------------------------------------------- changes, and layers of them
 
 
 @kernel
-def note(W: Words, node: int, change: int) -> None:
-    """Note a change if it is to be taken back."""
-    if W[LAYER] != 0:
-        n = W[NUNDO]
-        if n >= PLACE_DOORS:
-            W[STOP] = STOP_FULL + FULL_PLACES
-            return
-        W[UNDO + n] = 4 * node + change
-        W[NUNDO] = n + 1
+def change(W: Words, where: int, word: int) -> None:
+    """Write a word, and note what stood there."""
+    number = W[NCHANGES]
+    if number >= CHANGED:
+        W[STOP] = STOP_FULL + FULL_PLACES
+        return
+    W[CHANGES + number] = (where << WORD) + W[where]
+    W[NCHANGES] = number + 1
+    W[where] = word
+
+
+@kernel
+def take_for_seen(W: Words, wrong: int) -> None:
+    """Take for seen what was found where nothing was assumed; or drop it if it clashes."""
+    if wrong != 0:
+        take_back(W)
+    W[MERGES] += W[LAID]
+    W[LAID] = 0
+    W[NCHANGES] = 0
 
 
 @kernel
 def take_back(W: Words) -> None:
-    """Take back every change of the layer, the last one first."""
-    while W[NUNDO] > 0:
-        W[NUNDO] -= 1
-        change = W[UNDO + W[NUNDO]] & 3
-        node = W[UNDO + W[NUNDO]] >> 2
-        if change == UNDO_FILL:
-            W[FILLED + node] -= 1
-            base = W[BASE + node]
-            W[BEHIND_NODE + base + W[ORDER + base + W[FILLED + node]]] = -1
-        elif change == UNDO_KNOWN:
-            W[KNOWN + node] = 0
-        else:
-            W[WEIGHT + W[LEADER + node]] -= W[WEIGHT + node]
-            W[LEADER + node] = node
-            W[OFFSET + node] = 0
+    """Take back every change, the last one first."""
+    for i in range(W[NCHANGES] - 1, -1, -1):
+        changed = W[CHANGES + i]
+        W[changed >> WORD] = changed & ((1 << WORD) - 1)
+    W[NCHANGES] = 0
+    W[LAID] = 0
+
+
+@kernel
+def layers_of(stage: int) -> int:
+    """The field that has the layers of a stage."""
+    return LAYERS_ODD if stage & 1 else LAYERS_EVEN
+
+
+@kernel
+def keep_layer(W: Words, h: int) -> None:
+    """Keep what is found as the layer of a hypothesis."""
+    end = W[NLAYER_WORDS]
+    if end + W[NCHANGES] > LAYER_WORDS:
+        W[STOP] = STOP_FULL + FULL_PLACES
+        return
+    W[LAYER_FIRST + h] = end
+    base = layers_of(W[STAGE]) + end
+    for i in range(W[NCHANGES]):
+        where = W[CHANGES + i] >> WORD
+        W[base + i] = (where << WORD) + W[where]
+    end += W[NCHANGES]
+    W[LAYER_END + h] = end
+    W[NLAYER_WORDS] = end
+
+
+@kernel
+def lay_again(W: Words, h: int) -> None:
+    """Make the changes of the layer that was kept of a hypothesis, at the stage before."""
+    base = layers_of(W[STAGE] - 1)
+    for i in range(base + W[LAYER_FIRST + h], base + W[LAYER_END + h]):
+        change(W, W[i] >> WORD, W[i] & ((1 << WORD) - 1))

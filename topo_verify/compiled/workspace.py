@@ -17,8 +17,8 @@ run with a reason in `STOP`; nothing is written beyond it.
     CHART       dart (and vertex) of S                    CHART_DARTS
     STEPS       step of the sequences behind one e        STEPS
     RECORDS     percept on record behind unexplored darts RECORDS
-    PLACES      node of the fold                          PLACES
-    DOORS       door of a node of the fold                PLACE_DOORS
+    PLACES      dart of a node of the fold                PLACE_DARTS
+    LAYERS      change in a layer that is kept            LAYER_WORDS
 
 Source: docs/semantics.md, sections 1 to 3; the fields of algorithms/chart.py and motion.py.
 """
@@ -58,8 +58,9 @@ CAPACITIES = {
     "CHART_DARTS": 320,
     "STEPS": 2048,
     "RECORDS": 4096,
-    "PLACES": 4096,
-    "PLACE_DOORS": 16384,
+    "PLACE_DARTS": 16384,
+    "CHANGED": 32768,
+    "LAYER_WORDS": 65536,
     "TRACE": 65536,
 }
 """How many entries the fields of `SMALL` have."""
@@ -105,8 +106,9 @@ WORLD_DARTS = CAPACITIES["WORLD_DARTS"]
 CHART_DARTS = CAPACITIES["CHART_DARTS"]
 STEPS = CAPACITIES["STEPS"]
 RECORDS = CAPACITIES["RECORDS"]
-PLACES = CAPACITIES["PLACES"]
-PLACE_DOORS = CAPACITIES["PLACE_DOORS"]
+PLACE_DARTS = CAPACITIES["PLACE_DARTS"]
+CHANGED = CAPACITIES["CHANGED"]
+LAYER_WORDS = CAPACITIES["LAYER_WORDS"]
 TRACE = CAPACITIES["TRACE"]
 FAULTS = 0
 """Whether mistakes can be planted; 1 in `FAULTY`."""
@@ -190,28 +192,31 @@ RC_BEHIND = row("RC_BEHIND", "RECORDS")  # the first record behind it; -1: none
 RC_NEXT = row("RC_NEXT", "RECORDS")  # the next one behind the same place; -1: none
 
 # ---------------------------------------------------------------- the fold: partial_fold.py
-NPLACES = one("NPLACES")  # nodes
-NPLACE_DOORS = one("NPLACE_DOORS")  # doors of all nodes
-LEADER = row("LEADER", "PLACES")  # the node itself, or the one it was made one with
-OFFSET = row("OFFSET", "PLACES")  # door k is door k + OFFSET of LEADER
-WEIGHT = row("WEIGHT", "PLACES")  # how many nodes a leader stands for
-SIGNATURE = row("SIGNATURE", "PLACES")  # 2 * degree, and 1 if the marker is here
-KNOWN = row("KNOWN", "PLACES")  # whether it is a vertex of S
-BASE = row("BASE", "PLACES")  # its door 0 among all doors
-FILLED = row("FILLED", "PLACES")  # how many of its doors have an end
-BEHIND_NODE = row("BEHIND_NODE", "PLACE_DOORS")  # the other end of a door: node; -1: none
-BEHIND_DOOR = row("BEHIND_DOOR", "PLACE_DOORS")  # the other end of a door: door
-ORDER = row("ORDER", "PLACE_DOORS")  # a node's doors as they were filled
-WAITING = row("WAITING", "PLACE_DOORS")  # pairs of darts that are still to be made one
-NUNDO = one("NUNDO")  # what is to be taken back
-UNDO = row("UNDO", "PLACE_DOORS")  # 4 * node + UNDO_…: what was changed, in order
-LAYER = one("LAYER")  # whether changes are to be taken back
-VN = row("VN", "CHART_DARTS")  # of each vertex of S: its node
-VD = row("VD", "CHART_DARTS")  # of each vertex of S: the node's door that is its first dart
-E_NODE = one("E_NODE")
-E_DOOR = one("E_DOOR")
-VU_NODE = one("VU_NODE")
-VU_DOOR = one("VU_DOOR")
+NPLACE_DARTS = one("NPLACE_DARTS")  # darts of all nodes, and 0, which is none
+NODE = row("NODE", "PLACE_DARTS")  # the first dart of its node
+LOOKS = row("LOOKS", "PLACE_DARTS")  # of its node: 2 * degree, and 1 if the marker is here
+LEADER = row("LEADER", "PLACE_DARTS")  # a dart that it is; 0: it leads
+BEHIND = row("BEHIND", "PLACE_DARTS")  # the other end of a dart that leads; 0: not seen
+WEIGHT = row("WEIGHT", "PLACE_DARTS")  # of a first dart: how many nodes its node stands for
+KNOWN = row("KNOWN", "PLACE_DARTS")  # of a first dart: whether its node is a vertex of S
+WAITING = row("WAITING", "PLACE_DARTS")  # pairs of darts that are still to be made one
+NCHANGES = one("NCHANGES")  # changes of a test so far
+CHANGES = row("CHANGES", "CHANGED")  # where a word was changed, and what stood there
+LAID = one("LAID")  # nodes that were identified by these changes
+MERGES = one("MERGES")  # how many times seen places were identified
+NJOINED = one("NJOINED")  # edges that the last sequence added to what was seen
+JOINED_ONE = row("JOINED_ONE", "CHART_DARTS")  # one end of each
+JOINED_OTHER = row("JOINED_OTHER", "CHART_DARTS")  # the other end
+ANEW = one("ANEW")  # whether each hypothesis is to be folded anew
+LAYERS_EVEN = row("LAYERS_EVEN", "LAYER_WORDS")  # layers: where a word differs, and that word
+LAYERS_ODD = row("LAYERS_ODD", "LAYER_WORDS")  # the same, of every other stage
+STAGE = one("STAGE")  # stages so far in which layers were written
+NLAYER_WORDS = one("NLAYER_WORDS")  # words of the layers of this stage
+LAYER_FIRST = row("LAYER_FIRST", "CHART_DARTS")  # where the layer of a hypothesis begins
+LAYER_END = row("LAYER_END", "CHART_DARTS")  # where it ends
+ENTRIES = row("ENTRIES", "CHART_DARTS")  # of each vertex of S: the dart that its first dart is
+PLACE_E = one("PLACE_E")  # the dart that e is
+PLACE_VU = one("PLACE_VU")  # the dart by which the robot came to vu
 FACE = row("FACE", "CHART_DARTS")  # the number of the last e on whose face the dart was
 NFACES = one("NFACES")  # how many faces were walked: the number of this e
 
@@ -219,8 +224,6 @@ NFACES = one("NFACES")  # how many faces were walked: the number of this e
 TR = row("TR", "TRACE")
 
 RULE_NONE, RULE_PREFIX, RULE_HISTORY, RULE_ONE, RULE_ALL, RULE_FOLDING, RULE_PLANAR = range(7)
-
-UNDO_MERGE, UNDO_FILL, UNDO_KNOWN = range(3)
 
 STOP_BUDGET = 1  # one more move than the budget
 STOP_DOOR = 2  # no such door
@@ -236,8 +239,9 @@ LARGE = layout(
         "CHART_DARTS": 1 << 17,
         "STEPS": 1 << 21,
         "RECORDS": 1 << 21,
-        "PLACES": 1 << 20,
-        "PLACE_DOORS": 1 << 22,
+        "PLACE_DARTS": 1 << 22,
+        "CHANGED": 1 << 23,
+        "LAYER_WORDS": 1 << 26,
         "TRACE": 1,
     },
 )

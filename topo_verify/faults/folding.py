@@ -9,7 +9,7 @@ from topo_verify.algorithms.folding import FoldingRule, NodeDart, PartialFold
 from topo_verify.algorithms.motion import Hypothesis
 from topo_verify.faults.fault import Fault, mapper
 from topo_verify.robot.events import MapDart
-from topo_verify.robot.percept import Door, Percept
+from topo_verify.robot.percept import Percept
 
 
 def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
@@ -23,24 +23,25 @@ def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
     return rule
 
 
-class _StaysKnown(PartialFold):
+class _StaysIdentified(PartialFold):
     def layer(self) -> PartialFold:
         layer = super().layer()
-        layer.known = self.known  # the reference notes apart what is known under a hypothesis
+        # The reference notes apart what it identifies under a hypothesis.
+        layer.leader = self.leader
         return layer
 
 
 keeps_an_assumption_for_good = Fault(
     name="keeps-an-assumption-for-good",
     part="folding",
-    why="a place that became a vertex of S under a hypothesis stays one when that is dropped",
-    claim="true-hypothesis-kept",
-    mapper=mapper("folding", rule=_folding(_StaysKnown)),
+    why="what was identified under a hypothesis stays identified when that is dropped",
+    claim="map-entailed",
+    mapper=mapper("folding", rule=_folding(_StaysIdentified)),
 )
 
 
 class _AllKnown(PartialFold):
-    def add(self, percept: Percept, *, known: bool = True) -> int:
+    def add(self, percept: Percept, *, known: bool = True) -> NodeDart:
         return super().add(percept, known=known)
 
 
@@ -55,8 +56,11 @@ takes_each_place_for_known = Fault(
 
 
 class _Unturned(PartialFold):
-    def _merge(self, small: int, large: int, turned: Door) -> None:
-        super()._merge(small, large, 0 * turned)  # the reference turns them against each other
+    def add(self, percept: Percept, *, known: bool = False) -> NodeDart:
+        first = super().add(percept, known=known)
+        # The reference lays two nodes on each other from any dart on, this one from their first.
+        self.seen.around[first:] = [self.seen.around[first]] * percept.degree
+        return first
 
 
 identifies_without_turning = Fault(
@@ -72,7 +76,7 @@ identifies_without_turning = Fault(
 class _FromDoor0(FoldingRule):
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         super().arrive(chart, e, percept)
-        self.vu = self.vu[0], 0
+        self.vu = self.fold.seen.node[self.vu]
 
 
 enters_old_places_by_door_0 = Fault(

@@ -46,8 +46,8 @@ def gap(trace: Sequence[Event]) -> Gap:
         match event:
             case Move(door, percept):
                 if setting_out:  # the history up to here is what the choice was made with
-                    e = on_fold.place(edge)
-                    refuted |= {h for h in alive if fold.contradictions(e, on_fold.place(h))}
+                    e, ends = on_fold.place(edge), ((h, on_fold.place(h)) for h in alive)
+                    refuted |= {h for h, end in ends if any(fold.contradictions(e, end, ()))}
                     setting_out = False
                 fold.move(door, percept)
             case Pose(e, hypotheses):

@@ -89,7 +89,7 @@ def certify(trace: Sequence[Event]) -> Certificate:
         map=judged.map,
         open_darts=left,
         vertices=len(fold.roots()) + left if shown else 0,
-        edges=(fold.darts() + left) // 2 if shown else 0,
+        edges=(sum(map(fold.degree, fold.roots())) + left) // 2 if shown else 0,
         entailed=sum(not conclusion.why for conclusion in judged.conclusions),
         decisions=sum(isinstance(event, Concluded) for event in trace),
         findings=judged.findings,

@@ -7,12 +7,11 @@ that a picture can ring them. Nothing is judged here.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from typing import NamedTuple
 
 from topo_verify.checkers.darts import WorldDart
 from topo_verify.checkers.entailment import followed
-from topo_verify.checkers.folding import Contradiction, Fold, Place, Undo
+from topo_verify.checkers.folding import UNLIKE, Fold, Place
 from topo_verify.checkers.map_on_fold import MapOnFold
 from topo_verify.player.scenes import Moment
 from topo_verify.robot.events import Augment, Reject, Start
@@ -33,13 +32,12 @@ class FoldPlaces(NamedTuple):
 
 
 class _WatchedFold(Fold):
-    """A fold that tells which visits it identified, and which two are not alike."""
+    """A fold that tells which visits it identified, and which two would not be alike."""
 
     def __init__(self, percept: Percept) -> None:
-        self.apart: tuple[int, int] | None = None
+        self.merged: list[int] = []  # the nodes that were found to be another one
         self._whose: dict[int, int] = {}  # by identity: the visit that has a percept
         super().__init__(percept)
-        self._undo = list[Undo]()  # of all that is identified, not under an assumption alone
 
     def _visit(self, percept: Percept) -> int:
         # A percept of its own for each visit, so that `_require_alike` can tell whose it is.
@@ -47,34 +45,29 @@ class _WatchedFold(Fold):
         self._whose[id(self._seen[node])] = node
         return node
 
-    def _require_alike(self, one: Percept, other: Percept) -> bool:
-        if one.signature != other.signature:
-            # A percept that was just sensed belongs to no visit yet.
-            nodes = sorted(self._whose.get(id(percept), -1) for percept in (one, other))
-            self.apart = nodes[0], nodes[1]
-        return super()._require_alike(one, other)
+    def _require_alike(self, one: Percept, other: Percept) -> None:
+        super()._require_alike(one, other)
+        if id(other) in self._whose:  # a percept that was just sensed belongs to no visit yet
+            self.merged.append(self._whose[id(one)])
 
     @property
     def visits(self) -> int:
         """How many nodes there are."""
         return len(self._seen)
 
-    @property
-    def mark(self) -> int:
-        """What `identified` counts from."""
-        return len(self._undo)
-
     def identified(self, mark: int) -> list[int]:
-        """The nodes that were found to be another one since `mark`, but for those of v0."""
-        lost = [node for node, dart in self._undo[mark:] if dart is None]
-        return [node for node in lost if self.find((node, 0))[0] != self.find((0, 0))[0]]
+        """The nodes that were found to be another one since so many were, but for those of v0."""
+        v0, _ = self.find((0, 0))
+        return [node for node in self.merged[mark:] if self.find((node, 0))[0] != v0]
 
     def clash(self, one: Place, other: Place) -> tuple[int, int] | None:
-        """Two nodes that would be one place if these were the ends of one edge, and differ."""
-        self.apart = None
-        with suppress(Contradiction), self.assuming(one, other):
-            pass
-        return self.apart
+        """Two nodes that would be one place if these were the ends of one edge, and differ.
+
+        None if another contradiction is met before.
+        """
+        contradiction, places = next(self.contradictions(one, other, ()), ("", ()))
+        nodes = sorted(node for node, _ in places)
+        return (nodes[0], nodes[1]) if contradiction == UNLIKE else None
 
 
 LONGEST = 20_000
@@ -94,7 +87,7 @@ def fold_places(moments: Sequence[Moment]) -> FoldPlaces:
     on_fold = MapOnFold(fold)
     visited = [first]
     for number, moment in enumerate(moments):
-        mark = fold.mark
+        mark = len(fold.merged)
         if moment.position is None or followed(fold, moment.event):
             break
         visited += [moment.position] * (fold.visits - len(visited))

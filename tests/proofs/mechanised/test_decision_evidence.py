@@ -75,7 +75,7 @@ def holds(fold: Fold, places: list[tuple[int, int]], fact: Fact) -> bool:
         for visit, door in (fact.one, fact.other)
     )
     if isinstance(fact.reason, EdgeRefutation):
-        return bool(fold.contradictions(one, other))
+        return any(fold.contradictions(one, other, ()))
     return fold.partner(one) == fold.find(other)
 
 

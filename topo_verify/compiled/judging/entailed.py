@@ -21,6 +21,7 @@ from topo_verify.compiled.events import (
     REJECT,
     TWO_OF_S,
 )
+from topo_verify.compiled.judging.consequences import all_that_follow
 from topo_verify.compiled.judging.fold import (
     find_dart,
     find_node,
@@ -285,4 +286,6 @@ def is_met(W: Words, J: Words, i: int) -> bool:
                 ):
                     found |= 1 << TWO_OF_S
     roll_back(J, mark)
+    if (found >> cited) & 1 == 0 and found != 0:  # it may follow where the fold drew no more
+        found = all_that_follow(J, e, h)
     return (found >> cited) & 1 != 0

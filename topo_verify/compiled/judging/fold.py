@@ -26,6 +26,7 @@ from topo_verify.compiled.judging.layout import (
     F_NODES,
     F_NUMBER,
     F_OFFSET,
+    F_OWNER,
     F_PARENT,
     F_SIZE,
     F_UNDO,
@@ -71,6 +72,7 @@ def visit(J: Words, percept: int) -> int:
     J[F_BASE + node] = base
     for at in range(base, base + degree):
         J[F_END_NODE + at] = -1
+        J[F_OWNER + at] = node
     J[F_NODES] = node + 1
     J[F_DOORS] = base + degree
     return node

@@ -155,9 +155,24 @@ F_WORK = _field(JUDGE_DOORS)
 F_MET = _field()
 """-1: a contradiction ends the folding. Otherwise a mask of the contradictions met so far."""
 F_FIRST = _field(JUDGE_DARTS)
+F_OWNER = _field(JUDGE_DOORS // 4)
+"""Of each place where the other end of a dart is kept: its node."""
 F_ALPHA = _field(JUDGE_DARTS)
 F_VERTEX = _field(JUDGE_DARTS)
 F_SIZE = _field(JUDGE_DARTS)
+
+# ---------------------------------------------------------------- what follows of an assumption
+
+C_MET = _field()
+"""A mask of the contradictions."""
+C_WAITING = _field()
+C_ENTRIES = _field()
+C_SAME = _field(JUDGE_DOORS // 4)
+"""Of each place: one that is the same dart; itself, where it stands for all."""
+C_FIRST = _field(JUDGE_DOORS // 4)
+"""The first entry of what is behind it, one of each look; -1: it is open."""
+C_END = _field(JUDGE_DOORS)
+C_NEXT = _field(JUDGE_DOORS)
 
 # ---------------------------------------------------------------- S on the fold
 

@@ -137,20 +137,20 @@ def _trie(seen: Seen) -> Hashable:
 
 def _numbered(fold: PartialFold) -> Iterator[Hashable]:
     """The nodes as they are found from v0 on: what was seen, and what each door leads to."""
-    places: dict[int, tuple[int, Door]] = {}  # of a leader: its number, and the door counted as 0
+    seen = fold.seen
+    places: dict[NodeDart, tuple[int, NodeDart]] = {}  # of a node: its number, and its dart found
     queue: list[NodeDart] = []
 
-    def number(place: NodeDart) -> tuple[int, Door]:
-        node, door = fold.resolve(place)
-        if node not in places:
-            places[node] = len(queue), door
-            queue.append((node, door))
-        found, first = places[node]
-        return found, (door - first) % fold.signatures[node][0]
+    def number(dart: NodeDart) -> tuple[int, Door]:
+        dart = fold.resolve(dart)
+        if seen.node[dart] not in places:
+            places[seen.node[dart]] = len(queue), dart
+            queue.append(dart)
+        found, first = places[seen.node[dart]]
+        return found, (dart - first) % seen.looks[dart][0]
 
-    number((0, 0))
-    for node, first in queue:  # grows as it goes
-        degree = fold.signatures[node][0]
-        ends = [fold.across((node, first + door)) for door in range(degree)]
-        row = tuple(None if end is None else number(end) for end in ends)
-        yield fold.signatures[node], fold.is_known(node), row
+    number(1)  # v0's dart with the marker
+    for dart in queue:  # grows as it goes
+        ends = [fold.across(fold.turn(dart, door)) for door in range(seen.looks[dart][0])]
+        row = tuple(number(end) if end else None for end in ends)
+        yield seen.looks[dart], fold.is_known(dart), row

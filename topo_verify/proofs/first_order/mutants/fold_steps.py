@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from topo_verify.algorithms import planar
-from topo_verify.algorithms.folding import PartialFold
+from topo_verify.algorithms.folding import NodeDart, PartialFold
 from topo_verify.proofs.first_order import axioms as t
 from topo_verify.proofs.first_order import rules as r
 from topo_verify.proofs.first_order.mutants.mutant import AWAY, TRUE, RuleMutant, x
@@ -36,11 +36,11 @@ def _plays_ghost(replay: SceneReplay, _rule: Term) -> bool:
     nodes = [partial.add(replay.chart.percepts[first], known=True) for first in replay.chart.first]
     ghost = partial.add(vu, known=True)  # the fault: it is not known to be a vertex of S
 
-    def place(dart: int) -> tuple[int, int]:
+    def place(dart: int) -> NodeDart:
         v = replay.chart.vertex[dart]
-        return nodes[v], dart - replay.chart.first[v]
+        return partial.turn(nodes[v], dart - replay.chart.first[v])
 
-    partial.join(place(replay.dart("e")), (ghost, 0))
+    partial.join(place(replay.dart("e")), ghost)
     refuted = partial.join(place(replay.dart("e")), place(replay.dart("h")))
     return bool(refuted) and replay.truth("e", "h")
 
