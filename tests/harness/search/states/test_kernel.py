@@ -211,6 +211,6 @@ def test_a_true_way_home_that_differs_is_seen(monkeypatch: pytest.MonkeyPatch) -
 @pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
 @pytest.mark.usefixtures("uncompiled")
 def test_more_states_than_there_is_room_for_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kernel, "ROOM", 20)
+    monkeypatch.setattr(kernel, "ROOM", 16)
     with pytest.raises(InternalError, match="has too many states for the kernel"):
         table.found_in(World.from_id("m3/9"), CATALOGUE["basic"])
