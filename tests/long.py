@@ -39,6 +39,7 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_two_runs_differ_in_timing_alone",
     ),
     "cli/test_coverage_shown.py": ("test_a_search_and_a_report_over_many_worlds_say_so_as_well",),
+    "cli/test_engine.py": ("test_a_local_cluster_gives_the_entry_of_workers_here",),
     "cli/test_exits.py": (
         "test_a_full_disk_is_told_as_such",
         "test_a_reader_who_leaves_early_ends_the_work",
@@ -173,6 +174,11 @@ LONG: dict[str, tuple[str, ...]] = {
         r"test_a_worker_with_another_topo_verify_is_refused\[.*\]",
         "test_a_worker_with_another_mapper_is_refused",
         "test_a_world_that_takes_every_worker_with_it_is_undecided_and_convicts_nobody",
+        r"test_results_are_equal_byte_for_byte_to_those_of_workers_here\[.*\]",
+    ),
+    "harness/test_cluster_engine.py": (
+        "test_a_worker_that_is_killed_changes_no_total",
+        "test_a_worker_without_numba_is_named_with_the_mend",
         r"test_results_are_equal_byte_for_byte_to_those_of_workers_here\[.*\]",
     ),
     "harness/test_engines.py": (

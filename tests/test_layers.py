@@ -75,9 +75,7 @@ MADE_OF = {
 LOADED_LATE = {
     "topo_verify.world.drawing": {"numpy", "networkx", "scipy"},
     "topo_verify.player.animation": set[str](),
-    "topo_verify.harness.search.states.jit": {"numba", "numpy"},
-    "topo_verify.harness.search.states.kernel": {"numpy"},
-    "topo_verify.harness.search.states.best": set[str](),
+    "topo_verify.harness.search.states.best": {"numpy"},
 }
 """Parts of a room that the rest of the house imports late: what they may load in their turn.
 

@@ -31,10 +31,18 @@ from topo_verify.compiled.events import BY_FOLDING, REJECT, TWO_OF_S, UNLIKE, sp
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.shard import examine_range
 from topo_verify.compiled.workspace import TRACE
+from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
 from topo_verify.world.enumeration import rank_order
 
 MAPPERS = (*CATALOGUE, *PLANTED)
+
+DRAWS_TOO_MUCH = {
+    "goes-on-as-if-just-come-in",
+    "takes-each-place-for-known",
+    "identifies-without-turning",
+}
+"""Faults whose maps do not fit into the workspace in some world of 4 edges: a run is refused."""
 
 Difference = tuple[str, Judged, Judged | None]
 
@@ -124,7 +132,12 @@ def test_machine_code_gives_every_run_to_4_edges_the_verdict_of_the_checkers(nam
     faults = {name: name} if name in FAULTS else None
     for edges in range(1, 5):
         for rank, world in enumerate(worlds(edges=edges)):
-            (counts,) = examine_range([name], edges, start=rank, stop=rank + 1, faults=faults)
+            try:
+                (counts,) = examine_range([name], edges, start=rank, stop=rank + 1, faults=faults)
+            except InputError as error:
+                assert name in DRAWS_TOO_MUCH
+                assert "needs more room than the compiled engine has" in str(error)  # noqa: PT017  it may come or not
+                continue
             run = run_of(world, FAULTS.get(name, name), name)
             assert counted(counts) == by_checkers(run), (
                 f"m{edges}/{rank} of {rank_order.count(edges)}"

@@ -5,7 +5,8 @@ A **kernel** is a function with the decorator `kernel` or `inlined` (other kerne
 that type checkers read and that tests may run with every index checked. `compiled` makes machine
 code of it:
 
-1. It takes the sources of all kernels and leaves out annotations and docstrings.
+1. It takes the sources of all kernels and leaves out annotations and docstrings: of this package's
+   kernels (`SOURCES`), or of the modules that a layout names.
 2. It writes the constants above them: every upper-case integer of the kernels' modules, the offsets
    of the workspace among them. So one source serves every layout, and an offset costs nothing.
 3. It makes every index unsigned, or numba would test each one for being negative.
@@ -76,6 +77,18 @@ class WordTable(Protocol):
         ...
 
 
+class WordCube(Protocol):
+    """Tables of 64-bit integers, by number, row and column: in use a numpy array."""
+
+    def __getitem__(self, at: tuple[int, int, int], /) -> int:
+        """The word in this table, row and column."""
+        ...
+
+    def __setitem__(self, at: tuple[int, int, int], word: int, /) -> None:
+        """Write the word in this table, row and column."""
+        ...
+
+
 SOURCES = [
     f"topo_verify.compiled.{name}"
     for name in (
@@ -109,7 +122,7 @@ SOURCES = [
         "tally",
     )
 ]
-"""The modules with kernels, and with constants that kernels use."""
+"""The modules of the twin's kernels, and of constants that they use."""
 
 
 def kernel(function: F) -> F:
@@ -128,7 +141,7 @@ def inlined(function: F) -> F:
 def entry(function: F) -> F:
     """The function itself. The mark says that Python calls its machine code: see `compiled`.
 
-    Its parameters are annotated with `Words`, `WordTable` and `int`.
+    Its parameters are annotated with `Words`, `WordTable`, `WordCube` and `int`.
     """
     return function
 
@@ -180,7 +193,12 @@ def _say(sentence: str) -> None:
     sys.stderr.flush()
 
 
-_TYPES = {"Words": "int64[::1]", "WordTable": "int64[:, ::1]", "int": "int64"}
+_TYPES = {
+    "Words": "int64[::1]",
+    "WordTable": "int64[:, ::1]",
+    "WordCube": "int64[:, :, ::1]",
+    "int": "int64",
+}
 
 
 def _signature(function: Callable[..., object]) -> str:
@@ -211,7 +229,7 @@ def module_source(layout: WordLayout, *, checked: bool = False) -> str:
     """The text of one module that has the constants of a layout and every kernel."""
     numbers: dict[str, int] = {}
     functions: list[ast.FunctionDef] = []
-    for name in SOURCES:
+    for name in layout.sources or SOURCES:
         module = import_module(name)
         numbers.update(_constants(module))
         functions += _kernels(Path(str(module.__file__)))

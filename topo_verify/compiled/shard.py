@@ -50,6 +50,7 @@ from topo_verify.compiled.tally import (
     T_CHEAPER,
     T_CLAIM_FAILING,
     T_CLAIM_FIRST,
+    T_CLAIM_NEWLY_FAILING,
     T_COLUMNS,
     T_DEARER,
     T_DEARER_COSTS,
@@ -63,6 +64,7 @@ from topo_verify.compiled.tally import (
     T_JUDGED,
     T_MOST,
     T_MOTION,
+    T_NEWLY_FAILING,
     T_OF,
     T_RULE,
     T_STATUS,
@@ -104,6 +106,9 @@ class ShardCounts(msgspec.Struct, frozen=True):
         algorithm: its name.
         worlds, failing: in how many worlds it ran; in how many a claim fails.
         claims: of each claim, in how many worlds it fails, and the rank of the first; -1: none.
+        newly_failing: in how many worlds a claim fails for it, and for no algorithm before it.
+        newly_failing_claims: of each claim, in how many worlds it fails for this one and for no
+            algorithm before it.
         undecided: runs with an undecided claim of which none fails.
         statuses: of each claim, how many runs have which status.
         shares: of each claim, how much was judged in all runs together, of how much.
@@ -121,6 +126,8 @@ class ShardCounts(msgspec.Struct, frozen=True):
     worlds: int
     failing: int
     claims: dict[str, tuple[int, int]]
+    newly_failing: int
+    newly_failing_claims: dict[str, int]
     undecided: int
     statuses: dict[str, dict[str, int]]
     shares: dict[str, tuple[int, int]]
@@ -279,6 +286,8 @@ class _Shard:
             worlds=row[T_WORLDS],
             failing=row[T_FAILING],
             claims=failing,
+            newly_failing=row[T_NEWLY_FAILING],
+            newly_failing_claims={c: row[T_CLAIM_NEWLY_FAILING + k] for k, c in places},
             undecided=undecided,
             statuses=statuses,
             shares={claim: (row[T_JUDGED + k], row[T_OF + k]) for k, claim in places},

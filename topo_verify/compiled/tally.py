@@ -2,8 +2,8 @@
 
 `T` has one row for each algorithm: what it is, and its counts. `ROOM` says how long a trace may be.
 Mirrors harness/search/tallier.py.
-Differs: the kernel counts each algorithm alone; it keeps ranks, no findings. A run whose verdict is
-open ends the walk, so that Python has the checkers judge it and `enter_open` count it.
+Differs: each algorithm is counted in its own row; ranks are kept, no findings. A run whose verdict
+is open ends the walk, so that Python has the checkers judge it and `enter_open` count it.
 """
 
 from __future__ import annotations
@@ -69,6 +69,9 @@ T_WORST = _column(KEPT_RANKS)
 T_FAILING_RANKS = _column(KEPT_RANKS)
 T_CLAIM_FAILING = _column(CLAIM_COUNT)
 T_CLAIM_FIRST = _column(CLAIM_COUNT)
+T_NEWLY_FAILING = _column()
+"""In how many worlds this row is the first that fails; so the rows' sum counts no world twice."""
+T_CLAIM_NEWLY_FAILING = _column(CLAIM_COUNT)
 T_STATUS = _column(CLAIM_COUNT * STATUS_COUNT)
 T_JUDGED = _column(CLAIM_COUNT)
 T_OF = _column(CLAIM_COUNT)
@@ -81,9 +84,10 @@ T_DEARER_COSTS = _column(KEPT_RANKS)
 T_DEARER_OTHERS = _column(KEPT_RANKS)
 T_COLUMNS = _used
 
-C_LEVEL, C_STOP_AT_FIRST, C_RANK, C_ROW, C_SIZE = range(5)
+C_LEVEL, C_STOP_AT_FIRST, C_RANK, C_ROW, C_FAILED, C_SIZE = range(6)
 """The places of `C`: the level of the judge; whether the first failing world ends the walk; the
-rank of the world that lies in W, and the row that is next there (0: the next world)."""
+rank of the world that lies in W, the row that is next there (0: the next world), and a mask of the
+claims that fail there in a row before."""
 
 MIXED = 0x9E3779B97F4A7C15 - (1 << 64)
 
@@ -97,6 +101,7 @@ def examine_worlds(W: Words, G: Words, J: Words, C: Words, T: WordTable, rows: i
             if rank < 0:
                 return 0
             C[C_RANK] = rank
+            C[C_FAILED] = 0
         rank = C[C_RANK]
         while C[C_ROW] < rows:
             row = C[C_ROW]
@@ -105,7 +110,7 @@ def examine_worlds(W: Words, G: Words, J: Words, C: Words, T: WordTable, rows: i
             )
             if wrong < 0:
                 return 1
-            enter(J, T, row, rank, wrong)
+            enter(J, C, T, wrong)
             C[C_ROW] = row + 1
         C[C_ROW] = 0
         if rows == 2:
@@ -145,8 +150,10 @@ def examine_run(
 
 
 @kernel
-def enter(J: Words, T: WordTable, row: int, rank: int, wrong: int) -> None:
+def enter(J: Words, C: Words, T: WordTable, wrong: int) -> None:
     """Count a judged run in its row."""
+    row = C[C_ROW]
+    rank = C[C_RANK]
     cost = J[J_COST]
     T[row, T_WORLDS] += 1
     digest = (J[J_DOORS_HASH] ^ cost) * MIXED
@@ -160,6 +167,8 @@ def enter(J: Words, T: WordTable, row: int, rank: int, wrong: int) -> None:
             if T[row, T_CLAIM_FAILING + k] == 0:
                 T[row, T_CLAIM_FIRST + k] = rank
             T[row, T_CLAIM_FAILING + k] += 1
+            if (C[C_FAILED] >> k) & 1 == 0:
+                T[row, T_CLAIM_NEWLY_FAILING + k] += 1
     digest = (digest ^ rank) * MIXED
     T[row, T_DIGEST] += digest ^ ((digest >> 31) & 0x1FFFFFFFF)
     T[row, T_COST] = -1
@@ -167,6 +176,9 @@ def enter(J: Words, T: WordTable, row: int, rank: int, wrong: int) -> None:
         if T[row, T_FAILING] < KEPT_RANKS:
             T[row, T_FAILING_RANKS + T[row, T_FAILING]] = rank
         T[row, T_FAILING] += 1
+        if C[C_FAILED] == 0:
+            T[row, T_NEWLY_FAILING] += 1
+        C[C_FAILED] |= wrong
         return
     T[row, T_COST] = cost
     T[row, T_TOTAL] += cost
@@ -204,7 +216,7 @@ def enter_open(J: Words, C: Words, T: WordTable, rows: int) -> int:
     for k in range(J[J_LEVEL]):
         if J[J_STATUS + k] == FAILED:
             wrong |= 1 << k
-    enter(J, T, C[C_ROW], C[C_RANK], wrong)
+    enter(J, C, T, wrong)
     C[C_ROW] += 1
     if C[C_ROW] < rows:
         return 0

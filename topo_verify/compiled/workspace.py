@@ -43,10 +43,12 @@ class WordLayout:
     Attributes:
         name: part of the name of the module of machine code.
         constants: the capacities and the offset of every field, by name; `SIZE`, the words in all.
+        sources: the modules of its kernels; (): those of this package.
     """
 
     name: str
     constants: dict[str, int] = field(hash=False, compare=False)
+    sources: tuple[str, ...] = ()
 
     def at(self, name: str) -> int:
         """The offset of a field."""

@@ -92,6 +92,11 @@ class Cluster:
     def __init__(self, address: str, client: _Client) -> None:
         self.address, self.client = address, client
 
+    @property
+    def is_local(self) -> bool:
+        """Whether its workers are on this machine."""
+        return self.address == LOCAL
+
     def threads(self) -> int:
         """How many tasks its workers can do at the same time.
 

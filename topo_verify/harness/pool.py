@@ -43,9 +43,6 @@ from topo_verify.harness.pieces import Piece, Pieces
 from topo_verify.harness.work import Loss, ResultT, TaskT, Work
 from topo_verify.harness.worker import TaskDone, WorkerFailed, WorkerProcess, WorkerReady
 
-LOADING = 120.0
-"""Seconds that a worker has to get ready."""
-
 TURN = 0.2
 """Seconds between two looks at the heartbeats."""
 
@@ -126,7 +123,7 @@ class Pool(Generic[TaskT, ResultT]):
                 self._hear(key.data)
         for worker in tuple(self._at):
             silence = worker.silence()
-            if silence > (self._work.silence if worker.ready else LOADING):
+            if silence > (self._work.silence if worker.ready else self._work.loading):
                 self._lose(worker, silence)
         if self._in_flight is not None:
             self._in_flight(sum(worker.items for worker in self._at))

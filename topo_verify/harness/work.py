@@ -110,6 +110,7 @@ class Work(Generic[TaskT, ResultT]):
             were lost, each with the piece that it was at, and the pieces that were given up;
             default: what it came to.
         silence: a worker that writes no heartbeat for so many seconds is lost.
+        loading: seconds that a worker has to get ready.
         attempts: so many workers may be lost with a task.
         division: how a task is cut; None: it cannot be.
         remote: what other machines need; None: the work is done on this one only.
@@ -123,6 +124,7 @@ class Work(Generic[TaskT, ResultT]):
         lambda result, _losses, _given_up: result
     )
     silence: float
+    loading: float = 120.0
     attempts: int = 2
     division: Division[TaskT, ResultT] | None = None
     remote: Remote[TaskT, ResultT] | None = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,8 @@ import msgspec
 import pytest
 
 from topo_verify import CATALOGUE, Exploration, InputError, InternalError, Limits, explore
+from topo_verify.faults import FAULTS
+from topo_verify.harness.engines import CompiledAlgorithm
 from topo_verify.harness.ledger import Ledger
 from topo_verify.harness.search import compiled_shard
 from topo_verify.harness.search import plan as planning
@@ -23,6 +26,7 @@ from topo_verify.harness.tally import Tally
 from topo_verify.harness.targets import targets
 from topo_verify.harness.verify import small_worlds
 from topo_verify.harness.verify.small_worlds import SmallWorlds
+from topo_verify.programs.loader import Target
 from topo_verify.world.enumeration.classes import WorldClass
 
 pytest.importorskip("numba")
@@ -76,6 +80,42 @@ def test_slices_and_workers_change_nothing(monkeypatch: pytest.MonkeyPatch) -> N
     for one, other in zip(whole.by_edges, cut.by_edges, strict=True):
         assert plain(other.tally) == plain(one.tally)
         assert other.tally.digest == one.tally.digest
+
+
+WRONG = {
+    "basic": "tries-only-the-nearest-two",
+    "enhancement-ii": "takes-unknown-for-a-mismatch",
+    "folding": "forgets-that-vu-may-be-new",
+}
+"""Algorithms, and the mistakes that are planted in them here."""
+
+
+@pytest.mark.parametrize("keep_going", [False, True])
+@pytest.mark.parametrize(("edges", "start", "stop"), [(3, 0, 74), (4, 300, 500)])
+def test_several_algorithms_that_fail_are_counted_as_the_checkers_count_them(
+    monkeypatch: pytest.MonkeyPatch, edges: int, start: int, stop: int, *, keep_going: bool
+) -> None:
+    examine = engine.examine_range
+
+    def planted(world: Any, target: Any, **options: Any) -> Exploration:
+        if "engine" not in options:
+            run = explore(world, target, **options)
+            return replace(run, mapper=None)  # a fault does not run in witness worlds
+        wrong = Target(target, CompiledAlgorithm(target, WRONG[target]))
+        start, *events = (run := explore(world, wrong, limits=options["limits"])).trace
+        start = msgspec.structs.replace(start, policies=None)  # those of a seeded fault are unknown
+        return replace(run, trace=(start, *events))
+
+    monkeypatch.setattr(engine, "examine_range", partial(examine, faults=WRONG))
+    monkeypatch.setattr(compiled_shard, "explore", planted)
+    plan = Plan(targets=tuple(WRONG), edges=edges, engine="compiled", keep_going=keep_going)
+    mappers = [Target(text, FAULTS[fault]) for text, fault in WRONG.items()]
+    shard = Shard(edges, start, stop)
+    ours = examine_by_checkers(plan, mappers, shard)
+    theirs = examine_shard(plan, mappers, shard).tally
+    if keep_going:
+        assert len({failure.target for failure in ours.failures}) > 1
+    assert plain(theirs) == plain(ours)
 
 
 # ---------------------------------------------------------------- what the checkers judge again

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import msgspec
+
 from topo_verify.harness.reproduce.figures import FIGURES, PAIRS, FigureExtent, PolicyPair
 from topo_verify.harness.reproduce.measuring import MeasuredRun, PlannedRun, planned_runs
 from topo_verify.harness.reproduce.points import FigurePoint, figure_points
@@ -74,6 +76,13 @@ def test_the_spread_over_policies_names_its_ends() -> None:
 def test_what_was_judged_is_said_and_a_run_of_two_figures_counts_once() -> None:
     both = [*points("3", {}), *points("6a", {})]
     assert judged_sentence(both) == "24 runs were judged: 10 of 10 claims held in each."
+
+
+def test_runs_of_which_fewer_claims_were_asked_are_counted_apart() -> None:
+    few = [msgspec.structs.replace(one, held=2, of=2) for one in points("6a", {})]
+    text = judged_sentence([*points("3", {}), *few[-1:]])
+    assert "10 of 10 claims in " in text
+    assert ", 2 of 2 claims in " in text
 
 
 def test_the_page_has_every_paragraph_and_the_command() -> None:

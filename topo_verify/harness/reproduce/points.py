@@ -160,7 +160,7 @@ def _point(
         order=pair.order,
         edges=_mean([row.edges for row in decided])[0],
         held=min((row.held for row in decided), default=0),
-        of=max((row.claims for row in decided), default=0),
+        of=min((row.claims for row in decided), default=0),
         findings=tuple(finding for row in rows for finding in row.findings),
         undecided=len(rows) - len(decided),
     )

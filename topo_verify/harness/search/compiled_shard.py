@@ -123,12 +123,6 @@ class CompiledShard:
         self.seconds += EngineSeconds(engine=process_time() - begin)
         if any(one.undecided for one in counts):
             return self._undecided(ranks)
-        failing = [one for one in counts if one.failing]
-        if len(failing) > 1:
-            raise InternalError(
-                f"several algorithms fail in m{ranks.edges}/{ranks.start} … {ranks.stop - 1}, and"
-                " the compiled engine counts the failing worlds of each alone"
-            )
         found = [f for one in counts for f in self._failures(one)]
         return _as_tally(self._plan, ranks.edges, counts, found)
 
@@ -282,7 +276,7 @@ def _as_tally(
                     statuses[claim][status] = statuses[claim].get(status, 0) + runs
     return Tally(
         worlds=max(one.worlds for one in counts),
-        failing=sum(one.failing for one in counts),
+        failing=sum(one.newly_failing for one in counts),
         statuses=statuses,
         claims=_claims(counts, found),
         failures=tuple(kept),
@@ -303,14 +297,18 @@ def _as_tally(
 def _claims(
     counts: Sequence[ShardCounts], found: Sequence[tuple[int, Failure]]
 ) -> dict[str, Failing]:
-    """The claims that fail; at most one of the algorithms fails."""
+    """The claims that fail: in how many worlds for some algorithm, and the first failing run.
+
+    Args:
+        found: failing runs, by rank and algorithm; of each claim and algorithm the first is there.
+    """
     claims: dict[str, Failing] = {}
-    for one in counts:
-        for claim, (worlds, first) in one.claims.items():
-            if worlds:
-                (failure,) = (f for rank, f in found if rank == first)
+    for _, failure in found:
+        for claim in dict.fromkeys(finding.claim for finding in failure.findings):
+            if claim not in claims:
                 findings = tuple(f for f in failure.findings if f.claim == claim)
                 smallest = msgspec.structs.replace(failure, findings=findings[:KEPT_FINDINGS])
+                worlds = sum(one.newly_failing_claims[claim] for one in counts)
                 claims[claim] = Failing(worlds, smallest)
     return claims
 

@@ -241,7 +241,7 @@ class Search:
         rate = ProgressRate(", ".join(self.plan.targets), sum(self.totals.values()), tell)
         timeouts = 0
         rate.in_flight(0)
-        if self.plan.engine == "compiled":
+        if self.plan.engine == "compiled" and (self.cluster is None or self.cluster.is_local):
             warm(self.plan)  # here, before the workers start, which then find it in the cache
         if self.ledger is not None:
             self._examine_again(self.ledger)

@@ -37,6 +37,9 @@ from topo_verify.world.enumeration.pruned import ranked_tables
 GRACE = 5.0
 """Seconds without a heartbeat, beyond all limits of a run, until a worker is given up."""
 
+COMPILING = 1200.0
+"""Seconds that a worker of the compiled engine has to get ready: it compiles, or waits for one."""
+
 MACHINES = "the Dask worker, each time"
 """What was lost with a world, if it was no process of its own."""
 
@@ -94,6 +97,7 @@ def _work_of(job: SearchJob) -> Work[Shard, ShardResult]:
         lost=lost,
         survived=lambda result, losses, given_up: _survived(plan, result, losses, given_up),
         silence=silence,
+        loading=COMPILING if plan.engine == "compiled" else Work.loading,
         division=Division(
             cut=lambda shard, worlds: _cut(plan, shard, worlds),
             join=_joined,

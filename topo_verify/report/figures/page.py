@@ -56,6 +56,13 @@ def judged_sentence(points: Sequence[FigurePoint]) -> str:
     if failed:
         text += f": a claim fails in {failed} of them."
     else:
-        held, of = min(point.held for point in asked), max(point.of for point in asked)
-        text += f": {held} of {of} claims held in each."
+        held: dict[tuple[int, int], int] = {}
+        for point in asked:
+            held[point.held, point.of] = held.get((point.held, point.of), 0) + point.graphs
+        if len(held) <= 1:
+            (some, of), *_ = held or [(0, 0)]
+            text += f": {some} of {of} claims held in each."
+        else:
+            parts = [f"{some} of {of} claims in {n:,}" for (some, of), n in sorted(held.items())]
+            text += f": of those asked held {', '.join(reversed(parts))}."
     return text + (f" {undecided} more were not decided." if undecided else "")

@@ -95,7 +95,10 @@ def _draw(axes: Any, figure: Figure, points: Sequence[FigurePoint]) -> None:
     axes.grid(visible=True, which="major", color=GRID, linewidth=0.6)
     axes.spines[["top", "right"]].set_visible(False)
     sizes = sorted({point.size for point in points})
-    axes.set_xticks(sizes)
+    if _is_wide(sizes):
+        axes.set_xscale("log")
+        axes.minorticks_off()
+    axes.set_xticks(sizes, [str(size) for size in sizes])
     ends: dict[str, tuple[float, float]] = {}
     for name in (*figure.lines, *YARDSTICKS):
         line = [point for point in points if point.algorithm == name and point.mean > 0]
@@ -106,6 +109,11 @@ def _draw(axes: Any, figure: Figure, points: Sequence[FigurePoint]) -> None:
     _stated(axes, points)
     if ends:
         _labels(axes, ends, sizes)
+
+
+def _is_wide(sizes: Sequence[int]) -> bool:
+    """Whether the sizes need a log scale: on a linear one the small ones would lie together."""
+    return max(sizes) > 10 * min(sizes)
 
 
 def _line(axes: Any, name: str, line: Sequence[FigurePoint]) -> None:
@@ -161,9 +169,9 @@ def _stated(axes: Any, points: Sequence[FigurePoint]) -> None:
         axes.annotate(
             f"paper, {SHORT[point.algorithm]}: {point.stated}",
             (point.size, point.paper),
-            xytext=(-9, 3),
+            xytext=(0, 26) if _is_wide([one.size for one in points]) else (-9, 3),
             textcoords="offset points",
-            ha="right",
+            ha="center" if _is_wide([one.size for one in points]) else "right",
             color=PAPER,
             fontsize=9,
         )
@@ -172,14 +180,17 @@ def _stated(axes: Any, points: Sequence[FigurePoint]) -> None:
 def _labels(axes: Any, ends: dict[str, tuple[float, float]], sizes: Sequence[int]) -> None:
     """The name of each line at its right end, moved apart where two would cover each other."""
     wide = sizes[-1] - sizes[0] or 1
-    axes.set_xlim(sizes[0] - 0.03 * wide, sizes[-1] + 0.2 * wide)
+    if _is_wide(sizes):
+        axes.set_xlim(0.9 * sizes[0], 1.9 * sizes[-1])
+    else:
+        axes.set_xlim(sizes[0] - 0.03 * wide, sizes[-1] + 0.2 * wide)
     low, high = map(log, axes.get_ylim())
     places = spread([log(height) for _, height in ends.values()], GAP * (high - low))
     for (name, (x, height)), place in zip(ends.items(), places, strict=True):
         axes.annotate(
             SHORT[name],
             (x, height),
-            xytext=(sizes[-1] + 0.035 * wide, exp(place)),
+            xytext=(1.12 * sizes[-1] if _is_wide(sizes) else sizes[-1] + 0.035 * wide, exp(place)),
             textcoords="data",
             va="center",
             color=LINES[name].colour,

@@ -12,7 +12,7 @@ from topo_verify import CATALOGUE, World
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.judge import judge
 from topo_verify.harness.run import explore
-from topo_verify.harness.search.states import every, table
+from topo_verify.harness.search.states import behind, every, kernel, table
 from topo_verify.harness.search.states.every import every_choice, judged_by, require_edges
 from topo_verify.harness.search.states.ranges import cost_range
 from topo_verify.harness.search.states.script import scripted
@@ -22,6 +22,8 @@ from topo_verify.robot.limits import Limits
 from topo_verify.robot.simulator import percepts
 
 pytest.importorskip("numba")
+
+from topo_verify.harness.search.states import best
 
 KNOWN = [name for name, algorithm in CATALOGUE.items() if table.is_known(algorithm)]
 
@@ -158,3 +160,57 @@ def test_it_is_said_what_judged_the_choices() -> None:
     assert judged_by(CATALOGUE["basic"], 3) == "every claim, on a run for each choice"
     assert "claims 3 and 4 in each state" in judged_by(CATALOGUE["basic"], 4)
     assert judged_by(CATALOGUE["folding"], 4) == judged_by(CATALOGUE["folding"], 3)
+
+
+# ---------------------------------------------------------------- mistakes in the kernel
+
+
+@pytest.fixture
+def uncompiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The kernels run as plain Python, so that a mistake can be planted in one."""
+
+    def itself(function: object, _layout: object) -> object:
+        return function
+
+    monkeypatch.setattr(best, "compiled", itself)
+    monkeypatch.setattr(table, "_tables", best.Tables)
+
+
+def seen_in_3_edges(name: str) -> set[int]:
+    """What is wrong in the worlds with 3 edges."""
+    return {table.found_in(world, CATALOGUE[name]).wrong for world in worlds(3)[::6]}
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
+@pytest.mark.usefixtures("uncompiled")
+@pytest.mark.parametrize("name", KNOWN)
+def test_as_plain_python_it_finds_nothing_wrong(name: str) -> None:
+    assert seen_in_3_edges(name) == {behind.GOOD}
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
+@pytest.mark.usefixtures("uncompiled")
+def test_a_rule_that_rejects_what_is_true_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(behind, "refutes", answering(True))
+    assert seen_in_3_edges("enhancement-ii") == {behind.GOOD, behind.KILLED}
+    assert seen_in_3_edges("basic") == {behind.GOOD}  # which asks no rule
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
+@pytest.mark.usefixtures("uncompiled")
+def test_a_true_way_home_that_differs_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    right: Callable[..., int] = behind.walk_home
+
+    def differs(*arguments: object) -> int:
+        return max(0, right(*arguments))
+
+    monkeypatch.setattr(behind, "walk_home", differs)
+    assert seen_in_3_edges("basic") == {behind.GOOD, behind.DIFFERS}
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
+@pytest.mark.usefixtures("uncompiled")
+def test_more_states_than_there_is_room_for_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kernel, "ROOM", 16)
+    with pytest.raises(InternalError, match="has too many states for the kernel"):
+        table.found_in(World.from_id("m3/9"), CATALOGUE["basic"])

@@ -5,12 +5,12 @@
     graph.py     the states of a world and the choices between them; each lies on a judged run
     ranges.py    the cheapest and the dearest cost of a state: dynamic programming
     every.py     what a search does with a world: its runs, and the range of its costs
-    kernel.py    the same for rules that remember nothing, by masks of darts, compiled by numba
+    kernel.py    the same for rules that remember nothing, by masks of darts: compiled
+    behind.py    what may happen behind one e, for the kernel
     best.py      a cheapest and a dearest run, read off the tables of the kernel
     table.py     a world as the kernel takes it, and what the kernel found
-    jit.py       how the kernel is compiled
 
-`kernel.py`, `best.py` and `jit.py` load numba and NumPy, so they are imported where they are used.
+`best.py` loads numba and NumPy, so it is imported where it is used.
 
 `graph.py` is the reference, for every rule; `kernel.py` is faster, and tests hold it to `graph.py`
 in the number of states, of choices, and in both costs.

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
+import numpy as np
+
+from topo_verify.compiled.kernel import compiled
+from topo_verify.harness.search.states import behind as b
 from topo_verify.harness.search.states import kernel as k
-from topo_verify.harness.search.states.jit import ints
 from topo_verify.world.rooted_map import Dart
 
 RunOrder = tuple[tuple[Dart, ...], ...]
@@ -16,24 +20,28 @@ class Tables:
     """What the kernel reads and fills. Lives as long as the process; `search` a world at a time."""
 
     def __init__(self) -> None:
-        self.world = ints(5, k.MOST_DARTS)
-        self.found = ints(6)
-        self._work = ints(4, 4 * k.ROOM, fill=-1)
-        self._cost = ints(k.ROOM, k.VERTICES, 2)
-        self._low = ints(k.ROOM, k.MOST_DARTS, 3)
-        self._darts = ints(k.MOST_DARTS)
-        self._row = ints(k.MOST_DARTS, 3 * k.MOST_DARTS + 3)
-        self._kills = ints(k.MOST_DARTS)
-        self._best = ints((1 << k.MOST_DARTS - 1) * k.MOST_DARTS, 2)
-        self._facts, self._ends = ints(4), ints(4)
-        self._tree = ints(k.VERTICES)
-        self._depth = ints(k.VERTICES)
-        self._size, self._rule, self._overlap = 0, k.NONE, False
+        self.world = _ints(5, k.MOST_DARTS)
+        self.found = _ints(6)
+        self._work = _ints(4, 4 * k.ROOM, fill=-1)
+        self._cost = _ints(k.ROOM, b.VERTICES, 2)
+        self._low = _ints(k.ROOM, k.MOST_DARTS, 3)
+        self._darts = _ints(k.MOST_DARTS)
+        self._row = _ints(k.MOST_DARTS, 3 * k.MOST_DARTS + 3)
+        self._kills = _ints(k.MOST_DARTS)
+        self._best = _ints((1 << k.MOST_DARTS - 1) * k.MOST_DARTS, 2)
+        self._facts, self._ends = _ints(4), _ints(4)
+        self._tree = _ints(b.VERTICES)
+        self._depth = _ints(b.VERTICES)
+        self._size, self._rule, self._overlap = 0, b.NONE, False
+        self._search_world = compiled(k.search_world, k.STATES)
+        self._outward, self._behind = compiled(b.outward, k.STATES), compiled(b.behind, k.STATES)
+        self._tie, self._same_walk = compiled(b.tie, k.STATES), compiled(b.same_walk, k.STATES)
+        self._try = compiled(b.tried, k.STATES)
 
     def search(self, size: int, rule: int, *, overlap: bool) -> None:
         """Search the states of the world in the table, which has so many darts."""
         self._size, self._rule, self._overlap = size, rule, overlap
-        k.search_world(
+        self._search_world(
             self.world, size, rule, overlap, self._work, self._cost, self._low, self._darts,
             self._row, self._kills, self._best, self.found, self._facts, self._ends,
             self._tree, self._depth,
@@ -49,21 +57,21 @@ class Tables:
             key = int(self._work[k.KEY, here])
             explored, entries = key & (1 << k.MOST_DARTS) - 1, key >> k.MOST_DARTS
             e = self._pick(explored, entries, here, at, end)
-            k.outward(self.world, explored, entries, 0, self._tree, self._depth)
-            k.behind(
+            self._outward(self.world, explored, entries, 0, self._tree, self._depth)
+            self._behind(
                 self.world, explored, entries, self._tree, e, self._rule, self._overlap,
                 self._darts, self._row, self._kills, self._facts, self._best, self._ends,
             )  # fmt: skip
             yield e, *self._tried(end)
-            here, at = divmod(int(self._low[here, e, 2]), k.VERTICES)
+            here, at = divmod(int(self._low[here, e, 2]), b.VERTICES)
 
     def _pick(self, explored: int, entries: int, here: int, at: int, end: int) -> Dart:
         """The first e with which the cost can be reached."""
-        k.outward(self.world, explored, entries, at, self._tree, self._depth)
+        self._outward(self.world, explored, entries, at, self._tree, self._depth)
         for e in range(self._size):
             vertex = int(self.world[1, e])
-            if not explored >> e & 1 and entries >> 4 * vertex & 15 != k.UNKNOWN:
-                number, there = divmod(int(self._low[here, e, 2]), k.VERTICES)
+            if not explored >> e & 1 and entries >> 4 * vertex & 15 != b.UNKNOWN:
+                number, there = divmod(int(self._low[here, e, 2]), b.VERTICES)
                 left = self._low[here, e, end] + self._cost[number, there, end]
                 if self._depth[vertex] + 1 + left == self._cost[here, at, end]:
                     return e
@@ -73,9 +81,9 @@ class Tables:
         """The hypotheses behind e as they are tried."""
         count, true = int(self._facts[0]), int(self._facts[1])
         remaining, last = (1 << count) - 1, count
-        free = bool(self._facts[2]) or (self._rule == k.NONE and not self._overlap)
+        free = bool(self._facts[2]) or (self._rule == b.NONE and not self._overlap)
         while remaining:
-            mask = k.tie(self._row, remaining, last, count, self._overlap and not free)
+            mask = self._tie(self._row, remaining, last, count, self._overlap and not free)
             allowed = [place for place in range(count) if mask >> place & 1]
             if free:  # the true one first, or last
                 place = min(allowed, key=lambda one: (one == true) == bool(end))
@@ -91,10 +99,15 @@ class Tables:
                 return
             remaining &= ~int(self._kills[place])
             walked = self._overlap and self._row[place, 1]
-            last = k.same_walk(self._row, place) if walked else count
+            last = self._same_walk(self._row, place) if walked else count
 
     def _paid(self, remaining: int, last: int, place: int) -> tuple[int, int]:
         count = int(self._facts[0])
-        return k.tried(
+        return self._try(
             self._row, self._kills, count, self._overlap, self._best, remaining, last, place
         )
+
+
+def _ints(*shape: int, fill: int = 0) -> Any:
+    """An array of this shape with the same number everywhere."""
+    return np.full(shape, fill, np.int64)

@@ -1,33 +1,36 @@
-"""The states of one world by masks of darts, for rules that remember nothing; compiled by numba.
+"""The states of one world by masks of darts, for rules that remember nothing: kernels.
 
 The mapper does not run here: the world is known, so each way home is walked on the table of its
 darts. `memory.py` and `graph.py` say what S, a state, a way and a cost are; they are the reference.
 
     S          explored: a mask of darts; entries: four bits a vertex, its first dart; 15: unknown
     between    S and the robot's vertex. All positions over one S share what happens behind e.
-    behind e   (remaining, last): a mask of places in H, and whose sequence was walked last
-    kills      of each hypothesis: which others the rule rejects once it has been walked
+    behind e   `behind.py`
 
-Judged in every state: the true hypothesis is neither killed nor found to differ on its way (claim
-3), and no other one's way home shows what it should (4). What is rejected, is so for a percept that
-differs (8). One table of percepts is both what the robot sees and what S shows.
-
-All functions stand in one file, since numba's cache notices a change only in the caller's file.
+`compiled/kernel.py` makes machine code of it: `STATES` is what it is given for a layout.
 `world` has five rows: alpha, vertex, percept of each dart; first dart, degree of each vertex, whose
 darts are consecutive, clockwise.
 """
 
 from __future__ import annotations
 
-import numpy as np
+from topo_verify.compiled.kernel import WordCube, Words, WordTable, entry, kernel
+from topo_verify.compiled.workspace import WordLayout
+from topo_verify.harness.search.states.behind import (
+    FULL,
+    GOOD,
+    NEVER,
+    UNKNOWN,
+    VERTICES,
+    behind,
+    outward,
+)
 
-from topo_verify.harness.search.states.jit import Ints, compiled
+STATES = WordLayout("states", {}, sources=(behind.__module__, __name__))
+"""The kernels of both files. They have no workspace: their arrays are given to them one by one."""
 
-NONE, PREFIX, HISTORY = 0, 1, 2
-"""The rules, as numbers."""
-
-MOST_DARTS, VERTICES, UNKNOWN, NEVER = 14, 8, 15, 1 << 40
-"""Keys have room for so many darts and vertices; what stands for no dart, and for no cost."""
+MOST_DARTS = 14
+"""Keys have room for so many darts."""
 
 KEY, REACHED, PLACE, SLOT = 0, 1, 2, 3
 """Rows of the workspace: of each S its key, where the robot may stand, its slot; and the slots."""
@@ -35,264 +38,9 @@ KEY, REACHED, PLACE, SLOT = 0, 1, 2, 3
 ROOM = 1 << 14
 """So many S are kept for one world; `FULL` is returned if they are more."""
 
-GOOD, KILLED, DIFFERS, CONFIRMED, FULL = 0, 1, 2, 3, 4
-"""What is wrong: a true hypothesis rejected by the rule, by motion; a false one confirmed."""
 
-
-@compiled
-def turned(world: Ints, dart: int, door: int) -> int:
-    """The dart behind a door, for a robot with this reference dart."""
-    vertex = world[1, dart]
-    first, degree = world[3, vertex], world[4, vertex]
-    return first + (dart - first + door) % degree
-
-
-@compiled
-def outward(world: Ints, explored: int, entries: int, root: int, tree: Ints, depth: Ints) -> None:
-    """Breadth-first search on S: of each vertex its dart towards the root, and its distance."""
-    queue = np.empty(MOST_DARTS, np.int64)
-    depth[:], tree[:], depth[root], queue[0] = -1, -1, 0, root
-    head, tail = 0, 1
-    while head < tail:
-        vertex = queue[head]
-        head += 1
-        for door in range(world[4, vertex]):
-            dart = turned(world, entries >> 4 * vertex & 15, door)
-            other = world[0, dart]
-            beyond = world[1, other]
-            if explored >> dart & 1 and depth[beyond] < 0:
-                depth[beyond], tree[beyond], queue[tail] = depth[vertex] + 1, other, beyond
-                tail += 1
-
-
-@compiled
-def walk_home(world: Ints, tree: Ints, vu: int, h: int, place: int, row: Ints) -> int:
-    """Walk the way home of h from vu. Returns the step that differs, or -1.
-
-    `row[place]` gets: length of the way, doors walked; then per step door, expected, seen.
-    """
-    at, real, step = h, vu, 0
-    differs = -1 if world[2, at] == world[2, real] else 0
-    while tree[world[1, at]] >= 0:
-        up = tree[world[1, at]]
-        door = (up - at) % world[4, world[1, at]]
-        at = world[0, up]
-        step += 1
-        row[place, 3 * step], row[place, 3 * step + 1] = door, world[2, at]
-        if differs < 0:
-            real = world[0, turned(world, real, door)]
-            row[place, 3 * step + 2] = world[2, real]
-            if world[2, real] != world[2, at]:
-                differs = step
-    row[place, 0], row[place, 1] = step, step if differs < 0 else differs
-    return differs
-
-
-@compiled
-def shared_doors(row: Ints, way: int, last: int) -> int:
-    """How many doors a way home shares with the sequence that was walked last."""
-    most = min(row[way, 0], row[last, 1])
-    step = 0
-    while step < most and row[way, 3 * step + 3] == row[last, 3 * step + 3]:
-        step += 1
-    return step
-
-
-@compiled
-def refutes(world: Ints, explored: int, rule: int, row: Ints, last: int, g: int, way: int) -> bool:
-    """Whether the sequence walked last shows the rule that g is false."""
-    if rule == PREFIX:
-        for step in range(1, shared_doors(row, way, last) + 1):
-            if row[last, 3 * step + 2] != row[way, 3 * step + 1]:
-                return True
-    if rule == HISTORY:
-        at = g
-        for step in range(1, row[last, 1] + 1):
-            leaves = turned(world, at, row[last, 3 * step])
-            if not explored >> leaves & 1:
-                return False
-            at = world[0, leaves]
-            if world[2, at] != row[last, 3 * step + 2]:
-                return True
-    return False
-
-
-@compiled
-def pose(
-    world: Ints, explored: int, entries: int, tree: Ints, e: int, rule: int, darts: Ints, row: Ints,
-    kills: Ints, facts: Ints,
-) -> None:  # fmt: skip
-    """Make H for e, walk every hypothesis, and find what each rules out.
-
-    `facts` gets: how many hypotheses, the place of the true one or -1, vu is v0, what is wrong.
-    """
-    vu = world[0, e]
-    at_marker = world[1, vu] == world[1, 0]
-    count, true, wrong = 0, -1, GOOD
-    for vertex in range(VERTICES):
-        if entries >> 4 * vertex & 15 == UNKNOWN:
-            continue
-        if world[4, vertex] != world[4, world[1, vu]] or (vertex == world[1, 0]) != at_marker:
-            continue
-        for dart in range(world[3, vertex], world[3, vertex] + world[4, vertex]):
-            if dart != e and not explored >> dart & 1:
-                darts[count] = dart
-                true = count if dart == vu else true
-                count += 1
-    for place in range(count):
-        kills[place] = 1 << place
-        differs = walk_home(world, tree, vu, darts[place], place, row)
-        row[place, 2] = differs
-        if place == true and differs >= 0:
-            wrong = DIFFERS
-        if place != true and differs < 0:
-            wrong = CONFIRMED
-    for place in range(count):
-        if row[place, 2] < 0 or row[place, 1] == 0 or rule == NONE:
-            continue
-        for other in range(count):
-            if other == place:
-                continue
-            if refutes(world, explored, rule, row, place, darts[other], other):
-                kills[place] |= 1 << other
-                if other == true and wrong == GOOD:
-                    wrong = KILLED
-    facts[0], facts[1], facts[2], facts[3] = count, true, int(at_marker), wrong
-
-
-@compiled
-def free_order(row: Ints, facts: Ints, ends: Ints) -> None:
-    """Where no hypothesis rules out another: the range of the costs and the number of states."""
-    count, true = facts[0], facts[1]
-    false = count - (true >= 0)
-    last = row[true, 1] if true >= 0 else 0
-    every = 2 * np.sum(row[:count, 1]) - last
-    ends[0], ends[1] = last if true >= 0 else every, every
-    # Beside the true one any set of false ones may remain; without it two or more.
-    sets, apart = (1 << false) - 1, 0 if true >= 0 else false
-    ends[2], ends[3] = sets - apart, (sets if true >= 0 else 0) + false * (sets + 1 >> 1) - apart
-
-
-@compiled
-def tie(row: Ints, remaining: int, last: int, count: int, overlap: bool) -> int:
-    """A mask of the hypotheses that the motion allows next."""
-    if not overlap or last == count:
-        return remaining
-    longest, allowed = -1, 0
-    for place in range(count):
-        if remaining >> place & 1:
-            shared = shared_doors(row, place, last)
-            if shared > longest:
-                longest, allowed = shared, 0
-            if shared == longest:
-                allowed |= 1 << place
-    return allowed
-
-
-@compiled
-def price(row: Ints, place: int, last: int, count: int, overlap: bool) -> int:
-    """The moves of trying a hypothesis; under `retrace` the way back to vu is among them."""
-    walked = row[place, 1]
-    if not overlap:
-        return 2 * walked if row[place, 2] >= 0 else walked
-    if last == count:
-        return walked
-    shared = shared_doors(row, place, last)
-    if shared == row[place, 0]:  # it was walked already, and stands where it ends
-        return 0
-    return row[last, 1] - shared + walked - shared
-
-
-@compiled
-def same_walk(row: Ints, place: int) -> int:
-    """The first hypothesis whose sequence has the same doors."""
-    for other in range(place):
-        if row[other, 2] >= 0 and row[other, 1] == row[place, 1]:
-            step = 1
-            while step <= row[place, 1] and row[other, 3 * step] == row[place, 3 * step]:
-                step += 1
-            if step > row[place, 1]:
-                return other
-    return place
-
-
-@compiled
-def ordered(row: Ints, kills: Ints, facts: Ints, overlap: bool, best: Ints, ends: Ints) -> None:
-    """The range of the costs behind e, and the number of states, over all that may be tried.
-
-    `best[remaining * (count + 1) + last]` gets the least and the most that is still to be paid.
-    """
-    count = facts[0]
-    full, wide = (1 << count) - 1, count + 1
-    ends[2], ends[3] = 0, 0
-    for index in range((full + 1) * wide):
-        best[index, 0] = -1
-    best[full * wide + count, 0] = NEVER
-    for remaining in range(full, 0, -1):
-        for last in range(wide):
-            if best[remaining * wide + last, 0] < 0:
-                continue
-            allowed, ways = tie(row, remaining, last, count, overlap), 0
-            for place in range(count):
-                if allowed >> place & 1:
-                    ways += 1
-                    left = remaining & ~kills[place]
-                    if row[place, 2] >= 0 and left:
-                        after = same_walk(row, place) if overlap and row[place, 1] else count
-                        best[left * wide + after, 0] = NEVER
-            if ways > 1:
-                ends[2] += 1
-                ends[3] += ways
-    for remaining in range(1, full + 1):
-        for last in range(wide):
-            index = remaining * wide + last
-            if best[index, 0] < 0:
-                continue
-            allowed = tie(row, remaining, last, count, overlap)
-            least, most = NEVER, 0
-            for place in range(count):
-                if allowed >> place & 1:
-                    low, high = tried(row, kills, count, overlap, best, remaining, last, place)
-                    least, most = min(least, low), max(most, high)
-            best[index, 0], best[index, 1] = least, most
-    ends[0], ends[1] = best[full * wide + count, 0], best[full * wide + count, 1]
-
-
-@compiled
-def tried(
-    row: Ints, kills: Ints, count: int, overlap: bool, best: Ints, remaining: int, last: int,
-    place: int,
-) -> tuple[int, int]:  # fmt: skip
-    """The least and the most that is paid from a state on if this hypothesis is tried there."""
-    paid = price(row, place, last, count, overlap)
-    if row[place, 2] < 0:
-        return paid, paid
-    left = remaining & ~kills[place]
-    if not left:  # the robot goes back to vu
-        paid += row[place, 1] if overlap else 0
-        return paid, paid
-    after = same_walk(row, place) if overlap and row[place, 1] else count
-    index = left * (count + 1) + after
-    return paid + best[index, 0], paid + best[index, 1]
-
-
-@compiled
-def behind(
-    world: Ints, explored: int, entries: int, tree: Ints, e: int, rule: int, overlap: bool,
-    darts: Ints, row: Ints, kills: Ints, facts: Ints, best: Ints, ends: Ints,
-) -> None:  # fmt: skip
-    """All that may happen behind e: `facts` and `ends` say what is wrong, the costs, the counts."""
-    pose(world, explored, entries, tree, e, rule, darts, row, kills, facts)
-    if facts[0] == 0:
-        ends[0], ends[1], ends[2], ends[3] = 0, 0, 0, 0
-    elif facts[2] or (rule == NONE and not overlap):
-        free_order(row, facts, ends)
-    else:
-        ordered(row, kills, facts, overlap, best, ends)
-
-
-@compiled
-def number_of(work: Ints, key: int, count: int) -> int:
+@kernel
+def number_of(work: WordTable, key: int, count: int) -> int:
     """The number of an S among those met so far: `count` if it is new. Notes it."""
     slots = 4 * ROOM
     slot = (key * 0x9E3779B1 >> 7) % slots
@@ -307,8 +55,8 @@ def number_of(work: Ints, key: int, count: int) -> int:
     return count
 
 
-@compiled
-def after(world: Ints, explored: int, entries: int, e: int) -> tuple[int, int]:
+@kernel
+def after(world: WordTable, explored: int, entries: int, e: int) -> tuple[int, int]:
     """S once e is explored, as a key, and the vertex where the robot stands then."""
     other = world[0, e]
     vertex, at = world[1, other], 0
@@ -318,11 +66,11 @@ def after(world: Ints, explored: int, entries: int, e: int) -> tuple[int, int]:
     return entries << MOST_DARTS | explored | 1 << e | 1 << other, at
 
 
-@compiled
+@entry
 def search_world(
-    world: Ints, size: int, rule: int, overlap: bool, work: Ints, cost: Ints, low: Ints,
-    darts: Ints, row: Ints, kills: Ints, best: Ints, found: Ints, facts: Ints, ends: Ints,
-    tree: Ints, depth: Ints,
+    world: WordTable, size: int, rule: int, overlap: int, work: WordTable, cost: WordCube,
+    low: WordCube, darts: Words, row: WordTable, kills: Words, best: WordTable, found: Words,
+    facts: Words, ends: Words, tree: Words, depth: Words,
 ) -> None:  # fmt: skip
     """Search every state of a world with `size` darts.
 
@@ -331,7 +79,8 @@ def search_world(
     """
     full, known = (1 << size) - 1, (1 << MOST_DARTS) - 1
     start = ((1 << 4 * VERTICES) - UNKNOWN - 1) << MOST_DARTS
-    found[:] = 0
+    for place in range(6):
+        found[place] = 0
     count = number_of(work, start, 0) + 1
     work[REACHED, 0] = 1
     here = 0
@@ -365,10 +114,10 @@ def search_world(
         work[SLOT, work[PLACE, here]] = -1
 
 
-@compiled
+@kernel
 def between(
-    world: Ints, size: int, full: int, work: Ints, cost: Ints, low: Ints, found: Ints, here: int,
-    tree: Ints, depth: Ints,
+    world: WordTable, size: int, full: int, work: WordTable, cost: WordCube, low: WordCube,
+    found: Words, here: int, tree: Words, depth: Words,
 ) -> None:  # fmt: skip
     """The range of what is still to be paid from an S, for each place where the robot may stand."""
     explored, entries = work[KEY, here] & full, work[KEY, here] >> MOST_DARTS

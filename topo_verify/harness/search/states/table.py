@@ -15,6 +15,7 @@ from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.motion import overlap, retrace
 from topo_verify.errors import InputError, InternalError
+from topo_verify.harness.search.states.behind import FULL
 from topo_verify.harness.search.states.memory import world_darts
 from topo_verify.harness.search.states.script import ChoicePoint
 from topo_verify.robot.percept import Percept
@@ -34,7 +35,7 @@ class KernelFound(NamedTuple):
     """What the kernel found in one world.
 
     Attributes:
-        wrong: what is wrong in some state, as a number of `kernel.py`; 0: nothing.
+        wrong: what is wrong in some state, as a number of `behind.py`; 0: nothing.
         states, choices: as in a `CostRange`.
         cheapest, dearest: costs in edge traversals.
         cheap, dear: a run that has them.
@@ -75,8 +76,6 @@ def found_in(
     Raises:
         InternalError: the world has more states than there is room for.
     """
-    from topo_verify.harness.search.states import kernel
-
     size, tables = len(world.alpha), _tables()
     assert world.root == 0, "a world whose darts are numbered as in its code"
     table = tables.world
@@ -87,7 +86,7 @@ def found_in(
         table[3, vertex], table[4, vertex] = rotation[0], len(rotation)
     tables.search(size, RULES.index(algorithm.rule), overlap=algorithm.motion is overlap)
     wrong, states, choices, least, most, maps = (int(tables.found[place]) for place in range(6))
-    if wrong == kernel.FULL:
+    if wrong == FULL:
         raise InternalError(f"{world.text} has too many states for the kernel")
     cheap, dear = ((), ()) if wrong else (tables.order(0), tables.order(1))
     return KernelFound(wrong, states, choices, least, most, cheap, dear, maps)
