@@ -170,8 +170,9 @@ class League:
         if entry.dearest is None:
             return None
         found = self.made.get(ArenaTask(entry.mapper, entry.dearest.world, memory=True))
-        known = isinstance(found, MemoryRun) and found.kibibytes is not None
-        return round(found.kibibytes / 1024, 1) if known else None  # type: ignore[union-attr]
+        if not isinstance(found, MemoryRun) or found.kibibytes is None:
+            return None
+        return round(found.kibibytes / 1024, 1)
 
     def entries(self) -> list[LeagueEntry]:
         """The table, suite by suite: the ranked mappers by their places, then the others."""
@@ -288,7 +289,7 @@ def _dearest(runs: Sequence[ArenaRun]) -> DearestWorld:
 def _joint(runs: Sequence[ArenaRun]) -> tuple[Judgement, ...]:
     """The judgement of each claim over runs."""
     statuses = {claim: Counter[str]() for claim in CLAIMS}
-    shares = dict.fromkeys(CLAIMS, (0, 0))
+    shares: dict[str, tuple[int, int]] = dict.fromkeys(CLAIMS, (0, 0))
     for run in runs:
         for claim, one in zip(CLAIMS, run.claims, strict=False):  # a lost worker judged nothing
             statuses[claim][one.status] += 1
