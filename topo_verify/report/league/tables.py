@@ -120,7 +120,8 @@ def broken_blocks(entries: Sequence[LeagueEntry]) -> Iterator[Block]:
             for mapper, found in broken.items()
         ]
         yield Text("")
-        yield TextTable(("no place", "claim that fails", "world", "suite"), rows)
+        columns = ("mapper", "claim that fails", "world", "suite")
+        yield TextTable(columns, rows, title="No place, for a claim fails")
     for mapper, found in broken.items():
         yield Text("")
         yield Text(f"{mapper} in {found.world}:")
