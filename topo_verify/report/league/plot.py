@@ -35,8 +35,9 @@ NAME = 26
 
 TICKS = (1, 2, 5)
 
-SHIFT = 5
-"""Pixels between the signs of two mappers at one family, so that equal ones are both seen."""
+SHIFT, SPREAD = 5.0, 16.0
+"""Pixels between the signs of two mappers at one family, so that equal ones are both seen; and of
+all of them together at most, so that families stay apart."""
 
 
 class Axis(NamedTuple):
@@ -76,8 +77,10 @@ def ratio_plot(
     parts = [*_frame(suite, x, y), *_names(ranked[0], x)]
     for number, entry in enumerate(ranked):
         parts += _dots(runs[entry.mapper], _colour(number), x, y)
+    middle = (len(ranked) - 1) / 2
+    step = min(SHIFT, SPREAD / (2 * middle)) if middle else 0.0
     for number, entry in enumerate(ranked):
-        parts += _means(entry, number, SHIFT * (number - (len(ranked) - 1) / 2), x, y)
+        parts += _means(entry, number, step * (number - middle), x, y)
         parts += _legend(entry, number)
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}"'
