@@ -129,3 +129,10 @@ def fails_and_sleeps(robot: Robot) -> object:
         Path("at-work").touch()
         time.sleep(60)
     return None
+
+
+def lucky(robot: Robot) -> dict[str, Any]:
+    """That every world is a triangle, which three moves of a walk there and back do not prove."""
+    for door in (1, 1, 0):
+        robot.move(door % robot.percept.degree)
+    return {"vertices": [[0, 1], [2, 3], [4, 5]], "edges": [[1, 2], [3, 4], [5, 0]], "marker": 0}

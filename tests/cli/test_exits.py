@@ -33,6 +33,7 @@ COMMANDS = (
     "play",
     "certify",
     "tour",
+    "arena",
     "reproduce",
 )
 LEAVES = (

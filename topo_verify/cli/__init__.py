@@ -2,7 +2,7 @@
 
 verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py), faults.py,
 conform.py, record.py, compare.py, replay.py, play.py, certify.py, tour.py,
-reproduce.py  the commands
+arena.py (arena_files.py), reproduce.py  the commands
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown
@@ -24,6 +24,7 @@ import click
 from click.shell_completion import shell_complete
 
 from topo_verify.cli import options
+from topo_verify.cli.arena import arena
 from topo_verify.cli.certify import certify
 from topo_verify.cli.compare import compare
 from topo_verify.cli.conform import conform
@@ -140,6 +141,7 @@ for command in (
     play,
     certify,
     tour,
+    arena,
     reproduce,
 ):
     main.add_command(command)

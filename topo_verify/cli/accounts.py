@@ -13,12 +13,14 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.searched import SearchEntry
 from topo_verify.cli.theorems import KINDS, ProveEntry
 from topo_verify.cli.walks import FoundRuns
+from topo_verify.harness.arena.league import LeagueEntry
 from topo_verify.harness.conform.conform import LevelResult
 from topo_verify.harness.faults.checks import Smallest
 from topo_verify.harness.faults.detection import Caught
 from topo_verify.harness.verify.parts import Part
 from topo_verify.report.account import (
     Account,
+    Exhibit,
     JudgedCase,
     JudgedExtent,
     JudgedSuite,
@@ -307,3 +309,58 @@ def _conform_cases(levels: Sequence[LevelResult]) -> Iterator[JudgedCase]:
                 yield JudgedCase(
                     case.name, case.verdict, case.outcome, case.judged, found.message, found.replay
                 )
+
+
+# ---------------------------------------------------------------- arena
+
+
+def arena_account(
+    table: Sequence[LeagueEntry],
+    blocks: Iterable[Block],
+    found: FoundRuns,
+    dearest: Sequence[Exhibit],
+    *,
+    exact: bool,
+) -> Account:
+    """The account of `arena`: a suite of worlds and a mapper a suite, a case a claim.
+
+    Args:
+        dearest: the ranked mappers in their dearest worlds.
+        exact: the worlds are all those of finite classes.
+    """
+    mappers = list(dict.fromkeys(entry.mapper for entry in table))
+    broken = {entry.mapper for entry in table if entry.counterexample is not None}
+    runs, planned = sum(e.worlds for e in table), sum(e.total for e in table)
+    judged = JudgedExtent("EXHAUSTED" if exact else "SAMPLED", counted(runs, planned, "runs"))
+    if runs < planned:
+        judged = JudgedExtent("UNKNOWN", counted(runs, planned, "runs"))
+    if broken:
+        words = counted(len(broken), len(mappers), "mappers break a claim")
+        judged = JudgedExtent("REFUTED", words)
+    return Account(
+        about=mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
+        extent=judged,
+        suites=tuple(
+            JudgedSuite(f"{entry.mapper} in {entry.suite}", tuple(_arena_cases(entry)))
+            for entry in table
+        ),
+        blocks=tuple(blocks),
+        exhibits=found.exhibits,
+        left_out=found.left_out,
+        others=tuple(dearest),
+    )
+
+
+def _arena_cases(entry: LeagueEntry) -> Iterator[JudgedCase]:
+    broken, late = entry.counterexample, entry.worlds < entry.total
+    yield JudgedCase(
+        name="every world of the suite",
+        verdict="REFUTED" if broken else "UNKNOWN" if late else "SAMPLED",
+        outcome="failed" if broken else "undecided" if late else "passed",
+        judged=f"{entry.worlds:,} of {entry.total:,}",
+        message=f"{broken.claim} in {broken.world}: {broken.message}"
+        if broken
+        else "; ".join(entry.why),
+        again=broken.replay if broken else "",
+    )
+    yield from claim_cases(entry.judgements)

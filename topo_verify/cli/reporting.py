@@ -9,13 +9,13 @@ from __future__ import annotations
 import os
 import platform
 import shlex
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import partial, wraps
 from importlib import metadata
 from pathlib import Path
-from typing import Any, Concatenate, ParamSpec
+from typing import Any, Concatenate, ParamSpec, cast
 
 import click
 
@@ -155,9 +155,19 @@ def _facts(ending: Ending, again: str, now: datetime) -> PageFacts:
         timing={
             "written": f"{now:%Y-%m-%d %H:%M:%S} UTC",
             "took": f"{ending.seconds:.1f} s",
-            **{name: str(value) for name, value in ending.timing.items()},
+            **dict(_flat(ending.timing)),
         },
     )
+
+
+def _flat(timing: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, str]]:
+    """Each figure with the names that lead to it, as `ms_per_move, lattices, folding`."""
+    for name, value in timing.items():
+        path = f"{before}, {name}" if before else name
+        if isinstance(value, dict):
+            yield from _flat(cast("dict[str, Any]", value), path)
+        else:
+            yield path, str(value)
 
 
 def _run(ending: Ending, again: str, now: datetime) -> JunitRun:

@@ -104,14 +104,16 @@ class FoundRuns:
         A mapper that draws lots may do well this time; then the world is shown without a run.
 
         Args:
-            world: an id, or `nyc`. Any other world is passed over: a file may have changed since.
+            world: an id, a family's call, or `nyc`. Any other is passed over: a file may have
+                changed since.
             message: what was wrong there.
             reports: makes the runs where there are several ways to choose; else each runs once.
         """
         if not self._most or (self._report is not None and not self._alone):
             return
         try:
-            there = resolve_world(world) if world == "nyc" else World.from_id(world)
+            fixed = world == "nyc" or world.startswith("family:")
+            there = resolve_world(world) if fixed else World.from_id(world)
         except InputError:
             return
 

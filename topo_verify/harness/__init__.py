@@ -12,10 +12,12 @@ pool.py       worker processes that may die or hang; worker.py is one of them
 cluster.py    the workers of a Dask cluster; cluster_worker.py is what runs on one
 progress.py   the progress callback, and the rate of progress
 ledger.py     the finished shards of a search, kept in a file
+line_store.py finished runs of `reproduce` and the arena, kept in a file
 gap.py        how far a rule is from the best possible
 search/       every world of a class
 conform/      an implementation against the reference
 baseline/     record and compare
 faults/       the seeded faults, and which check finds which
+arena/        mappers in named suites, ranked
 verify/       the main job
 """

@@ -217,6 +217,11 @@ class Program:
         """
         self._ready()
 
+    @property
+    def process(self) -> int | None:
+        """The id of its process, if there is one."""
+        return None if self._child is None else self._child.process
+
     def _ready(self) -> Child:
         """The process that waits for a world; started if there is none."""
         if self._child is None:

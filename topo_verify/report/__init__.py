@@ -10,5 +10,6 @@ page.py       an account as one self-contained page; its style and script lie in
 junit.py      an account as a JUnit file
 badge.py      an account as a badge
 escape.py     text in XML and HTML
+league/       the tables and plots of the arena
 figures/      the paper's figures as pictures, and the paragraph under each; imported late
 """

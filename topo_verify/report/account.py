@@ -79,7 +79,7 @@ class JudgedExtent:
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A world in which something is wrong, to be looked at.
+    """A world to be looked at, mostly because something is wrong in it.
 
     Attributes:
         title: which mapper, in which world.
@@ -88,6 +88,7 @@ class Exhibit:
         notes: what is wrong there, a sentence each.
         runs: to be played, the first one first; none: the world is shown alone.
         again: the command line that shows it again.
+        whole: it is drawn and played however large it is.
     """
 
     title: str
@@ -96,6 +97,7 @@ class Exhibit:
     notes: tuple[str, ...]
     runs: tuple[PlayedRun, ...] = ()
     again: str = ""
+    whole: bool = False
 
 
 @dataclass(frozen=True)
@@ -109,6 +111,7 @@ class Account:
         blocks: what the command says about it.
         exhibits: the counterexamples that are shown.
         left_out: how many more there are.
+        others: worlds in which nothing is wrong, to be looked at.
     """
 
     about: str
@@ -117,6 +120,7 @@ class Account:
     blocks: tuple[Block, ...] = ()
     exhibits: tuple[Exhibit, ...] = ()
     left_out: int = 0
+    others: tuple[Exhibit, ...] = ()
 
     @property
     def cases(self) -> Iterator[JudgedCase]:

@@ -90,7 +90,20 @@ class View:
     lines: Callable[[int], Iterable[str]]
 
 
-Block = Text | Command | Bullets | TextTable | Raw | View
+@dataclass(frozen=True)
+class PictureBlock:
+    """A picture; a page shows it, and forms made of letters leave it out.
+
+    Attributes:
+        svg: the picture, as a file of its own.
+        alt: what it shows, for those who do not see it.
+    """
+
+    svg: str
+    alt: str
+
+
+Block = Text | Command | Bullets | TextTable | Raw | View | PictureBlock
 
 
 def clean(text: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping
 
 from topo_verify.report.blocks import (
@@ -11,6 +12,7 @@ from topo_verify.report.blocks import (
     Bullets,
     Cell,
     Command,
+    PictureBlock,
     Raw,
     Text,
     TextTable,
@@ -42,13 +44,19 @@ def code(line: str) -> str:
     return f'<code class="copy">{xml_text(line)}</code>'
 
 
+def picture(svg: str, alt: str) -> str:
+    """A picture that stands in the page itself, so that nothing is loaded."""
+    data = b64encode(svg.encode()).decode()
+    return f'<img alt="{xml_text(alt)}" src="data:image/svg+xml;base64,{data}">'
+
+
 def toned(word: str, tone: Tone | None) -> str:
     """A cell of a table that holds a verdict or a status."""
     text = xml_text(marked(word, tone))
     return f'<td class="{tone}">{text}</td>' if tone else f"<td>{text}</td>"
 
 
-def _html(block: Block) -> str:
+def _html(block: Block) -> str:  # noqa: PLR0911  one for each kind of block
     match block:
         case Text(text):
             return _paragraph(text)
@@ -60,6 +68,8 @@ def _html(block: Block) -> str:
             return _lines(text.split("\n"))
         case View():
             return _lines(block.lines(WIDTH))
+        case PictureBlock(svg, alt):
+            return f"<figure>{picture(svg, alt)}</figure>"
         case TextTable():
             return _table(block)
 

@@ -11,6 +11,7 @@ from topo_verify.report.blocks import (
     Bullets,
     Cell,
     Command,
+    PictureBlock,
     Raw,
     Text,
     TextTable,
@@ -27,7 +28,7 @@ def markdown(blocks: Iterable[Block]) -> str:
     return "\n\n".join(filter(None, map(_markdown, blocks))) + "\n"
 
 
-def _markdown(block: Block) -> str:
+def _markdown(block: Block) -> str:  # noqa: PLR0911  one for each kind of block
     match block:
         case Text(text):
             verdict = opening_verdict(text)
@@ -42,6 +43,8 @@ def _markdown(block: Block) -> str:
             return "\n".join(f"- {_paragraph(item)}" for item in items)
         case Raw(text):
             return _fenced(text)
+        case PictureBlock():
+            return ""
         case View():
             return _fenced("\n".join(block.lines(WIDTH)))
         case TextTable(columns, rows, title):

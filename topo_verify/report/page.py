@@ -11,7 +11,6 @@ a frame is made when it is opened. Whatever a mapper, a world or a file name bri
 
 from __future__ import annotations
 
-from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -23,7 +22,7 @@ from topo_verify.player.recording import recording
 from topo_verify.report.account import Account, Exhibit, JudgedCase, JudgedSuite
 from topo_verify.report.blocks import clean
 from topo_verify.report.escape import xml_text
-from topo_verify.report.html import blocks_as_html, code, mark_up, toned
+from topo_verify.report.html import blocks_as_html, code, mark_up, picture, toned
 from topo_verify.report.junit import UNFINISHED
 from topo_verify.report.style import PALETTE, TONES
 from topo_verify.text import plural
@@ -56,7 +55,7 @@ class PageFacts:
 
 def report_page(account: Account, facts: PageFacts) -> str:
     """The page of a run."""
-    shell = page_shell() if any(_can_be_played(one) for one in account.exhibits) else None
+    shell = page_shell() if any(_can_be_played(one) for one in _all_exhibits(account)) else None
     style, script = _style(), _part("report.js") if shell is not None else ""
     values = {
         "policy": _policy(style, script, shell),
@@ -64,7 +63,7 @@ def report_page(account: Account, facts: PageFacts) -> str:
         "style": style,
         "header": _header(account, facts),
         "main": "\n".join(_sections(account, facts)),
-        "data": "\n".join(_data(account.exhibits, shell)),
+        "data": "\n".join(_data(_all_exhibits(account), shell)),
         "script": script,
     }
     return mark_up(_part("report.html"), values)
@@ -107,6 +106,7 @@ def _header(account: Account, facts: PageFacts) -> str:
     unfinished = "" if facts.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
     links = {"counterexamples": "Counterexamples"} if account.exhibits else {}
     links |= {"judged": "What was judged", "results": "Results"}
+    links |= {"worlds": "Worlds"} if account.others else {}
     links |= {"versions": "Versions", "timing": "Timing"}
     menu = " ".join(f'<a href="#{name}">{title}</a>' for name, title in links.items())
     return (
@@ -134,6 +134,9 @@ def _sections(account: Account, facts: PageFacts) -> Iterator[str]:
     yield _section("results", "Results", blocks_as_html(account.blocks))
     if found and not wrong:
         yield _section("counterexamples", "Counterexamples, as expected", found)
+    if account.others:
+        numbered = map(_exhibit, count(1 + len(account.exhibits)), account.others)
+        yield _section("worlds", "Worlds to look at", numbered)
     for name, title, told in (
         ("versions", "Versions", facts.versions),
         ("timing", "Timing", facts.timing),
@@ -175,8 +178,16 @@ def _case(case: JudgedCase) -> str:
 # ---------------------------------------------------------------- counterexamples
 
 
+def _all_exhibits(account: Account) -> tuple[Exhibit, ...]:
+    return account.exhibits + account.others
+
+
+def _can_be_drawn(one: Exhibit) -> bool:
+    return one.whole or len(one.world.edges) <= MOST_DRAWN
+
+
 def _can_be_played(one: Exhibit) -> bool:
-    return bool(one.runs) and len(one.world.edges) <= MOST_DRAWN
+    return bool(one.runs) and _can_be_drawn(one)
 
 
 def _exhibit(number: int, one: Exhibit) -> str:
@@ -200,13 +211,10 @@ def _picture(one: Exhibit) -> str:
         f" genus {world.genus}"
     )
     caption = xml_text(f"{clean(one.name)}: {size}")
-    if len(world.edges) > MOST_DRAWN:
+    if not _can_be_drawn(one):
         return f'<p class="soft">{caption}; too large to be drawn here.</p>'
-    drawn = b64encode(world.draw().encode()).decode()
-    return (
-        f'<figure><img alt="The world {caption}" src="data:image/svg+xml;base64,{drawn}">'
-        f"<figcaption>{caption}</figcaption></figure>"
-    )
+    drawn = picture(world.draw(), f"The world {clean(one.name)}: {size}")
+    return f"<figure>{drawn}<figcaption>{caption}</figcaption></figure>"
 
 
 def _data(exhibits: Sequence[Exhibit], shell: PageShell | None) -> Iterator[str]:

@@ -17,6 +17,7 @@ from topo_verify.report.blocks import (
     Bullets,
     Cell,
     Command,
+    PictureBlock,
     Raw,
     Text,
     TextTable,
@@ -47,6 +48,8 @@ def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
     """Print the blocks, as wide as the terminal; elsewhere as wide as COLUMNS says, or 80."""
     console = None
     for block in blocks:
+        if isinstance(block, PictureBlock):
+            continue
         if isinstance(block, Raw):
             out.write(block.text + "\n")  # not by Rich, which would wrap it and takes its time
             continue

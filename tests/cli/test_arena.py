@@ -1,0 +1,180 @@
+"""`topo-verify arena`: who has a place, the same bytes each time, going on, bad usage."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import sys
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.cli.conftest import Call, Results
+from topo_verify.harness.arena.rows import ArenaResult
+from topo_verify.harness.arena.suites import SUITES, Suite, SuiteFamily, drawn, every
+
+command: Any = import_module("topo_verify.cli.arena")  # its package has the command itself
+
+FIELDS = {
+    *("mapper", "suite", "worlds", "ratio", "rejected_free", "ms_per_move", "claims"),
+    "counterexample",
+}
+"""What docs/commands.md promises of an entry."""
+
+LINE = "arena basic,folding --suite small --workers 0"
+FAULT = "topo_verify.faults:FAULTS.forgets-its-orientation"
+SAME = ("table.md", "table.csv", "runs.csv", "results.json", "ratio-small.svg")
+
+
+def triangle(_seed: int) -> list[str]:
+    return ["family:cycle(3)"]
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Suites that take no time."""
+    grids = drawn("lattice(4,4,holes=0.2)", 2, planar=True)
+    triangles = SuiteFamily("cycle(3)", 1, triangle, exact=True)
+    for name, families in {"small": (every(1), grids), "triangle": (triangles,)}.items():
+        monkeypatch.setitem(SUITES, name, Suite(name, "a test", families))
+
+
+def files(folder: str) -> dict[str, bytes]:
+    return {name: Path(folder, name).read_bytes() for name in SAME}
+
+
+def test_sound_mappers_have_places_and_the_promised_fields(results: Results) -> None:
+    envelope = results(LINE)
+    assert envelope["format"] == "topo-verify/arena"
+    entries = envelope["results"]
+    assert all(entry.keys() >= FIELDS for entry in entries)
+    assert [(e["place"], e["worlds"]) for e in entries] == [(1, 4), (2, 4)]
+    assert entries[0]["ratio"]["mean"] < entries[1]["ratio"]["mean"]
+    assert all(e["ratio"].keys() == {"mean", "low", "high"} for e in entries)
+    assert all({*e["claims"].values()} == {"ok"} and e["ratio"]["mean"] >= 1 for e in entries)
+    assert entries[1]["behind"]["mapper"] == entries[0]["mapper"]
+    assert envelope["timing"]["ms_per_move"]["small"] == {
+        entry["mapper"]: entry["ms_per_move"] for entry in entries
+    }
+    assert envelope["timing"]["memory_mib"]["small"]["basic"] > 1
+
+
+def test_a_seeded_fault_and_a_lucky_guesser_have_no_place(call: Call, results: Results) -> None:
+    line = f"arena basic {FAULT} mappers.py:lucky --suite triangle,small --workers 0 --in-process"
+    envelope = results(line, code=1)
+    places = {(e["mapper"], e["suite"]): e["place"] for e in envelope["results"]}
+    assert {mapper for (mapper, _), place in places.items() if place is not None} == {"basic"}
+    lucky = [e for e in envelope["results"] if e["mapper"] == "mappers.py:lucky"]
+    assert [e["ratio"] for e in lucky] == [None, None]
+    # The map is right, and only the proof is missing.
+    failed = {claim for claim, status in lucky[0]["claims"].items() if status == "failed"}
+    assert failed == {"map-entailed"}
+    assert lucky[0]["counterexample"]["world"] == "family:cycle(3)"
+    text = call(line).stdout
+    table, _, broken = text.partition("No place")
+    assert FAULT not in table
+    assert "mappers.py:lucky" not in table
+    assert "map-entailed" in broken
+    assert "again: topo-verify replay" in broken
+
+
+def test_the_same_bytes_however_many_workers_and_however_often_interrupted(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert call(f"{LINE} --out whole").exit_code == 0
+    assert call(f"{LINE.removesuffix('0')}2 --out two").exit_code == 0
+    real = command.ArenaStore.put
+    kept: list[ArenaResult] = []
+
+    def cut_off(store: object, result: ArenaResult) -> None:
+        if len(kept) == 3:
+            raise KeyboardInterrupt
+        kept.append(result)
+        real(store, result)
+
+    monkeypatch.setattr(command.ArenaStore, "put", cut_off)
+    done = call(f"{LINE} --out parts")
+    assert done.exit_code == 3
+    assert "the runs so far are kept in parts/runs.jsonl; the same command" in done.stderr
+    made = Path("parts/runs.jsonl").read_bytes()
+    Path("parts/runs.jsonl").write_bytes(made + made[-40:-1])  # as if killed in midst of a line
+    monkeypatch.setattr(command.ArenaStore, "put", real)
+    done = call(f"{LINE} --out parts")
+    assert done.exit_code == 0
+    assert "half a line at its end was cut off" in done.stderr
+    assert "3 of 8 runs are in parts/runs.jsonl" in done.stderr
+    assert files("whole") == files("two") == files("parts")
+
+
+def test_a_mapper_that_has_changed_is_refused(call: Call) -> None:
+    line = "arena mappers.py:silent --suite triangle --workers 0 --out here"
+    assert call(line).exit_code == 0
+    assert call(line).exit_code == 0
+    Path("mappers.py").write_text(Path("mappers.py").read_text() + "\n# another\n")
+    done = call(line)
+    assert done.exit_code == 2
+    assert done.stderr.count("\n") == 1
+    assert "target 'mappers.py:silent'" in done.stderr
+    assert "changed" in done.stderr
+
+
+def test_a_folder_has_the_page_a_player_and_the_counterexample(call: Call) -> None:
+    line = "arena basic mappers.py:lucky --suite triangle --workers 0 --in-process --out here"
+    assert call(line).exit_code == 1
+    made = {str(path.relative_to("here")) for path in Path("here").rglob("*") if path.is_file()}
+    (picture,) = (name for name in made if name.endswith(".svg") and "counterexamples" in name)
+    assert made >= {"report.html", "players/basic.html", picture.replace(".svg", ".html")}
+    page = Path("here/report.html").read_text()
+    for words in ("REFUTED", "Worlds to look at", "cost / LB against the number", 'id="run-2"'):
+        assert words in page
+    assert "<svg" in Path("here", picture).read_text()
+    entries = json.loads(Path("here/results.json").read_text())["results"]
+    assert not any("ms_per_move" in entry for entry in entries)
+
+
+def test_a_program_takes_part_over_the_pipe_and_pays_what_its_twin_pays(results: Results) -> None:
+    serve = shlex.quote(f"{sys.executable} -m topo_verify.programs.serve basic")
+    program, twin = results(f"arena basic --cmd {serve} --suite small --workers 0")["results"]
+    assert {program["place"], twin["place"]} == {1}
+    assert program["ratio"] == twin["ratio"]
+    assert program["claims"] == twin["claims"]
+
+
+def test_what_is_not_decided_has_no_place_and_exits_3(call: Call) -> None:
+    done = call("arena basic mappers.py:strolls --suite triangle --world-timeout 0.1 --workers 0")
+    assert done.exit_code == 3
+    assert "mappers.py:strolls has no place in triangle: 1 world of 1 not decided" in done.stdout
+
+
+def test_another_seed_draws_other_worlds(results: Results) -> None:
+    one, other = (
+        results(f"arena basic --suite small --workers 0 --seed {n}")["results"] for n in (0, 8)
+    )
+    assert one[0]["families"][0] == other[0]["families"][0]
+    assert one[0]["families"][1] != other[0]["families"][1]
+
+
+def test_a_mapper_that_assumes_planar_worlds_is_left_out_of_others(call: Call) -> None:
+    done = call("arena folding+planar --suite lattices,small --budget 1 --workers 0")
+    assert "folding+planar assumes planar worlds: left out of small" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("arena", "name the TARGETs that take part"),
+        ("arena basic --suite lattice", "did you mean 'lattices'?"),
+        ("arena basic,folding basic", "'basic' takes part twice: name each mapper once"),
+        ("arena basic --target folding", "leave one out"),
+        ("arena folding+planar --suite small", "assumes planar worlds, and --suite small has"),
+        ("arena basick", "no algorithm 'basick'; did you mean 'basic'?"),
+        ("arena basic --out mappers.py", "--out mappers.py: cannot create this folder"),
+    ],
+)
+def test_bad_usage_is_one_sentence(call: Call, line: str, words: str) -> None:
+    done = call(line)
+    assert done.exit_code == 2
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1

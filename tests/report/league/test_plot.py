@@ -1,0 +1,61 @@
+"""The plot: well-formed, a sign a mapper and family, hostile names as text."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from topo_verify.checkers import CLAIMS
+from topo_verify.harness.arena.league import League
+from topo_verify.harness.arena.rows import ArenaRun, ArenaTask, ClaimCount, MemoryRun
+from topo_verify.harness.arena.suites import Suite, drawn, every
+from topo_verify.programs.loader import Target
+from topo_verify.report.blocks import PictureBlock, Text
+from topo_verify.report.html import blocks_as_html
+from topo_verify.report.league.plot import ratio_plot
+from topo_verify.report.league.tables import table_csv
+from topo_verify.report.markdown import markdown
+
+SUITE = Suite("small", "a test", (every(1), drawn("lattice(3,3,holes=0.2)", 3)))
+HOSTILE = "</text><script>alert(1)</script>"
+HELD = tuple(ClaimCount("ok", 3, 3) for _ in CLAIMS)
+
+
+@pytest.fixture
+def league() -> League:
+    """Two mappers that pay 1.5 and 3 times LB, a little more where a world is larger."""
+    made: dict[ArenaTask, ArenaRun | MemoryRun] = {}
+    league = League((Target(HOSTILE, print), Target("b,c", print)), (SUITE,), 0, made)
+    for place, task in enumerate(league.planned):
+        cost = (15 if task.mapper == HOSTILE else 30) + place
+        made[task] = ArenaRun(
+            mapper=task.mapper, world=task.world, edges=1 + place, least=10, cost=cost, claims=HELD
+        )
+    return league
+
+
+def picture(league: League) -> str:
+    entries = league.entries()
+    return ratio_plot(SUITE, entries, {e.mapper: league.runs(e.mapper, SUITE) for e in entries})
+
+
+def test_it_has_a_sign_for_each_family_and_one_in_the_legend(league: League) -> None:
+    root = ET.fromstring(picture(league))  # noqa: S314  made a moment ago
+    assert len(root.findall(".//{*}polygon")) == 3  # the second mapper; the first has circles
+    texts = [element.text for element in root.findall(".//{*}text")]
+    assert {"small: a test", "lattice(3,3,holes=0.2)", "cost / LB", "edges", "b,c"} <= {*texts}
+    assert any((text or "").startswith("</text>") for text in texts)
+
+
+def test_a_page_holds_it_and_letters_leave_it_out(league: League) -> None:
+    block = PictureBlock(picture(league), 'the "plot"')
+    (figure,) = blocks_as_html([block])
+    assert figure.startswith('<figure><img alt="the &quot;plot&quot;" src="data:image/svg+xml')
+    assert markdown([Text("a"), block, Text("b")]) == "a\n\nb\n"
+
+
+def test_the_csv_quotes_names_and_has_a_row_a_family(league: League) -> None:
+    lines = table_csv(league.entries()).splitlines()
+    assert len(lines) == 1 + 2 * 3
+    assert lines[4].startswith('2,"b,c",small,,5,')

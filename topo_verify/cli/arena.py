@@ -1,0 +1,305 @@
+"""`topo-verify arena`: mappers in named suites of worlds, ranked by cost; only sound ones rank."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import click
+
+from topo_verify.cli import options
+from topo_verify.cli.accounts import arena_account
+from topo_verify.cli.arena_files import REPORT, dearest_exhibits, write_folder
+from topo_verify.cli.output import Ending, Output, Result
+from topo_verify.cli.output import options as output_options
+from topo_verify.cli.reporting import ReportFiles, report_options, write_reports
+from topo_verify.cli.runs import unjudged
+from topo_verify.cli.walks import FoundRuns
+from topo_verify.errors import InputError
+from topo_verify.harness.arena.league import League, LeagueEntry
+from topo_verify.harness.arena.match import arena_job, close, play
+from topo_verify.harness.arena.rows import ArenaJob, ArenaResult, ArenaRun, ArenaTask, MemoryRun
+from topo_verify.harness.arena.store import ArenaStore
+from topo_verify.harness.arena.suites import DEFAULT, SUITES, Suite, chosen_suites
+from topo_verify.harness.targets import targets as targets_of
+from topo_verify.harness.work import processors
+from topo_verify.programs.loaded import watch
+from topo_verify.programs.loader import Target
+from topo_verify.programs.program import PREFIX
+from topo_verify.report.account import Account, Exhibit
+from topo_verify.report.blocks import Block, PictureBlock, Text
+from topo_verify.report.league.plot import ratio_plot
+from topo_verify.report.league.tables import Memory, broken_blocks, suite_blocks
+from topo_verify.robot.limits import Limits
+from topo_verify.text import plural
+
+STORE = "runs.jsonl"
+"""The file in the folder that keeps the runs."""
+
+
+@click.command(
+    short_help="Rank mappers by cost, only sound ones.",
+    epilog=options.epilog(
+        "arena basic,folding",
+        "arena basic,folding my_mapper.py:explore --suite lattices,regular",
+        "arena all --cmd './mapper --fast' --suite all --seed 20261 --out league",
+    ),
+)
+@click.argument("texts", nargs=-1, metavar="[TARGET]...")
+@click.option("--target", "named", multiple=True, metavar="TARGET", help="The same as TARGET.")
+@click.option(
+    "--cmd",
+    "commands",
+    multiple=True,
+    metavar="'PROGRAM ARGS'",
+    help="Let this program take part, without a shell; may be repeated; see docs/arena.md.",
+)
+@options.in_process
+@click.option(
+    "--suite",
+    default=DEFAULT,
+    show_default=True,
+    metavar="NAMES",
+    help=f"Named worlds: {', '.join(SUITES)}, several with commas, or all.",
+)
+@options.seed("Of the drawn worlds; 0: the public ones, any other: drawn anew.")
+@click.option(
+    "--out",
+    metavar="DIR",
+    help="Write tables, CSV, JSON, plots, players and a page here, and keep the runs: the same"
+    " call goes on.",
+)
+@click.option(
+    "--workers",
+    type=click.IntRange(min=0),
+    metavar="N",
+    help="Number of worker processes; 0: only this one.  [default: one per processor]",
+)
+@options.limits
+@output_options
+@report_options
+def arena(  # noqa: PLR0913  an argument an option
+    output: Output,
+    *,
+    texts: tuple[str, ...],
+    named: tuple[str, ...],
+    commands: tuple[str, ...],
+    in_process: bool,
+    suite: str,
+    seed: int,
+    out: str | None,
+    workers: int | None,
+    limits: Limits,
+) -> int:
+    """Rank mappers by what they pay for a map, as a multiple of the least cost of a proof (LB).
+
+    Every run is judged by every claim. A mapper that breaks one has no place, only its
+    counterexample. Intervals are at 95 %; `behind` compares with the first of the table in the same
+    worlds. The same call gives the same figures but for time and memory, however many workers there
+    are and however often it was interrupted.
+    """
+    suites = tuple(chosen_suites(suite))
+    asked = _asked(texts, named, commands)
+    folder = None if out is None else options.make_folder(out, "--out")
+    if folder is not None:
+        _add_page(output, folder)
+        watch()  # before a mapper is loaded
+    mappers = _loaded(asked, in_process=in_process)
+    made: dict[ArenaTask, ArenaRun | MemoryRun] = {}
+    league = League(mappers, suites, seed, made)
+    _require_players(league)
+    job = arena_job(mappers, limits, in_process=in_process, identify=folder is not None)
+    found, dearest = FoundRuns(output), list[Exhibit]()
+
+    def entries() -> Iterator[Result[LeagueEntry]]:
+        number = processors() if workers is None else workers
+        try:
+            _play(output, league, made, job, folder, number)
+        except KeyboardInterrupt:
+            yield from map(_result, league.entries())  # what is done is printed
+            raise
+        table = league.entries()
+        _run_again(league, found, table, limits)
+        if output.exhibits:
+            dearest.extend(dearest_exhibits(league, limits))
+        if folder is not None:
+            write_folder(folder, league, table, dearest, found.exhibits)
+        _add_timing(output, league, table)
+        yield from map(_result, table)
+        close(mappers)
+
+    def account(table: Sequence[LeagueEntry]) -> Account:
+        blocks = _show(league, table, memory=None, pictures=True)
+        return arena_account(table, blocks, found, dearest, exact=all(s.exact for s in suites))
+
+    close(mappers)
+    show = partial(_with_walk, league, found=found)
+    words = [one.name for one in suites]
+    return output.run(
+        "arena", entries, show, account=account, suite=words, seed=seed, in_process=in_process
+    )
+
+
+def _asked(texts: Sequence[str], named: Sequence[str], commands: Sequence[str]) -> list[str]:
+    """The TARGETs of the command line, the programs last."""
+    if texts and named:
+        raise InputError(
+            f"expected TARGETs in one way, got {texts[0]!r} and --target {named[0]}; leave one out"
+        )
+    asked = [*(texts or named), *(PREFIX + command for command in commands)]
+    if not asked:
+        raise InputError("name the TARGETs that take part, or programs with --cmd 'program args'")
+    return asked
+
+
+def _loaded(asked: Sequence[str], *, in_process: bool) -> tuple[Target, ...]:
+    """The mappers, each once. Workers load them again; here it is seen that they can be."""
+    found = [target for text in asked for target in targets_of(text, in_process=in_process)]
+    names = [target.text for target in found]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        close(found)
+        raise InputError(f"target {twice!r} takes part twice: name each mapper once")
+    return tuple(found)
+
+
+def _require_players(league: League) -> None:
+    """Refuse a suite that nobody can play, and a mapper that can play none."""
+    for mapper in league.mappers:
+        if not any(league.plays(mapper, suite) for suite in league.suites):
+            raise InputError(
+                f"target {mapper.text!r} assumes planar worlds, and --suite"
+                f" {','.join(s.name for s in league.suites)} has others: add --suite"
+                f" {','.join(s.name for s in SUITES.values() if s.planar)}"
+            )
+
+
+def _result(entry: LeagueEntry) -> Result[LeagueEntry]:
+    broken = entry.counterexample is not None
+    return Result(entry, failed=broken, incomplete=not broken and entry.worlds < entry.total)
+
+
+# ---------------------------------------------------------------- the work
+
+
+def _play(
+    output: Output,
+    league: League,
+    made: dict[ArenaTask, ArenaRun | MemoryRun],
+    job: ArenaJob,
+    folder: Path | None,
+    workers: int,
+) -> None:
+    """Make the runs, and keep them in the folder if there is one."""
+    for mapper in league.mappers:
+        for suite in league.suites:
+            if not league.plays(mapper, suite):
+                output.note(f"{mapper.text} assumes planar worlds: left out of {suite.name}")
+    if folder is None:
+
+        def keep(result: ArenaResult) -> None:
+            made[result.made.task] = result.made
+
+        play(league, job, keep, workers=workers, tell=output.progress)
+        return
+    with ArenaStore(folder / STORE, job.limits) as store:
+        store.enter(league.mappers)
+        made.update(store.made)
+        done = len(league.planned) - len(store.missing(league.planned))
+        _tell_of(output, store, done, len(league.planned))
+
+        def put(result: ArenaResult) -> None:
+            store.put(result)
+            made[result.made.task] = result.made
+
+        try:
+            play(league, job, put, workers=workers, tell=output.progress)
+        except KeyboardInterrupt:
+            output.note(f"the runs so far are kept in {store.path}; the same command goes on")
+            raise
+
+
+def _tell_of(output: Output, store: ArenaStore, done: int, planned: int) -> None:
+    if store.repaired:
+        output.note(f"{store.path}: half a line at its end was cut off; that run is made again")
+    if done:
+        output.note(f"{done} of {plural(planned, 'run')} are in {store.path}")
+    output.timing["from_store"] = done
+
+
+def _run_again(
+    league: League, found: FoundRuns, table: Sequence[LeagueEntry], limits: Limits
+) -> None:
+    """Run each mapper that broke a claim once more, to show where."""
+    broken = {e.mapper: e.counterexample for e in table if e.counterexample is not None}
+    for mapper in league.mappers:
+        if (first := broken.get(mapper.text)) is not None:
+            found.run_again([mapper], first.world, first.claim, limits, first.message)
+
+
+def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) -> None:
+    """What differs from run to run, by suite and mapper."""
+    time, memory = defaultdict[str, Any](dict), defaultdict[str, Any](dict)
+    for entry in table:
+        if entry.place is not None:
+            time[entry.suite][entry.mapper] = entry.ms_per_move
+            memory[entry.suite][entry.mapper] = league.memory(entry)
+    output.timing.update(ms_per_move=dict(time), memory_mib=dict(memory))
+
+
+def _add_page(output: Output, folder: Path) -> None:
+    """Have the page written into the folder, beside the files that other options ask for."""
+    files, others = ReportFiles(report=str(folder / REPORT)), output.report
+    files.check()
+    output.exhibits = True
+
+    def both(account: Account, ending: Ending) -> None:
+        write_reports(files, account, ending)
+        if others is not None:
+            others(account, ending)
+
+    output.report = both
+
+
+# ---------------------------------------------------------------- for people
+
+
+def _with_walk(
+    league: League, table: Sequence[LeagueEntry], *, found: FoundRuns
+) -> Iterator[Block]:
+    yield from _show(league, table, memory=league.memory)
+    yield from found.blocks()
+
+
+def _show(
+    league: League,
+    table: Sequence[LeagueEntry],
+    *,
+    memory: Memory | None,
+    pictures: bool = False,
+) -> Iterator[Block]:
+    """A table a suite, what was judged in part, and the mappers without a place."""
+    for number, suite in enumerate(league.suites):
+        mine = [entry for entry in table if entry.suite == suite.name]
+        if number:
+            yield Text("")
+        yield from suite_blocks(suite, mine, league.seed, memory)
+        if pictures:
+            yield from _plot(league, suite, mine)
+    ranked = {entry.mapper: entry for entry in table if entry.place is not None}
+    for mapper, entry in ranked.items():
+        for sentence in unjudged(mapper, "these worlds", entry.judgements):
+            yield Text("")
+            yield sentence
+    yield from broken_blocks(table)
+
+
+def _plot(league: League, suite: Suite, entries: Sequence[LeagueEntry]) -> Iterator[Block]:
+    ranked = [entry for entry in entries if entry.place is not None]
+    if ranked:
+        runs = {entry.mapper: league.runs(entry.mapper, suite) for entry in ranked}
+        alt = f"cost / LB against the number of edges in suite {suite.name}"
+        yield PictureBlock(ratio_plot(suite, ranked, runs), alt)

@@ -1,0 +1,165 @@
+"""The suites of the arena: named sets of worlds, each the same for everybody.
+
+A suite is made of **families**, which weigh the same in its means however many worlds each has. A
+family is drawn (a call with a seed: seeds 0, 1, … by default) or **exact**: every world of a finite
+class, so that its mean has no error of sampling.
+
+With another seed than 0 the worlds are drawn anew, by seeds that a hash makes of it: whoever does
+not know that seed cannot have met the worlds before. Exact families have no seed and stay the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+
+from topo_verify.errors import InputError
+from topo_verify.programs.hints import close_name
+from topo_verify.world.enumeration import rank_order
+
+DEFAULT = "default"
+"""The suite if none is named."""
+
+
+@dataclass(frozen=True)
+class SuiteFamily:
+    """Worlds of one kind.
+
+    Attributes:
+        name: as tables name it.
+        size: how many worlds there are.
+        listed: the WORLD arguments of the worlds, given the seed of the arena.
+        exact: they are every world of a finite class.
+        planar: all of them are planar.
+    """
+
+    name: str
+    size: int
+    listed: Callable[[int], Sequence[str]]
+    exact: bool = False
+    planar: bool = False
+
+
+@dataclass(frozen=True)
+class Suite:
+    """A named set of worlds.
+
+    Attributes:
+        about: what it is for, in a few words.
+    """
+
+    name: str
+    about: str
+    families: tuple[SuiteFamily, ...]
+
+    @property
+    def size(self) -> int:
+        """How many worlds there are."""
+        return sum(family.size for family in self.families)
+
+    @property
+    def planar(self) -> bool:
+        """Whether all worlds are planar."""
+        return all(family.planar for family in self.families)
+
+    @property
+    def exact(self) -> bool:
+        """Whether these are all worlds of finite classes."""
+        return all(family.exact for family in self.families)
+
+    def worlds(self, seed: int) -> list[str]:
+        """The WORLD arguments of the worlds, family by family."""
+        return [text for family in self.families for text in family.listed(seed)]
+
+
+def drawn(call: str, number: int, *, planar: bool = False) -> SuiteFamily:
+    """A family of worlds that have a seed.
+
+    Args:
+        call: the family's call without its seed, as `lattice(10,10,holes=0.2)`.
+    """
+    head = call.removesuffix(")")
+    return SuiteFamily(
+        call,
+        number,
+        lambda seed: [f"family:{head},seed={_drawn_seed(seed, call, k)})" for k in range(number)],
+        planar=planar,
+    )
+
+
+def _drawn_seed(seed: int, call: str, place: int) -> int:
+    """The seed of one world: its place in the public suite, else a hash that nobody can guess."""
+    if seed == 0:
+        return place
+    return int.from_bytes(sha256(f"{seed} {call} {place}".encode()).digest()[:6])
+
+
+def alike(call: str, *markers: int) -> SuiteFamily:
+    """A family whose worlds differ in their marker alone, so that these are all of them.
+
+    Args:
+        markers: a dart for each world that is different; none: one world, however it is marked.
+    """
+    head = call.removesuffix(")")
+    texts = [f"family:{head},marker={dart})" for dart in markers] or [f"family:{call}"]
+    return SuiteFamily(call, len(texts), lambda _seed: texts, exact=True)
+
+
+def every(edges: int) -> SuiteFamily:
+    """Every world of 1 to so many edges, in the order of their ids."""
+    counts = {m: rank_order.count(m) for m in range(1, edges + 1)}
+    return SuiteFamily(
+        f"edges<={edges}",
+        sum(counts.values()),
+        lambda _seed: [f"m{m}/{rank}" for m, count in counts.items() for rank in range(count)],
+        exact=True,
+    )
+
+
+LATTICE = "lattice(10,10,holes=0.2)"
+
+SUITES = {
+    suite.name: suite
+    for suite in (
+        Suite(
+            DEFAULT,
+            "a small mixture",
+            (
+                every(3),
+                drawn(LATTICE, 10, planar=True),
+                drawn("king(8,8)", 3),
+                alike("torus(6,6)"),
+                drawn("regular(40,8,holes=0.2)", 5),
+            ),
+        ),
+        Suite("tiny", "every world of up to 4 edges", (every(4),)),
+        Suite(
+            "lattices",
+            "planar grids with holes",
+            (drawn(LATTICE, 30, planar=True), drawn("lattice(20,20,holes=0.2)", 8, planar=True)),
+        ),
+        Suite("king", "grids with diagonals: high genus", (drawn("king(10,10)", 10),)),
+        Suite("torus", "a grid without a border", (alike("torus(10,10)"),)),
+        Suite("regular", "random graphs of degree 8", (drawn("regular(80,8,holes=0.2)", 30),)),
+    )
+}
+"""Every suite by its name."""
+
+
+def chosen_suites(text: str) -> list[Suite]:
+    """The suites that a text names: some names with commas, or `all`.
+
+    Raises:
+        InputError: there is no such suite, or one is named twice.
+    """
+    names = list(SUITES) if text == "all" else [name.strip() for name in text.split(",")]
+    for name in names:
+        if name not in SUITES:
+            raise InputError(
+                f"--suite {name!r}: no such suite{close_name(name, SUITES) or ':'} there are"
+                f" {', '.join(SUITES)} and all; several are given with commas"
+            )
+    if len(set(names)) < len(names):
+        raise InputError(f"--suite {text!r}: a suite is named twice: name each once")
+    return [SUITES[name] for name in names]

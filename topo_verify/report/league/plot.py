@@ -1,0 +1,167 @@
+"""Cost / LB against the number of edges: a picture of a suite, as plain SVG.
+
+A small dot a world; a large sign a family, at its mean size and mean ratio, with its confidence
+interval as a bar. Both axes are logarithmic. Colours are after M. Okabe and K. Ito; the signs
+differ in shape as well, and the legend names them in the order of the table. The light card can be
+read on a dark page. Coordinates are rounded, so the same runs give the same bytes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import cos, log, pi, sin
+from typing import NamedTuple
+
+from topo_verify.harness.arena.league import LeagueEntry
+from topo_verify.harness.arena.rows import ArenaRun
+from topo_verify.harness.arena.suites import Suite
+from topo_verify.report.escape import xml_text
+from topo_verify.report.style import PALETTE
+
+WIDTH, HEIGHT = 720, 430
+LEFT, RIGHT, TOP, BOTTOM = 62, 210, 64, 48
+
+COLOURS = (
+    *("#0072b2", "#d55e00", "#00805f", "#9e4a86", "#946b00", "#22282e", "#3a8fb7", "#b3261e"),
+    *("#6d7780", "#5b6b00"),
+)
+"""The colours of the mappers, in the order of the table; then they begin anew."""
+
+CORNERS = (0, 4, 3, 5, 8, 6, 7)
+"""The corners of the signs, in the same order; 0: a circle. With ten colours: 70 different ones."""
+
+NAME = 26
+"""The most characters of a name in the legend."""
+
+TICKS = (1, 2, 5)
+
+SHIFT, SPREAD = 5.0, 16.0
+"""Pixels between the signs of two mappers at one family, so that equal ones are both seen; and of
+all of them together at most, so that families stay apart."""
+
+
+class Axis(NamedTuple):
+    """A logarithmic axis: values, and the pixels at which the first and the last one lie."""
+
+    low: float
+    high: float
+    start: float
+    end: float
+
+    def at(self, value: float) -> float:
+        """The pixel of a value."""
+        share = (log(value) - log(self.low)) / (log(self.high) - log(self.low))
+        return round(self.start + share * (self.end - self.start), 1)
+
+    @property
+    def ticks(self) -> list[int]:
+        """The values that are written beside the axis."""
+        powers = range(5)
+        every = [tick * 10**power for power in powers for tick in TICKS]
+        return [value for value in every if self.low <= value <= self.high]
+
+
+def ratio_plot(
+    suite: Suite, ranked: Sequence[LeagueEntry], runs: Mapping[str, Sequence[ArenaRun]]
+) -> str:
+    """The picture of a suite.
+
+    Args:
+        ranked: the entries of the mappers that have a place, one at least.
+        runs: of each of these mappers.
+    """
+    every = [run for made in runs.values() for run in made]
+    edges, ratios = [run.edges for run in every], [run.ratio for run in every]
+    x = Axis(min(edges) / 1.15, max(edges) * 1.15, LEFT, WIDTH - RIGHT)
+    y = Axis(min(1.0, *ratios) / 1.04, max(1.1, *ratios) * 1.08, HEIGHT - BOTTOM, TOP)
+    parts = [*_frame(suite, x, y), *_names(ranked[0], x)]
+    for number, entry in enumerate(ranked):
+        parts += _dots(runs[entry.mapper], _colour(number), x, y)
+    middle = (len(ranked) - 1) / 2
+    step = min(SHIFT, SPREAD / (2 * middle)) if middle else 0.0
+    for number, entry in enumerate(ranked):
+        parts += _means(entry, number, step * (number - middle), x, y)
+        parts += _legend(entry, number)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}"'
+        f' width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif" font-size="12">\n'
+        + "\n".join(parts)
+        + "\n</svg>\n"
+    )
+
+
+def _colour(number: int) -> str:
+    return COLOURS[number % len(COLOURS)]
+
+
+def _text(x: float, y: float, words: str, *, soft: bool = False, more: str = "") -> str:
+    ink = PALETTE["soft" if soft else "ink"].light
+    return f'<text x="{x}" y="{y}" fill="{ink}"{more}>{xml_text(words)}</text>'
+
+
+def _frame(suite: Suite, x: Axis, y: Axis) -> Iterator[str]:
+    """Card, title, grid and axes."""
+    card, line = PALETTE["card"].light, PALETTE["line"].light
+    yield f'<rect width="{WIDTH}" height="{HEIGHT}" fill="{card}"/>'
+    yield _text(LEFT, 22, f"{suite.name}: {suite.about}", more=' font-size="15"')
+    middle = ' text-anchor="middle"'
+    for value in x.ticks:
+        at = x.at(value)
+        yield f'<path d="M {at} {TOP} V {HEIGHT - BOTTOM}" stroke="{line}"/>'
+        yield _text(at, HEIGHT - BOTTOM + 17, str(value), soft=True, more=middle)
+    for value in y.ticks:
+        at = y.at(value)
+        yield f'<path d="M {LEFT} {at} H {WIDTH - RIGHT}" stroke="{line}"/>'
+        yield _text(LEFT - 8, at + 4, str(value), soft=True, more=' text-anchor="end"')
+    yield _text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 12, "edges", soft=True, more=middle)
+    height = (TOP + HEIGHT - BOTTOM) / 2
+    turn = f' transform="rotate(-90 18 {height})"'
+    yield _text(18, height, "cost / LB", soft=True, more=f"{middle}{turn}")
+
+
+def _names(entry: LeagueEntry, x: Axis) -> Iterator[str]:
+    """The names of the families above their places, in three rows so that none covers another."""
+    line = PALETTE["faint"].light
+    for number, family in enumerate(sorted(entry.families, key=lambda one: one.edges)):
+        at = min(max(x.at(family.edges), LEFT + 60), WIDTH - RIGHT - 20)
+        more = ' text-anchor="middle" font-size="10"'
+        yield (
+            f'<path d="M {x.at(family.edges)} {TOP} V {HEIGHT - BOTTOM}" stroke="{line}"'
+            ' stroke-dasharray="2 4"/>'
+        )
+        yield _text(at, TOP - 4 - 12 * (number % 3), family.family, soft=True, more=more)
+
+
+def _dots(runs: Sequence[ArenaRun], colour: str, x: Axis, y: Axis) -> Iterator[str]:
+    places = dict.fromkeys((x.at(run.edges), y.at(run.ratio)) for run in runs)
+    for across, up in places:
+        yield f'<circle cx="{across}" cy="{up}" r="1.8" fill="{colour}" fill-opacity="0.35"/>'
+
+
+def _means(entry: LeagueEntry, number: int, shift: float, x: Axis, y: Axis) -> Iterator[str]:
+    """The sign of each family, and the bar of its interval."""
+    for family in entry.families:
+        at, ratio = round(x.at(family.edges) + shift, 1), family.ratio
+        if ratio.low is not None and ratio.high is not None and ratio.low < ratio.high:
+            low, high = y.at(max(ratio.low, y.low)), y.at(min(ratio.high, y.high))
+            yield f'<path d="M {at} {low} V {high}" stroke="{_colour(number)}" stroke-width="2"/>'
+        yield _sign(at, y.at(ratio.mean), number)
+
+
+def _sign(x: float, y: float, number: int) -> str:
+    corners = CORNERS[number % len(CORNERS)]
+    style = f'fill="{_colour(number)}" stroke="{PALETTE["card"].light}"'
+    if not corners:
+        return f'<circle cx="{x}" cy="{y}" r="5" {style}/>'
+    turns = (2 * pi * k / corners for k in range(corners))
+    points = " ".join(f"{x + 6 * sin(turn):.1f},{y - 6 * cos(turn):.1f}" for turn in turns)
+    return f'<polygon points="{points}" {style}/>'
+
+
+def _legend(entry: LeagueEntry, number: int) -> Iterator[str]:
+    height = TOP + 10 + 20 * number
+    if height > HEIGHT - 10:
+        return
+    name = entry.mapper if len(entry.mapper) <= NAME else f"{entry.mapper[: NAME - 1]}…"
+    yield _sign(WIDTH - RIGHT + 18, height, number)
+    yield _text(WIDTH - RIGHT + 30, height + 4, name)
