@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from tests.cli.conftest import Call
 from topo_verify.cli import arena_game
 from topo_verify.cli.arena_game import play_game
 from topo_verify.cli.output import Output
@@ -104,3 +105,26 @@ def test_a_sound_mapper_below_the_value_contradicts_the_game(
 def test_a_game_that_is_out_of_reach_is_refused(edges: int) -> None:
     with pytest.raises(InputError, match="expected 1 to 4 edges"):
         play_game(Output("json", quiet=True), edges)
+
+
+def test_the_command_plays_the_game(call: Call) -> None:
+    done = call("arena --game 2 folding,basic --format json --quiet")
+    assert done.exit_code == 0
+    mappers = [entry.get("mapper") for entry in json.loads(done.stdout)["results"]]
+    assert [name for name in mappers if name] == ["folding", "basic"] * 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ("--game 5", "--game 5: expected 1 to 4 edges"),
+        ("--game 0", "--game 0: expected 1 to 4 edges"),
+        ("--game 2 --suite king", "--suite means nothing to --game: leave out one of them"),
+        ("--game 2 --report r.html", "--report means nothing to --game"),
+        ("--game 2 basic,m.py:explore", "target 'm.py:explore': --game plays mappers of the"),
+    ],
+)
+def test_what_is_no_game_is_refused(call: Call, arguments: str, said: str) -> None:
+    done = call(f"arena {arguments}")
+    assert done.exit_code == 2
+    assert said in " ".join(done.stderr.split())

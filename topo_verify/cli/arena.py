@@ -12,6 +12,7 @@ import click
 
 from topo_verify.cli import options
 from topo_verify.cli.accounts import arena_account
+from topo_verify.cli.arena_game import game_of_catalogue
 from topo_verify.cli.arena_files import REPORT, dearest_exhibits, write_folder
 from topo_verify.cli.output import Ending, Output, Result
 from topo_verify.cli.output import options as output_options
@@ -45,6 +46,7 @@ STORE = "runs.jsonl"
     epilog=options.epilog(
         "arena basic,folding",
         "arena basic,folding my_mapper.py:explore --suite lattices,regular",
+        "arena --game 3",
         "arena all --cmd './mapper --fast' --suite all --seed 20261 --out league",
     ),
 )
@@ -78,6 +80,13 @@ STORE = "runs.jsonl"
     metavar="N",
     help="Number of worker processes; 0: only this one.  [default: one per processor]",
 )
+@click.option(
+    "--game",
+    type=int,
+    metavar="M",
+    help="Instead: what the best robot pays in the worlds of 1 to M edges, and how far the mappers"
+    " of the catalogue are from it.",
+)
 @options.limits
 @output_options
 @report_options
@@ -92,6 +101,7 @@ def arena(  # noqa: PLR0913  an argument an option
     seed: int,
     out: str | None,
     workers: int | None,
+    game: int | None,
     limits: Limits,
 ) -> int:
     """Rank mappers by what they pay for a map, as a multiple of the least cost of a proof (LB).
@@ -101,6 +111,8 @@ def arena(  # noqa: PLR0913  an argument an option
     worlds. The same call gives the same figures but for time and memory, however many workers there
     are and however often it was interrupted.
     """
+    if game is not None:
+        return game_of_catalogue(output, game, [*texts, *named])
     suites = tuple(chosen_suites(suite))
     asked = _asked(texts, named, commands)
     folder = None if out is None else options.make_folder(out, "--out")

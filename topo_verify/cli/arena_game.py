@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import click
 import msgspec
+from click.core import ParameterSource
 
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.cli.output import Output, Result
@@ -73,6 +75,30 @@ class MapperEntry(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag
 
 
 GameEntry = ValueEntry | MapperEntry
+
+
+ALLOWED = {"game", "texts", "named", "style", "quiet"}
+"""The parameters of `arena` that mean something to `--game`."""
+
+
+def game_of_catalogue(output: Output, edges: int, names: Sequence[str]) -> int:
+    """Do what `arena --game M [TARGET]...` asks for; no name or `all`: the whole catalogue.
+
+    Returns: the exit code: 1 if a claim fails, 3 if a search was cut short.
+    Raises:
+        InputError: there is no such game or mapper, or another option was given.
+    """
+    context = click.get_current_context()
+    for parameter in context.command.params:
+        source = context.get_parameter_source(parameter.name or "")
+        if source is ParameterSource.COMMANDLINE and parameter.name not in ALLOWED:
+            raise InputError(f"{parameter.opts[0]} means nothing to --game: leave out one of them")
+    asked = [name for text in names for name in text.split(",") if name != "all"]
+    for name in asked:
+        if name not in CATALOGUE:
+            known = ", ".join(CATALOGUE)
+            raise InputError(f"target {name!r}: --game plays mappers of the catalogue: {known}")
+    return play_game(output, edges, asked or tuple(CATALOGUE))
 
 
 def play_game(output: Output, edges: int, mappers: Sequence[str] = tuple(CATALOGUE)) -> int:
