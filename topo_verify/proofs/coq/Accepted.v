@@ -10,7 +10,7 @@
 From Coq Require Import Arith Lia List Bool PArith FMapPositive.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log Determined Undetermined Classes
-  Quotient Entailed Table Checker CheckerCorrect Ranked Saturated Complete.
+  Quotient Entailed Table TableCorrect Numbered Checker CheckerCorrect Ranked Saturated Complete.
 
 Local Opaque fuel.
 
@@ -324,6 +324,31 @@ Proof.
   unfold rejected. rewrite !Mem by auto. simpl andb.
   apply (first_conflict_shown L [(p, q)] Few Legal Rec).
   intros (W & v & HW & V & F). apply (N W v HW V), (F (abs p) (abs q)). simpl. auto.
+Qed.
+
+(** Claim 9, the verdict PROVED: wherever a log is closed and some world shows it, the checker accepts
+    a table with that evidence. *)
+Theorem certified_accepts W L : world W -> replays W L -> few_visits L -> closed L ->
+  exists t, certified L t (saturating L []) = true.
+Proof.
+  intros HW R Few C.
+  destruct (table_exists W L (world_is_map W HW) (world_connected W HW) R) as (t & A & B).
+  exists t. unfold certified. rewrite A, (proves_accepts W L HW R Few C).
+  rewrite (proj2 B (world_total W HW)). auto.
+Qed.
+
+(** Claim 9, the verdict REFUTED where worlds exist: wherever two worlds that differ show a log, the
+    checker accepts a table. *)
+Theorem refute_accepts L : undetermined L -> exists t, refute L t = true.
+Proof.
+  intros (W & W' & HW & HW' & R & R' & N). destruct (shown_possible W L HW R) as [_ P].
+  apply possible_consistent in P; [|intros p q []].
+  destruct (quotient_exists L nothing P) as (M & u & Q).
+  destruct (table_exists M L) as (t & A & B); try apply Q; [apply (visits_replays M L u), Q|].
+  exists t. unfold refute. rewrite A. simpl. apply negb_true_iff, not_true_iff_false. intros T.
+  apply N. apply (closed_determines L); auto. intros p V.
+  destruct (q_link _ _ _ _ Q p V) as (q & r & K & S & _); [|eauto].
+  apply (proj1 B T), turn_lt; [apply Q|]. apply (v_lt M L u (q_visits _ _ _ _ Q)).
 Qed.
 
 (** The first arc that joins the classes of p and q. *)
