@@ -4,7 +4,7 @@
 
     The darts are numbered by discovery: those of the root's vertex, then again and again those of
     a vertex behind an edge of a vertex that is numbered, from its entry on. The invariant is
-    [numbering]. The table says for each dart of that list where the others are in it. *)
+    [discovery]. The table says for each dart of that list where the others are in it. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Augment Log Determined Undetermined Classes Table
@@ -48,7 +48,7 @@ Definition orbit e := map (fun k => turn M k e) (seq 0 (degree M e)).
 
 (** The list [ord] numbers some vertices by discovery: it starts at the root; whole vertices are
     listed; each dart but the first follows the one before it, or is joined with an earlier one. *)
-Record numbering (ord : list nat) : Prop := {
+Record discovery (ord : list nat) : Prop := {
   nb_lt : forall d, In d ord -> d < darts M;
   nb_once : NoDup ord;
   nb_some : 0 < length ord;
@@ -92,8 +92,8 @@ Proof.
   - exists (S k). split; auto. apply in_seq. lia.
 Qed.
 
-(** The root's vertex is a numbering. *)
-Lemma first_numbering : numbering (orbit (root M)).
+(** The root's vertex is a discovery. *)
+Lemma first_discovery : discovery (orbit (root M)).
 Proof.
   assert (R := root_lt M WM). destruct (degree_spec M WM _ R) as (Pd & _). split.
   - intros d I. apply in_orbit in I as (k & _ & ->). apply turn_lt; auto.
@@ -106,8 +106,8 @@ Qed.
 
 (** If an end of an edge is numbered and the other is not, the vertex of the other can be numbered
     next. *)
-Lemma next_numbering ord d e : numbering ord -> In d ord -> alpha M d = Some e -> ~ In e ord ->
-  numbering (ord ++ orbit e).
+Lemma next_discovery ord d e : discovery ord -> In d ord -> alpha M d = Some e -> ~ In e ord ->
+  discovery (ord ++ orbit e).
 Proof.
   intros [A B C R S F] I E N. destruct (alpha_ok M WM d e (A d I) E) as (Le & _ & E').
   destruct (degree_spec M WM e Le) as (Pd & Full & _).
@@ -135,11 +135,11 @@ Proof.
 Qed.
 
 (** All darts can be numbered. *)
-Lemma numbering_exists : exists ord, numbering ord /\ forall d, d < darts M -> In d ord.
+Lemma discovery_exists : exists ord, discovery ord /\ forall d, d < darts M -> In d ord.
 Proof.
-  cut (forall n ord, numbering ord -> darts M < n + length ord ->
-    exists ord, numbering ord /\ forall d, d < darts M -> In d ord).
-  { intros H. apply (H (S (darts M)) (orbit (root M))); [apply first_numbering|lia]. }
+  cut (forall n ord, discovery ord -> darts M < n + length ord ->
+    exists ord, discovery ord /\ forall d, d < darts M -> In d ord).
+  { intros H. apply (H (S (darts M)) (orbit (root M))); [apply first_discovery|lia]. }
   intros n. induction n as [|n IH]; intros ord Nb Le.
   - exfalso. assert (Q : length ord <= length (seq 0 (darts M))).
     { apply NoDup_incl_length; [apply Nb|]. intros d I. apply in_seq.
@@ -150,7 +150,7 @@ Proof.
     + intros d. destruct (alpha M d) as [e|]; [|right; intros (e & E & _); discriminate].
       destruct (in_dec Nat.eq_dec e ord) as [I|N]; [right|left; eauto].
       intros (x & E & N). injection E as <-. auto.
-    + apply (IH (ord ++ orbit e)); [apply next_numbering with d; auto|].
+    + apply (IH (ord ++ orbit e)); [apply next_discovery with d; auto|].
       rewrite app_length, orbit_length.
       destruct (degree_spec M WM e) as (Pd & _); [|lia].
       apply (alpha_ok M WM d e); auto. apply (nb_lt ord Nb); auto.
@@ -161,12 +161,12 @@ Proof.
       * destruct (in_dec Nat.eq_dec e ord) as [K|K]; auto. destruct (All d J). eauto.
 Qed.
 
-(** The table of a numbering. *)
+(** The table of a discovery. *)
 Definition table_by ord : map_table := map (fun d => (index_of (sigma M d) ord,
   index_of (turn M (degree M d - 1) d) ord, option_map (fun e => index_of e ord) (alpha M d))) ord.
 
 (** A map whose darts are all numbered is isomorphic to its table, which [check_table] accepts. *)
-Lemma table_by_right ord : numbering ord -> (forall d, d < darts M -> In d ord) ->
+Lemma table_by_right ord : discovery ord -> (forall d, d < darts M -> In d ord) ->
   check_table (table_by ord) = true /\
   embedded M (map_of (table_by ord)) (fun d => index_of d ord) /\
   (total (table_by ord) = true <-> forall d, d < darts M -> alpha M d <> None).
@@ -246,7 +246,7 @@ Qed.
 Theorem table_exists M L : is_map M -> connected M -> replays M L -> exists t, check_map t L = true /\
   (total t = true <-> forall d, d < darts M -> alpha M d <> None).
 Proof.
-  intros WM CM R. destruct (numbering_exists M WM CM) as (ord & Nb & All).
+  intros WM CM R. destruct (discovery_exists M WM CM) as (ord & Nb & All).
   destruct (table_by_right M WM ord Nb All) as (C & E & T). exists (table_by M ord). split.
   - unfold check_map. rewrite C. simpl. apply check_table_spec in C as [WT _].
     destruct (embedded_replays M _ _ L WM WT E R) as [R1 R2]. simpl root in R1, R2. rewrite R1.

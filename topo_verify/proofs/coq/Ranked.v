@@ -330,7 +330,8 @@ Lemma unite_spec U rho d p q : ranked U rho -> tidy d p -> tidy d q -> sign (fst
     rep (unite U p q) p = rep (unite U p q) q /\
     (forall d a b, tidy d a -> tidy d b -> rep U a = rep U b ->
       rep (unite U p q) a = rep (unite U p q) b) /\
-    forall z, find z U = None -> z <> fst (rep U q) -> find z (unite U p q) = None.
+    (forall z, find z U = None -> z <> fst (rep U q) -> find z (unite U p q) = None) /\
+    forall d a, tidy d a -> fst (rep U a) <> fst (rep U q) -> rep (unite U p q) a = rep U a.
 Proof.
   intros R P Q E N Le.
   assert (Lt : forall d a, tidy d a -> leads U a (rep U a)).
@@ -352,7 +353,7 @@ Proof.
   { intros e a A. eapply rep_spec; [exact R'|]. destruct (tidy_sign e a A) as (m & ->). discriminate. }
   assert (M : forall d a, tidy d a -> rep (PositiveMap.add y z U) a = moved y z (rep U a)).
   { intros e a A. apply (leads_det _ _ _ (Lt' e a A)). apply leads_moved; auto. apply (Lt e a A). }
-  split; [|split].
+  split; [|split; [|split]].
   - refine (eq_trans (M d p P) (eq_sym (eq_trans (M d q Q) _))).
     rewrite Ep, Eq. unfold moved. cbn [fst snd]. rewrite Pos.eqb_refl.
     destruct (Pos.eqb_spec x y) as [|_]; [tauto|]. unfold z. cbn [fst snd].
@@ -360,6 +361,8 @@ Proof.
     replace (j + (d - j + i)) with (i + 1 * d) by lia. rewrite Nat.mod_add, Nat.mod_small; lia.
   - intros e a b A B Eab. refine (eq_trans (M e a A) (eq_sym (eq_trans (M e b B) _))). rewrite Eab. auto.
   - intros w W Ne. rewrite PositiveMap.gso; auto.
+  - intros e a A Ne. refine (eq_trans (M e a A) _). unfold moved.
+    destruct (Pos.eqb_spec (fst (rep U a)) y); tauto.
 Qed.
 
 (** U' has merged all that U has. *)

@@ -168,19 +168,27 @@ Qed.
 (** The ranks before the first merge: the start is above all other visits. *)
 Definition rank_0 (x : positive) := if Pos.eqb x 1 then 1 else 0.
 
-(** The evidence that a log with assumed edges gives by itself. *)
-Definition saturating :=
-  saturation (S (length (sights L))) (markers T (sights L)) rank_0.
+(** The evidence that leads on from a union-find until all is merged. *)
+Definition saturating_from U rho := saturation (S (length (sights L))) U rho.
 
 (** The union-find after it. *)
-Definition saturated_fold := folded L extra saturating.
+Definition fold_from U rho := fold_left (glue T D) (saturating_from U rho) U.
 
 (** All conflicts that there might be. *)
 Definition all_conflicts := map Arrive (list_prod all_arcs all_arcs) ++
   map Marked (all_visits L) ++ map Alone (map fst (enum 1 (edges L extra))).
 
-(** The first conflict that the union-find shows; None if it shows none. *)
-Definition conflict_found := List.find (check_conflict T D saturated_fold) all_conflicts.
+(** The first conflict that the union-find then shows; None if it shows none. *)
+Definition conflict_from U rho := List.find (check_conflict T D (fold_from U rho)) all_conflicts.
+
+(** The evidence that a log with assumed edges gives by itself. *)
+Definition saturating := saturating_from (markers T (sights L)) rank_0.
+
+(** The union-find after it. *)
+Definition saturated_fold := folded L extra saturating.
+
+(** The first conflict that it shows; None if it shows none. *)
+Definition conflict_found := conflict_from (markers T (sights L)) rank_0.
 
 (** The same conflict, or any where there is none. *)
 Definition first_conflict := match conflict_found with Some c => c | None => Alone 1 end.

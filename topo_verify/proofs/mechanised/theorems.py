@@ -174,6 +174,8 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
         "A contradiction computed for a rejection that follows from a log is accepted."),
     _one("coq-confirm-accepted", "Accepted.confirmed_accepts", "decisions-entailed",
         "Partners computed for a confirmation that follows from a log are accepted."),
+    _one("coq-folding-exact", "Accepted.folding_exact", "decisions-entailed",
+        "Folding a log, as a program, rejects exactly the edges that no world with that log has."),
     _one("coq-decisions-certified", "DecisionsCorrect.decided_correct", "decisions-entailed",
         "Declared decisions that the checker accepts follow, each from the events before it."),
     _one("coq-delivered", "Delivered.check_delivery_right", "map-isomorphic map-entailed",
