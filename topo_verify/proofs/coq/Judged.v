@@ -27,6 +27,17 @@ Record ready L m rho : Prop := {
 Definition refutation L m rho p q := Refuted (saturating_from L [(p, q)] (unified m) rho)
   match conflict_from L [(p, q)] (unified m) rho with Some c => c | None => Alone 1 end.
 
+(** All reasons that are tried for a decision. *)
+Definition candidates L m rho s ev : list (list reason) := match ev with
+  | Move _ _ => []
+  | Reject e h => match place_of s e, place_of s h with
+      | Some p, Some q => [[refutation L m rho p q]] | _, _ => [] end
+  | Confirm _ _ | Loop _ _ _ => map (fun a => [Joined a]) (all_arcs L [])
+  | New e _ _ => match place_of s e with
+      | Some p => map (fun a => Joined a :: map (fun o => refutation L m rho p (snd o))
+          (but e (opened s))) (all_arcs L [])
+      | None => [] end end.
+
 (** If all worlds have a vertex of one degree behind a place, the log crossed its dart. *)
 Lemma crossed_behind L p d : possible nothing L -> valid L p ->
   (forall W v, world W -> visits W L v -> exists b, alpha W (dart W v p) = Some b /\ degree W b = d) ->
@@ -112,19 +123,20 @@ Qed.
 (** Where a link joins what is identified with p and q, an arc is accepted that joins them. *)
 Lemma arc_supported p q p' q' : on_record L p -> on_record L q -> link nothing L p' q' ->
   same nothing L (abs p) p' -> same nothing L (abs q) q' ->
-  exists a, supported m (Leads p q) (Joined a) = true.
+  exists a, In a (all_arcs L []) /\ supported m (Leads p q) (Joined a) = true.
 Proof.
   intros P Q K S S'. destruct judged_possible as [Legal _]. assert (HT := proj1 (proj2 (rd_true _ _ _ Ready))).
   assert (HD := proj1 (proj2 (proj2 (rd_true _ _ _ Ready)))).
   destruct (link_arc L [] p' q' K) as (a & r & s & E & <- & <-).
   destruct (legal_ends L [] Legal (nothing_recorded L) a r s E) as [Tr Ts].
-  exists a. unfold supported, check_partners. rewrite HT, HD, E.
+  exists a. split; [apply (arc_listed L [] a r s E)|].
+  unfold supported, check_partners. rewrite HT, HD, E.
   rewrite (ready_merged p r), (ready_merged q s), !pplace_eqb_refl; auto.
 Qed.
 
 (** Where every world has an edge from p to q, an arc is accepted that joins them. *)
 Lemma joined_supported p q : on_record L p -> on_record L q -> holds L (Leads p q) ->
-  exists a, supported m (Leads p q) (Joined a) = true.
+  exists a, In a (all_arcs L []) /\ supported m (Leads p q) (Joined a) = true.
 Proof.
   intros P Q H. destruct judged_possible as [_ Pos].
   assert (V : forall a, on_record L a -> valid L (abs a)).
@@ -179,9 +191,9 @@ Proof.
 Qed.
 
 (** Claim 10: at a moment at which all is merged, every decision that follows is accepted with some
-    reasons. *)
+    of the reasons that are tried. *)
 Theorem judge_accepts ev : is_decision ev = true -> true_wherever L M ev ->
-  exists rs s', rs <> [] /\ judge m s ev rs = Some s'.
+  exists rs s', In rs (candidates L m rho s ev) /\ judge m s ev rs = Some s'.
 Proof.
   intros De H. assert (H' := true_of_places ev H).
   assert (HT := proj1 (proj2 (rd_true _ _ _ Ready))).
@@ -190,21 +202,22 @@ Proof.
   destruct ev as [|e h|e h|e h d|e a d]; try discriminate; simpl in Tr.
   - destruct Tr as (Oe & Oh & _). destruct (place_of_open e Oe) as (p & Pe & Ie).
     destruct (place_of_open h Oh) as (q & Ph & Ih).
-    exists [refutation L m rho p q], s. split; [discriminate|]. unfold judge. rewrite Pe, Ph.
+    exists [refutation L m rho p q], s. unfold candidates, judge. rewrite Pe, Ph.
+    split; [simpl; auto|].
     rewrite refutation_supported; eauto. intros W v HW V.
     destruct (H' W v HW V) as (psi & _ & (_ & _ & N) & G). rewrite <- (G _ _ Ie), <- (G _ _ Ih). auto.
   - destruct Tr as (Oe & Oh & _). destruct (place_of_open e Oe) as (p & Pe & Ie).
     destruct (place_of_open h Oh) as (q & Ph & Ih).
-    destruct (joined_supported p q) as (c & C); eauto.
+    destruct (joined_supported p q) as (c & Ic & C); eauto.
     { intros W v HW V. destruct (H' W v HW V) as (psi & _ & (_ & _ & N) & G).
       rewrite <- (G _ _ Ie), <- (G _ _ Ih). auto. }
-    exists [Joined c], s. split; [discriminate|]. unfold judge. rewrite Pe, Ph, C. auto.
+    exists [Joined c], s. split; [apply (in_map (fun a => [Joined a])), Ic|]. unfold judge. rewrite Pe, Ph, C. auto.
   - destruct Tr as (Oe & Oh & Eh & Dh). destruct (place_of_open e Oe) as (p & Pe & Ie).
     destruct (place_of_open h Oh) as (q & Ph & Ih).
-    destruct (joined_supported p q) as (c & C); eauto.
+    destruct (joined_supported p q) as (c & Ic & C); eauto.
     { intros W v HW V. destruct (H' W v HW V) as (psi & _ & (_ & _ & N & _) & G).
       rewrite <- (G _ _ Ie), <- (G _ _ Ih). auto. }
-    eexists [Joined c], _. split; [discriminate|]. unfold judge. rewrite Pe, Ph, C, HT.
+    eexists [Joined c], _. split; [apply (in_map (fun a => [Joined a])), Ic|]. unfold judge. rewrite Pe, Ph, C, HT.
     rewrite (on_record_degree q d); [|eauto|rewrite <- (F _ _ Ih); auto].
     destruct (Nat.eqb_spec h e) as [->|N]; [|reflexivity].
     apply (alpha_ok W0 (world_is_map W0 HW0)) in Eh as (_ & Ne & _); [tauto|].
@@ -228,7 +241,10 @@ Proof.
     { unfold supported, check_partners. rewrite HT, HD, E.
       rewrite (ready_merged p r), !pplace_eqb_refl; auto. }
     exists (Joined c :: map (fun o => refutation L m rho p (snd o)) (but e (opened s))).
-    eexists. split; [discriminate|]. unfold judge. rewrite Pe, HD, E, Sup, HT.
+    eexists. split.
+    { unfold candidates. rewrite Pe. apply (in_map (fun a => Joined a :: map (fun o => refutation L m rho p (snd o))
+        (but e (opened s)))), (arc_listed L [] c r q E). }
+    unfold judge. rewrite Pe, HD, E, Sup, HT.
     rewrite (on_record_degree q d Tq); [|rewrite <- Db; f_equal; assert (Q := Lead W0 v0 HW0 V0);
       rewrite <- (F _ _ Ie) in Q; congruence].
     rewrite A, Ea, Nat.eqb_refl, all_refuted_supported; [reflexivity|exact P|]. intros h o I.

@@ -178,6 +178,8 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
         "Folding a log, as a program, rejects exactly the edges that no world with that log has."),
     _one("coq-decisions-certified", "DecisionsCorrect.decided_correct", "decisions-entailed",
         "Declared decisions that the checker accepts follow, each from the events before it."),
+    _one("coq-decisions-accepted", "DecisionsAccepted.decided_accepts", "decisions-entailed",
+        "Of a log that some world shows, every decision that follows is accepted with reasons."),
     _one("coq-delivered", "Delivered.check_delivery_right", "map-isomorphic map-entailed",
         "A delivered map that the checker accepts is every world that shows the log."),
     _one("coq-certificate", "Certificate.check_numbers_correct", "map-entailed decisions-entailed",
