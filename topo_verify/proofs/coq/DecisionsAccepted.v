@@ -22,7 +22,8 @@ Definition follows_after p past before e := event_follows p (past ++ before) e /
 Lemma visits_past W v p past es : visits W (log_after p (past ++ es)) v -> visits W (log_after p past) v.
 Proof.
   apply visits_shorter; unfold seen, door, log_after; simpl; intros i x E;
-    rewrite flat_map_app, map_app, ?app_comm_cons, nth_error_app1; auto; apply nth_error_Some; congruence.
+    rewrite flat_map_app, map_app, ?app_comm_cons, nth_error_app1; auto; apply nth_error_Some;
+      congruence.
 Qed.
 
 (** The beginning of a log has no more visits. *)
@@ -33,9 +34,11 @@ Proof.
 Qed.
 
 (** No candidate is empty. *)
-Lemma candidates_reasoned L m rho s ev rs : In rs (candidates L m rho s ev) -> exists r rs', rs = r :: rs'.
+Lemma candidates_reasoned L m rho s ev rs : In rs (candidates L m rho s ev) ->
+  exists r rs', rs = r :: rs'.
 Proof.
-  assert (G : forall (f : arc -> reason) (g : arc -> list reason) l, In rs (map (fun a => f a :: g a) l) ->
+  assert (G : forall (f : arc -> reason) (g : arc -> list reason) l,
+    In rs (map (fun a => f a :: g a) l) ->
     exists r rs', rs = r :: rs').
   { intros f g l I. apply in_map_iff in I as (a & <- & _). eauto. }
   unfold candidates. destruct ev as [|e h|e h|e h d|e a d]; try (intros []).
@@ -93,7 +96,8 @@ Proof.
         -- unfold reasoned, decisions. simpl. discriminate.
         -- unfold reasoned. rewrite decisions_cons, Dx. apply (All b e after E De (Shift b e Fo)).
     + assert (Not : ~ event_follows p past x).
-      { intros H. destruct (judge_accepts _ W0 v0 m' rho' HW0 V1 Few1 Rd (map_after p past) s Sk CM Places x Dx)
+      { intros H. destruct (judge_accepts _ W0 v0 m' rho' HW0 V1 Few1 Rd
+          (map_after p past) s Sk CM Places x Dx)
           as (rs & s' & I & J).
         - intros W v HW Vv. apply (H W HW (visits_replays W _ v Vv)).
         - apply (find_none _ _ F) in I. rewrite J in I. discriminate. }
@@ -114,7 +118,8 @@ Proof.
     assert (Few2 := few_past p (past ++ [Move k q]) es Few).
     rewrite log_after_snoc in V2, Few2. 
     destruct (onward_walking _ W0 v0 m rho y0 (k, q) HW0 V1 V2 Few2 Walk) as (rho' & Walk').
-    assert (Seen : forall i z, seen (log_after p past) i = Some z -> seen (log_after p (past ++ [Move k q])) i = Some z).
+    assert (Seen : forall i z, seen (log_after p past) i = Some z ->
+      seen (log_after p (past ++ [Move k q])) i = Some z).
     { intros i z. rewrite log_after_snoc. unfold seen. simpl. intros E.
       rewrite map_app, app_comm_cons, nth_error_app1; auto. apply nth_error_Some. congruence. }
     destruct (IH (past ++ [Move k q]) (onward m (k, q)) s rho' y0) as (ev & rss & Lf & Dec & All); auto.
@@ -154,7 +159,8 @@ Proof.
     apply Pos.ltb_lt in B. lia.
   - apply first_sketch_true.
   - apply connected_initial. rewrite S0. auto.
-  - intros d q I. apply (seen_from_recorded {| start := p; moves := [] |} 0 (fst p) (1%positive, 0) d); auto.
+  - intros d q I. apply (seen_from_recorded {| start := p; moves := [] |} 0
+      (fst p) (1%positive, 0) d); auto.
     unfold has_degree, sights, table_of. simpl. destruct p as (d', n). simpl. apply Nat.eqb_refl.
   - exists ev, rss. split; [exact Dec|]. intros before e after E De Fo Drawn.
     apply (All before e after E De). split; auto.

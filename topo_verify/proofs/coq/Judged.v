@@ -125,7 +125,8 @@ Lemma arc_supported p q p' q' : on_record L p -> on_record L q -> link nothing L
   same nothing L (abs p) p' -> same nothing L (abs q) q' ->
   exists a, In a (all_arcs L []) /\ supported m (Leads p q) (Joined a) = true.
 Proof.
-  intros P Q K S S'. destruct judged_possible as [Legal _]. assert (HT := proj1 (proj2 (rd_true _ _ _ Ready))).
+  intros P Q K S S'. destruct judged_possible as [Legal _].
+  assert (HT := proj1 (proj2 (rd_true _ _ _ Ready))).
   assert (HD := proj1 (proj2 (proj2 (rd_true _ _ _ Ready)))).
   destruct (link_arc L [] p' q' K) as (a & r & s & E & <- & <-).
   destruct (legal_ends L [] Legal (nothing_recorded L) a r s E) as [Tr Ts].
@@ -198,7 +199,8 @@ Proof.
   intros De H. assert (H' := true_of_places ev H).
   assert (HT := proj1 (proj2 (rd_true _ _ _ Ready))).
   assert (HD := proj1 (proj2 (proj2 (rd_true _ _ _ Ready)))).
-  destruct (H' W0 v0 HW0 V0) as (phi & Em & Tr & F). assert (Sk := Sketch). destruct Sk as (A & _ & _ & D).
+  destruct (H' W0 v0 HW0 V0) as (phi & Em & Tr & F). assert (Sk := Sketch).
+  destruct Sk as (A & _ & _ & D).
   destruct ev as [|e h|e h|e h d|e a d]; try discriminate; simpl in Tr.
   - destruct Tr as (Oe & Oh & _). destruct (place_of_open e Oe) as (p & Pe & Ie).
     destruct (place_of_open h Oh) as (q & Ph & Ih).
@@ -211,13 +213,15 @@ Proof.
     destruct (joined_supported p q) as (c & Ic & C); eauto.
     { intros W v HW V. destruct (H' W v HW V) as (psi & _ & (_ & _ & N) & G).
       rewrite <- (G _ _ Ie), <- (G _ _ Ih). auto. }
-    exists [Joined c], s. split; [apply (in_map (fun a => [Joined a])), Ic|]. unfold judge. rewrite Pe, Ph, C. auto.
+    exists [Joined c], s. split; [apply (in_map (fun a => [Joined a])), Ic|]. unfold judge.
+    rewrite Pe, Ph, C. auto.
   - destruct Tr as (Oe & Oh & Eh & Dh). destruct (place_of_open e Oe) as (p & Pe & Ie).
     destruct (place_of_open h Oh) as (q & Ph & Ih).
     destruct (joined_supported p q) as (c & Ic & C); eauto.
     { intros W v HW V. destruct (H' W v HW V) as (psi & _ & (_ & _ & N & _) & G).
       rewrite <- (G _ _ Ie), <- (G _ _ Ih). auto. }
-    eexists [Joined c], _. split; [apply (in_map (fun a => [Joined a])), Ic|]. unfold judge. rewrite Pe, Ph, C, HT.
+    eexists [Joined c], _. split; [apply (in_map (fun a => [Joined a])), Ic|]. unfold judge.
+    rewrite Pe, Ph, C, HT.
     rewrite (on_record_degree q d); [|eauto|rewrite <- (F _ _ Ih); auto].
     destruct (Nat.eqb_spec h e) as [->|N]; [|reflexivity].
     apply (alpha_ok W0 (world_is_map W0 HW0)) in Eh as (_ & Ne & _); [tauto|].
@@ -242,8 +246,8 @@ Proof.
       rewrite (ready_merged p r), !pplace_eqb_refl; auto. }
     exists (Joined c :: map (fun o => refutation L m rho p (snd o)) (but e (opened s))).
     eexists. split.
-    { unfold candidates. rewrite Pe. apply (in_map (fun a => Joined a :: map (fun o => refutation L m rho p (snd o))
-        (but e (opened s)))), (arc_listed L [] c r q E). }
+    { unfold candidates. rewrite Pe. apply (in_map (fun a => Joined a ::
+        map (fun o => refutation L m rho p (snd o)) (but e (opened s)))), (arc_listed L [] c r q E). }
     unfold judge. rewrite Pe, HD, E, Sup, HT.
     rewrite (on_record_degree q d Tq); [|rewrite <- Db; f_equal; assert (Q := Lead W0 v0 HW0 V0);
       rewrite <- (F _ _ Ie) in Q; congruence].
@@ -289,7 +293,8 @@ Proof.
     + destruct (B _ _ Pe) as [Le Oe]. apply connected_new; auto.
     + intros x o I. simpl in I. apply in_app_iff in I as [I|I].
       * apply in_but in I as [I _]. apply (Places x o I).
-      * apply (seen_from_recorded (size s) d q x o G). destruct (seen_from T (size s) d q); [destruct I|].
+      * apply (seen_from_recorded (size s) d q x o G).
+        destruct (seen_from T (size s) d q); [destruct I|].
         simpl in *. auto.
 Qed.
 End Judged.

@@ -20,19 +20,22 @@ Local Opaque fuel.
 Definition both_before y (s : arc * arc) := Pos.ltb (snd (fst s)) y && Pos.ltb (snd (snd s)) y.
 
 (** The evidence is empty, or its first step has an arc that was not there at visit y. *)
-Definition later_first y (ev : evidence) := match ev with [] => true | s :: _ => negb (both_before y s) end.
+Definition later_first y (ev : evidence) :=
+  match ev with [] => true | s :: _ => negb (both_before y s) end.
 
-(** The invariant of the walk. *)
+(** The invariant of the walk: all is ranked, the markers are merged, and what the arcs before y0 ask
+    to be merged is merged. *)
 Record walking L m rho y0 : Prop := {
   wk_true : true_moment L m;
   wk_ranked : ranked L (unified m) rho;
   wk_marks : marks_merged L (unified m);
-  wk_old : forall s p q, meet (table_of (sights L)) (table_of (edges L [])) (unified m) s = Some (p, q) ->
+  wk_old : forall s p q, meet (table_of (sights L)) (table_of (edges L [])) (unified m) s =
+    Some (p, q) ->
     both_before y0 s = true ->
     rep (table_of (sights L)) fuel (unified m) p = rep (table_of (sights L)) fuel (unified m) q;
   wk_y : Pos.le y0 (here m) }.
 
-(** After the walk: the union-find of the log with all merges. *)
+(** The same moment with all merges that are left. *)
 Definition merged_on L m rho := {| here := here m; sighted := sighted m; crossed := crossed m;
   unified := fold_from L [] (unified m) rho |}.
 
@@ -52,7 +55,8 @@ Proof.
   destruct (conflict_from L [] (unified m) rho) as [c|] eqn:F.
   - exfalso. apply find_some in F as [_ F].
     apply (check_conflict_sound L [] Nil _ c HU' F Pos).
-  - destruct (fold_from_merged L [] Few Legal (nothing_recorded L) _ rho R Mk F) as (rho' & R' & Sat & Mk').
+  - destruct (fold_from_merged L [] Few Legal (nothing_recorded L) _ rho R Mk F)
+      as (rho' & R' & Sat & Mk').
     exists rho'. split; auto.
     + do 3 (split; auto).
     + intros x d j E. apply (Mk' x d j E).
@@ -66,19 +70,22 @@ Proof.
   apply find_some in F as [_ F]. destruct (meet T D U s') as [(p', q')|] eqn:M; [|discriminate].
   destruct (apart T U p' q'); [discriminate|]. intros E. injection E as -> _ _. split; auto.
   assert (G : forall a r, arc_ends D a = Some r -> Pos.ltb (snd a) (here m) = true).
-  { intros a r E. unfold arc_ends in E. destruct (PositiveMap.find (snd a) D) as [e|] eqn:Fe; [|discriminate].
+  { intros a r E. unfold arc_ends in E.
+    destruct (PositiveMap.find (snd a) D) as [e|] eqn:Fe; [|discriminate].
     apply table_of_spec in Fe. apply Pos.ltb_lt, Pos2Nat.inj_lt.
     assert (Lt : num (snd a) < length (edges L [])) by (apply nth_error_Some; congruence).
     unfold edges in Lt. rewrite app_nil_r, map_length, enum_length, map_length in Lt.
     destruct Walk as [(N & _) _ _ _ _]. rewrite <- N in Lt. unfold num in Lt.
     assert (A := Pos2Nat.is_pos (snd a)). assert (B := Pos2Nat.is_pos (here m)). lia. }
-  unfold meet in M. unfold both_before. destruct (arc_ends D (fst s)) as [(a, b)|] eqn:E1; [|discriminate].
+  unfold meet in M. unfold both_before.
+  destruct (arc_ends D (fst s)) as [(a, b)|] eqn:E1; [|discriminate].
   destruct (arc_ends D (snd s)) as [(c, d)|] eqn:E2; [|discriminate].
   rewrite (G _ _ E1), (G _ _ E2). auto.
 Qed.
 
 (** So were those of all merges. *)
-Lemma saturation_before n : forall U rho, forallb (both_before (here m)) (saturation L [] n U rho) = true.
+Lemma saturation_before n : forall U rho, forallb (both_before (here m))
+  (saturation L [] n U rho) = true.
 Proof.
   induction n as [|n IH]; intros U r; auto. cbn [saturation].
   destruct (next_merge L [] U) as [((s, p), q)|] eqn:F; auto.
@@ -90,7 +97,8 @@ Qed.
 (** The first merge has a new arc. *)
 Lemma saturating_later : later_first y0 (saturating_from L [] (unified m) rho) = true.
 Proof.
-  unfold saturating_from. cbn [saturation]. destruct (next_merge L [] (unified m)) as [((s, p), q)|] eqn:F; auto.
+  unfold saturating_from. cbn [saturation].
+  destruct (next_merge L [] (unified m)) as [((s, p), q)|] eqn:F; auto.
   destruct (next_merge_before _ s p q F) as [_ P]. cbn zeta.
   assert (N : both_before y0 s = false).
   { apply not_true_iff_false. intros B. unfold pending in P.
@@ -135,7 +143,8 @@ Notation y := (Pos.succ (here m)).
 Lemma onward_table : T' = PositiveMap.add y (snd a) T /\ sign L y = None.
 Proof.
   destruct Walk as [(N & _) _ _ _ _].
-  assert (Y : num y = length (sights L)) by (rewrite num_succ, N; unfold sights; simpl; rewrite map_length; auto).
+  assert (Y : num y = length (sights L)) by (rewrite num_succ, N; unfold sights; simpl;
+    rewrite map_length; auto).
   split.
   - unfold L', sights. simpl. rewrite map_app, app_comm_cons. apply table_of_snoc. exact Y.
   - unfold sign. destruct (PositiveMap.find y T) as [p|] eqn:E; auto. exfalso.
@@ -144,7 +153,8 @@ Proof.
 Qed.
 
 (** Old visits keep their signs. *)
-Lemma sign_onward x : sign L x <> None -> PositiveMap.find x T' = PositiveMap.find x T /\ sign L' x = sign L x.
+Lemma sign_onward x : sign L x <> None -> PositiveMap.find x T' = PositiveMap.find x T /\
+  sign L' x = sign L x.
 Proof.
   destruct onward_table as [E N]. intros S. assert (x <> y) by congruence.
   assert (F : PositiveMap.find x T' = PositiveMap.find x T) by (rewrite E; apply PositiveMap.gso; auto).
@@ -188,7 +198,8 @@ Proof.
   assert (Few : few_visits L).
   { unfold few_visits in *. eapply Nat.le_lt_trans; [|exact Few']. unfold L', sights. simpl.
     rewrite map_app, app_length. apply le_n_S, Nat.le_add_r. }
-  assert (Up : forall p r, leads L (unified m) p r -> sign L (fst p) <> None -> leads L' (unified m) p r).
+  assert (Up : forall p r, leads L (unified m) p r -> sign L (fst p) <> None ->
+    leads L' (unified m) p r).
   { intros q r H. induction H as [q N|q z o r E _ IH]; intros Sq; [constructor; auto|].
     destruct (rk_sign _ _ _ R _ z o E) as [A B]. assert (Sz : sign L z <> None) by congruence.
     apply leads_up with z o; auto.
@@ -202,11 +213,13 @@ Qed.
 
 (** After the move, too: and what saw the marker is merged with the start. *)
 Lemma onward_merged : exists rho', ranked L' (unified (onward m a)) rho' /\
-  (forall p, (exists d, tidy L d p) -> rep T' fuel (unified (onward m a)) p = rep T fuel (unified m) p) /\
+  (forall p, (exists d, tidy L d p) -> rep T' fuel (unified (onward m a)) p =
+    rep T fuel (unified m) p) /\
   forall d j, snd a = (d, Some j) ->
     rep T' fuel (unified (onward m a)) (y, j) = rep T' fuel (unified (onward m a)) (1%positive, 0).
 Proof.
-  destruct onward_table as [E N]. destruct ranked_onward as [R' Ny]. assert (R := wk_ranked _ _ _ _ Walk).
+  destruct onward_table as [E N]. destruct ranked_onward as [R' Ny].
+  assert (R := wk_ranked _ _ _ _ Walk).
   destruct (wk_true _ _ _ _ Walk) as (_ & HT & _).
   assert (Old : forall p, (exists d, tidy L d p) -> sign L (fst p) <> None).
   { intros p (d & Tp). destruct (tidy_sign L d p Tp) as (w & ->). discriminate. }
@@ -229,7 +242,8 @@ Proof.
   assert (T1 : tidy L d (1%positive, 0)).
   { split; [|exact Pd]. exists (Some 0). apply table_of_find. unfold seen in S0. exact S0. }
   assert (Rep1 := rep_onward (1%positive, 0) (Old _ (ex_intro _ d T1))).
-  assert (Sy : sign L' (fst (y, j)) <> None) by (cbn [fst]; unfold sign; fold T'; rewrite Fy; discriminate).
+  assert (Sy : sign L' (fst (y, j)) <> None) by (cbn [fst]; unfold sign; fold T'; rewrite Fy;
+    discriminate).
   assert (RepY := rep_root L' Few' (unified m) rho (y, j) R' Sy Ny).
   assert (Few : few_visits L).
   { unfold few_visits in *. eapply Nat.le_lt_trans; [|exact Few']. unfold L', sights. simpl.
