@@ -1,14 +1,18 @@
 """In how many worlds a stronger algorithm costs more than a weaker one: every world up to N edges.
 
-    python benchmarks/dearer.py 6
+    python benchmarks/dearer.py 6                 # every pair of the catalogue, by the reference
+    python benchmarks/dearer.py 8 --compiled      # the enhancements against what they enhance
 
-Only costs are compared, so nothing is judged here and it is ten times faster than
-`topo-verify search --compare A,B`, which says the same of one pair and judges every run.
+Only costs are compared, so nothing is said of claims here; `topo-verify search --compare A,B` says
+the same of one pair and judges every run. `--compiled` needs the extra `fast`; its kernels ask
+claims 1 to 8 on the way, and the script stops if one fails.
 """
 
 from __future__ import annotations
 
-import sys
+import argparse
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
 from itertools import combinations
 
 from topo_verify import CATALOGUE, World
@@ -17,6 +21,15 @@ from topo_verify.world.enumeration import rank_order
 
 NAMES = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
 """From the weakest to the strongest."""
+
+SHARD = 500_000
+"""So many worlds are compared in one task."""
+
+Pair = tuple[str, str]
+"""The stronger algorithm, which may be dearer, and the weaker one."""
+
+Row = tuple[int, int, str]
+"""In how many worlds it is dearer, by how much at most, and the first of them."""
 
 
 def costs(world: World) -> dict[str, int]:
@@ -29,25 +42,66 @@ def costs(world: World) -> dict[str, int]:
     return found
 
 
-def main(largest: int) -> None:
-    """Print a row for each pair in which the stronger is dearer somewhere."""
-    worlds: dict[tuple[str, str], list[tuple[str, int]]] = {}
-    total = 0
+def by_reference(largest: int) -> Iterator[tuple[Pair, Row]]:
+    """Every pair in which the stronger is dearer in some world up to this size."""
+    rows: dict[Pair, Row] = {}
     for edges in range(1, largest + 1):
         for rank, table in enumerate(rank_order.tables(edges)):
             cost = costs(World.from_code(table))
-            total += 1
             for weaker, stronger in combinations(NAMES, 2):
-                if cost[stronger] > cost[weaker]:
-                    excess = cost[stronger] - cost[weaker]
-                    worlds.setdefault((stronger, weaker), []).append((f"m{edges}/{rank}", excess))
-    print(f"{total} worlds of 1 to {largest} edges\n")
+                if (excess := cost[stronger] - cost[weaker]) > 0:
+                    number, most, first = rows.get((stronger, weaker), (0, 0, f"m{edges}/{rank}"))
+                    rows[stronger, weaker] = number + 1, max(most, excess), first
+    yield from rows.items()
+
+
+def enhanced() -> Iterator[Pair]:
+    """Each algorithm with `basic`, and each that walks on with the same one that goes back."""
+    names = [name for name in NAMES if name not in ("basic", "folding")]
+    yield from ((name, "basic") for name in names)
+    yield from ((name, name.removesuffix("+i")) for name in names if name.endswith("+i"))
+
+
+def compared(task: tuple[Pair, int, int]) -> tuple[int, int, int]:
+    """A pair in one range of ranks: in how many worlds dearer, by how much, and the first rank."""
+    from topo_verify.compiled.shard import examine_range
+
+    pair, edges, start = task
+    stop = min(start + SHARD, rank_order.count(edges))
+    one, other = examine_range(pair, edges, "any", start, stop, claims=8)
+    if one.failing or other.failing:
+        raise SystemExit(f"a claim fails: {task}")
+    return one.dearer, one.excess, min((world.rank for world in one.dearer_worlds), default=-1)
+
+
+def by_engine(largest: int) -> Iterator[tuple[Pair, Row]]:
+    """The pairs of `enhanced` in which the stronger is dearer in some world up to this size."""
+    sizes = range(1, largest + 1)
+    shards = [(m, start) for m in sizes for start in range(0, rank_order.count(m), SHARD)]
+    compared((("basic", "enhancement-i"), 1, 0))  # compiles the kernels once, for all processes
+    with ProcessPoolExecutor() as pool:
+        for pair in enhanced():
+            found = pool.map(compared, [(pair, *shard) for shard in shards])
+            rows = [(m, *row) for (m, _), row in zip(shards, found, strict=True) if row[0]]
+            if rows:
+                first = f"m{rows[0][0]}/{rows[0][3]}"
+                yield pair, (sum(row[1] for row in rows), max(row[2] for row in rows), first)
+
+
+def main() -> None:
+    """Print a row for each pair in which the stronger is dearer somewhere."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("edges", type=int, nargs="?", default=5)
+    parser.add_argument("--compiled", action="store_true", help="by the compiled engine")
+    chosen = parser.parse_args()
+    total = sum(rank_order.count(edges) for edges in range(1, chosen.edges + 1))
+    print(f"{total} worlds of 1 to {chosen.edges} edges\n")
     print("| A | costs more than B | in worlds | at most by | first |")
     print("| --- | --- | ---: | ---: | --- |")
-    for (stronger, weaker), dear in worlds.items():
-        most = max(excess for _, excess in dear)
-        print(f"| {stronger} | {weaker} | {len(dear)} | {most} | {dear[0][0]} |")
+    rows = by_engine(chosen.edges) if chosen.compiled else by_reference(chosen.edges)
+    for (stronger, weaker), (number, most, first) in rows:
+        print(f"| {stronger} | {weaker} | {number} | {most} | {first} |", flush=True)
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 5)
+    main()

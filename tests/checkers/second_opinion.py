@@ -75,6 +75,8 @@ class Play:
     phi: list[int] = field(default_factory=list[int])  # dart of S -> dart of the world
     joined: dict[int, int] = field(default_factory=dict[int, int])  # alpha of S where explored
     pose: Pose | None = None
+    crossed: set[int] = field(default_factory=set[int])  # darts of the world, both of each edge
+    late: bool = False  # was the last pose made elsewhere than behind its edge?
     stack: list[int] = field(default_factory=list[int])  # the reference darts of the excursion
     sequences: list[list[int]] = field(default_factory=list[list[int]])
     records: dict[tuple[int, Doors], Percept] = field(
@@ -96,6 +98,7 @@ class Play:
             case Pose():
                 self.say("true-hypothesis-posed", self.fair(event))
                 self.pose, self.stack, self.sequences = event, [self.at], []
+                self.late = not self.unexplored(event.edge) or self.at != self.beyond(event.edge)
                 if self.unexplored(event.edge):
                     self.waiting.setdefault(event.edge, []).extend(event.hypotheses)
             case Reject():
@@ -145,7 +148,10 @@ class Play:
             return
         exit_dart = self.rotation(self.at)[event.door]
         self.at = self.world.alpha[exit_dart]
+        self.crossed |= {exit_dart, self.at}
         self.say("percepts-true", event.percept == self.seen(self.at))
+        if self.late:
+            return
         if len(self.stack) > 1 and exit_dart == self.stack[-1]:
             self.stack.pop()
         else:
@@ -157,19 +163,21 @@ class Play:
         """Is this an unexplored dart of S?"""
         return 0 <= dart < len(self.phi) and dart not in self.joined
 
+    def beyond(self, e: int) -> int:
+        """The other end, in the world, of a dart of S."""
+        return self.world.alpha[self.phi[e]]
+
     def truth(self, e: int) -> int | None:
         """The dart of S that an unexplored dart of S leads to."""
         end = self.world.alpha[self.phi[e]] if self.unexplored(e) else None
         return self.phi.index(end) if end in self.phi else None
 
     def fair(self, pose: Pose) -> bool:
-        """Is it posed behind e, with unexplored darts of S, the true one among them?"""
+        """Was e crossed, and are these unexplored darts of S, the true one among them?"""
         if not all(map(self.unexplored, (pose.edge, *pose.hypotheses))):
             return False
         truth = self.truth(pose.edge)
-        return self.at == self.world.alpha[self.phi[pose.edge]] and (
-            truth is None or truth in pose.hypotheses
-        )
+        return self.phi[pose.edge] in self.crossed and (truth is None or truth in pose.hypotheses)
 
     def grow(self, event: Augment) -> None:
         """Let S grow, if that is true."""

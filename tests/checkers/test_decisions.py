@@ -66,7 +66,7 @@ def test_posing_what_is_no_unexplored_dart_is_caught(dart: int) -> None:
 def test_posing_before_the_edge_is_crossed_is_caught() -> None:
     index = place(TRACE, Pose, 1)
     early = inserted(without(TRACE, index), index - 1, TRACE[index])
-    assert said(early, "true-hypothesis-posed") == ["the robot does not stand behind dart 2"]
+    assert said(early, "true-hypothesis-posed") == ["dart 2 is posed before the robot crossed it"]
 
 
 def test_growing_along_an_edge_that_was_not_posed_is_caught() -> None:

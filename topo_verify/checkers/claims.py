@@ -84,7 +84,7 @@ def percepts_true(run: ReplayedTrace) -> Iterator[Finding]:
 
 
 def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Finding]:
-    """2. If e leads to a known vertex, its dart is in H; H is posed behind e, before S grows."""
+    """2. If e leads to a known vertex, its dart is in H; S grows along edges that were posed."""
     for when, event, pose, _, _ in run.rounds:
         if isinstance(event, ev.Pose):
             yield from _wrongly_posed(run, when, event)
@@ -99,8 +99,8 @@ def _wrongly_posed(run: ReplayedTrace, when: int, pose: ev.Pose) -> Iterator[Fin
     if not run.map.is_open(edge, when) or not all(run.map.is_open(h, when) for h in hypotheses):
         message = f"edge {edge} or one of its hypotheses is not an unexplored dart of S"
         yield Wrong(when, "unexplored darts", [edge, *hypotheses], message)
-    elif run.positions[when] != run.map.end(edge):
-        yield Wrong(when, edge, None, f"the robot does not stand behind dart {edge}")
+    elif run.crossings.get(run.crossing(run.map.end(edge)), when) >= when:
+        yield Wrong(when, edge, None, f"dart {edge} is posed before the robot crossed it")
     elif (truth := run.map.truth(edge, when)) not in (None, *hypotheses):
         message = f"edge {edge} leads to dart {truth}, which is not among the hypotheses"
         yield Wrong(when, truth, hypotheses, message)
@@ -153,8 +153,7 @@ def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
     """What is wrong with the map that is delivered, and with the moment when it is."""
     last, left = len(run.trace) - 1, len(run.map.phi) - len(run.map.joined)
     if run.spoiled is run.illegal is None and run.map.joined and left:
-        message = f"the map is delivered while {left} darts of S are unexplored"
-        yield Wrong(last, 0, left, message)
+        yield Wrong(last, 0, left, f"the map is delivered while {left} darts of S are unexplored")
     code = delivered_code(finish.map)
     if isinstance(code, str):
         yield Wrong(last, "a map", None, code)

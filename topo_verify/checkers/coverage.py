@@ -39,7 +39,7 @@ def coverage(run: ReplayedTrace) -> dict[str, Share]:
     posed = sum(len(event.hypotheses) for event in events if isinstance(event, Pose))
     ends = {edge: fate.event for edge, fate in run.fates.items() if isinstance(fate.event, Augment)}
     loops = sum(end.kind == "loop" for end in ends.values())
-    unsettled = len(run.crossings - ends.keys())
+    unsettled = len(run.crossings.keys() - ends.keys())
     left = sum(len(fate.left) for fate in run.fates.values())
     missing = sum(len(fate.left) for edge, fate in run.fates.items() if edge in ends)
     grown = {run.crossing(run.map.phi[dart]) for dart in run.map.joined}
@@ -48,7 +48,7 @@ def coverage(run: ReplayedTrace) -> dict[str, Share]:
     costs = int(getattr(run.trace[-1], "cost", None) is not None)
     return {
         "percepts-true": (followed[Start] + followed[Move], 1 + run.cost),
-        "true-hypothesis-posed": (len(run.crossings & run.fates.keys()), len(run.crossings)),
+        "true-hypothesis-posed": (len(run.crossings.keys() & run.fates), len(run.crossings)),
         "true-hypothesis-kept": (posed - left, posed + unsettled),
         "no-false-confirm": (confirmations, max(confirmations, loops) + unsettled),
         "map-isomorphic": (maps, 1),
@@ -56,5 +56,5 @@ def coverage(run: ReplayedTrace) -> dict[str, Share]:
         "cost-within-bound": (1, 1),
         "rejection-justified": (rejections, rejections + missing + unsettled),
         "map-entailed": (maps, 1),
-        "decisions-entailed": (decisions, decisions + len(run.crossings - grown)),
+        "decisions-entailed": (decisions, decisions + len(run.crossings.keys() - grown)),
     }

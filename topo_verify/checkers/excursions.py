@@ -33,12 +33,15 @@ Word = tuple[Step, ...]
 class Excursion:
     """The moves behind one posed edge, reduced. Begins with the pose; ends with the next.
 
+    Args:
+        is_late: the pose was not made behind the edge, so no move is, and the word stays empty.
     Attributes:
         word: the steps from vu to where the robot stands.
         sequences: the words at the mismatches so far.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_late: bool = False) -> None:
+        self._is_late = is_late
         self.word: list[Step] = []
         self.sequences: tuple[Word, ...] = ()
         # A robot that came back by a door k has its reference dart turned by k, compared with the
@@ -50,7 +53,7 @@ class Excursion:
         door = (door + self._turned) % degree
         if door == 0 and self.word:
             self._turned = self.word.pop().door
-        else:
+        elif not self._is_late:
             self.word.append(Step(door, behind))
             self._turned = 0
 

@@ -25,6 +25,8 @@ from topo_verify.world.rooted_map import World
 class Round(NamedTuple):
     """A decision at event `when`, and what was executed behind the edge since the last pose.
 
+    After a **late pose**, of an edge crossed before, no move is behind the edge.
+
     Attributes:
         pose: the last one so far, if it was of this edge and S did not grow since.
     """
@@ -72,7 +74,7 @@ class ReplayedTrace:
         followed: the events up to an illegal move.
         illegal: the first move through a door that is not there, or None.
         spoiled: the first augmentation that is false in this world, or None.
-        crossings: the edges of the world that the robot crossed.
+        crossings: the edges of the world that the robot crossed, and at which event first.
         false_percepts: each event whose percept is not what the world shows: its own, and what is.
     Raises:
         InputError: the events are in no such order.
@@ -87,7 +89,7 @@ class ReplayedTrace:
         self.illegal: int | None = None
         self.spoiled: int | None = None
         self.positions: list[WorldDart] = []
-        self.crossings: set[int] = set()
+        self.crossings: dict[int, int] = {}
         self.false_percepts: list[tuple[int, Percept, Percept]] = []
         self._walk()
         self.followed = trace[: len(self.positions)]
@@ -101,7 +103,7 @@ class ReplayedTrace:
                     self.illegal = when
                     return
                 at = self.map.beyond(at, event.door)
-                self.crossings.add(self.crossing(at))
+                self.crossings.setdefault(self.crossing(at), when)
             elif isinstance(event, ev.Augment) and self.spoiled is None:
                 self.spoiled = None if self.map.grow(when, event) else when
             seen = self.map.seen_at(at)
@@ -127,7 +129,7 @@ class ReplayedTrace:
                 left, entered = map(self.map.seen_at, self.positions[when - 1 : when + 1])
                 behind.move(event.door, left.degree, entered)
             elif isinstance(event, ev.Pose):
-                pose, behind = event, Excursion()
+                pose, behind = event, Excursion(is_late=not self._is_behind(when, event.edge))
                 yield Round(when, event, pose, (), ())
             elif isinstance(event, (ev.Reject, ev.Confirm, ev.Augment)):
                 of_edge = pose if pose and pose.edge == event.edge else None
@@ -140,6 +142,10 @@ class ReplayedTrace:
                     pose, behind.sequences = None, ()
                 elif isinstance(event, ev.Reject) and event.rule == "motion" and behind.word:
                     behind.sequences = (*behind.sequences, tuple(behind.word))
+
+    def _is_behind(self, when: int, e: int) -> bool:
+        """Whether the robot stands behind the unexplored dart e of S, come in by its other end."""
+        return self.map.is_open(e, when) and self.positions[when] == self.map.end(e)
 
     def crossing(self, dart: WorldDart) -> int:
         """The edge of the world that has this dart, by the lesser of its two."""

@@ -184,11 +184,13 @@ def _turned(playback: Playback, move: ev.Move, before: Moment, turn: Turn) -> st
 
 
 def _about_pose(playback: Playback, moment: Moment, pose: ev.Pose) -> Iterator[str]:
-    """Which darts it leaves out; by which dart it came, if not by the edge that it asks about."""
+    """Which darts it leaves out; when it crossed the edge, or by which dart it came instead."""
     edge, drawn, number = pose.edge, playback.map, moment.number
     if not drawn.is_open(edge, number) or moment.position is None:
         return
-    look = drawn.seen_at(moment.position).signature
+    crossed = playback.replayed.crossings.get(playback.replayed.crossing(drawn.end(edge)), number)
+    is_late = crossed < number and moment.position != drawn.end(edge)
+    look = drawn.seen_at(drawn.end(edge) if is_late else moment.position).signature
     alike = [
         dart
         for dart in sorted(drawn.phi)
@@ -198,10 +200,15 @@ def _about_pose(playback: Playback, moment: Moment, pose: ev.Pose) -> Iterator[s
     here = [dart for dart in left_out if playback.vertex(dart) == playback.vertex(edge)]
     for darts, at in (
         (here, f"the vertex that edge {edge} leaves"),
-        ([dart for dart in left_out if dart not in here], "places that look like this one"),
+        (
+            [dart for dart in left_out if dart not in here],
+            f"places that look like {'the one there' if is_late else 'this one'}",
+        ),
     ):
         if darts:
             yield f"it leaves out {listed(darts)}, unexplored too, at {at}"
+    if is_late:
+        yield f"it crossed edge {edge} at event {crossed}, and is elsewhere now"
     last = next(
         (m for m in reversed(playback.moments[: moment.number]) if isinstance(m.event, ev.Move)),
         None,

@@ -119,7 +119,7 @@ class Move(_Event, frozen=True, gc=False):
 
 
 class Pose(_Event, frozen=True):
-    """The robot stands behind `edge`; these unexplored darts might be its other end."""
+    """The robot has crossed `edge`; these unexplored darts of S might be its other end."""
 
     edge: MapDart
     hypotheses: tuple[MapDart, ...]

@@ -112,6 +112,8 @@ FATE_POSED, FATE_LOOP, FATE_NEW = 1, 2, 3
 
 # ---------------------------------------------------------------- excursions and records
 
+J_IS_LATE = _field()
+"""Whether the last pose was made elsewhere than behind its edge: the word stays empty."""
 J_TURNED = _field()
 J_WORD_SIZE = _field()
 J_WORD_DOOR = _field(JUDGE_STEPS)

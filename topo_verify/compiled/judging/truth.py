@@ -39,6 +39,7 @@ from topo_verify.compiled.judging.layout import (
     J_FOLLOWED,
     J_FULL,
     J_GROWN,
+    J_IS_LATE,
     J_LEFT,
     J_LEGAL,
     J_NUMBER,
@@ -107,6 +108,7 @@ def start_replay(W: Words, J: Words) -> None:
     J[J_TRUE] = 1
     J[J_FOLLOWED] = 1
     J[J_POSE_AT] = -1
+    J[J_IS_LATE] = 0
     J[J_TURNED] = 0
     J[J_WORD_SIZE] = 0
     J[J_FIRST_SEQUENCE] = 0
@@ -179,9 +181,9 @@ def follow_move(W: Words, J: Words, i: int) -> None:
     if door == 0 and size > 0:
         J[J_TURNED] = J[J_WORD_DOOR + size - 1]
         J[J_WORD_SIZE] = size - 1
-    elif size >= JUDGE_STEPS:
+    elif J[J_IS_LATE] == 0 and size >= JUDGE_STEPS:
         J[J_FULL] = 1
-    else:
+    elif J[J_IS_LATE] == 0:
         J[J_WORD_DOOR + size] = door
         J[J_WORD_PERCEPT + size] = percept
         J[J_WORD_SIZE] = size + 1
@@ -235,7 +237,8 @@ def pose(W: Words, J: Words, i: int, edge: int, truth: int) -> None:
     J[J_TURNED] = 0
     J[J_WORD_SIZE] = 0
     J[J_FIRST_SEQUENCE] = J[J_SEQUENCES]
-    wrong = edge < 0 or J[J_AT] != W[AL + J[J_PHI + e]]
+    wrong = edge < 0 or J[J_CROSSED] & (1 << edge) == 0
+    J[J_IS_LATE] = edge < 0 or J[J_AT] != W[AL + J[J_PHI + e]]
     has_truth = truth < 0
     hypotheses = 0
     for k in range(i + 3, i + 3 + number):

@@ -167,8 +167,9 @@ class Run {
         if (this.illegal === null) at = this.step(one, when, at, behind);
       } else if (one.type === 'pose') {
         behind = new Excursion();
+        behind.late = at !== this.beyond(one.edge);
         const hypotheses = one.hypotheses.map((dart, k) => ({ dart, number: k + 1, out: Infinity }));
-        round = { from: when, to: Infinity, edge: one.edge, hypotheses, tests: [] };
+        round = { from: when, to: Infinity, edge: one.edge, late: behind.late, hypotheses, tests: [] };
         this.rounds.push(round);
       } else if (round) this.decide(one, when, round, behind);
       if (one.type === 'augment') {
@@ -191,8 +192,14 @@ class Run {
     this.left[when] = exit;
     const edge = this.picture.edgeOf[exit];
     if (!this.walked.has(edge)) this.walked.set(edge, when);
-    behind.move(one.door, degree);
+    if (!behind.late) behind.move(one.door, degree); // after a late pose no move is behind e
     return this.picture.other[exit];
+  }
+
+  /** The dart of the world at the other end of a dart of S; -1 if there is no such dart. */
+  beyond(e) {
+    const dart = this.map.darts[e];
+    return dart ? this.picture.other[dart.image] : -1;
   }
 
   decide(one, when, round, behind) {

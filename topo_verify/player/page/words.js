@@ -58,6 +58,7 @@ const SAY = {
 
   pose(run, when, one) {
     const n = one.hypotheses.length;
+    if (run.round(when).late) return { title: 'A road crossed before', text: 'By now it has seen enough to say where this road leads, wherever it stands.' };
     const seen = run.percept(when);
     if (!n) return { title: 'Never seen anything like it', text: `It sees ${sight(seen)}, and finds no place on its map with an open exit that looks like this. So it takes the place for new.` };
     const which = n === 1 ? 'One open exit' : `${n} open exits`;

@@ -1,0 +1,52 @@
+"""The totals of large searches in one small table, kept in docs/data/totals.csv.
+
+    topo-verify search basic --edges 9 --engine compiled --keep-going --worst \
+        --ledger basic9.ledger --format json > basic9.json
+    python benchmarks/totals.py basic9.json > docs/data/totals.csv
+
+A row is one algorithm in all worlds with so many edges, class `any`: how many they are, in how many
+a claim fails or is undecided, the highest cost, in how many worlds it occurs and the first of them,
+and the sum of all costs. Of one algorithm and size that stands in several files the first is taken.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+HEAD = (
+    *("algorithm", "edges", "worlds", "failing", "undecided"),
+    *("max_cost", "attained", "first", "total_cost"),
+)
+
+
+def rows(results: Iterable[dict[str, Any]]) -> Iterable[tuple[Any, ...]]:
+    """The rows of some results of `search --worst --format json`."""
+    for result in results:
+        if result["class"] != "any":
+            raise SystemExit(f"expected a search of class any, got {result['class']}")
+        for size in result["by_edges"]:
+            if size["checked"] != size["total"]:
+                raise SystemExit(f"{result['target']}: not all worlds were examined")
+            fields = (size[name] for name in ("edges", "checked", "failing", "undecided"))
+            dear = (size["max_cost"], size["attained"], size["worst"][0], size["total_cost"])
+            yield result["target"], *fields, *dear
+
+
+def main() -> None:
+    """Print the table of all files named."""
+    found: dict[tuple[str, int], tuple[Any, ...]] = {}
+    for path in sys.argv[1:]:
+        for row in rows(json.loads(Path(path).read_text())["results"]):
+            found.setdefault((row[0], row[1]), row)
+    table = csv.writer(sys.stdout, lineterminator="\n")
+    table.writerow(HEAD)
+    table.writerows(found.values())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,59 @@
+"""docs/data/totals.csv and the table made of it: what can be computed here again is the same."""
+
+from __future__ import annotations
+
+import csv
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+from tests.helpers import worlds
+from topo_verify import World, explore
+from topo_verify.world.enumeration import rank_order
+
+DOCS = Path(__file__).parent.parent.parent / "docs"
+
+with (DOCS / "data" / "totals.csv").open(newline="") as file:
+    ROWS = list(csv.DictReader(file))
+
+NAMES = list(dict.fromkeys(row["algorithm"] for row in ROWS))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_totals_of_small_sizes_are_those_of_the_reference(name: str) -> None:
+    for row in (row for row in ROWS if row["algorithm"] == name and int(row["edges"]) <= 4):
+        costs = [explore(world, name).cost for world in worlds([int(row["edges"])])]
+        most = max(costs)
+        assert (int(row["max_cost"]), int(row["attained"])) == (most, costs.count(most))
+        assert row["first"] == f"m{row['edges']}/{costs.index(most)}"
+        assert int(row["total_cost"]) == sum(costs)
+
+
+def test_each_row_speaks_of_all_worlds_and_no_claim_fails() -> None:
+    for row in ROWS:
+        assert int(row["worlds"]) == rank_order.count(int(row["edges"]))
+        assert row["failing"] == row["undecided"] == "0"
+
+
+def test_the_dearest_world_costs_what_is_said() -> None:
+    for row in ROWS:
+        assert explore(World.from_id(row["first"]), row["algorithm"]).cost == int(row["max_cost"])
+
+
+def test_the_tables_of_the_findings_are_made_of_the_totals() -> None:
+    text = (DOCS / "findings.md").read_text(encoding="utf-8")
+    rows = defaultdict[str, dict[str, dict[str, str]]](dict)
+    for row in ROWS:
+        rows[row["edges"]][row["algorithm"]] = row
+    for edges, found in rows.items():
+        columns = [found.get(name) for name in NAMES]
+        highest = [row["max_cost"] if row else "-" for row in columns]
+        means = [f"{mean(row):.2f}" if row else "-" for row in columns]
+        for cells in (highest, means):
+            assert f"| {' | '.join([edges, *cells])} |" in text
+
+
+def mean(row: dict[str, str]) -> float:
+    """The mean cost of a row."""
+    return int(row["total_cost"]) / int(row["worlds"])
