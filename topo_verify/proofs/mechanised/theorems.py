@@ -182,6 +182,9 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
         "Of a log that some world shows, every decision that follows is accepted with reasons."),
     _one("coq-delivered", "Delivered.check_delivery_right", "map-isomorphic map-entailed",
         "A delivered map that the checker accepts is every world that shows the log."),
+    _one("coq-delivery-accepted", "Delivered.check_delivery_accepts",
+        "map-isomorphic map-entailed",
+        "A delivered map that is right is accepted with some numbering of its darts."),
     _one("coq-certificate", "Certificate.check_numbers_correct", "map-entailed decisions-entailed",
         "What a certificate says is true if the checker accepts its numbers."),
 )  # fmt: skip
