@@ -66,7 +66,7 @@ class Decider(MapOnFold):
         else:
             for h in alike:
                 met = self.fold.contradictions(self.place(e), self.place(h), self.entries)
-                yield Reject(e, h, "folding", Evidence(0, contradiction=min(met)))
+                yield Reject(e, h, "folding", Evidence(0, contradiction=next(met)[0]))
             grown = Augment(e, "new", self.size, self.look(end)[0])
         yield grown
         self.grow(grown)

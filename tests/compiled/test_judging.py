@@ -150,7 +150,7 @@ MISTAKES = [
     (1, "truth.follow_move", "if W[i + 2] != percept:", "if W[i + 2] >> 16 != percept >> 16:"),
     (1, "truth.follow_move", "J[J_FOLLOWED] += 1", "J[J_FOLLOWED] += 2"),
     (2, "truth.pose", "if wrong or not has_truth:", "if wrong:"),
-    (2, "truth.pose", "edge < 0 or J[J_AT] != W[AL + J[J_PHI + e]]", "edge < 0"),
+    (2, "truth.pose", "edge < 0 or J[J_CROSSED] & (1 << edge) == 0", "edge < 0"),
     (3, "truth.decide", "opened and truth >= 0 and truth == h", "opened and 0 < truth < h"),
     (3, "truth.augment", "if is_new and truth >= 0:", "if False:"),
     (3, "truth.settle_hypothesis", "&= ~(1 << h)", "&= ~(2 << h)"),

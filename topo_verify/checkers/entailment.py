@@ -155,21 +155,20 @@ def _is_met(on_fold: MapOnFold, event: Event) -> bool:
     """Whether the contradiction that a rejection cites follows from the history."""
     if not isinstance(event, Reject) or event.rule not in ("folding", "planar"):
         return False
-    e, h = KnownDart(event.edge), KnownDart(event.hypothesis)
+    e, h, cited = KnownDart(event.edge), KnownDart(event.hypothesis), event.evidence.contradiction
     if event.rule == "planar":
-        cited = event.evidence.contradiction == "it lies on another face than e"
-        return cited and h not in on_fold.face(e)
+        return cited == "it lies on another face than e" and h not in on_fold.face(e)
     met = on_fold.fold.contradictions(on_fold.place(e), on_fold.place(h), on_fold.entries)
-    return any(contradiction == event.evidence.contradiction for contradiction, _ in met)
+    return any(contradiction == cited for contradiction, _ in met)
 
 
 def _unknown_dart(on_fold: MapOnFold, event: Concluded) -> str:
     """Which dart that a decision names is not the one that it must be; "" if all are."""
     other = event.dart if isinstance(event, Augment) else event.hypothesis
     is_new = isinstance(event, Augment) and event.kind == "new"
-    right = other == on_fold.size if is_new else on_fold.is_open(other)
-    right = right and on_fold.is_open(event.edge)
-    return "" if right else f"{event.edge} or {other} is not an unexplored dart of S"
+    is_right = other == on_fold.size if is_new else on_fold.is_open(other)
+    fits = is_right and on_fold.is_open(event.edge)
+    return "" if fits else f"{event.edge} or {other} is not an unexplored dart of S"
 
 
 def _doubt(

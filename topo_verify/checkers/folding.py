@@ -229,8 +229,7 @@ class Fold:
                     one, other = find((a, (i + door) % n)), find((b, (j + door) % n))
                     if one != other:
                         same[one] = other
-                        behind = self._behind(one, ends)
-                        waiting += [(other, end, True) for end in behind.values()]
+                        waiting += [(other, end, True) for end in self._behind(one, ends).values()]
         if len({find(self.find(place))[0] for place in apart}) < len(apart):
             yield TWO_OF_S, apart
 

@@ -12,8 +12,8 @@ import click
 
 from topo_verify.cli import options
 from topo_verify.cli.accounts import arena_account
-from topo_verify.cli.arena_game import game_of_catalogue
 from topo_verify.cli.arena_files import REPORT, dearest_exhibits, write_folder
+from topo_verify.cli.arena_game import game_of_catalogue
 from topo_verify.cli.output import Ending, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import ReportFiles, report_options, write_reports

@@ -126,9 +126,13 @@ def prove(
     text = certificate_format.text_of(stated)
     files.write(file, text)
     checked = check(certificate_format.parse(text.encode(), name=file))
-    # `accepted` is None where nothing was checked; only False means that Coq refused.
+    # `accepted` is None where nothing was checked; only False means that Coq refused. Where the
+    # conclusion is true, some evidence is accepted (coq/Accepted.v): the mistake is Python's.
     if checked.accepted is False:
-        raise InternalError(f"{checked.by} refuses {file}: {checked.why}")
+        raise InternalError(
+            f"{checked.by} refuses {file}, so our conclusion or our evidence is wrong:"
+            f" {checked.why}"
+        )
     log_name = "LOG" if traces[number] == "-" else traces[number]
     return KernelCheck(
         statement=stated.statement,

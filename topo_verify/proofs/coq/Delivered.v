@@ -3,10 +3,11 @@
     D is a delivery, M its map, t the table of the proved map, W a world; psi lists for each dart of
     M the dart of t that it is, and for each dart of t that of M.
 
-    The check is [check_delivery]. What it accepts is the world ([check_delivery_right]). *)
+    The check is [check_delivery]. What it accepts is the world ([check_delivery_right]), and it
+    accepts every right delivery with some list ([check_delivery_accepts]). *)
 From Coq Require Import Arith Lia List Bool NArith.
 Import ListNotations.
-From Topo Require Import World Rotation Events Table TableCorrect.
+From Topo Require Import World Rotation Determined Events Table TableCorrect.
 
 (** The dart of the table that dart d is. *)
 Definition ahead (psi : list (nat * nat)) d := fst (nth d psi (0, 0)).
@@ -128,4 +129,49 @@ Proof.
   - apply Forall_forall. intros r Hr ->. discriminate (A _ Hr).
   - apply (checked_world _ t psi); auto.
   - apply isomorphic_trans with (map_of t); auto. apply (checked_isomorphic _ t psi); auto.
+Qed.
+
+(** Claim 9: every delivery that is right in the world of the table is accepted with some list.
+    Not in the paper. *)
+Theorem check_delivery_accepts D t W : world (map_of t) -> isomorphic (map_of t) W ->
+  right_delivery D W -> exists psi, check_delivery D t psi = true.
+Proof.
+  intros HT [SizeT (f & [F1 F2 F3 F4 F5] & Fo & Fa)]
+    (Rows & Pairs & HM & SizeM & phi & [P1 P2 P3 P4 P5] & Po & Pa).
+  set (M := delivered_map D) in *. set (T := map_of t) in *.
+  assert (WM := world_is_map M HM). assert (WT := world_is_map T HT).
+  destruct (choice 0 (fun d b => b < darts T /\ f b = phi d) (darts M)) as [g Hg].
+  { intros d Hd. apply (Fo (phi d)); auto. }
+  destruct (choice 0 (fun b d => d < darts M /\ phi d = f b) (darts M)) as [h Hh].
+  { intros b Hb. apply (Po (f b)), F1. congruence. }
+  exists (map (fun i => (g i, h i)) (seq 0 (darts M))).
+  assert (At : forall i, i < darts M ->
+    nth i (map (fun i => (g i, h i)) (seq 0 (darts M))) (0, 0) = (g i, h i)).
+  { intros i Hi. rewrite (nth_indep _ (0, 0) ((fun i => (g i, h i)) 0))
+      by (rewrite map_length, seq_length; auto).
+    rewrite (map_nth (fun i => (g i, h i))), seq_nth; auto. }
+  assert (Ga : forall i, i < darts M -> ahead (map (fun i => (g i, h i)) (seq 0 (darts M))) i = g i)
+    by (intros i Hi; unfold ahead; rewrite At; auto).
+  assert (Ha : forall i, i < darts M -> backwards (map (fun i => (g i, h i)) (seq 0 (darts M))) i = h i)
+    by (intros i Hi; unfold backwards; rewrite At; auto).
+  assert (Size : darts M = darts T) by congruence. assert (Rt := root_lt M WM).
+  unfold check_delivery. fold M. fold T. rewrite !andb_true_iff, !Nat.eqb_eq, Nat.ltb_lt.
+  repeat split; auto.
+  - apply forallb_forall. intros r I. rewrite Forall_forall in Rows. specialize (Rows r I).
+    destruct r; auto.
+  - rewrite Ga by auto. apply F2; [apply Hg; auto|apply WT|]. destruct (Hg _ Rt) as [_ ->]. congruence.
+  - apply forallb_forall. intros d I. apply in_seq in I. assert (Hd : d < darts M) by lia. clear I.
+    destruct (Hg d Hd) as [G1 G2], (Hh d Hd) as [H1 H2]. assert (Gm : g d < darts M) by congruence.
+    assert (Sd := sigma_lt M WM d Hd). destruct (Hg _ Sd) as [S1 S2].
+    unfold check_dart. fold T. rewrite (Ga d), (Ha (g d)), (Ha d), (Ga (h d)), (Ga (sigma M d)) by auto.
+    assert (B1 : h (g d) = d) by (destruct (Hh (g d) Gm); apply P2; auto; congruence).
+    assert (B2 : g (h d) = d) by (destruct (Hg (h d) H1); apply F2; auto; congruence).
+    assert (B3 : g (sigma M d) = sigma T (g d)).
+    { apply F2; auto; [apply sigma_lt; auto|]. rewrite S2, P3, F3, G2 by auto. auto. }
+    rewrite B1, B2, B3, !Nat.eqb_refl, !(proj2 (Nat.ltb_lt _ _)) by auto. cbn [andb].
+    destruct (alpha M d) as [e|] eqn:E; [|destruct (world_total M HM d Hd E)].
+    destruct (alpha_ok M WM d e Hd E) as (Le & _). assert (A := P4 d e Hd E).
+    rewrite <- G2, Fa in A by auto. destruct (alpha T (g d)) as [b|] eqn:Eb; [|discriminate].
+    injection A as A. rewrite (proj2 (Nat.ltb_lt _ _) Le), (Ga e Le). cbn [andb]. apply Nat.eqb_eq.
+    destruct (Hg e Le) as [E1 E2]. apply F2; auto; [|congruence]. apply (alpha_ok T WT (g d) b G1 Eb).
 Qed.
