@@ -6,7 +6,8 @@
     enhancement_ii.py   rule `history`                   enhancement_iii.py rule `records`
     folding.py          rule `folding`                   planar.py          rule `planar`
     history.py          the fold of all that was seen    places.py          places of a fold
-    homing.py           the mapper `homing`              steering.py        the loop of its kind
+    homing.py           the mapper `homing`              planner.py         the mapper `planner`
+    steering.py         the loop of the two
 
 Nothing here can see a world: these files import `robot.percept`, `robot.events` and the standard
 library, and a test holds them to it.
@@ -36,6 +37,7 @@ from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.homing import homing
 from topo_verify.algorithms.motion import Motion, overlap, retrace
 from topo_verify.algorithms.planar import PlanarRule
+from topo_verify.algorithms.planner import planner
 from topo_verify.robot.events import Policies, Robot
 
 __all__ = [
@@ -154,7 +156,9 @@ CATALOGUE: dict[str, Algorithm] = {
 }
 """Every algorithm under its name, from the weakest rule to the strongest."""
 
-STEERED: dict[str, Steered] = {mapper.name: mapper for mapper in (Steered("homing", homing),)}
+STEERED: dict[str, Steered] = {
+    mapper.name: mapper for mapper in (Steered("homing", homing), Steered("planner", planner))
+}
 """The mappers that are no algorithms of the paper's loop. `all` leaves them out."""
 
 NAMED: dict[str, Algorithm | Steered] = {**CATALOGUE, **STEERED}

@@ -104,7 +104,7 @@ class History:
     def away(self) -> int:
         """How far the robot is from the nearest vertex of S."""
         search = self.outward(self.at)
-        return next(far for place, far, _ in search if self.places.vertex((place, 0)) is not None)
+        return next(far for place, far, _ in search if self.places.vertex(place) is not None)
 
     def open_darts(self, place: PlaceNode) -> Iterator[NodeDart]:
         """The darts of a place behind which nothing was seen yet."""
@@ -115,7 +115,7 @@ class History:
 
         They are those that leave it and were never crossed, or at a ghost those that lead there.
         """
-        ghost = self.places.vertex((place, 0)) is None
+        ghost = self.places.vertex(place) is None
         for dart in self.places.darts(place):
             end = self.places.across(dart)
             if ghost == (end is not None):
@@ -138,10 +138,10 @@ class History:
             yield found
             for dart in places.darts(found[0]):
                 end = places.across(dart)
-                if end is not None and end[0] not in reached:
-                    reached.add(end[0])
+                if end is not None and (there := places.place(end)) not in reached:
+                    reached.add(there)
                     if not (ghosts_only and places.vertex(end) is not None):
-                        queue.append((end[0], found[1] + 1, end))
+                        queue.append((there, found[1] + 1, end))
 
     def ghosts(self, e: MapDart) -> dict[PlaceNode, int]:
         """The ghosts that hang together with vu, and how far from it they are."""
@@ -171,7 +171,7 @@ class History:
             leaves = self.places.across(leads_back)
             assert leaves is not None, "the search came by this edge"
             exits.append(leaves)
-            target = leaves[0]
+            target = self.places.place(leaves)
         return exits[::-1]
 
     # ---------------------------------------------------------------- moving

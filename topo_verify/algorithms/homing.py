@@ -79,12 +79,17 @@ def nearest_edge(history: History) -> MapDart:
     return best[2]
 
 
-def most_telling_door(history: History, e: MapDart) -> NodeDart:
+def alike(_: MapDart) -> float:
+    """The prior of `homing`: each hypothesis as likely as any other."""
+    return 1.0
+
+
+def most_telling_door(history: History, e: MapDart, prior: Prior = alike) -> NodeDart:
     """The dart by which the robot leaves for the open dart with the best score."""
     ghosts = history.ghosts(e)
     steps = history.distances(ghosts)
     usual = degree_shares(history)
-    beliefs = weigh(history, e, ghosts, usual, lambda _: 1.0)  # H.10
+    beliefs = weigh(history, e, ghosts, usual, prior)  # H.10
     best: tuple[float, NodeDart] | None = None
     for place in ghosts:
         for dart in history.open_darts(place):  # H.11
@@ -111,7 +116,7 @@ def weigh(
     found: list[tuple[Places, float, dict[PlaceNode, int]]] = []
     for h, places in history.hypotheses(e):
         # A ghost that is no place of S, even so, has its way home over vu.
-        images = {ghost: places.vertex((ghost, 0)) for ghost in ghosts}
+        images = {ghost: places.vertex(ghost) for ghost in ghosts}
         over_vu = depth[vertex[h]]
         homes = {
             ghost: over_vu + ghosts[ghost] if v is None else depth[v] for ghost, v in images.items()

@@ -16,8 +16,8 @@ from topo_verify.algorithms.chart import Vertex
 from topo_verify.algorithms.folding import NodeDart, PartialFold
 from topo_verify.robot.percept import Door, Percept
 
-PlaceNode = int
-"""A node that stands for itself."""
+PlaceNode = NodeDart
+"""A node that stands for itself, named by its first dart."""
 
 
 class Places:
@@ -28,7 +28,7 @@ class Places:
         self.fold = PartialFold()
         self.entries: list[NodeDart] = [(self.fold.add(percept, known=True), 0)]
         self.below: Places | None = None
-        self._vertices: dict[PlaceNode, Vertex] = {0: 0}
+        self._vertices: dict[PlaceNode, Vertex] = {self.entries[0]: 0}
         self._merges = 0
 
     def suppose(self, one: NodeDart, other: NodeDart) -> Places | str:
@@ -71,11 +71,11 @@ class Places:
 
     def place(self, dart: NodeDart) -> PlaceNode:
         """The place of a dart."""
-        return self.fold.resolve(dart)[0]
+        return self.fold.resolve(dart)[0], 0
 
     def darts(self, place: PlaceNode) -> list[NodeDart]:
         """The darts of a place, clockwise."""
-        return [(place, door) for door in range(self.fold.signatures[place][0])]
+        return [(place[0], door) for door in range(self.fold.signatures[place[0]][0])]
 
     def looks(self, dart: NodeDart) -> tuple[int, bool]:
         """The degree of a dart's place, and whether the marker is there."""
@@ -85,9 +85,9 @@ class Places:
         """The vertex of S that a dart's place is, or None: it is a ghost."""
         if self._merges != len(self.fold.leader):
             self._look_up()
-        place = self.fold.resolve(dart)[0]
+        place = self.place(dart)
         v = self._vertices.get(place)
-        return v if v is not None or self.below is None else self.below.vertex((place, 0))
+        return v if v is not None or self.below is None else self.below.vertex(place)
 
     def _look_up(self) -> None:
         """Find the vertices of S anew: any node may stand for one, once it is one with it."""
@@ -117,6 +117,6 @@ class Places:
     def know(self, entry: NodeDart) -> None:
         """Make a ghost the next vertex of S, and this dart its first one."""
         place = self.place(entry)
-        self.fold.known.add(place)
+        self.fold.known.add(place[0])
         self._vertices[place] = len(self.entries)
         self.entries.append(entry)
