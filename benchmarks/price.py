@@ -39,8 +39,8 @@ Job = tuple[str, int, str]
 """Family, seed, mapper."""
 
 
-def priced(job: Job) -> tuple[int, int, float]:
-    """The cost of one run, the least cost of its world, and the seconds of the processor.
+def priced(job: Job) -> tuple[int, int, float, int]:
+    """The cost of a run, the least cost of its world, seconds of the processor, and m.
 
     Raises:
         SystemExit: the map that was delivered is not that of the world.
@@ -51,7 +51,7 @@ def priced(job: Job) -> tuple[int, int, float]:
     run = explore(world, mapper)
     seconds = time.process_time() - began
     require_right(run, job)
-    return run.cost, world.least_cost(), seconds
+    return run.cost, world.least_cost(), seconds, len(world.edges)
 
 
 def require_right(run: Exploration, job: Job) -> None:
@@ -87,21 +87,22 @@ def main() -> None:
     """Print the table, as Markdown."""
     ask = argparse.ArgumentParser(description="mean cost / least cost, mappers x families")
     ask.add_argument("--mappers", default=MAPPERS, help="names, with commas")
-    ask.add_argument("--families", default="", help="only those whose text begins so")
+    ask.add_argument("--families", default="", help="only those whose text begins so, with commas")
     ask.add_argument("--seeds", type=int, default=30, help="0 … N-1 (torus: one world)")
     ask.add_argument("--workers", type=int, default=2, help="processes")
     ask.add_argument("--ms", action="store_true", help="also milliseconds a move")
+    ask.add_argument("--costs", action="store_true", help="mean costs, no ratios; also m")
     ask.add_argument("--gap", action="store_true", help="instead: the gap of the paper's rules")
     asked = ask.parse_args()
     if asked.gap:
         gaps(asked.seeds)
         return
     mappers = asked.mappers.split(",")
-    print(f"| family | worlds | least | {' | '.join(mappers)} |")
-    print("| --- | ---: | ---: |" + " ---: |" * len(mappers))
+    print(f"| family | worlds | {'m | ' * asked.costs}least | {' | '.join(mappers)} |")
+    print("| --- |" + " ---: |" * (2 + asked.costs + len(mappers)))
     with ProcessPoolExecutor(asked.workers) as pool:
         for family in FAMILIES:
-            if not family.startswith(asked.families):
+            if not family.startswith(tuple(asked.families.split(","))):
                 continue
             seeds = range(1 if family.startswith("torus") else asked.seeds)
             jobs = [(family, seed, mapper) for mapper in mappers for seed in seeds]
@@ -109,10 +110,13 @@ def main() -> None:
             cells: list[str] = []
             for start in range(0, len(found), len(seeds)):
                 runs = found[start : start + len(seeds)]
-                costs, least, seconds = zip(*runs, strict=True)
+                costs, least, seconds, _ = zip(*runs, strict=True)
                 speed = f", {1000 * sum(seconds) / sum(costs):.1f} ms" if asked.ms else ""
-                cells.append(cell(costs, least) + speed)
-            shown = f"{mean(least for _, least, _ in found):.0f}"
+                shown = f"{mean(costs):.0f}" if asked.costs else cell(costs, least)
+                cells.append(shown + speed)
+            shown = f"{mean(least for _, least, _, _ in found):.0f}"
+            if asked.costs:
+                shown = f"{mean(m for _, _, _, m in found):.0f} | {shown}"
             print(f"| `{family}` | {len(seeds)} | {shown} | {' | '.join(cells)} |", flush=True)
 
 

@@ -42,7 +42,7 @@ from topo_verify.algorithms.history import History
 from topo_verify.robot.events import MapDart, Robot
 
 PATIENCE = 60
-"""So many moves behind edges may settle none. In no family of docs/homing.md is it ever used up."""
+"""So many moves behind edges may settle none. On a torus it is used up now and then."""
 
 NextEdge = Callable[[History], MapDart]
 """The dart of U that is settled next."""
