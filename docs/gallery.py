@@ -37,6 +37,7 @@ PICTURES = {
     "dodecahedron": "family:dodecahedron()",
     "icosahedron": "family:icosahedron()",
     "nyc": "nyc",
+    "king_torus": "family:king_torus(3,3,holes=0.2,seed=1)",
     # genus 0 to 3, each with the fewest edges
     "m1-0": "m1/0",
     "m2-7": "m2/7",

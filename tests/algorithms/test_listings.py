@@ -16,6 +16,9 @@ FILES = sorted(Path(topo_verify.algorithms.__file__).parent.glob("*.py"))
 LINES = {1: 20, 2: 28, 3: 30}
 """How many lines each listing has."""
 
+HOMING = Path(__file__).parents[2] / "docs" / "homing.md"
+"""It has a listing of its own, whose lines are cited as `# H.7`."""
+
 
 def cited(source: str) -> Iterator[tuple[int, int]]:
     """Listing and line of every pointer in a comment, as `# A2.7`."""
@@ -37,3 +40,14 @@ def test_no_other_listing_is_cited() -> None:
 
 def test_only_comments_count_as_citations() -> None:
     assert list(cited('"""`# A2.7` in words"""\nx = 1  # A1.3 A2.28: both\n')) == [(1, 3), (2, 28)]
+
+
+def test_the_listing_of_homing_is_cited_line_by_line_by_the_files_that_make_it() -> None:
+    listed = re.findall(r"^ {4}(\d+) {2,}\S", HOMING.read_text(), re.MULTILINE)
+    homes = ("history.py", "homing.py", "steering.py")
+    texts = [path.read_text() for path in FILES if path.name in homes]
+    found = {int(line) for text in texts for line in re.findall(r"# .*?\bH\.(\d+)\b", text)}
+    found |= {
+        int(line) for text in texts for line in re.findall(r"\bH\.(\d+)$", text, re.MULTILINE)
+    }
+    assert sorted(found) == [int(line) for line in listed] == list(range(1, len(listed) + 1))

@@ -23,6 +23,8 @@ EXAMPLES = [
     "lattice(2,3,marker=0)",
     "lattice(10,10,holes=0.2,seed=7)",
     "king(5,4,holes=0.3,seed=1)",
+    "king_torus(3,4)",
+    "king_torus(4,4,holes=0.2,seed=3,marker=1)",
     "torus(3,4)",
     "torus(1,2,marker=5)",
     "regular(20,3,holes=0.1,seed=2)",
@@ -125,6 +127,30 @@ def test_a_king_moves_to_eight_neighbours_and_the_map_is_not_planar() -> None:
     assert sorted(set(world.degrees)) == [3, 5, 8]
     assert world.is_simple
     assert world.genus == 9
+
+
+@pytest.mark.parametrize(("rows", "columns"), [(1, 1), (1, 3), (2, 2), (3, 3), (3, 5)])
+def test_a_king_on_a_torus_has_eight_exits_everywhere(rows: int, columns: int) -> None:
+    world = families.king_torus(rows, columns)
+    assert set(world.degrees) == {8}
+    assert (len(world.vertices), len(world.edges)) == (rows * columns, 4 * rows * columns)
+    assert world.is_simple == (rows > 2 and columns > 2)
+    assert not world.positions
+    assert joined(world) == {
+        frozenset(
+            (row * columns + column, (row + down) % rows * columns + (column + right) % columns)
+        )
+        for row in range(rows)
+        for column in range(columns)
+        for down, right in ((-1, 0), (-1, 1), (0, 1), (1, 1))  # the others are their opposites
+    }
+
+
+def test_the_seed_of_a_king_torus_draws_its_holes_and_its_marker() -> None:
+    worlds = [families.king_torus(5, 5, holes=0.2, seed=seed) for seed in range(4)]
+    assert {len(world.vertices) for world in worlds} == {20}
+    assert len({world.code for world in worlds}) == 4
+    assert len({families.king_torus(5, 5, seed=seed).marker for seed in range(9)}) > 1
 
 
 @pytest.mark.parametrize("make", [families.lattice, families.king])

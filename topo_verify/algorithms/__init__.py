@@ -1,10 +1,13 @@
-"""The catalogue of algorithms: each is a rule, a motion and two policies for one exploration loop.
+"""The catalogue: algorithms (a rule, a motion, two policies, one loop), and two steered mappers.
 
     chart.py            the map S                        exploration.py     the loop of listings 1-3
     motion.py           excursions: retrace, overlap     policies.py        pick and order
     basic.py            rule `none`                      enhancement_i.py   rule `prefix`
     enhancement_ii.py   rule `history`                   enhancement_iii.py rule `records`
     folding.py          rule `folding`                   planar.py          rule `planar`
+    history.py          the fold of all that was seen    places.py          places of a fold
+    homing.py           the mapper `homing`              planner.py         the mapper `planner`
+    steering.py         the loop of the two
 
 Nothing here can see a world: these files import `robot.percept`, `robot.events` and the standard
 library, and a test holds them to it.
@@ -31,11 +34,23 @@ from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Rule, explore
 from topo_verify.algorithms.folding import FoldingRule
+from topo_verify.algorithms.homing import homing
 from topo_verify.algorithms.motion import Motion, overlap, retrace
 from topo_verify.algorithms.planar import PlanarRule
+from topo_verify.algorithms.planner import planner
 from topo_verify.robot.events import Policies, Robot
 
-__all__ = ["CATALOGUE", "REFERENCE", "Algorithm", "Policies", "Rule", "algorithm"]
+__all__ = [
+    "CATALOGUE",
+    "NAMED",
+    "REFERENCE",
+    "STEERED",
+    "Algorithm",
+    "Policies",
+    "Rule",
+    "Steered",
+    "algorithm",
+]
 
 REFERENCE = Policies("nearest", "shortest")
 """The policies that define the reference costs."""
@@ -93,6 +108,29 @@ class Algorithm:
         printer.text(repr(self))
 
 
+@dataclass(frozen=True, slots=True)
+class Steered:
+    """A mapper of the catalogue that steers by the fold of its whole history: docs/homing.md.
+
+    It has neither a rule nor policies to choose, and there is no compiled twin of it.
+
+    Attributes:
+        name: as in the catalogue.
+        run: maps the world of one robot.
+    """
+
+    name: str
+    run: Callable[[Robot], Survey]
+
+    def __call__(self, robot: Robot) -> Survey:
+        """Explore the robot's world. Deterministic: the same world gives the same run."""
+        return self.run(robot)
+
+    def __repr__(self) -> str:
+        """The name; it is no code, for whoever wants one runs it by its name."""
+        return f"<Steered {self.name!r}>"
+
+
 def _one_level() -> Rule:
     return RecordsRule(levels=1)
 
@@ -117,6 +155,14 @@ CATALOGUE: dict[str, Algorithm] = {
     )
 }
 """Every algorithm under its name, from the weakest rule to the strongest."""
+
+STEERED: dict[str, Steered] = {
+    mapper.name: mapper for mapper in (Steered("homing", homing), Steered("planner", planner))
+}
+"""The mappers that are no algorithms of the paper's loop. `all` leaves them out."""
+
+NAMED: dict[str, Algorithm | Steered] = {**CATALOGUE, **STEERED}
+"""Whatever a TARGET may name: the algorithms, then the steered mappers."""
 
 
 def algorithm(name: str) -> Algorithm:

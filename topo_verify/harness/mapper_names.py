@@ -21,7 +21,7 @@ from operator import attrgetter
 from pathlib import Path
 from types import ModuleType
 
-from topo_verify.algorithms import CATALOGUE, Algorithm
+from topo_verify.algorithms import CATALOGUE, STEERED, Algorithm, Steered
 from topo_verify.programs.loader import Mapper
 
 
@@ -31,6 +31,8 @@ def text_of(mapper: Mapper) -> str:
         known = CATALOGUE.get(mapper.name)
         ours = known is not None and replace(mapper, policies=known.policies) == known
         return mapper.name if ours else f"<{mapper.name}>"
+    if isinstance(mapper, Steered):
+        return mapper.name if mapper == STEERED.get(mapper.name) else f"<{mapper.name}>"
     home: str = getattr(mapper, "__module__", None) or "__main__"
     module = sys.modules.get(home)
     name = None if module is None else _name_in(module, mapper)

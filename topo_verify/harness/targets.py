@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import shlex
 
-from topo_verify.algorithms import CATALOGUE, Algorithm
+from topo_verify.algorithms import CATALOGUE, NAMED, Algorithm
 from topo_verify.errors import InputError
 from topo_verify.harness.mapper_names import text_of
 from topo_verify.programs.foreign import Foreign
@@ -80,15 +80,15 @@ def _targets(text: str, *, in_process: bool) -> tuple[Target, ...]:
     general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
     names = general if text == "all" else [name.strip() for name in text.split(",")]
     for name in names:
-        if name not in CATALOGUE:
+        if name not in NAMED:
             if (hint := missing_attribute(name)) is not None:
                 raise InputError(f"target {name!r}: {hint}")
             raise InputError(
-                f"no algorithm {name!r}{close_name(name, CATALOGUE) or ':'} there are"
-                f" {', '.join(CATALOGUE)} and all; a mapper of your own is"
+                f"no algorithm {name!r}{close_name(name, NAMED) or ':'} there are"
+                f" {', '.join(NAMED)} and all; a mapper of your own is"
                 " package.module:attribute, path/file.py:attribute or --cmd 'program args'"
             )
-    return tuple(Target(name, CATALOGUE[name]) for name in names)
+    return tuple(Target(name, NAMED[name]) for name in names)
 
 
 def _with_policies(target: Target, pick: str | None, order: str | None) -> Target:

@@ -34,7 +34,7 @@ from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.percept import Door, Percept, Purpose
 from topo_verify.robot.simulator import EXPECTED, Misuse, door_number, require_purpose
 
-CATALOGUE = "topo_verify.algorithms:CATALOGUE.{}"
+CATALOGUE = "topo_verify.algorithms:NAMED.{}"
 """The place of a name without a colon. Loaded by text, since programs/ imports no algorithms."""
 
 _to_child: msgspec.json.Decoder[ms.ToChild] = msgspec.json.Decoder(ms.ToChild)

@@ -22,6 +22,7 @@ WORLDS = {0: 1, 1: 2, 2: 10, 3: 74, 4: 706, 5: 8162}
 
 FAMILIES = (
     *("lattice(4,5)", "lattice(5,5,holes=0.3,seed=2)", "king(3,4)", "torus(3,4)", "torus(5,7)"),
+    "king_torus(3,4)",
     *("triangular_torus(3,3)", "triangular_torus(4,5)", "hexagonal_torus(3,4)"),
     *("regular(10,3,seed=1)", "regular(12,4,seed=2)", "dense(9,0.5,seed=1)", "complete(5,seed=3)"),
     *("complete_bipartite(3,4,seed=1)", "random_tree(20,seed=1)", "random_planar(20,seed=5)"),

@@ -26,7 +26,7 @@ from random import Random
 
 import msgspec
 
-from topo_verify.algorithms import Algorithm
+from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.checkers import Finding
 from topo_verify.harness.judge import Report, judge
 from topo_verify.harness.observed import Observation, run_hash, world_hash
@@ -74,7 +74,7 @@ class RunAgain(msgspec.Struct, frozen=True):
 
 def can_run_again(mappers: Sequence[Target]) -> bool:
     """Whether a fresh process can be had: for what a TARGET names, outside of the catalogue."""
-    return len(mappers) == 1 and not isinstance(mappers[0].mapper, Algorithm)
+    return len(mappers) == 1 and not isinstance(mappers[0].mapper, Algorithm | Steered)
 
 
 def run_again(plan: Plan, tally: Tally, beat: Callable[[int], None] | None = None) -> RunAgain:

@@ -24,7 +24,7 @@ from importlib import metadata
 from pathlib import Path
 
 from topo_verify import errors
-from topo_verify.algorithms import Algorithm
+from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.errors import InputError
 from topo_verify.programs import loaded
 from topo_verify.programs.foreign import Foreign
@@ -44,7 +44,7 @@ def source_hash(mappers: Iterable[Target]) -> str:
     """A hash of topo_verify and of the files that name these mappers, as they are now."""
     digest = sha256(own_hash().encode())
     for mapper in mappers:
-        if not isinstance(mapper.mapper, Algorithm):
+        if not isinstance(mapper.mapper, Algorithm | Steered):
             for path, made in sorted(loaded.hashes(named_files(mapper.text)).items()):
                 digest.update(f"\0{path}\0{made}".encode(errors="surrogateescape"))
     return digest.hexdigest()
@@ -95,7 +95,8 @@ class Identity:
 
     def __init__(self, mappers: Sequence[Target], depends: Sequence[str] = ()) -> None:
         self._mappers, self.depends = mappers, tuple(depends)
-        foreign = [m.mapper for m in mappers if not isinstance(m.mapper, Algorithm | Program)]
+        ours = Algorithm | Steered | Program
+        foreign = [m.mapper for m in mappers if not isinstance(m.mapper, ours)]
         self._values = " ".join(map(values_hash, foreign))
 
     def loaded(self) -> Loaded:
@@ -107,7 +108,7 @@ class Identity:
 
     def _of(self, target: Target) -> Loaded:
         mapper = target.mapper
-        if isinstance(mapper, Algorithm):
+        if isinstance(mapper, Algorithm | Steered):
             return Loaded()
         if isinstance(mapper, Foreign):
             return mapper.loaded()

@@ -25,6 +25,7 @@ from topo_verify.world.families._arguments import MAX_DARTS
 from topo_verify.world.families.lattices import (
     hexagonal_torus,
     king,
+    king_torus,
     lattice,
     torus,
     triangular_torus,
@@ -41,7 +42,7 @@ from topo_verify.world.families.solids import (
 )
 from topo_verify.world.rooted_map import World
 
-# lattices.py       lattice, king, torus, triangular_torus, hexagonal_torus
+# lattices.py       lattice, king, king_torus, torus, triangular_torus, hexagonal_torus
 # random_graphs.py  regular, dense, complete, complete_bipartite
 # random_maps.py    random_tree, random_planar, random_genus
 # shapes.py         path, cycle, star, wheel, prism
@@ -52,7 +53,7 @@ from topo_verify.world.rooted_map import World
 FAMILIES: Mapping[str, Callable[..., World]] = {
     make.__name__: make
     for make in (
-        *(lattice, king, torus, triangular_torus, hexagonal_torus),
+        *(lattice, king, king_torus, torus, triangular_torus, hexagonal_torus),
         *(regular, dense, complete, complete_bipartite),
         *(random_tree, random_planar, random_genus),
         *(path, cycle, star, wheel, prism),
@@ -73,6 +74,7 @@ __all__ = [
     "hexagonal_torus",
     "icosahedron",
     "king",
+    "king_torus",
     "lattice",
     "octahedron",
     "path",

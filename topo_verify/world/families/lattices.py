@@ -12,6 +12,8 @@ from topo_verify.world.rooted_map import Dart, World
 _NORTH, _NORTH_EAST, _EAST, _SOUTH_EAST = (-1, 0), (-1, 1), (0, 1), (1, 1)
 """Half of the eight directions as (rows down, columns right); the others are their opposites."""
 
+_KING = (_NORTH, _NORTH_EAST, _EAST, _SOUTH_EAST)
+
 
 def lattice(
     rows: int, columns: int, *, holes: float = 0.0, seed: int = 0, marker: Dart | None = None
@@ -37,8 +39,17 @@ def king(
     The diagonals cross in the drawing: by its angles it is a map of high genus. Arguments and
     errors as for `lattice`.
     """
-    steps = (_NORTH, _NORTH_EAST, _EAST, _SOUTH_EAST)
-    return _drawn("king", steps, (rows, columns), holes, seed, marker)
+    return _drawn("king", _KING, (rows, columns), holes, seed, marker)
+
+
+def king_torus(
+    rows: int, columns: int, *, holes: float = 0.0, seed: int = 0, marker: Dart | None = None
+) -> World:
+    """A `king` whose borders are joined, top with bottom and left with right: degrees 8, no holes.
+
+    Arguments and errors as for `lattice`; without holes it is simple from 3 rows and 3 columns on.
+    """
+    return _drawn("king_torus", _KING, (rows, columns), holes, seed, marker, wrapped=True)
 
 
 def torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
@@ -109,6 +120,8 @@ def _drawn(
     holes: float,
     seed: int,
     marker: Dart | None,
+    *,
+    wrapped: bool = False,
 ) -> World:
     rows, columns = arguments.size(family, size, darts_each=2 * len(steps))
     holes, seed = (
@@ -118,7 +131,9 @@ def _drawn(
     marker = arguments.marker(family, marker)
     name = arguments.name(family, rows, columns, holes=holes, seed=seed, marker=marker)
     random = Random(seed)
-    graph = with_holes(name, _grid(rows, columns, steps, wrapped=False), holes, random)
+    graph = with_holes(name, _grid(rows, columns, steps, wrapped=wrapped), holes, random)
+    if wrapped:  # a torus has no drawing in the plane
+        return as_world(name, graph, marker, random)
     positions = tuple((float(node % columns), float(rows - 1 - node // columns)) for node in graph)
     return as_world(name, graph, marker, random, positions)
 

@@ -1,0 +1,248 @@
+"""Mappers that steer by the fold of their history: sound whatever they choose, and they end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import pairwise
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.helpers import any_world, worlds
+from topo_verify import InputError, World, examine, explore, families
+from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, steering
+from topo_verify.algorithms.chart import Survey
+from topo_verify.algorithms.folding import NodeDart
+from topo_verify.algorithms.history import History
+from topo_verify.algorithms.homing import most_telling_door, nearest_edge
+from topo_verify.harness.judge import Report
+from topo_verify.harness.mapper_names import text_of
+from topo_verify.harness.targets import targets
+from topo_verify.robot.events import MapDart, Robot
+from topo_verify.world.resolve import resolve_world
+
+Mapper = Callable[[Robot], Survey]
+
+TOTALS = {
+    "homing": {1: 2, 2: 23, 3: 295, 4: 4196},
+    "planner": {1: 2, 2: 23, 3: 295, 4: 4200},
+}
+"""What each pays in all worlds of so many edges together."""
+
+LARGER = ["lattice(5,5,holes=0.2,seed=3)", "king(4,4,seed=1)", "torus(4,4)", "regular(10,4,seed=2)"]
+
+
+def first_dart(history: History, _: MapDart) -> NodeDart:
+    """Back and forth for ever, at a place with one door; anything but clever elsewhere."""
+    return history.places.darts(history.places.place(history.at))[0]
+
+
+def back(history: History, _: MapDart) -> NodeDart:
+    """The way it came: a pendulum."""
+    return history.places.resolve(history.at)
+
+
+def drawn(random: Random) -> Mapper:
+    """A mapper that draws every edge and every door."""
+
+    def door(history: History, _: MapDart) -> NodeDart:
+        return random.choice(history.places.darts(history.places.place(history.at)))
+
+    def edge(history: History) -> MapDart:
+        return random.choice(list(history.chart.unexplored))
+
+    return partial(steering.explore, edge=edge, door=door)
+
+
+SILLY: dict[str, Mapper] = {
+    "first dart": partial(steering.explore, edge=nearest_edge, door=first_dart),
+    "pendulum": partial(steering.explore, edge=nearest_edge, door=back),
+}
+
+
+def every_claim_holds(report: Report) -> bool:
+    """All ten, each about everything that there was to judge."""
+    return set(report.claims.values()) == {"ok"}
+
+
+# ---------------------------------------------------------------- sound by construction
+
+
+@pytest.mark.parametrize("name", STEERED)
+def test_every_claim_holds_in_every_small_world(name: str) -> None:
+    paid = dict.fromkeys(TOTALS[name], 0)
+    for world in worlds(TOTALS[name]):
+        report = examine(STEERED[name], world)
+        assert every_claim_holds(report), str(report)
+        assert report.cost is not None
+        paid[len(world.edges)] += report.cost
+    assert paid == TOTALS[name]
+
+
+@pytest.mark.parametrize("name", STEERED)
+@pytest.mark.parametrize("text", LARGER)
+def test_every_claim_holds_in_larger_worlds(name: str, text: str) -> None:
+    report = examine(STEERED[name], families_world(text))
+    assert every_claim_holds(report), str(report)
+
+
+def families_world(text: str) -> World:
+    """The world of a family that is called so."""
+    return resolve_world(f"family:{text}")
+
+
+@pytest.mark.parametrize("name", STEERED)
+@given(world=any_world(max_edges=12))
+def test_every_claim_holds_in_worlds_drawn(name: str, world: World) -> None:
+    report = examine(STEERED[name], world)
+    assert every_claim_holds(report), str(report)
+
+
+@given(world=any_world(max_edges=7), random=st.randoms(use_true_random=False))
+def test_no_choice_of_edges_and_doors_breaks_a_claim(world: World, random: Random) -> None:
+    report = examine(drawn(random), world)
+    # A mapper that draws takes other doors in the worlds that claim 9 would try, if it failed.
+    assert every_claim_holds(report), str(report)
+
+
+@pytest.mark.parametrize("name", SILLY)
+def test_silly_doors_break_no_claim_in_any_small_world(name: str) -> None:
+    for world in worlds(range(1, 4)):
+        report = examine(SILLY[name], world)
+        assert every_claim_holds(report), str(report)
+
+
+def test_the_world_without_an_edge_is_its_own_map() -> None:
+    for mapper in STEERED.values():
+        assert explore(World((), (), None), mapper).cost == 0
+
+
+# ---------------------------------------------------------------- it ends
+
+
+def counted(door: steering.NextDoor, runs: list[int]) -> steering.NextDoor:
+    """The same policy; notes after each of its moves how many it made with no edge settled."""
+    last = [-1]
+
+    def counts(history: History, e: MapDart) -> NodeDart:
+        if history.settled != last[0]:
+            last[0] = history.settled
+            runs.append(0)
+        runs[-1] += 1
+        return door(history, e)
+
+    return counts
+
+
+@pytest.mark.parametrize("door", [back, first_dart, most_telling_door])
+def test_patience_ends_every_round(
+    door: steering.NextDoor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(steering, "PATIENCE", 7)
+    runs: list[int] = []
+    mapper = partial(steering.explore, edge=nearest_edge, door=counted(door, runs))
+    assert examine(mapper, families.torus(3, 3)).ok
+    assert max(runs) <= 7
+
+
+def watched_ways(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[list[int]]]:
+    """How many hypotheses are left before each way home, a list for each edge settled so."""
+    settle, reach = steering.settle_by_ways_home, steering.reach
+    left: list[int] = []
+
+    def walks(history: History, e: MapDart) -> None:
+        reach(history, e)
+        if e in history.crossed:
+            left.append(len(list(history.hypotheses(e))))
+
+    found: list[list[int]] = []
+
+    def settles(history: History, e: MapDart) -> None:
+        left.clear()
+        monkeypatch.setattr(steering, "reach", walks)
+        settle(history, e)
+        monkeypatch.setattr(steering, "reach", reach)
+        assert e not in history.crossed
+        found.append(list(left))
+
+    monkeypatch.setattr(steering, "settle_by_ways_home", settles)
+    for text in LARGER:
+        explore(families_world(text), SILLY["pendulum"])
+        yield found
+
+
+def test_each_way_home_leaves_fewer_hypotheses(monkeypatch: pytest.MonkeyPatch) -> None:
+    for rounds in watched_ways(monkeypatch):
+        assert max(map(len, rounds)) > 1
+        for left in rounds:
+            assert all(one > other for one, other in pairwise(left))
+
+
+@pytest.mark.parametrize("door", [back, first_dart])
+def test_the_bound_ends_every_run_even_without_patience(
+    door: steering.NextDoor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(steering, "PATIENCE", 10**9)
+    mapper = partial(steering.explore, edge=nearest_edge, door=door)
+    for world in [*worlds(range(1, 4)), families.torus(2, 3), families.lattice(3, 3)]:
+        report = examine(mapper, world)
+        assert every_claim_holds(report), str(report)
+
+
+def always(_: History) -> bool:
+    """In place of the look at the bound: there is always enough left."""
+    return True
+
+
+def test_without_both_rules_a_pendulum_swings_for_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(steering, "PATIENCE", 10**9)
+    monkeypatch.setattr(steering, "affords", always)
+    report = examine(SILLY["pendulum"], families.lattice(3, 3))
+    assert [finding.claim for finding in report.findings] == ["map-isomorphic"]
+    assert "move" in str(report.findings[0].message)
+
+
+def test_in_the_families_no_round_of_homing_runs_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(history: History, e: MapDart) -> None:
+        raise AssertionError(f"edge {e} is settled by ways home, at cost {history.cost}")
+
+    monkeypatch.setattr(steering, "settle_by_ways_home", never)
+    for name in STEERED:
+        assert explore(families.lattice(6, 6, holes=0.2, seed=1), name).cost
+
+
+# ---------------------------------------------------------------- in the catalogue
+
+
+def test_they_have_names_and_all_leaves_them_out() -> None:
+    assert list(NAMED) == [*CATALOGUE, *STEERED]
+    assert not STEERED.keys() & {target.text for target in targets("all")}
+    for name, mapper in STEERED.items():
+        (target,) = targets(name)
+        assert (target.text, target.mapper) == (name, mapper)
+        assert text_of(mapper) == name
+        assert repr(mapper) == f"<Steered {name!r}>"
+
+
+def test_one_that_is_not_of_the_catalogue_does_not_pass_for_one() -> None:
+    mine = type(STEERED["homing"])("homing", STEERED["homing"])
+    assert text_of(mine) == "<homing>"
+
+
+def test_the_compiled_engine_has_no_twin_of_them() -> None:
+    with pytest.raises(InputError, match=r"and homing is none of them: leave --engine out$"):
+        explore(families.lattice(2, 2), "homing", engine="compiled")
+
+
+def test_they_have_no_policies_to_choose() -> None:
+    with pytest.raises(InputError, match="homing has no policies"):
+        targets("homing", pick="last")
+
+
+def test_a_run_is_the_same_again() -> None:
+    world = families.king(4, 4, seed=2)
+    for name in STEERED:
+        assert explore(world, name).trace == explore(world, name).trace

@@ -1,0 +1,275 @@
+"""The fold of a whole history, S as its settled part, and the robot in it: what `homing` steers by.
+
+The robot's whole history is folded: one node a visit, and two visits one node as soon as they must
+be one place. Nothing else is remembered, and nothing is ever assumed. So the fold is true whatever
+doors the robot takes; and when no dart of it is open, it is the world (docs/semantics.md, section
+11). A policy that steers by a History decides what the map costs and can do no more harm than that.
+
+    letter       what it is
+    S, U         the chart: the part of the fold that is settled, and its unexplored darts
+    e, vu        a dart of U that was crossed, and the place behind it: not known to be in S, or not
+    h            a hypothesis for e: another dart of U, at a vertex that looks like vu
+    ghost        a node of the fold that is not known to be a vertex of S
+
+**An edge is settled late**, wherever the robot stands by then: as a loop once vu has become a
+vertex of S by folding, as a new vertex once folding refutes every h. Then S grows, and the decision
+is declared with the contradiction that refuted each h. With S the fold knows more (two vertices of
+S are never one), so one settled edge may settle others.
+
+**Suppositions.** For each h that is not refuted the places as they would be if e ended in h are
+kept, and follow what is seen: where the ghosts lie, what would be seen behind their doors.
+
+Source: docs/homing.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+
+from topo_verify.algorithms.chart import Chart, Tree
+from topo_verify.algorithms.folding import NodeDart
+from topo_verify.algorithms.places import PlaceNode, Places
+from topo_verify.robot.events import Augment, Confirm, Evidence, MapDart, Pose, Reject, Robot
+from topo_verify.robot.percept import Percept, Purpose
+
+
+@dataclass(slots=True)
+class Crossed:
+    """What is known of a dart of U that was crossed.
+
+    Attributes:
+        refuted: the hypotheses that no world allows, each with the contradiction.
+        supposed: of hypotheses that some world allows: the places, if it is true.
+        vertices: how many vertices S had when they were supposed.
+    """
+
+    refuted: dict[MapDart, str] = field(default_factory=dict[MapDart, str])
+    supposed: dict[MapDart, Places] = field(default_factory=dict[MapDart, Places])
+    vertices: int = 0
+
+
+class History:
+    """Everything seen, folded. It grows by `move`, which also settles what can be settled.
+
+    Attributes:
+        chart: S. `places`: the fold, with S in it. `crossed`: the darts of U that were crossed.
+        at: the robot's reference dart. `cost`: its moves so far.
+        settled: how many edges are settled.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        """Begin where the robot stands, at v0."""
+        self.robot = robot
+        self.chart = Chart(robot.percept)  # H.1
+        self.places = Places(robot.percept)
+        self.at = self.places.entries[0]
+        self.crossed: dict[MapDart, Crossed] = {}
+        self.cost, self.settled = 0, 0
+        self._home: Tree | None = None
+
+    # ---------------------------------------------------------------- S in the fold
+
+    def node_dart(self, dart: MapDart) -> NodeDart:
+        """The dart of the fold that a dart of S is."""
+        v = self.chart.vertex[dart]
+        return self.places.turn(self.places.entries[v], dart - self.chart.first[v])
+
+    def map_dart(self, dart: NodeDart, places: Places | None = None) -> MapDart | None:
+        """The dart of S that a dart is, by what was seen (or supposed); None if it is a ghost's."""
+        where = places or self.places
+        v = where.vertex(dart)
+        if v is None:
+            return None
+        return self.chart.turn(self.chart.first[v], where.door(self.places.entries[v], dart))
+
+    def behind(self, e: MapDart) -> NodeDart:
+        """The dart by which the robot comes in behind a dart of S that it has crossed."""
+        end = self.places.across(self.node_dart(e))
+        assert end is not None, f"dart {e} was never crossed"
+        return end
+
+    def home(self) -> Tree:
+        """The breadth-first tree of S rooted at v0: for each vertex its way home."""
+        if self._home is None:
+            self._home = self.chart.tree(0)
+        return self._home
+
+    # ---------------------------------------------------------------- places and ways
+
+    def in_s(self) -> bool:
+        """Whether the robot is known to stand at a vertex of S."""
+        return self.places.vertex(self.at) is not None
+
+    def away(self) -> int:
+        """How far the robot is from the nearest vertex of S."""
+        search = self.outward(self.at)
+        return next(far for place, far, _ in search if self.places.vertex(place) is not None)
+
+    def open_darts(self, place: PlaceNode) -> Iterator[NodeDart]:
+        """The darts of a place behind which nothing was seen yet."""
+        return (dart for dart in self.places.darts(place) if self.places.across(dart) is None)
+
+    def leads(self, place: PlaceNode) -> Iterator[MapDart]:
+        """The darts of U to settle from a place.
+
+        They are those that leave it and were never crossed, or at a ghost those that lead there.
+        """
+        ghost = self.places.vertex(place) is None
+        for dart in self.places.darts(place):
+            end = self.places.across(dart)
+            if ghost == (end is not None):
+                e = self.map_dart(end or dart)
+                if e is not None:
+                    yield e
+
+    def outward(
+        self, start: NodeDart, *, ghosts_only: bool = False
+    ) -> Iterator[tuple[PlaceNode, int, NodeDart | None]]:
+        """Breadth-first search over what was seen: place, distance, dart that leads back.
+
+        Args:
+            ghosts_only: pass over the vertices of S (but for the place of the start).
+        """
+        places, first = self.places, self.places.place(start)
+        reached = {first}
+        queue: list[tuple[PlaceNode, int, NodeDart | None]] = [(first, 0, None)]
+        for found in queue:  # grows as it goes
+            yield found
+            for dart in places.darts(found[0]):
+                end = places.across(dart)
+                if end is not None and (there := places.place(end)) not in reached:
+                    reached.add(there)
+                    if not (ghosts_only and places.vertex(end) is not None):
+                        queue.append((there, found[1] + 1, end))
+
+    def ghosts(self, e: MapDart) -> dict[PlaceNode, int]:
+        """The ghosts that hang together with vu, and how far from it they are."""
+        search = self.outward(self.behind(e), ghosts_only=True)
+        return {place: distance for place, distance, _ in search}
+
+    def distances(self, goals: Collection[PlaceNode]) -> dict[PlaceNode, int]:
+        """How far some places are from the robot."""
+        found: dict[PlaceNode, int] = {}
+        for place, distance, _ in self.outward(self.at):
+            if place in goals:
+                found[place] = distance
+                if len(found) == len(goals):
+                    break
+        return found
+
+    def way(self, goal: NodeDart) -> list[NodeDart]:
+        """The darts by which the robot leaves the places on a shortest way to that of a dart."""
+        target = self.places.place(goal)
+        back: dict[PlaceNode, NodeDart | None] = {}
+        for place, _, leads_back in self.outward(self.at):
+            back[place] = leads_back
+            if place == target:
+                break
+        exits: list[NodeDart] = []
+        while (leads_back := back[target]) is not None:
+            leaves = self.places.across(leads_back)
+            assert leaves is not None, "the search came by this edge"
+            exits.append(leaves)
+            target = self.places.place(leaves)
+        return exits[::-1]
+
+    # ---------------------------------------------------------------- moving
+
+    def move(self, exit_dart: NodeDart, purpose: Purpose = "walk") -> None:
+        """Leave by a dart of the place where the robot stands; fold, and settle what follows."""
+        places = self.places
+        percept = self.robot.move(places.door(self.at, exit_dart), purpose)
+        self.cost += 1
+        beyond = places.across(exit_dart)
+        if beyond is None:
+            merges = places.merges
+            e = self.map_dart(exit_dart)
+            beyond = places.add(exit_dart, percept)  # H.14
+            # Where places were identified, doors that were seen at a ghost may be doors of S now.
+            merged = places.merges != merges
+            self._note(self.chart.unexplored if merged else () if e is None else (e,))
+            self._settle()
+        self.at = places.resolve(beyond)
+
+    def _note(self, darts: Collection[MapDart]) -> None:
+        """Take note of those darts of U that are crossed by now."""
+        for e in darts:
+            if e not in self.crossed and self.places.across(self.node_dart(e)) is not None:
+                self.crossed[e] = Crossed()
+
+    # ---------------------------------------------------------------- settling
+
+    def alike(self, e: MapDart) -> list[MapDart]:
+        """H: the darts of U, other than e, at vertices that look like the place behind e."""
+        looks, percepts = self.places.looks(self.behind(e)), self.chart.percepts
+        return [h for h in self.chart.unexplored if h != e and percepts[h].signature == looks]
+
+    def hypotheses(self, e: MapDart) -> Iterator[tuple[MapDart, Places]]:
+        """Each h for a crossed e that some world allows, with the places if it is true."""
+        for h in self.alike(e):
+            places = self.suppose(e, h)
+            if places is not None:
+                yield h, places
+
+    def suppose(self, e: MapDart, h: MapDart) -> Places | None:
+        """The places if a crossed e ends in h, or None if no world allows that."""
+        about = self.crossed[e]
+        if h in about.refuted:
+            return None
+        if about.vertices != len(self.places.entries):  # a layer cannot be told that S has grown
+            about.supposed.clear()
+            about.vertices = len(self.places.entries)
+        supposed = about.supposed.get(h)
+        if supposed is None or not supposed.follow():
+            found = self.places.suppose(self.node_dart(e), self.node_dart(h))  # H.10
+            if isinstance(found, str):
+                about.refuted[h] = found
+                return None
+            supposed = about.supposed[h] = found
+        return supposed
+
+    def _settle(self) -> None:
+        """Settle every crossed edge of which the history proves where it ends."""
+        grown = True
+        while grown:
+            grown = False
+            for e in list(self.crossed):  # H.15
+                if e not in self.crossed:  # settled meanwhile as the other end
+                    continue
+                h = self.map_dart(self.behind(e))
+                if h is not None:  # H.16
+                    self._settle_loop(e, h)
+                elif next(self.hypotheses(e), None) is None:  # H.17
+                    self._settle_new(e)
+                else:
+                    continue
+                grown = True
+
+    def _settle_loop(self, e: MapDart, h: MapDart) -> None:
+        """S grows by the edge between two of its darts."""
+        self.robot.declare(Pose(e, tuple(self.alike(e))))
+        self.robot.declare(Confirm(e, h, "folding"))
+        self._join(e, h)
+        self.robot.declare(Augment(e, "loop", h, self.chart.percepts[h].degree))
+
+    def _settle_new(self, e: MapDart) -> None:
+        """S grows by the place behind e, whose darts are numbered from that by which e enters."""
+        entry, alike = self.behind(e), self.alike(e)
+        degree, _ = self.places.looks(entry)
+        self.robot.declare(Pose(e, tuple(alike)))
+        for h in alike:
+            wrong = self.crossed[e].refuted[h]
+            self.robot.declare(Reject(e, h, "folding", Evidence(0, contradiction=wrong)))
+        self.places.know(entry)
+        first = self.chart.add_vertex(Percept(degree, None))  # with the marker it would be v0
+        self._join(e, first)
+        self.robot.declare(Augment(e, "new", first, degree))
+        self._note([d for d in self.chart.darts(self.chart.vertex[first]) if d != first])
+
+    def _join(self, e: MapDart, other: MapDart) -> None:
+        self.chart.join(e, other)
+        self.crossed.pop(e)
+        self.crossed.pop(other, None)
+        self.settled += 1
+        self._home = None

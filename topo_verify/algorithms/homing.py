@@ -1,0 +1,160 @@
+"""Homing: settle the nearest edge, by doors that tell much and lead home soon.
+
+It steers by the fold of the whole history (history.py) in the loop of steering.py; so it is sound
+by construction, and this file touches nothing but the cost. Four rules:
+
+1. **From where the robot stands.** The basic algorithm walks the ways home of one hypothesis after
+   the other, each from vu. Here each ghost that the robot has seen behind e is a place of S if h is
+   true, and so has a way home; the robot follows one from the ghost where it stands.
+2. **No way back.** When e is settled, the robot goes on from there. The fold says where that is.
+3. **New edges first.** The next edge is the one behind which the robot is soonest; of two that are
+   equally near, one that was never crossed comes before a ghost.
+4. **Doors by what they tell.** Behind an open dart of a ghost each hypothesis foretells what the
+   robot will see. The next door leads towards the open dart with the least
+
+       steps to it + 1 + expected way home behind it - BIT · bits that it tells about h
+
+   The expectation is over the hypotheses, as if one were true: to learn that vu is new, all must
+   be refuted anyway, soonest by the doors that would tell the true one apart. Each is weighed by
+   its coincidences. If h is true, places were seen several times; were it false, that many places
+   would have had the same degree by chance, each with the share of that degree in S.
+
+Why it ends, and within the bound of claim 7: steering.py.
+
+Source: docs/homing.md.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Mapping
+from math import log2
+from typing import NamedTuple
+
+from topo_verify.algorithms.chart import Survey
+from topo_verify.algorithms.folding import NodeDart
+from topo_verify.algorithms.history import History
+from topo_verify.algorithms.places import PlaceNode, Places
+from topo_verify.algorithms.steering import explore
+from topo_verify.robot.events import MapDart, Robot
+
+BIT = 1.4
+"""So many moves a bit is worth; between 1 and 2 the costs hardly change."""
+
+DegreeShares = Mapping[int, float]
+"""Degree -> share of the darts of S at vertices of that degree: what to expect behind a door."""
+
+
+Prior = Callable[[MapDart], float]
+"""How likely a hypothesis is before anything is seen behind e, to a factor that all share."""
+
+UNSEEN = 0.005
+"""The share of a degree that no vertex of S has."""
+
+
+class Belief(NamedTuple):
+    """A hypothesis: the places if it is true, its share, how far from home each ghost is then."""
+
+    places: Places
+    share: float
+    homes: Mapping[PlaceNode, int]
+
+
+def homing(robot: Robot) -> Survey:
+    """Map the robot's world."""
+    return explore(robot, edge=nearest_edge, door=most_telling_door)
+
+
+def nearest_edge(history: History) -> MapDart:
+    """The dart of U behind which the robot is soonest; one never crossed wins a tie."""
+    best: tuple[int, bool, MapDart] | None = None
+    for place, distance, _ in history.outward(history.at):
+        if best is not None and distance > best[0]:
+            break
+        for e in history.leads(place):
+            crossed = e in history.crossed
+            found = distance + (not crossed), crossed, e
+            best = found if best is None else min(best, found)
+    assert best is not None, "U is not empty and S is connected"
+    return best[2]
+
+
+def alike(_: MapDart) -> float:
+    """The prior of `homing`: each hypothesis as likely as any other."""
+    return 1.0
+
+
+def most_telling_door(history: History, e: MapDart, prior: Prior = alike) -> NodeDart:
+    """The dart by which the robot leaves for the open dart with the best score."""
+    ghosts = history.ghosts(e)
+    steps = history.distances(ghosts)
+    usual = degree_shares(history)
+    beliefs = weigh(history, e, ghosts, usual, prior)  # H.10
+    best: tuple[float, NodeDart] | None = None
+    for place in ghosts:
+        for dart in history.open_darts(place):  # H.11
+            way_home, bits = foretell(history, beliefs, place, dart, usual)
+            score = steps[place] + 1 + way_home - BIT * bits  # H.12
+            if best is None or score < best[0]:
+                best = score, dart
+    assert best is not None, "a ghost without an open dart would be known to be in S"
+    return next(iter(history.way(best[1])), best[1])
+
+
+def degree_shares(history: History) -> DegreeShares:
+    """The share of the darts of S that each degree has."""
+    degrees = history.chart.degree
+    darts = sum(degrees)
+    return {d: d * vertices / darts for d, vertices in Counter(degrees).items()}
+
+
+def weigh(
+    history: History, e: MapDart, ghosts: Mapping[PlaceNode, int], usual: DegreeShares, prior: Prior
+) -> list[Belief]:
+    """The hypotheses for e, by how likely each is if one is true."""
+    depth, vertex = history.home().depth, history.chart.vertex
+    found: list[tuple[Places, float, dict[PlaceNode, int]]] = []
+    for h, places in history.hypotheses(e):
+        # A ghost that is no place of S, even so, has its way home over vu.
+        images = {ghost: places.vertex(ghost) for ghost in ghosts}
+        over_vu = depth[vertex[h]]
+        homes = {
+            ghost: over_vu + ghosts[ghost] if v is None else depth[v] for ghost, v in images.items()
+        }
+        bits = log2(prior(h)) - sum(
+            log2(usual.get(degree, UNSEEN)) for degree in places.coincidences()
+        )
+        found.append((places, bits, homes))
+    most = max(bits for _, bits, _ in found)
+    total = sum(2 ** (bits - most) for _, bits, _ in found)
+    return [Belief(places, 2 ** (bits - most) / total, homes) for places, bits, homes in found]
+
+
+def foretell(
+    history: History,
+    beliefs: Iterable[Belief],
+    place: PlaceNode,
+    dart: NodeDart,
+    usual: DegreeShares,
+) -> tuple[float, float]:
+    """The expected way home behind an open dart, and how many bits what is seen there tells."""
+    depth = history.home().depth
+    foretold: defaultdict[tuple[int, MapDart], float] = defaultdict(float)
+    way_home = unforetold = 0.0
+    for places, share, homes in beliefs:
+        end = places.across(dart)
+        v = None if end is None else places.vertex(end)
+        way_home += share * (homes[place] + 1 if v is None else depth[v])
+        if end is None:
+            unforetold += share
+        else:  # at v0 the marker's direction is seen as well
+            direction = history.map_dart(end, places) if v == 0 else None
+            foretold[places.looks(end)[0], -1 if direction is None else direction] += share
+    for degree, share in usual.items():
+        foretold[degree, -1] += unforetold * share
+    bits = _entropy(foretold.values()) - unforetold * _entropy(usual.values())
+    return way_home, bits
+
+
+def _entropy(shares: Iterable[float]) -> float:
+    return -sum(share * log2(share) for share in shares if share)
