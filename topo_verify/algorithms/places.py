@@ -26,26 +26,26 @@ class Places:
     def __init__(self, percept: Percept) -> None:
         """Begin with v0, which is the first vertex of S."""
         self.fold = PartialFold()
-        self.entries: list[NodeDart] = [(self.fold.add(percept, known=True), 0)]
-        self.below: Places | None = None
+        self.seen = self.fold.seen
+        self.entries: list[NodeDart] = [self.fold.add(percept, known=True)]
+        # A vertex of S stands for whatever is identified with it, so it keeps its name.
         self._vertices: dict[PlaceNode, Vertex] = {self.entries[0]: 0}
-        self._merges = 0
 
     def suppose(self, one: NodeDart, other: NodeDart) -> Places | str:
         """The places if these two darts were one edge, or the contradiction that folding meets."""
         made = Places.__new__(Places)
-        made.fold, made.entries, made.below = self.fold.layer(), self.entries, self
-        made._vertices, made._merges = {}, 0  # noqa: SLF001  of this class
+        made.fold, made.seen = self.fold.layer(), self.seen
+        made.entries, made._vertices = self.entries, self._vertices  # noqa: SLF001  of this class
         return made.fold.join(one, other) or made
 
     def follow(self) -> bool:
         """Learn what was seen since `suppose`; False if that must be folded anew."""
-        return self.fold.follow()
+        return self.fold.follow() == ""
 
     @property
     def merges(self) -> int:
-        """How many times nodes were identified here."""
-        return len(self.fold.leader)
+        """How many darts of places were identified with others, but for what is supposed."""
+        return self.seen.merges
 
     # ---------------------------------------------------------------- darts
 
@@ -55,68 +55,52 @@ class Places:
 
     def across(self, dart: NodeDart) -> NodeDart | None:
         """The other end of a dart's edge; None if nothing was seen behind it."""
-        end = self.fold.across(dart)
-        return None if end is None else self.fold.resolve(end)
+        return self.fold.resolve(self.fold.across(dart)) or None
 
     def turn(self, dart: NodeDart, door: Door) -> NodeDart:
         """The dart that is so many doors clockwise from this one."""
-        return self.fold.resolve((dart[0], dart[1] + door))
+        return self.fold.resolve(self.fold.turn(dart, door))
 
     def door(self, dart: NodeDart, exit_dart: NodeDart) -> Door:
         """How many doors clockwise one dart of a place is from another."""
-        (place, at), (_, out) = self.fold.resolve(dart), self.fold.resolve(exit_dart)
-        return (out - at) % self.fold.signatures[place][0]
+        at, out = self.fold.resolve(dart), self.fold.resolve(exit_dart)
+        return (out - at) % self.seen.looks[at][0]
 
     # ---------------------------------------------------------------- places
 
     def place(self, dart: NodeDart) -> PlaceNode:
         """The place of a dart."""
-        return self.fold.resolve(dart)[0], 0
+        return self.seen.node[self.fold.resolve(dart)]
 
-    def darts(self, place: PlaceNode) -> list[NodeDart]:
+    def darts(self, place: PlaceNode) -> tuple[NodeDart, ...]:
         """The darts of a place, clockwise."""
-        return [(place[0], door) for door in range(self.fold.signatures[place[0]][0])]
+        return self.seen.around[place]
 
     def looks(self, dart: NodeDart) -> tuple[int, bool]:
         """The degree of a dart's place, and whether the marker is there."""
-        return self.fold.signatures[dart[0]]
+        return self.seen.looks[dart]
 
     def vertex(self, dart: NodeDart) -> Vertex | None:
         """The vertex of S that a dart's place is, or None: it is a ghost."""
-        if self._merges != len(self.fold.leader):
-            self._look_up()
-        place = self.place(dart)
-        v = self._vertices.get(place)
-        return v if v is not None or self.below is None else self.below.vertex(place)
-
-    def _look_up(self) -> None:
-        """Find the vertices of S anew: any node may stand for one, once it is one with it."""
-        self._merges = len(self.fold.leader)
-        if self.below is None:
-            self._vertices = {self.place(entry): v for v, entry in enumerate(self.entries)}
-            return
-        for node in self.fold.leader:
-            v = self.below.vertex((node, 0))
-            if v is not None:
-                self._vertices[self.place((node, 0))] = v
+        return self._vertices.get(self.place(dart))
 
     def coincidences(self) -> Iterator[int]:
         """The degree of each place of the fold below that is one with another one here."""
-        return (self.fold.signatures[node][0] for node in self.fold.leader)
+        node, looks = self.seen.node, self.seen.looks
+        return (looks[dart][0] for dart in self.fold.leader if node[dart] == dart)
 
     # ---------------------------------------------------------------- growing
 
     def add(self, exit_dart: NodeDart, percept: Percept) -> NodeDart:
         """Add what is seen behind an open dart, and fold. Returns the dart of arrival."""
-        entry = (self.fold.add(percept), 0)
+        entry = self.fold.add(percept)
         self.fold.join(exit_dart, entry)
         if percept.marker is not None:
-            self.fold.identify((entry[0], percept.marker), self.entries[0])
+            self.fold.identify(self.fold.turn(entry, percept.marker), self.entries[0])
         return entry
 
     def know(self, entry: NodeDart) -> None:
         """Make a ghost the next vertex of S, and this dart its first one."""
-        place = self.place(entry)
-        self.fold.known.add(place[0])
-        self._vertices[place] = len(self.entries)
+        self.fold.know(entry)
+        self._vertices[self.place(entry)] = len(self.entries)
         self.entries.append(entry)

@@ -148,10 +148,14 @@ def arena(  # noqa: PLR0913  an argument an option
         return arena_account(table, blocks, found, dearest, exact=all(s.exact for s in suites))
 
     close(mappers)
-    show = partial(_with_walk, league, found=found)
-    words = [one.name for one in suites]
+    more: dict[str, Any] = {"suite": [one.name for one in suites], "seed": seed}
     return output.run(
-        "arena", entries, show, account=account, suite=words, seed=seed, in_process=in_process
+        "arena",
+        entries,
+        partial(_with_walk, league, found=found),
+        account=account,
+        in_process=in_process,
+        **more,
     )
 
 

@@ -95,8 +95,8 @@ def taken_in_coq(mappers: Path, jobs: Sequence[Job]) -> list[list[int]]:
     lines = [str(len(jobs)), *map(told, jobs)]
     ran = toolchain.run([str(mappers)], mappers.parent, timeout=LIMIT, stdin="\n".join(lines))
     assert ran.accepted, ran.output
-    lines = [line.removeprefix("doors").split() for line in ran.output.splitlines()]
-    return [[int(door) for door in line] for line in lines]
+    taken = [line.removeprefix("doors").split() for line in ran.output.splitlines()]
+    return [[int(door) for door in row] for row in taken]
 
 
 def taken_here(job: Job) -> list[int]:

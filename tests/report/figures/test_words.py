@@ -79,10 +79,12 @@ def test_what_was_judged_is_said_and_a_run_of_two_figures_counts_once() -> None:
 
 
 def test_runs_of_which_fewer_claims_were_asked_are_counted_apart() -> None:
-    few = [msgspec.structs.replace(one, held=2, of=2) for one in points("6a", {})]
-    text = judged_sentence([*points("3", {}), *few[-1:]])
-    assert "10 of 10 claims in " in text
-    assert ", 2 of 2 claims in " in text
+    few = msgspec.structs.replace(points("6a", {})[0], size=100, held=2, of=2)
+    text = judged_sentence([*points("3", {}), few])
+    assert (
+        text
+        == "18 runs were judged: of those asked held 10 of 10 claims in 16, 2 of 2 claims in 2."
+    )
 
 
 def test_the_page_has_every_paragraph_and_the_command() -> None:

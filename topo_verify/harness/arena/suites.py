@@ -140,6 +140,11 @@ SUITES = {
             (drawn(LATTICE, 30, planar=True), drawn("lattice(20,20,holes=0.2)", 8, planar=True)),
         ),
         Suite("king", "grids with diagonals: high genus", (drawn("king(10,10)", 10),)),
+        Suite(
+            "king-torus",
+            "kings whose borders are joined",
+            (drawn("king_torus(10,10,holes=0.2)", 8),),
+        ),
         Suite("torus", "a grid without a border", (alike("torus(10,10)"),)),
         Suite("regular", "random graphs of degree 8", (drawn("regular(80,8,holes=0.2)", 30),)),
     )
