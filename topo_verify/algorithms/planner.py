@@ -39,8 +39,8 @@ FAR = 9
 LONGEST_FACE = 60
 """So many steps along a face are walked at most; those of the outer face tell nothing."""
 
-Kind = tuple[int, int]
-"""Distance on S, steps along the face; both at most `FAR`."""
+ClosureKind = tuple[int, int]
+"""How far apart two ends lie: distance on S, steps along the face; both at most `FAR`."""
 
 
 def planner(robot: Robot) -> Survey:
@@ -74,9 +74,9 @@ class Habits:
     """
 
     def __init__(self) -> None:
-        self.seen: Counter[Kind] = Counter()
-        self.true: Counter[Kind] = Counter()
-        self.asked: dict[MapDart, dict[MapDart, Kind]] = {}
+        self.seen: Counter[ClosureKind] = Counter()
+        self.true: Counter[ClosureKind] = Counter()
+        self.asked: dict[MapDart, dict[MapDart, ClosureKind]] = {}
 
     def door(self, history: History, e: MapDart) -> NodeDart:
         """The next door, hypotheses being weighed by the rate of their kind."""
@@ -89,7 +89,7 @@ class Habits:
         # A dart of a vertex that was new since: no kind was seen that it is of.
         return most_telling_door(history, e, lambda h: self.rate(asked.get(h, (FAR, FAR))))
 
-    def rate(self, kind: Kind) -> float:
+    def rate(self, kind: ClosureKind) -> float:
         """How likely a hypothesis of this kind is true."""
         usual = (self.true.total() + 0.5) / (self.seen.total() + 5)
         return (self.true[kind] + 2 * usual) / (self.seen[kind] + 2)
@@ -102,7 +102,7 @@ class Habits:
                 self.true[kind] += 1
 
 
-def kinds(chart: Chart, e: MapDart) -> Mapping[MapDart, Kind]:
+def kinds(chart: Chart, e: MapDart) -> Mapping[MapDart, ClosureKind]:
     """The kind of each other dart of U, as a hypothesis for e."""
     depth = chart.tree(chart.vertex[e]).depth
     along = face_steps(chart, e)

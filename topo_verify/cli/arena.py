@@ -108,8 +108,7 @@ def arena(  # noqa: PLR0913  an argument an option
 
     Every run is judged by every claim. A mapper that breaks one has no place, only its
     counterexample. Intervals are at 95 %; `behind` compares with the first of the table in the same
-    worlds. The same call gives the same figures but for time and memory, however many workers there
-    are and however often it was interrupted.
+    worlds. But for time and memory, the same call gives the same figures, interrupted or not.
     """
     if game is not None:
         return game_of_catalogue(output, game, [*texts, *named])
@@ -118,7 +117,6 @@ def arena(  # noqa: PLR0913  an argument an option
     folder = None if out is None else options.make_folder(out, "--out")
     if folder is not None:
         _add_page(output, folder)
-        watch()  # before a mapper is loaded
     mappers = _loaded(asked, in_process=in_process)
     made: dict[ArenaTask, ArenaRun | MemoryRun] = {}
     league = League(mappers, suites, seed, made)
@@ -127,9 +125,8 @@ def arena(  # noqa: PLR0913  an argument an option
     found, dearest = FoundRuns(output), list[Exhibit]()
 
     def entries() -> Iterator[Result[LeagueEntry]]:
-        number = processors() if workers is None else workers
         try:
-            _play(output, league, made, job, folder, number)
+            _play(output, league, made, job, folder, processors() if workers is None else workers)
         except KeyboardInterrupt:
             yield from map(_result, league.entries())  # what is done is printed
             raise
@@ -148,14 +145,10 @@ def arena(  # noqa: PLR0913  an argument an option
         return arena_account(table, blocks, found, dearest, exact=all(s.exact for s in suites))
 
     close(mappers)
-    more: dict[str, Any] = {"suite": [one.name for one in suites], "seed": seed}
+    show = partial(_with_walk, league, found=found)
+    words = [one.name for one in suites]
     return output.run(
-        "arena",
-        entries,
-        partial(_with_walk, league, found=found),
-        account=account,
-        in_process=in_process,
-        **more,
+        "arena", entries, show, account=account, suite=words, seed=seed, in_process=in_process
     )
 
 
@@ -268,6 +261,7 @@ def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) ->
 
 def _add_page(output: Output, folder: Path) -> None:
     """Have the page written into the folder, beside the files that other options ask for."""
+    watch()  # before a mapper is loaded
     files, others = ReportFiles(report=str(folder / REPORT)), output.report
     files.check()
     output.exhibits = True
