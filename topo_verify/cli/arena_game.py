@@ -8,7 +8,7 @@ import click
 import msgspec
 from click.core import ParameterSource
 
-from topo_verify.algorithms import CATALOGUE
+from topo_verify.algorithms import NAMED
 from topo_verify.cli.output import Output, Result
 from topo_verify.errors import InputError, InternalError
 from topo_verify.harness.game.mapper_costs import MapperCosts, least_costs, mapper_costs
@@ -95,13 +95,13 @@ def game_of_catalogue(output: Output, edges: int, names: Sequence[str]) -> int:
             raise InputError(f"{parameter.opts[0]} means nothing to --game: leave out one of them")
     asked = [name for text in names for name in text.split(",") if name != "all"]
     for name in asked:
-        if name not in CATALOGUE:
-            known = ", ".join(CATALOGUE)
+        if name not in NAMED:
+            known = ", ".join(NAMED)
             raise InputError(f"target {name!r}: --game plays mappers of the catalogue: {known}")
-    return play_game(output, edges, asked or tuple(CATALOGUE))
+    return play_game(output, edges, asked or tuple(NAMED))
 
 
-def play_game(output: Output, edges: int, mappers: Sequence[str] = tuple(CATALOGUE)) -> int:
+def play_game(output: Output, edges: int, mappers: Sequence[str] = tuple(NAMED)) -> int:
     """Print the values of the games with 1 to so many edges, and how far the mappers are from them.
 
     Args:

@@ -22,7 +22,7 @@ from typing import Self
 
 import msgspec
 
-from topo_verify.algorithms import CATALOGUE
+from topo_verify.algorithms import NAMED
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
 from topo_verify.harness.arena.rows import (
@@ -172,7 +172,7 @@ def _alone(mapper: str) -> Program:
     """The mapper in a process of its own, whatever it is."""
     if mapper.startswith(PREFIX):
         return Program(mapper.removeprefix(PREFIX))
-    return Foreign(serve.CATALOGUE.format(mapper) if mapper in CATALOGUE else mapper)
+    return Foreign(serve.CATALOGUE.format(mapper) if mapper in NAMED else mapper)
 
 
 def _peak_of(process: int | None) -> int | None:

@@ -42,7 +42,8 @@ class MapperCosts:
 
 def mapper_costs(mapper: str, edges: int) -> MapperCosts:
     """The costs of a mapper of the catalogue in the worlds with so many edges."""
-    planar = CATALOGUE[mapper].assumes == "planar"
+    known = CATALOGUE.get(mapper)
+    planar = known is not None and known.assumes == "planar"
     drawn: DrawnClass = "planar" if planar else "any"
     runs = [explore(world, mapper) for world in drawn_worlds(edges, drawn)]
     costs = [run.cost for run in runs]
