@@ -130,7 +130,7 @@ class Walker: ...
         ("empty.py:explore", "empty.py has no attribute 'explore'\n"),
         ("bassic", "no algorithm 'bassic'; did you mean 'basic'? there are basic, "),
         ("basic,foldin", "no algorithm 'foldin'; did you mean 'folding'? there are basic, "),
-        ("mine", "no algorithm 'mine': there are basic, "),
+        ("a-mapper", "no algorithm 'a-mapper': there are basic, "),
     ],
 )
 def test_a_wrong_target_is_told_the_right_one(

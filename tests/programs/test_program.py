@@ -317,7 +317,7 @@ def test_misbehaviour_is_an_exception_that_a_mapper_cannot_swallow() -> None:
 
 
 def test_serve_says_what_is_wrong_with_its_argument() -> None:
-    for arguments, words_ in (([], "usage"), (["no-such"], "no attribute 'CATALOGUE.no-such'")):
+    for arguments, words_ in (([], "usage"), (["no-such"], "no attribute 'NAMED.no-such'")):
         done = subprocess.run(
             [sys.executable, "-m", "topo_verify.programs.serve", *arguments],
             capture_output=True,

@@ -36,7 +36,7 @@ from topo_verify.robot.simulator import EXPECTED
 LOADING = 120.0
 """Seconds that a mapper has to be imported."""
 
-UNWINDING = Limits(move_timeout=0.3, world_timeout=0.3)
+UNWINDING = Limits(move_timeout=1.0, world_timeout=1.0)
 """How long a mapper has to end a world in which its robot was stopped, or its process is ended."""
 
 LONGEST = 2**26
