@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 @click.command(
-    short_help="Prove the theorems behind the claims with Z3.",
+    short_help="Prove the theorems behind the claims: Z3 and Coq.",
     epilog=options.epilog(
         "prove",
         "prove --list",
