@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
+from itertools import islice
 
 from topo_verify.algorithms.chart import Chart, Tree
 from topo_verify.algorithms.folding import NodeDart
@@ -150,22 +151,16 @@ class History:
 
     def distances(self, goals: Collection[PlaceNode]) -> dict[PlaceNode, int]:
         """How far some places are from the robot."""
-        found: dict[PlaceNode, int] = {}
-        for place, distance, _ in self.outward(self.at):
-            if place in goals:
-                found[place] = distance
-                if len(found) == len(goals):
-                    break
-        return found
+        search = ((place, far) for place, far, _ in self.outward(self.at) if place in goals)
+        return dict(islice(search, len(goals)))  # the search ends with the last of them
 
     def way(self, goal: NodeDart) -> list[NodeDart]:
         """The darts by which the robot leaves the places on a shortest way to that of a dart."""
         target = self.places.place(goal)
-        back: dict[PlaceNode, NodeDart | None] = {}
-        for place, _, leads_back in self.outward(self.at):
+        back, search = dict[PlaceNode, NodeDart | None](), self.outward(self.at)
+        while target not in back:
+            place, _, leads_back = next(search)
             back[place] = leads_back
-            if place == target:
-                break
         exits: list[NodeDart] = []
         while (leads_back := back[target]) is not None:
             leaves = self.places.across(leads_back)
