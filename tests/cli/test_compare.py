@@ -76,7 +76,7 @@ def test_a_wrong_mapper_exits_1_and_the_line_shows_it_again(results: Results, ca
 
 
 def test_a_time_out_is_incomplete(call: Call, results: Results) -> None:
-    call("record mappers.py:strolls --worlds m1/0 --worlds m4/700 --world-timeout 0.5 --out s.gz")
+    call("record mappers.py:strolls --worlds m1/0 --worlds m6/8161 --world-timeout 1.5 --out s.gz")
     (entry,) = results("compare s.gz mappers.py:strolls", code=3)["results"]
     assert (entry["equal"], entry["undecided"]) == (1, 1)
     assert (
