@@ -73,7 +73,7 @@ def write_folder(
     dearest: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> None:
-    """Write all files.
+    """Write all files of the league into the folder.
 
     Raises:
         InputError: one of them cannot be written.

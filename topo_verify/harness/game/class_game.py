@@ -46,7 +46,7 @@ class ClassRules:
         return self._open([(number, 0) for number in range(len(self._worlds))])
 
     def choices(self, state: ClassState) -> Iterator[GameChoice[ClassState]]:
-        """Each door."""
+        """Each door by which the robot can leave."""
         number, dart = state[0]
         degree, _ = self._worlds[number].sight(dart)
         for door in range(degree):
