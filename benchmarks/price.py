@@ -6,52 +6,83 @@ right map, or the script stops. Run it:
 
     .venv/bin/python benchmarks/price.py
     .venv/bin/python benchmarks/price.py --mappers homing,planner --families torus --seeds 5 --ms
+    .venv/bin/python benchmarks/price.py --mappers folding,homing --against folding --runs runs.csv
     .venv/bin/python benchmarks/price.py --gap
+
+Worlds differ from each other more than mappers do in one world. So `--against M` prints a second
+table, of the differences in the same worlds: cost minus the cost of M, over the mean least cost,
+with the standard error of that mean; and the mean cost as a multiple of that of M.
+
+A run takes up to minutes. `--runs FILE` keeps every finished run in a CSV file, and makes none anew
+that stands there. It does not know when a mapper has changed: take its lines out then.
 """
 
 from __future__ import annotations
 
 import argparse
+import csv
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from math import sqrt
+from pathlib import Path
 from statistics import mean, stdev
+from typing import NamedTuple
 
-from topo_verify import World, explore, families
+from topo_verify import World, explore
 from topo_verify.harness.gap import gap
 from topo_verify.harness.run import Exploration
+from topo_verify.world.resolve import resolve_world
 
 MAPPERS = "basic,enhancement-iii-all+i,folding,homing,planner"
 
-FAMILIES: dict[str, Callable[[int], World]] = {
-    "lattice(10,10,holes=0.2)": lambda seed: families.lattice(10, 10, holes=0.2, seed=seed),
-    "lattice(20,20,holes=0.2)": lambda seed: families.lattice(20, 20, holes=0.2, seed=seed),
-    "king(10,10)": lambda seed: families.king(10, 10, seed=seed),
-    "king(10,10,holes=0.2)": lambda seed: families.king(10, 10, holes=0.2, seed=seed),
-    "king_torus(10,10)": lambda seed: families.king_torus(10, 10, seed=seed),
-    "king_torus(10,10,holes=0.2)": lambda seed: families.king_torus(10, 10, holes=0.2, seed=seed),
-    "torus(10,10)": lambda _: families.torus(10, 10),
-    "regular(80,8,holes=0.2)": lambda seed: families.regular(80, 8, holes=0.2, seed=seed),
-}
-
-Job = tuple[str, int, str]
-"""Family, seed, mapper."""
+FAMILIES = (
+    "lattice(10,10,holes=0.2)",
+    "lattice(20,20,holes=0.2)",
+    "king(10,10)",
+    "king(10,10,holes=0.2)",
+    "king_torus(10,10)",
+    "king_torus(10,10,holes=0.2)",
+    "torus(10,10)",
+    "regular(80,8,holes=0.2)",
+)
 
 
-def priced(job: Job) -> tuple[int, int, float, int]:
-    """The cost of a run, the least cost of its world, seconds of the processor, and m.
+class Job(NamedTuple):
+    """One mapper in one world of a family."""
+
+    family: str
+    seed: int
+    mapper: str
+
+
+class Run(NamedTuple):
+    """What one job found: the world's m and least cost, the run's cost and processor time."""
+
+    m: int
+    least: int
+    cost: int
+    ms: float
+
+
+def drawn(family: str, seed: int) -> World:
+    """The world of a family with this seed; tori are drawn with none."""
+    seeded = "" if family.startswith("torus") else f",seed={seed}"
+    return resolve_world(f"family:{family[:-1]}{seeded})")
+
+
+def priced(job: Job) -> Run:
+    """What the mapper pays in its world.
 
     Raises:
         SystemExit: the map that was delivered is not that of the world.
     """
-    family, seed, mapper = job
-    world = FAMILIES[family](seed)
+    world = drawn(job.family, job.seed)
     began = time.process_time()
-    run = explore(world, mapper)
+    run = explore(world, job.mapper)
     seconds = time.process_time() - began
     require_right(run, job)
-    return run.cost, world.least_cost(), seconds, len(world.edges)
+    return Run(len(world.edges), world.least_cost(), run.cost, round(1000 * seconds, 1))
 
 
 def require_right(run: Exploration, job: Job) -> None:
@@ -64,60 +95,125 @@ def require_right(run: Exploration, job: Job) -> None:
         raise SystemExit(f"{job}: the map is not that of the world")
 
 
-def cell(costs: Sequence[int], least: Sequence[int]) -> str:
+class Store:
+    """The finished runs, kept in a CSV file if there is one."""
+
+    def __init__(self, path: Path | None) -> None:
+        self.path = path
+        self.runs: dict[Job, Run] = {}
+        if path is not None and path.exists():
+            with path.open(newline="") as file:
+                for line in csv.DictReader(file):
+                    job = Job(line["family"], int(line["seed"]), line["mapper"])
+                    m, least, cost = (int(line[name]) for name in ("m", "least", "cost"))
+                    self.runs[job] = Run(m, least, cost, float(line["ms"]))
+
+    def make(self, jobs: Sequence[Job], pool: ProcessPoolExecutor) -> list[Run]:
+        """The runs of these jobs; those that are not there yet are made."""
+        missing = [job for job in jobs if job not in self.runs]
+        for job, run in zip(missing, pool.map(priced, missing), strict=True):
+            self.runs[job] = run
+            self._append(job, run)
+        return [self.runs[job] for job in jobs]
+
+    def _append(self, job: Job, run: Run) -> None:
+        if self.path is None:
+            return
+        is_new = not self.path.exists()
+        with self.path.open("a", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            if is_new:
+                writer.writerow((*Job._fields, *Run._fields))
+            writer.writerow((*job, *run))
+
+
+def with_error(numbers: Sequence[float], *, sign: str = "") -> str:
+    """The mean of some numbers, with its standard error."""
+    error = stdev(numbers) / sqrt(len(numbers)) if len(numbers) > 1 else 0
+    return f"{mean(numbers):{sign}.3f} ± {error:.3f}"
+
+
+def ratio(runs: Sequence[Run]) -> str:
     """The mean cost as a ratio to the mean least cost, with its standard error."""
-    scale = mean(least)
-    ratios = [cost / scale for cost in costs]
-    error = stdev(ratios) / sqrt(len(ratios)) if len(ratios) > 1 else 0
-    return f"{mean(ratios):.3f} ± {error:.3f}"
+    scale = mean(run.least for run in runs)
+    return with_error([run.cost / scale for run in runs])
+
+
+def difference(runs: Sequence[Run], base: Sequence[Run]) -> str:
+    """How much dearer than others in the same worlds, over the mean least cost; and how many times.
+
+    Both in the same order of worlds.
+    """
+    scale = mean(run.least for run in runs)
+    paired = [(one.cost - other.cost) / scale for one, other in zip(runs, base, strict=True)]
+    times = mean(run.cost for run in runs) / mean(run.cost for run in base)
+    return f"{with_error(paired, sign='+')}, {times:.3f} ×"
+
+
+def head(columns: Sequence[str]) -> str:
+    """The head of a table in Markdown: the first column is text, the others are numbers."""
+    return f"| {' | '.join(columns)} |\n| --- |" + " ---: |" * (len(columns) - 1)
 
 
 def gaps(seeds: int) -> None:
     """Print which share of the false hypotheses was walked although the history refuted them."""
     names = ("basic", "enhancement-i", "enhancement-ii", "enhancement-iii-all+i", "folding")
-    family = "lattice(10,10,holes=0.2)"
-    worlds = [FAMILIES[family](seed) for seed in range(seeds)]
+    family = FAMILIES[0]
+    worlds = [drawn(family, seed) for seed in range(seeds)]
     shares = [mean(gap(explore(world, name).trace).share for world in worlds) for name in names]
-    print(f"| gap | {' | '.join(names)} |")
-    print("| --- |" + " ---: |" * len(names))
+    print(head(["gap", *names]))
     print(f"| `{family}` | {' | '.join(f'{share:.1%}' for share in shares)} |")
 
 
-def main() -> None:
-    """Print the table, as Markdown."""
+def asked() -> argparse.Namespace:
+    """What the command line asks for."""
     ask = argparse.ArgumentParser(description="mean cost / least cost, mappers x families")
     ask.add_argument("--mappers", default=MAPPERS, help="names, with commas")
     ask.add_argument("--families", default="", help="only those whose text begins so, with commas")
+    ask.add_argument("--also", default=[], action="append", help="a family more, without its seed")
     ask.add_argument("--seeds", type=int, default=30, help="0 … N-1 (torus: one world)")
     ask.add_argument("--workers", type=int, default=2, help="processes")
+    ask.add_argument("--runs", type=Path, help="keep finished runs in this CSV file")
+    ask.add_argument("--against", metavar="MAPPER", help="also the differences to this mapper")
     ask.add_argument("--ms", action="store_true", help="also milliseconds a move")
     ask.add_argument("--costs", action="store_true", help="mean costs, no ratios; also m")
     ask.add_argument("--gap", action="store_true", help="instead: the gap of the paper's rules")
-    asked = ask.parse_args()
-    if asked.gap:
-        gaps(asked.seeds)
+    return ask.parse_args()
+
+
+def main() -> None:
+    """Print the tables, as Markdown."""
+    args = asked()
+    if args.gap:
+        gaps(args.seeds)
         return
-    mappers = asked.mappers.split(",")
-    print(f"| family | worlds | {'m | ' * asked.costs}least | {' | '.join(mappers)} |")
-    print("| --- |" + " ---: |" * (2 + asked.costs + len(mappers)))
-    with ProcessPoolExecutor(asked.workers) as pool:
-        for family in FAMILIES:
-            if not family.startswith(tuple(asked.families.split(","))):
-                continue
-            seeds = range(1 if family.startswith("torus") else asked.seeds)
-            jobs = [(family, seed, mapper) for mapper in mappers for seed in seeds]
-            found = list(pool.map(priced, jobs))
+    mappers, store, paired = args.mappers.split(","), Store(args.runs), list[str]()
+    chosen = [text for text in FAMILIES if text.startswith(tuple(args.families.split(",")))]
+    print(head(["family", "worlds", *["m"] * args.costs, "least", *mappers]))
+    with ProcessPoolExecutor(args.workers) as pool:
+        for family in [*chosen, *args.also]:
+            seeds = range(1 if family.startswith("torus") else args.seeds)
+            found = {
+                mapper: store.make([Job(family, seed, mapper) for seed in seeds], pool)
+                for mapper in mappers
+            }
             cells: list[str] = []
-            for start in range(0, len(found), len(seeds)):
-                runs = found[start : start + len(seeds)]
-                costs, least, seconds, _ = zip(*runs, strict=True)
-                speed = f", {1000 * sum(seconds) / sum(costs):.1f} ms" if asked.ms else ""
-                shown = f"{mean(costs):.0f}" if asked.costs else cell(costs, least)
+            for runs in found.values():
+                moves = sum(run.cost for run in runs)
+                speed = f", {sum(run.ms for run in runs) / moves:.1f} ms" if args.ms else ""
+                shown = f"{moves / len(runs):.0f}" if args.costs else ratio(runs)
                 cells.append(shown + speed)
-            shown = f"{mean(least for _, least, _, _ in found):.0f}"
-            if asked.costs:
-                shown = f"{mean(m for _, _, _, m in found):.0f} | {shown}"
-            print(f"| `{family}` | {len(seeds)} | {shown} | {' | '.join(cells)} |", flush=True)
+            runs = found[mappers[0]]
+            about = [f"{mean(run.m for run in runs):.0f}"] * args.costs
+            about.append(f"{mean(run.least for run in runs):.0f}")
+            print(f"| `{family}` | {len(seeds)} | {' | '.join([*about, *cells])} |", flush=True)
+            if args.against:
+                base = found[args.against]
+                others = [difference(found[m], base) for m in mappers if m != args.against]
+                paired.append(f"| `{family}` | {' | '.join(others)} |")
+    if args.against:
+        print(f"\n{head(['family', *[m for m in mappers if m != args.against]])}")
+        print("\n".join(paired))
 
 
 if __name__ == "__main__":
