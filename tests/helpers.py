@@ -10,7 +10,7 @@ import msgspec
 from hypothesis import strategies as st
 
 from topo_verify import World
-from topo_verify.algorithms import CATALOGUE, Algorithm
+from topo_verify.algorithms import CATALOGUE, NAMED, Algorithm
 from topo_verify.algorithms.exploration import Rule
 from topo_verify.algorithms.motion import Motion, retrace
 from topo_verify.checkers import Status, check
@@ -81,8 +81,8 @@ def trace_of(world: World | str, mapper: Mapper | str = "basic") -> Trace:
 
 
 def fits(name: str, world: World) -> bool:
-    """Does the world meet what the algorithm assumes?"""
-    return CATALOGUE[name].assumes != "planar" or world.is_planar
+    """Does the world meet what the mapper of this name assumes?"""
+    return NAMED[name].assumes != "planar" or world.is_planar
 
 
 PAPER = [name for name in CATALOGUE if "folding" not in name]

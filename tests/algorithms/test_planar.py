@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-import pytest
+from collections import Counter
 
+import pytest
+from hypothesis import given
+
+from tests.checkers.test_planar_prior import FACE
 from tests.helpers import of_type, trace_of, variant, worlds
-from topo_verify import examine
-from topo_verify.algorithms import Algorithm
+from topo_verify import World, examine, explore
+from topo_verify.algorithms import STEERED, Algorithm
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.planar import PlanarRule, face
 from topo_verify.robot.events import Reject
 from topo_verify.robot.percept import Percept
+from topo_verify.strategies import planar_worlds
+from topo_verify.world.resolve import resolve_world
 
 
 def planar_basic() -> Algorithm:
@@ -47,6 +53,44 @@ def test_it_rejects_before_any_motion() -> None:
     ]
     assert rejected
     assert all(reject.evidence.contradiction for reject in rejected)
+
+
+STEERED_ON_A_PLANE = [name for name, mapper in STEERED.items() if mapper.assumes == "planar"]
+
+
+@pytest.mark.parametrize("name", STEERED_ON_A_PLANE)
+@given(world=planar_worlds(max_edges=15))
+def test_every_claim_of_those_that_steer_holds_in_planar_worlds(name: str, world: World) -> None:
+    report = examine(name, world)
+    assert set(report.claims.values()) == {"ok"}, str(report)
+
+
+@pytest.mark.parametrize("name", STEERED_ON_A_PLANE)
+def test_elsewhere_those_that_steer_find_out_and_deliver_no_map(name: str) -> None:
+    known = {"another face of S": 0, "two vertices of S would be one": 0}
+    for world in worlds(range(2, 5)):
+        if not world.is_planar:
+            report = examine(name, world)
+            assert report.claims["map-isomorphic"] == "failed"
+            message = report.findings[-1].message
+            assert "raised ImpossibleError: no planar world shows this history: " in message
+            (why,) = (words for words in known if message.endswith(words))
+            known[why] += 1
+    assert known == {"another face of S": 288, "two vertices of S would be one": 61}
+
+
+GRID = resolve_world("family:lattice(8,8,holes=0.2,seed=1)")
+
+
+def test_those_that_steer_declare_the_prior_where_they_use_it() -> None:
+    rejects = of_type(Reject, trace_of(GRID, "homing+planar"))
+    assert Counter(reject.rule for reject in rejects) == {"folding": 157, "planar": 2}
+    assert {r.evidence.contradiction for r in rejects if r.rule == "planar"} == {FACE}
+
+
+def test_the_prior_saves_moves_on_a_grid() -> None:
+    for name in ("folding", "homing"):
+        assert explore(GRID, f"{name}+planar").cost < explore(GRID, name).cost
 
 
 def test_an_open_dart_is_a_dead_end_of_its_face() -> None:

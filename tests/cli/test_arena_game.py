@@ -58,10 +58,11 @@ def test_an_entry_a_value_and_one_a_mapper(capsys: pytest.CaptureFixture[str]) -
 
 
 def test_three_tables(capsys: pytest.CaptureFixture[str]) -> None:
-    code, text = played(capsys, "markdown", 2, "basic", "folding+planar")
+    code, text = played(capsys, "markdown", 2, "basic", "folding+planar", "homing+planar")
     assert code == 0
     assert "| 2 | basic | any | 3 | 3 | 2.30 | 2.30 | 0.0 % |" in text
     assert "| 2 | folding+planar | planar | 3 | 3 | 2.33 | 2.33 | 0.0 % |" in text
+    assert "| 2 | homing+planar | planar | 3 | 3 | 2.33 | 2.33 | 0.0 % |" in text
     assert "| 2 | 10 any | 3 | 3 | 2.20 | 2.30 | 4.5 % |" in text
     assert "| 2 | any | m and n | 1 | 0.60 | 73.9 % |" in text
     assert "≥" not in text

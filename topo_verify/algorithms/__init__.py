@@ -1,4 +1,4 @@
-"""The catalogue: algorithms (a rule, a motion, two policies, one loop), and two steered mappers.
+"""The catalogue: algorithms (a rule, a motion, two policies, one loop), and the steered mappers.
 
     chart.py            the map S                        exploration.py     the loop of listings 1-3
     motion.py           excursions: retrace, overlap     policies.py        pick and order
@@ -36,7 +36,7 @@ from topo_verify.algorithms.exploration import Rule, explore
 from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.homing import homing
 from topo_verify.algorithms.motion import Motion, overlap, retrace
-from topo_verify.algorithms.planar import PlanarRule
+from topo_verify.algorithms.planar import PlanarRule, planar_homing, planar_planner
 from topo_verify.algorithms.planner import planner
 from topo_verify.robot.events import Policies, Robot
 
@@ -117,10 +117,12 @@ class Steered:
     Attributes:
         name: as in the catalogue.
         run: maps the world of one robot.
+        assumes: "planar" if its maps are right in planar worlds only.
     """
 
     name: str
     run: Callable[[Robot], Survey]
+    assumes: Literal["planar"] | None = None
 
     def __call__(self, robot: Robot) -> Survey:
         """Explore the robot's world. Deterministic: the same world gives the same run."""
@@ -157,7 +159,13 @@ CATALOGUE: dict[str, Algorithm] = {
 """Every algorithm under its name, from the weakest rule to the strongest."""
 
 STEERED: dict[str, Steered] = {
-    mapper.name: mapper for mapper in (Steered("homing", homing), Steered("planner", planner))
+    mapper.name: mapper
+    for mapper in (
+        Steered("homing", homing),
+        Steered("planner", planner),
+        Steered("homing+planar", planar_homing, assumes="planar"),
+        Steered("planner+planar", planar_planner, assumes="planar"),
+    )
 }
 """The mappers that are no algorithms of the paper's loop. `all` leaves them out."""
 

@@ -27,8 +27,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from itertools import islice
+from typing import ClassVar
 
 from topo_verify.algorithms.chart import Chart, Tree
+from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.folding import NodeDart
 from topo_verify.algorithms.places import PlaceNode, Places
 from topo_verify.robot.events import Augment, Confirm, Evidence, MapDart, Pose, Reject, Robot
@@ -40,14 +42,18 @@ class Crossed:
     """What is known of a dart of U that was crossed.
 
     Attributes:
-        refuted: the hypotheses that no world allows, each with the contradiction.
+        refuted: the hypotheses that no world allows, each with the rule and the contradiction.
         supposed: of hypotheses that some world allows: the places, if it is true.
         vertices: how many vertices S had when they were supposed.
     """
 
-    refuted: dict[MapDart, str] = field(default_factory=dict[MapDart, str])
+    refuted: dict[MapDart, Refutation] = field(default_factory=dict[MapDart, Refutation])
     supposed: dict[MapDart, Places] = field(default_factory=dict[MapDart, Places])
     vertices: int = 0
+
+
+class ImpossibleError(Exception):
+    """No world that the mapper allows for shows its history."""
 
 
 class History:
@@ -58,6 +64,9 @@ class History:
         at: the robot's reference dart. `cost`: its moves so far.
         settled: how many edges are settled.
     """
+
+    allowed: ClassVar = "world"
+    """What the mapper allows for."""
 
     def __init__(self, robot: Robot) -> None:
         """Begin where the robot stands, at v0."""
@@ -172,7 +181,11 @@ class History:
     # ---------------------------------------------------------------- moving
 
     def move(self, exit_dart: NodeDart, purpose: Purpose = "walk") -> None:
-        """Leave by a dart of the place where the robot stands; fold, and settle what follows."""
+        """Leave by a dart of the place where the robot stands; fold, and settle what follows.
+
+        Raises:
+            ImpossibleError: no world that is allowed for shows this history.
+        """
         places = self.places
         percept = self.robot.move(places.door(self.at, exit_dart), purpose)
         self.cost += 1
@@ -180,12 +193,18 @@ class History:
         if beyond is None:
             merges = places.merges
             e = self.map_dart(exit_dart)
-            beyond = places.add(exit_dart, percept)  # H.14
+            beyond, wrong = places.add(exit_dart, percept)  # H.14
+            if wrong:
+                raise self.impossible(wrong)
             # Where places were identified, doors that were seen at a ghost may be doors of S now.
             merged = places.merges != merges
             self._note(self.chart.unexplored if merged else () if e is None else (e,))
             self._settle()
         self.at = places.resolve(beyond)
+
+    def impossible(self, wrong: str) -> ImpossibleError:
+        """The exception to raise where the history is contradictory."""
+        return ImpossibleError(f"no {self.allowed} shows this history: {wrong}")
 
     def _note(self, darts: Collection[MapDart]) -> None:
         """Take note of those darts of U that are crossed by now."""
@@ -219,7 +238,7 @@ class History:
         if supposed is None or not supposed.follow():
             found = self.places.suppose(self.node_dart(e), self.node_dart(h))  # H.10
             if isinstance(found, str):
-                about.refuted[h] = found
+                about.refuted[h] = Refutation("folding", Evidence(0, contradiction=found))
                 return None
             supposed = about.supposed[h] = found
         return supposed
@@ -254,8 +273,7 @@ class History:
         degree, _ = self.places.looks(entry)
         self.robot.declare(Pose(e, tuple(alike)))
         for h in alike:
-            wrong = self.crossed[e].refuted[h]
-            self.robot.declare(Reject(e, h, "folding", Evidence(0, contradiction=wrong)))
+            self.robot.declare(Reject(e, h, *self.crossed[e].refuted[h]))
         self.places.know(entry)
         first = self.chart.add_vertex(Percept(degree, None))  # with the marker it would be v0
         self._join(e, first)

@@ -35,7 +35,7 @@ from topo_verify.algorithms.chart import Survey
 from topo_verify.algorithms.folding import NodeDart
 from topo_verify.algorithms.history import History
 from topo_verify.algorithms.places import PlaceNode, Places
-from topo_verify.algorithms.steering import explore
+from topo_verify.algorithms.steering import HistoryOf, explore
 from topo_verify.robot.events import MapDart, Robot
 
 BIT = 1.4
@@ -60,9 +60,9 @@ class Belief(NamedTuple):
     homes: Mapping[PlaceNode, int]
 
 
-def homing(robot: Robot) -> Survey:
+def homing(robot: Robot, *, history_of: HistoryOf = History) -> Survey:
     """Map the robot's world."""
-    return explore(robot, edge=nearest_edge, door=most_telling_door)
+    return explore(robot, edge=nearest_edge, door=most_telling_door, history_of=history_of)
 
 
 def nearest_edge(history: History) -> MapDart:

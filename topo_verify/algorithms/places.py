@@ -91,13 +91,17 @@ class Places:
 
     # ---------------------------------------------------------------- growing
 
-    def add(self, exit_dart: NodeDart, percept: Percept) -> NodeDart:
-        """Add what is seen behind an open dart, and fold. Returns the dart of arrival."""
+    def add(self, exit_dart: NodeDart, percept: Percept) -> tuple[NodeDart, str]:
+        """Add what is seen behind an open dart, and fold.
+
+        Returns:
+            The dart of arrival; and "", or the contradiction that folding meets.
+        """
         entry = self.fold.add(percept)
-        self.fold.join(exit_dart, entry)
-        if percept.marker is not None:
-            self.fold.identify(self.fold.turn(entry, percept.marker), self.entries[0])
-        return entry
+        wrong = self.fold.join(exit_dart, entry)
+        if percept.marker is not None and not wrong:
+            wrong = self.fold.identify(self.fold.turn(entry, percept.marker), self.entries[0])
+        return entry, wrong
 
     def know(self, entry: NodeDart) -> None:
         """Make a ghost the next vertex of S, and this dart its first one."""

@@ -6,6 +6,12 @@ dart counts as a dead end when the face is walked. The rule is sound in every pl
 other worlds it rejects true hypotheses, and the checkers must find that. It may stand before any
 other rule.
 
+Two shapes of it: a rule for the loop of exploration.py, and a `History` for the mappers that steer
+by one. As S grows, two darts on different faces stay on different ones, so what was refuted stays
+refuted. A history learns in the end whether the prior was right: in a planar world nothing
+contradicts it; elsewhere an edge is found to lead to another face, or two vertices of S to be one
+place. Such a mapper raises then, and delivers no map.
+
 Source: docs/semantics.md, section 8.
 """
 
@@ -13,11 +19,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.exploration import Refutation, Rule
+from topo_verify.algorithms.history import History
+from topo_verify.algorithms.homing import homing
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.robot.events import Evidence, MapDart
+from topo_verify.algorithms.places import Places
+from topo_verify.algorithms.planner import planner
+from topo_verify.robot.events import Evidence, MapDart, Robot
 from topo_verify.robot.percept import Percept
+
+OTHER_FACE = Refutation("planar", Evidence(0, contradiction="it lies on another face than e"))
+"""Why a hypothesis is false in every planar world."""
 
 
 class PlanarRule:
@@ -42,8 +55,7 @@ class PlanarRule:
         """Why the hypothesis is false in every planar world, if it is."""
         if hypothesis.dart in self.face:
             return self.rule.refute(chart, hypothesis, sequences)
-        message = "it lies on another face than e"
-        return Refutation("planar", Evidence(0, contradiction=message))
+        return OTHER_FACE
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The conclusion of the other rule."""
@@ -54,6 +66,50 @@ class PlanarRule:
     ) -> None:
         """Passes the new edge on to the other rule."""
         self.rule.learn(chart, e, entry, sequences)
+
+
+class PlanarHistory(History):
+    """A history that refutes each hypothesis on another face than e as well."""
+
+    allowed = "planar world"
+
+    def __init__(self, robot: Robot) -> None:
+        """Begin where the robot stands, at v0."""
+        super().__init__(robot)
+        self._faces: dict[MapDart, frozenset[MapDart]] = {}  # of the darts asked about so far
+
+    def suppose(self, e: MapDart, h: MapDart) -> Places | None:
+        """The places if a crossed e ends in h, or None if no planar world allows that."""
+        if h in self._face(e):
+            return super().suppose(e, h)
+        self.crossed[e].refuted[h] = OTHER_FACE
+        return None
+
+    def _face(self, e: MapDart) -> frozenset[MapDart]:
+        """The darts on the face of e."""
+        if e not in self._faces:
+            found = frozenset(face(self.chart, e))
+            self._faces.update(dict.fromkeys(found, found))
+        return self._faces[e]
+
+    def _settle_loop(self, e: MapDart, h: MapDart) -> None:
+        if h not in self._face(e):
+            raise self.impossible(f"edge {e} leads to dart {h}, on another face of S")
+        super()._settle_loop(e, h)
+
+    def _join(self, e: MapDart, other: MapDart) -> None:
+        super()._join(e, other)
+        self._faces.clear()
+
+
+def planar_homing(robot: Robot) -> Survey:
+    """Map the robot's world, which is planar, as `homing` does."""
+    return homing(robot, history_of=PlanarHistory)
+
+
+def planar_planner(robot: Robot) -> Survey:
+    """Map the robot's world, which is planar, as `planner` does."""
+    return planner(robot, history_of=PlanarHistory)
 
 
 def face(chart: Chart, e: MapDart) -> list[MapDart]:

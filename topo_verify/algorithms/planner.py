@@ -27,7 +27,7 @@ from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.folding import NodeDart
 from topo_verify.algorithms.history import History
 from topo_verify.algorithms.homing import most_telling_door
-from topo_verify.algorithms.steering import explore
+from topo_verify.algorithms.steering import HistoryOf, explore
 from topo_verify.robot.events import MapDart, Robot
 
 OUTWARD = 0.2
@@ -43,10 +43,10 @@ ClosureKind = tuple[int, int]
 """How far apart two ends lie: distance on S, steps along the face; both at most `FAR`."""
 
 
-def planner(robot: Robot) -> Survey:
+def planner(robot: Robot, *, history_of: HistoryOf = History) -> Survey:
     """Map the robot's world."""
     habits = Habits()
-    return explore(robot, edge=outward_edge, door=habits.door)
+    return explore(robot, edge=outward_edge, door=habits.door, history_of=history_of)
 
 
 def outward_edge(history: History) -> MapDart:

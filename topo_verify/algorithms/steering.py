@@ -51,9 +51,15 @@ NextDoor = Callable[[History, MapDart], NodeDart]
 """The dart by which the robot leaves, to find out where this crossed edge ends."""
 
 
-def explore(robot: Robot, *, edge: NextEdge, door: NextDoor) -> Survey:
+HistoryOf = Callable[[Robot], History]
+"""Begins the history of a run: `History`, or one that takes more for granted."""
+
+
+def explore(
+    robot: Robot, *, edge: NextEdge, door: NextDoor, history_of: HistoryOf = History
+) -> Survey:
     """Map the robot's world: the map, and its cost in edge traversals, which is O(m²n)."""
-    history = History(robot)
+    history = history_of(robot)
     patience, settled = PATIENCE, 0
     while history.chart.unexplored:  # H.2
         e = edge(history)  # H.3

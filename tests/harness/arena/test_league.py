@@ -86,9 +86,10 @@ def test_a_world_that_is_not_decided_costs_the_place() -> None:
     assert entry.why == (f"{first.world}: too late",)
 
 
-def test_a_mapper_that_assumes_planar_worlds_plays_no_others() -> None:
-    planned = league("basic,folding+planar", (SMALL, GRIDS), {}).planned
-    mine = [task.world for task in planned if task.mapper == "folding+planar"]
+@pytest.mark.parametrize("name", ["folding+planar", "homing+planar"])
+def test_a_mapper_that_assumes_planar_worlds_plays_no_others(name: str) -> None:
+    planned = league(f"basic,{name}", (SMALL, GRIDS), {}).planned
+    mine = [task.world for task in planned if task.mapper == name]
     assert mine == GRIDS.worlds(0)
 
 

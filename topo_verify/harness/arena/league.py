@@ -19,7 +19,7 @@ from typing import cast
 
 import msgspec
 
-from topo_verify.algorithms import Algorithm
+from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.checkers import CLAIMS, Judgement, Status
 from topo_verify.harness.arena.interval import FamilySample, MeanInterval, mean_interval
 from topo_verify.harness.arena.rows import ArenaRun, ArenaTask, MemoryRun
@@ -126,7 +126,7 @@ class League:
 
     def plays(self, mapper: Target, suite: Suite) -> bool:
         """Whether a mapper is right to be asked: one that assumes planar worlds plays no others."""
-        assumes = mapper.mapper.assumes if isinstance(mapper.mapper, Algorithm) else None
+        assumes = mapper.mapper.assumes if isinstance(mapper.mapper, Algorithm | Steered) else None
         return assumes != "planar" or suite.planar
 
     @cached_property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from topo_verify.algorithms import CATALOGUE
+from topo_verify.algorithms import NAMED
 from topo_verify.harness.game.values import DrawnClass, Knowledge, drawn_worlds
 from topo_verify.harness.judge import judge
 from topo_verify.harness.run import explore
@@ -42,7 +42,7 @@ class MapperCosts:
 
 def mapper_costs(mapper: str, edges: int) -> MapperCosts:
     """The costs of a mapper of the catalogue in the worlds with so many edges."""
-    known = CATALOGUE.get(mapper)
+    known = NAMED.get(mapper)
     planar = known is not None and known.assumes == "planar"
     drawn: DrawnClass = "planar" if planar else "any"
     runs = [explore(world, mapper) for world in drawn_worlds(edges, drawn)]
