@@ -22,7 +22,7 @@ from __future__ import annotations
 import argparse
 import csv
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from math import sqrt
 from pathlib import Path
@@ -108,10 +108,12 @@ class Store:
                     m, least, cost = (int(line[name]) for name in ("m", "least", "cost"))
                     self.runs[job] = Run(m, least, cost, float(line["ms"]))
 
-    def make(self, jobs: Sequence[Job], pool: ProcessPoolExecutor) -> list[Run]:
+    def make(
+        self, jobs: Sequence[Job], pool: ProcessPoolExecutor, play: Callable[[Job], Run] = priced
+    ) -> list[Run]:
         """The runs of these jobs; those that are not there yet are made."""
         missing = [job for job in jobs if job not in self.runs]
-        for job, run in zip(missing, pool.map(priced, missing), strict=True):
+        for job, run in zip(missing, pool.map(play, missing), strict=True):
             self.runs[job] = run
             self._append(job, run)
         return [self.runs[job] for job in jobs]
@@ -150,9 +152,10 @@ def difference(runs: Sequence[Run], base: Sequence[Run]) -> str:
     return f"{with_error(paired, sign='+')}, {times:.3f} ×"
 
 
-def head(columns: Sequence[str]) -> str:
-    """The head of a table in Markdown: the first column is text, the others are numbers."""
-    return f"| {' | '.join(columns)} |\n| --- |" + " ---: |" * (len(columns) - 1)
+def head(columns: Sequence[str], *, texts: int = 1) -> str:
+    """The head of a table in Markdown: so many columns of text, then numbers."""
+    rule = "| --- " * texts + "| ---: " * (len(columns) - texts)
+    return f"| {' | '.join(columns)} |\n{rule}|"
 
 
 def gaps(seeds: int) -> None:
@@ -169,8 +172,8 @@ def asked() -> argparse.Namespace:
     """What the command line asks for."""
     ask = argparse.ArgumentParser(description="mean cost / least cost, mappers x families")
     ask.add_argument("--mappers", default=MAPPERS, help="names, with commas")
-    ask.add_argument("--families", default="", help="only those whose text begins so, with commas")
-    ask.add_argument("--also", default=[], action="append", help="a family more, without its seed")
+    ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")
+    ask.add_argument("--also", nargs="+", default=[], help="families more, without their seed")
     ask.add_argument("--seeds", type=int, default=30, help="0 … N-1 (torus: one world)")
     ask.add_argument("--workers", type=int, default=2, help="processes")
     ask.add_argument("--runs", type=Path, help="keep finished runs in this CSV file")
@@ -188,7 +191,7 @@ def main() -> None:
         gaps(args.seeds)
         return
     mappers, store, paired = args.mappers.split(","), Store(args.runs), list[str]()
-    chosen = [text for text in FAMILIES if text.startswith(tuple(args.families.split(",")))]
+    chosen = [family for family in FAMILIES if family.startswith(tuple(args.families))]
     print(head(["family", "worlds", *["m"] * args.costs, "least", *mappers]))
     with ProcessPoolExecutor(args.workers) as pool:
         for family in [*chosen, *args.also]:

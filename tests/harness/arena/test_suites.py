@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from topo_verify import InputError, families
@@ -17,6 +19,16 @@ def test_a_suite_names_each_of_its_worlds_once(name: str) -> None:
     assert [len(family.listed(0)) for family in suite.families] == [f.size for f in suite.families]
     for family in suite.families:
         assert resolve_world(family.listed(3)[-1]).edges
+
+
+def test_the_page_lists_every_suite_with_its_worlds() -> None:
+    page = (Path(__file__).parents[3] / "docs" / "arena.md").read_text()
+    table = page.partition("| suite | worlds | families |")[2].partition("\n\n")[0]
+    assert table.splitlines()[2:] == [
+        f"| `{suite.name}` | {suite.size} |"
+        f" {', '.join(f'`{family.name}` ({family.size})' for family in suite.families)} |"
+        for suite in SUITES.values()
+    ]
 
 
 def test_the_public_worlds_have_the_seeds_from_0_on() -> None:
