@@ -8,8 +8,11 @@ from tests.checkers.test_witnesses import assert_wrong_in
 from tests.helpers import trace_of, worlds
 from topo_verify import World
 from topo_verify.checkers import check, decision_conclusions, entailment
+from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.entailment import FURTHER, Conclusion
-from topo_verify.robot.events import Event, Evidence, Move, Reject, Start, Trace
+from topo_verify.checkers.folding import Fold
+from topo_verify.checkers.map_on_fold import MapOnFold
+from topo_verify.robot.events import Augment, Event, Evidence, Move, Reject, Start, Trace
 from topo_verify.robot.simulator import SimulatedRobot
 
 FACE = "it lies on another face than e"
@@ -56,6 +59,25 @@ def test_where_the_search_is_given_up_the_decision_is_undecided_and_never_ok() -
     assert (judgement.judged, judgement.of) == (0, 4)
     assert judgement.findings == ()
     assert "undecided" not in {other.status for other in others}
+
+
+def test_where_an_edge_would_make_two_vertices_of_s_one_it_costs_no_folding() -> None:
+    """S was proved so far, so they differ in every planar world, whatever the fold says."""
+    robot = SimulatedRobot(World.from_id("m3/31"), 3)
+    fold = Fold(robot.percept)
+    for door in (0, 2, 1):
+        fold.move(door, robot.move(door))
+    on_fold = MapOnFold(fold)
+    on_fold.grow(Augment(0, "new", 3, 3))
+    on_fold.grow(Augment(2, "new", 6, 3))  # as if the prior had told it from the vertex before
+    e, ends = KnownDart(1), [KnownDart(7)]
+    assert ends[0] in on_fold.face(e)
+    decide = entailment._may_lead_to  # pyright: ignore[reportPrivateUsage]
+    assert decide(on_fold, e, ends, iter(())) == entailment.FOLLOWS
+    why, witness = decide(on_fold, e, ends, None)
+    assert why == "the edge may well lead there"
+    assert witness is not None
+    assert witness.id == "m3/31"
 
 
 def test_the_search_is_given_up_after_so_many_foldings() -> None:

@@ -5,10 +5,11 @@ folded, and each conclusion must hold in EVERY world that shows this history; wh
 answer carries a **witness**: a world with the same history in which the conclusion is false. For a
 mapper that declares the planar prior (it rejects by rule `planar`), only planar witnesses count.
 
-Under the planar prior, an edge between two faces of S is in no planar world. Otherwise a planar
-world is looked for among the foldings of the fold: two of its vertices are taken for one, then
-two more, and so on. Any planar world with this history folds onto such a one, so if none is planar
-the decision follows. `FURTHER` foldings are tried for one run; after that it is **undecided**.
+Under the planar prior, an edge between two faces of S is in no planar world, and no two vertices of
+S are one, for S was proved so far. Otherwise a planar world is looked for among the foldings of the
+fold: two of its vertices are taken for one, then two more, and so on. Any planar world with this
+history folds onto such a one, so if none is planar the decision follows. `FURTHER` foldings are
+tried for one run; after that it is **undecided**.
 
 What this does not show: a confirmation or a loop that follows from the prior alone fails here.
 
@@ -192,9 +193,10 @@ def _doubt(
 def _may_lead_to(on_fold: MapOnFold, e: KnownDart, ends: list[KnownDart], tries: Tries) -> Doubt:
     """Folding with e joined to each of these must contradict; else the fold shows an end of e."""
     fold, doubt = on_fold.fold, FOLLOWS
-    face = ends if tries is None else on_fold.face(e)
+    # With the prior, S was proved for planar worlds alone: the fold itself may not tell them apart.
+    face, apart = (ends, ()) if tries is None else (on_fold.face(e), on_fold.entries)
     for places in ((on_fold.place(e), on_fold.place(end)) for end in ends if end in face):
-        if any(fold.contradictions(*places, ())):
+        if any(fold.contradictions(*places, apart)):
             continue
         joined = deepcopy(fold)
         joined.join(*places)
