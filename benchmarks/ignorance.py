@@ -32,7 +32,7 @@ from pathlib import Path
 from random import Random
 from statistics import mean
 
-from price import FAMILIES, Job, Run, Store, drawn, head, ratio, require_right
+from price import FAMILIES, PATIENT, Job, Run, Store, drawn, head, ratio, require_right
 
 from topo_verify import World, explore
 from topo_verify.algorithms.chart import Survey
@@ -118,7 +118,7 @@ def told(job: Job) -> Run:
         return MAPPERS[name](robot, history_of=partial(ToldHistory, world=world, oracle=oracle))
 
     began = time.process_time()
-    run = explore(world, mapper)
+    run = explore(world, mapper, limits=PATIENT)
     seconds = time.process_time() - began
     require_right(run, job)
     return Run(len(world.edges), world.least_cost(), run.cost, round(1000 * seconds, 1))

@@ -32,6 +32,7 @@ from typing import NamedTuple
 from topo_verify import World, explore
 from topo_verify.harness.gap import gap
 from topo_verify.harness.run import Exploration
+from topo_verify.robot.limits import Limits
 from topo_verify.world.resolve import resolve_world
 
 MAPPERS = "basic,enhancement-iii-all+i,folding,homing,planner"
@@ -46,6 +47,9 @@ FAMILIES = (
     "torus(10,10)",
     "regular(80,8,holes=0.2)",
 )
+
+
+PATIENT = Limits(move_timeout=3600, world_timeout=36000)
 
 
 class Job(NamedTuple):
@@ -79,7 +83,7 @@ def priced(job: Job) -> Run:
     """
     world = drawn(job.family, job.seed)
     began = time.process_time()
-    run = explore(world, job.mapper)
+    run = explore(world, job.mapper, limits=PATIENT)
     seconds = time.process_time() - began
     require_right(run, job)
     return Run(len(world.edges), world.least_cost(), run.cost, round(1000 * seconds, 1))
@@ -92,7 +96,7 @@ def require_right(run: Exploration, job: Job) -> None:
         World.from_rotations(found.vertices, found.edges, found.marker)
     )
     if not right:
-        raise SystemExit(f"{job}: the map is not that of the world")
+        raise SystemExit(f"{job}: {run.stopped or 'the map is not that of the world'}")
 
 
 class Store:

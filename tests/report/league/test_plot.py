@@ -13,7 +13,7 @@ from topo_verify.harness.arena.suites import Suite, drawn, every
 from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import PictureBlock, Text
 from topo_verify.report.html import blocks_as_html
-from topo_verify.report.league.plot import ratio_plot
+from topo_verify.report.league.plot import Axis, ratio_plot
 from topo_verify.report.league.tables import table_csv
 from topo_verify.report.markdown import markdown
 
@@ -46,6 +46,22 @@ def test_it_has_a_sign_for_each_family_and_one_in_the_legend(league: League) -> 
     texts = [element.text for element in root.findall(".//{*}text")]
     assert {"small: a test", "lattice(3,3,holes=0.2)", "cost / LB", "edges", "b,c"} <= {*texts}
     assert any((text or "").startswith("</text>") for text in texts)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "ticks"),
+    [
+        (1, 30, [1, 2, 5, 10, 20]),
+        (1, 2.2, [1, 1.5, 2]),
+        (1, 1.7, [1, 1.2, 1.4, 1.6]),
+        (1.15, 1.4, [1.2, 1.3, 1.4]),
+        (1.31, 1.39, []),
+    ],
+)
+def test_a_short_axis_has_values_beside_it_as_well(
+    low: float, high: float, ticks: list[float]
+) -> None:
+    assert Axis(low, high, 0, 100).ticks == ticks
 
 
 def test_a_page_holds_it_and_letters_leave_it_out(league: League) -> None:

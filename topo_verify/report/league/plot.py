@@ -9,7 +9,7 @@ read on a dark page. Coordinates are rounded, so the same runs give the same byt
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import cos, log, pi, sin
+from math import ceil, cos, log, pi, sin
 from typing import NamedTuple
 
 from topo_verify.harness.arena.league import LeagueEntry
@@ -34,6 +34,8 @@ NAME = 26
 """The most characters of a name in the legend."""
 
 TICKS = (1, 2, 5)
+FEWEST = 3
+"""So many values stand beside an axis, if steps of a tenth give them."""
 
 SHIFT, SPREAD = 5.0, 16.0
 """Pixels between the signs of two mappers at one family, so that equal ones are both seen; and of
@@ -54,11 +56,16 @@ class Axis(NamedTuple):
         return round(self.start + share * (self.end - self.start), 1)
 
     @property
-    def ticks(self) -> list[int]:
-        """The values that are written beside the axis."""
+    def ticks(self) -> list[float]:
+        """The values that are written beside the axis: three, if steps of 0.1 give them."""
         powers = range(5)
         every = [tick * 10**power for power in powers for tick in TICKS]
-        return [value for value in every if self.low <= value <= self.high]
+        found: list[float] = [value for value in every if self.low <= value <= self.high]
+        for tenths in reversed(TICKS):
+            if len(found) < FEWEST:
+                steps = range(ceil(10 * self.low / tenths), int(10 * self.high / tenths) + 1)
+                found = [step * tenths / 10 for step in steps]
+        return found
 
 
 def ratio_plot(
@@ -108,11 +115,11 @@ def _frame(suite: Suite, x: Axis, y: Axis) -> Iterator[str]:
     for value in x.ticks:
         at = x.at(value)
         yield f'<path d="M {at} {TOP} V {HEIGHT - BOTTOM}" stroke="{line}"/>'
-        yield _text(at, HEIGHT - BOTTOM + 17, str(value), soft=True, more=middle)
+        yield _text(at, HEIGHT - BOTTOM + 17, f"{value:g}", soft=True, more=middle)
     for value in y.ticks:
         at = y.at(value)
         yield f'<path d="M {LEFT} {at} H {WIDTH - RIGHT}" stroke="{line}"/>'
-        yield _text(LEFT - 8, at + 4, str(value), soft=True, more=' text-anchor="end"')
+        yield _text(LEFT - 8, at + 4, f"{value:g}", soft=True, more=' text-anchor="end"')
     yield _text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 12, "edges", soft=True, more=middle)
     height = (TOP + HEIGHT - BOTTOM) / 2
     turn = f' transform="rotate(-90 18 {height})"'
