@@ -134,9 +134,9 @@ class Store:
 
 
 def with_error(numbers: Sequence[float], *, sign: str = "") -> str:
-    """The mean of some numbers, with its standard error."""
-    error = stdev(numbers) / sqrt(len(numbers)) if len(numbers) > 1 else 0
-    return f"{mean(numbers):{sign}.3f} ± {error:.3f}"
+    """The mean of some numbers, with its standard error; of one world there is none."""
+    error = f" ± {stdev(numbers) / sqrt(len(numbers)):.3f}" if len(numbers) > 1 else ""
+    return f"{mean(numbers):{sign}.3f}{error}"
 
 
 def ratio(runs: Sequence[Run]) -> str:
