@@ -22,6 +22,7 @@ from topo_verify.harness.judge import Report
 from topo_verify.harness.mapper_names import text_of
 from topo_verify.harness.targets import targets
 from topo_verify.robot.events import MapDart, Robot
+from topo_verify.robot.percept import Purpose
 from topo_verify.world.resolve import resolve_world
 
 Mapper = Callable[[Robot], Survey]
@@ -156,24 +157,22 @@ def test_patience_ends_every_round(
 
 def watched_ways(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[list[int]]]:
     """How many hypotheses are left before each way home, a list for each edge settled so."""
-    settle, reach = steering.settle_by_ways_home, steering.reach
+    settle, walk_home = steering.settle_by_ways_home, steering.walk_home
     left: list[int] = []
 
-    def walks(history: History, e: MapDart) -> None:
-        reach(history, e)
-        if e in history.crossed:
-            left.append(len(list(history.hypotheses(e))))
+    def walks(history: History, e: MapDart, h: MapDart) -> None:
+        left.append(len(list(history.hypotheses(e))))
+        walk_home(history, e, h)
 
     found: list[list[int]] = []
 
     def settles(history: History, e: MapDart) -> None:
         left.clear()
-        monkeypatch.setattr(steering, "reach", walks)
         settle(history, e)
-        monkeypatch.setattr(steering, "reach", reach)
         assert e not in history.crossed
         found.append(list(left))
 
+    monkeypatch.setattr(steering, "walk_home", walks)
     monkeypatch.setattr(steering, "settle_by_ways_home", settles)
     for text in LARGER:
         explore(families_world(text), SILLY["pendulum"])
@@ -185,6 +184,22 @@ def test_each_way_home_leaves_fewer_hypotheses(monkeypatch: pytest.MonkeyPatch) 
         assert max(map(len, rounds)) > 1
         for left in rounds:
             assert all(one > other for one, other in pairwise(left))
+
+
+def test_a_way_home_leads_over_what_was_never_crossed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(steering, "PATIENCE", 0)
+    seen: list[bool] = []
+    move = History.move
+
+    def moves(history: History, exit_dart: NodeDart, purpose: Purpose = "walk") -> None:
+        if purpose == "validate":
+            seen.append(history.places.across(exit_dart) is not None)
+        move(history, exit_dart, purpose)
+
+    monkeypatch.setattr(History, "move", moves)
+    assert examine("homing", families.torus(4, 4)).ok
+    assert len(seen) > 16
+    assert not any(seen)
 
 
 @pytest.mark.parametrize("door", [back, first_dart])

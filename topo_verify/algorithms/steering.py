@@ -20,9 +20,10 @@ are shortest ways, and at whose end a policy's move or a hypothesis follows.
 **It keeps the bound.** Let j edges be settled, c the cost, a the distance from the robot to S, and
 W = |U|·2(n-1). To go back to S, over S to any edge, and across takes at most a + n moves; to walk
 each hypothesis home and back takes W. So settling one more edge by ways home takes at most
-a + n + W moves, that from where the last way ended back to vu included: afterwards c + a has grown
-by no more. With one vertex W is 0 and every crossing settles its edge. With more, at least two
-darts of S are explored, so W <= (2m-2)·2(n-1), and n + 1 + W < A.
+a + n + W moves, with the walk from where the last way ended to where something new of the next one
+begins, which is no longer than that over vu: afterwards c + a has grown by no more. With one vertex
+W is 0 and every crossing settles its edge. With more, at least two darts of S are explored, so
+W <= (2m-2)·2(n-1), and n + 1 + W < A.
 
 - If an edge was just settled, c + a <= j·A (below), so c + a + n + 1 + W <= (j+1)·A: settling one
   more by ways home is paid for, with a move to spare (behind a new edge the robot is one from S).
@@ -88,23 +89,41 @@ def affords(history: History) -> bool:
 def reach(history: History, e: MapDart) -> None:
     """Walk to the place behind a dart of S, and cross the dart if it was never crossed."""
     crossed = e in history.crossed
-    goal = history.behind(e) if crossed else history.node_dart(e)
-    for exit_dart in history.way(goal):
-        history.move(exit_dart)
+    walk(history, history.behind(e) if crossed else history.node_dart(e))
     if not crossed:
         history.move(history.node_dart(e), "cross")
 
 
+def walk(history: History, goal: NodeDart) -> None:
+    """Walk to the place of a dart, over anything that was seen."""
+    for exit_dart in history.way(goal):
+        history.move(exit_dart)
+
+
 def settle_by_ways_home(history: History, e: MapDart) -> None:
-    """Validate one hypothesis after the other by its way home, nearest first, as `basic` does."""
-    chart = history.chart
+    """Validate one hypothesis after the other by its way home, that nearest to e on S first."""
+    vertex = history.chart.vertex
     while e in history.crossed:
-        reach(history, e)  # H.7
-        depth, towards = history.home()
-        h = min((h for h, _ in history.hypotheses(e)), key=lambda h: (depth[chart.vertex[h]], h))
-        at, place = h, history.behind(e)  # where the robot is if h is true, and where it is
-        while e in history.crossed and history.suppose(e, h) is not None:  # H.8
-            leads_home = towards[chart.vertex[at]]
-            assert leads_home is not None, "at v0 the marker has told whether h is true"
-            history.move(history.places.turn(place, chart.door(at, leads_home)), "validate")
-            at, place = chart.across(leads_home), history.at
+        near = history.chart.tree(vertex[e]).depth
+        h = min((h for h, _ in history.hypotheses(e)), key=lambda h: (near[vertex[h]], h))  # H.7
+        walk_home(history, e, h)
+
+
+def walk_home(history: History, e: MapDart, h: MapDart) -> None:
+    """Walk the way home of h, until h is refuted or e settled.
+
+    What was seen of it before is not walked again, as in Enhancement I.
+    """
+    chart, places = history.chart, history.places
+    towards = history.home().parent
+    at, place = h, history.behind(e)  # a dart on the way home, and what was seen there if h is true
+    while e in history.crossed and history.suppose(e, h) is not None:  # H.8
+        leads_home = towards[chart.vertex[at]]
+        assert leads_home is not None, "at v0 the marker has told whether h is true"
+        exit_dart = places.turn(place, chart.door(at, leads_home))
+        beyond = places.across(exit_dart)
+        if beyond is None:
+            walk(history, exit_dart)
+            history.move(exit_dart, "validate")
+            beyond = history.at
+        at, place = chart.across(leads_home), beyond
