@@ -1,5 +1,5 @@
-(** An executable mapper: the loop of docs/semantics.md, section 4, with every motion and rule of
-    section 7 (listings 1, 2 and 3 of the paper).
+(** An executable mapper: the loop of docs/semantics.md, section 4, for every motion and rule of
+    sections 7 and 8 (listings 1, 2 and 3 of the paper; folding).
 
     The mapper is a program, so it cannot look at the world. The policies, the motion and the rule
     are parameters.
@@ -9,7 +9,8 @@
     pu    the percept behind e           H     the hypotheses, each with its way home
     h     a hypothesis                   k, w  a door, doors
     ds    the doors from vu to where the robot stands, qs the percepts behind them
-    log   the sequences of this edge, the last one first *)
+    log   the sequences of this edge, the last one first
+    t     the trail: all moves since the start, the last one first *)
 From Coq Require Import Arith Lia List Bool Permutation.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Vertices Augment Program.
@@ -24,12 +25,14 @@ Definition sequence : Type := list nat * list Percept.
 (** A hypothesis: the dart, and the doors of its way home. *)
 Definition hypothesis : Type := nat * list nat.
 
-(** A rule: what it remembers, at the start and after each edge; and which hypotheses it keeps. It
-    sees the map, e, the percept behind e, all sequences of this edge and, by its memory, all
-    earlier ones. When it learns, the map has grown: e and the dart of entry are partners. *)
+(** A rule: what it remembers, at the start and after each edge; which hypotheses it keeps; and which
+    of those it concludes to be true. It sees the map, e, the percept behind e, all sequences of this
+    edge, the trail and, by its memory, what it saw earlier. When it learns, the map has grown: e and
+    the dart of entry are partners; and it is told the trail as it was when the robot came to vu. *)
 Record Rule := { memory : Type; fresh : memory;
-  keep : Map -> nat -> Percept -> memory -> list sequence -> hypothesis -> bool;
-  learn : Map -> nat -> nat -> memory -> list sequence -> memory }.
+  keep : Map -> nat -> Percept -> memory -> list sequence -> robot_trail -> hypothesis -> bool;
+  concludes : Map -> nat -> Percept -> memory -> list sequence -> robot_trail -> hypothesis -> bool;
+  learn : Map -> nat -> nat -> memory -> list sequence -> robot_trail -> memory }.
 
 (** A motion: which hypothesis is walked next, and how many of the doors ds it shares. *)
 Definition Motion : Type := list nat -> list hypothesis -> option (hypothesis * nat).
@@ -89,33 +92,42 @@ Section Mapper.
 Variables (pick : Map -> nat -> option nat) (path : Map -> nat -> nat -> list nat * nat)
           (order : Map -> list nat -> list nat) (motion : Motion) (rule : Rule).
 
-(** Test hypotheses until one is confirmed or none is left. The rule is put to all that remain; the
-    motion chooses one; the robot goes back to where its way parts from the doors ds; what the
-    shared doors showed is compared, and the other doors are executed. Returns the dart confirmed,
-    the sequences, and the robot, which goes back to vu if none was. n bounds the number of tests. *)
-Fixpoint test_all n M e pu T (log : list sequence) ds qs v (H : list hypothesis)
-  : program (option nat * list sequence * robot) :=
-  let none := bind (undo v (rev ds)) (fun v => Return (None, log, v)) in
+(** h was concluded, so the robot would come in by h at vu. Where it sees the marker it knows which dart
+    it faces, and stays; elsewhere it goes back to vu by the doors ds. Returns h and the dart of the map
+    that it faces then, the sequences, the robot and the trail. *)
+Definition concluded M h (log : list sequence) ds (v : robot) t := match snd (fst v) with
+  | Some j => Return (Some (h, turn M (snd v + (fst (fst v) - j)) (root M)), log, (v, t))
+  | None => bind (with_trail (undo v (rev ds)) t) (fun vt => Return (Some (h, h), log, vt)) end.
+
+(** Test hypotheses until one is confirmed or none is left. The rule is put to all that remain, and
+    may conclude one; else the motion chooses one; the robot goes back to where its way parts from the
+    doors ds; what the shared doors showed is compared, and the other doors are executed. Returns the
+    dart confirmed with the dart of the map that the robot faces, the sequences, the robot, which goes
+    back to vu if none was, and the trail. n bounds the number of tests. *)
+Fixpoint test_all n M e pu T (log : list sequence) ds qs v t (H : list hypothesis)
+  : program (option (nat * nat) * list sequence * (robot * robot_trail)) :=
+  let none := bind (with_trail (undo v (rev ds)) t) (fun vt => Return (None, log, vt)) in
   match n with
   | 0 => none
   | S n =>
-    let K := filter (keep rule M e pu T log) H in
-    match motion ds K with
-    | None => none
-    | Some ((h, w), s) =>
+    let K := filter (keep rule M e pu T log t) H in
+    match find (concludes rule M e pu T log t) K, motion ds K with
+    | Some (h, _), _ => concluded M h log ds v t
+    | None, None => none
+    | None, Some ((h, w), s) =>
       let K := filter (fun c => negb (fst c =? h)) K in
-      bind (undo v (rev (skipn s ds))) (fun v =>
-        match percepts M h w, walk M h (firstn s w) with
-        | Some ps, Some x =>
+      bind (with_trail (undo v (rev (skipn s ds))) t) (fun '(v, t) =>
+        match percepts M h w, walk M h (firstn s w), walk M h w with
+        | Some ps, Some x, Some y =>
           if percept_eqb (percept M h) pu && percepts_eqb (firstn s ps) (firstn s qs)
-          then bind (follow M x (skipn s w) v) (fun r =>
-            let '(matched, more, v) := r in
+          then bind (with_trail (follow M x (skipn s w) v) t) (fun r =>
+            let '(matched, more, v, t) := r in
             let ds := firstn s ds ++ firstn (length more) (skipn s w) in
             let qs := firstn s qs ++ more in
-            if matched : bool then Return (Some h, log, v)
-            else test_all n M e pu T ((ds, qs) :: log) ds qs v K)
-          else test_all n M e pu T log (firstn s ds) (firstn s qs) v K
-        | _, _ => Stuck
+            if matched : bool then Return (Some (h, y), log, (v, t))
+            else test_all n M e pu T ((ds, qs) :: log) ds qs v t K)
+          else test_all n M e pu T log (firstn s ds) (firstn s qs) v t K
+        | _, _, _ => Stuck
         end)
     end
   end.
@@ -124,31 +136,36 @@ Fixpoint test_all n M e pu T (log : list sequence) ds qs v (H : list hypothesis)
 Definition hypotheses M e pu := order M (filter (fun h => negb (h =? e) && negb (explored M h)
   && same_signature (percept M h) pu) (seq 0 (darts M))).
 
-(** The state of an exploration: the map, the dart of it where the robot is, the robot, and what
-    the rule remembers. *)
-Definition state : Type := Map * nat * robot * memory rule.
+(** The state of an exploration: the map, the dart of it where the robot is, the robot, what the rule
+    remembers, and the trail. *)
+Definition state : Type := Map * nat * robot * memory rule * robot_trail.
+
+(** The map of a state. *)
+Definition map_in (st : state) := let '(M, _, _, _, _) := st in M.
+
+(** The dart of the map where the robot is. *)
+Definition dart_in (st : state) := let '(_, p, _, _, _) := st in p.
 
 (** Explore dart e: walk to it, cross it, validate, augment, learn. *)
 Definition round (st : state) e : program state :=
-  let '(M, p, v, T) := st in
+  let '(M, p, v, T, t) := st in
   let (w, k) := path M e p in
-  bind (execute v (w ++ [k])) (fun v =>
+  bind (with_trail (execute v (w ++ [k])) t) (fun '(v, u) =>
     let home := path M (root M) in
     let H := map (fun h => (h, fst (home h))) (hypotheses M e (fst v)) in
-    bind (test_all (length H) M e (fst v) T [] [] [] v H) (fun r =>
+    bind (test_all (length H) M e (fst v) T [] [] [] v u H) (fun r =>
       match r with
-      | (Some h, log, v') => match walk M h (fst (home h)) with
-          | Some x => let N := augment_loop M e h in Return (N, x, v', learn rule N e h T log)
-          | None => Stuck end
-      | (None, log, v') => let N := augment_new M e (fst (fst v)) in
-          Return (N, darts M, v', learn rule N e (darts M) T log)
+      | (Some (h, x), log, (v', t)) =>
+          let N := augment_loop M e h in Return (N, x, v', learn rule N e h T log u, t)
+      | (None, log, (v', t)) => let N := augment_new M e (fst (fst v)) in
+          Return (N, darts M, v', learn rule N e (darts M) T log u, t)
       end)).
 
 (** Explore one dart after the other until none is open, and deliver the map. The fuel bounds the
     number of rounds. *)
 Fixpoint explore fuel (st : state) : program Map :=
-  match pick (fst (fst (fst st))) (snd (fst (fst st))) with
-  | None => Return (fst (fst (fst st)))
+  match pick (map_in st) (dart_in st) with
+  | None => Return (map_in st)
   | Some e => match fuel with
               | 0 => Stuck
               | S fuel => bind (round st e) (explore fuel)
@@ -156,7 +173,7 @@ Fixpoint explore fuel (st : state) : program Map :=
   end.
 
 (** The state at the start, where q is sensed: the map is v0, and the robot is at its first dart. *)
-Definition initial_state (q : Percept) : state := (initial (fst q), 0, (q, 0), fresh rule).
+Definition initial_state (q : Percept) : state := (initial (fst q), 0, (q, 0), fresh rule, []).
 End Mapper.
 Arguments round : simpl never.
 
@@ -188,24 +205,33 @@ Definition good_motion (motion : Motion) := forall ds K,
   end.
 
 (** The contract of a rule: what it remembers is true in the sense of some invariant, which the
-    rule's learning keeps; and then it keeps the true hypothesis (claim 3). Here phi embeds the map
-    M in the world W, and e leads to the dart h of the map. *)
-Record good_rule (R : Rule) (true_of : Map -> Map -> (nat -> nat) -> memory R -> Prop) : Prop := {
-  fresh_true : forall W phi d, world W -> embedded (initial d) W phi ->
-    true_of (initial d) W phi (fresh R);
-  keep_true : forall M W phi T e log h w r, world W -> is_map M -> embedded M W phi ->
-    true_of M W phi T -> e < darts M -> alpha M e = None -> h < darts M ->
-    alpha W (phi e) = Some (phi h) -> walk M h w = Some r ->
+    rule's learning keeps; and then it keeps the true hypothesis (claim 3), and concludes no false one
+    (claim 4). Here phi embeds the map M in the world W, e leads to the dart a of the world, which is
+    the dart h of the map if h is the true hypothesis; the trail was s when the rule learned last, u at
+    vu, and is t now. *)
+Record good_rule (R : Rule)
+  (true_of : Map -> Map -> (nat -> nat) -> robot_trail -> memory R -> Prop) : Prop := {
+  fresh_true : forall W phi d, world W -> is_map (initial d) -> embedded (initial d) W phi ->
+    true_of (initial d) W phi [] (fresh R);
+  keep_true : forall M W phi T e log s t b h w r, world W -> is_map M -> embedded M W phi ->
+    true_of M W phi s T -> later s t -> led W t b -> e < darts M -> alpha M e = None ->
+    h < darts M -> alpha W (phi e) = Some (phi h) -> walk M h w = Some r ->
     (forall s, In s log -> percepts W (phi h) (fst s) = Some (snd s)) ->
-    keep R M e (percept M h) T log (h, w) = true;
-  loop_true : forall M W phi T e h log, world W -> is_map M -> embedded M W phi ->
-    true_of M W phi T -> e < darts M -> h < darts M -> alpha M e = None -> alpha M h = None ->
+    keep R M e (percept M h) T log t (h, w) = true;
+  conclude_true : forall M W phi T e log s t a b h w, world W -> is_map M -> embedded M W phi ->
+    true_of M W phi s T -> later s t -> led W t b -> e < darts M -> alpha M e = None ->
+    h < darts M -> alpha W (phi e) = Some a ->
+    concludes R M e (percept W a) T log t (h, w) = true -> phi h = a;
+  loop_true : forall M W phi T e h log s u t, world W -> is_map M -> embedded M W phi ->
+    true_of M W phi s T -> later s u -> led W u (phi h) -> later u t ->
+    e < darts M -> h < darts M -> alpha M e = None -> alpha M h = None ->
     embedded (augment_loop M e h) W phi -> is_map (augment_loop M e h) ->
     (forall s, In s log -> percepts W (phi h) (fst s) = Some (snd s)) ->
-    true_of (augment_loop M e h) W phi (learn R (augment_loop M e h) e h T log);
-  new_true : forall M W phi T e a log, world W -> is_map M -> embedded M W phi ->
-    true_of M W phi T -> e < darts M -> alpha M e = None -> alpha W (phi e) = Some a ->
+    true_of (augment_loop M e h) W phi t (learn R (augment_loop M e h) e h T log u);
+  new_true : forall M W phi T e a log s u t, world W -> is_map M -> embedded M W phi ->
+    true_of M W phi s T -> later s u -> led W u a -> later u t ->
+    e < darts M -> alpha M e = None -> alpha W (phi e) = Some a ->
     let N := augment_new M e (degree W a) in let psi := extend phi (darts M) W a in
     embedded N W psi -> is_map N ->
     (forall s, In s log -> percepts W a (fst s) = Some (snd s)) ->
-    true_of N W psi (learn R N e (darts M) T log) }.
+    true_of N W psi t (learn R N e (darts M) T log u) }.

@@ -3,6 +3,7 @@
 
     p, f  programs      W     a world            a, b, c   darts: the robot's reference dart
     k     a door        q     a percept          ms        moves: doors, and the percepts behind
+    t     a trail: the moves since the start, the last one first
 
     A program is told percepts and asks for doors. It is given no world, so it cannot look at one.
     SCEPTICS READ [program] and [perform]. The cost of a performance is the number of its moves. *)
@@ -97,5 +98,33 @@ Qed.
 Lemma does_weaken {A} W a (p : program A) (Q R : A -> nat -> nat -> Prop) : does W a p Q ->
   (forall x b n, Q x b n -> R x b n) -> does W a p R.
 Proof. intros (x & b & ms & P & H) F. exists x, b, ms. auto. Qed.
+
+(** A trail: the moves since the start, the last one first. *)
+Definition robot_trail : Type := list (nat * Percept).
+
+(** Do p, and keep the trail: its result, and the moves so far. *)
+Fixpoint with_trail {A} (p : program A) (t : robot_trail) : program (A * robot_trail) :=
+  match p with
+  | Return x => Return (x, t)
+  | Leave k g => Leave k (fun q => with_trail (g q) ((k, q) :: t))
+  | Stuck => Stuck
+  end.
+
+(** Recording changes nothing that is done, and records just the moves that are made. *)
+Lemma perform_with_trail {A} W (p : program A) : forall a t, perform W a (with_trail p t) =
+  match perform W a p with
+  | Some (x, b, ms) => Some ((x, rev ms ++ t), b, ms) | None => None end.
+Proof.
+  induction p as [x|k g IH|]; simpl; intros a t; auto. destruct (move W a k) as [b|]; auto.
+  rewrite IH. destruct (perform W b (g _)) as [((x, c), ms)|]; auto.
+  simpl. rewrite <- app_assoc. auto.
+Qed.
+
+(** The trail t' begins with the moves of t. *)
+Definition later (t t' : robot_trail) := exists ms, t' = ms ++ t.
+
+(** In W, the moves t lead from the root to b, and show what was sensed. *)
+Definition led W t b := walk W (root W) (map fst (rev t)) = Some b /\
+  percepts W (root W) (map fst (rev t)) = Some (map snd (rev t)).
 Arguments bind : simpl never.
 Arguments does : simpl never.

@@ -57,8 +57,9 @@ Qed.
 (** A rule that remembers nothing of earlier edges and keeps what [compare] does not contradict:
     the last sequence is put to it. *)
 Definition forgetful (compare : Map -> hypothesis -> sequence -> bool) : Rule :=
-  {| memory := unit; fresh := tt; learn := fun _ _ _ _ _ => tt;
-     keep := fun M _ _ _ log c => match log with s :: _ => compare M c s | [] => true end |}.
+  {| memory := unit; fresh := tt; learn := fun _ _ _ _ _ _ => tt;
+     keep := fun M _ _ _ log _ c => match log with s :: _ => compare M c s | [] => true end;
+     concludes := fun _ _ _ _ _ _ _ => false |}.
 
 (** Rule none: only motion rejects. *)
 Definition rule_none := forgetful (fun _ _ _ => true).
@@ -96,20 +97,21 @@ Qed.
 (** A forgetful rule fulfils its contract if it never contradicts what the world shows. *)
 Lemma forgetful_good compare : (forall M W phi h w u ps, world W -> is_map M -> embedded M W phi ->
     h < darts M -> percepts W (phi h) u = Some ps -> compare M (h, w) (u, ps) = true) ->
-  good_rule (forgetful compare) (fun _ _ _ _ => True).
+  good_rule (forgetful compare) (fun _ _ _ _ _ => True).
 Proof.
-  intros H. split; auto. intros M W phi T e [|(u, ps) log] h w r HW WM E _ _ _ Lh _ _ Hl; simpl; auto.
+  intros H. split; auto; [|simpl; discriminate].
+  intros M W phi T e [|(u, ps) log] s t b h w r HW WM E _ _ _ _ _ Lh _ _ Hl; simpl; auto.
   apply (H M W phi); auto. apply (Hl (u, ps)). left. auto.
 Qed.
 
 (** Claim 3 for rule none. *)
-Theorem rule_none_good : good_rule rule_none (fun _ _ _ _ => True).
+Theorem rule_none_good : good_rule rule_none (fun _ _ _ _ _ => True).
 Proof. apply forgetful_good. auto. Qed.
 
 (** Claim 3 for rule history: it rejects only false hypotheses.
     Paper, III-B: "Every sequence executed for e is traced on S from the hypothesis; a mismatch
     rejects it." *)
-Theorem rule_history_good : good_rule rule_history (fun _ _ _ _ => True).
+Theorem rule_history_good : good_rule rule_history (fun _ _ _ _ _ => True).
 Proof.
   apply forgetful_good. intros M W phi h w u ps HW WM E Lh Hp.
   apply (agrees_true M W phi); auto; [apply HW|red; discriminate].
@@ -118,7 +120,7 @@ Qed.
 (** Claim 3 for rule prefix: it rejects only false hypotheses.
     Paper, III-A: "Stage 1: what was seen on shared first doors rejects other hypotheses without
     motion." *)
-Theorem rule_prefix_good : good_rule rule_prefix (fun _ _ _ _ => True).
+Theorem rule_prefix_good : good_rule rule_prefix (fun _ _ _ _ _ => True).
 Proof.
   apply forgetful_good. intros M W phi h w u ps HW WM E Lh Hp.
   apply prefix_weaker with (fun _ _ => None).
@@ -172,9 +174,10 @@ Definition add_record (r : record_of) T :=
     have become partners their records are dropped, and each sequence is traced from h. *)
 Definition rule_records (levels : option nat) : Rule :=
   {| memory := list record_of; fresh := [];
-     keep := fun M _ _ T log c => match log with
+     keep := fun M _ _ T log _ c => match log with
        s :: _ => agrees M (recorded T) (fst c) (fst s) (snd s) | [] => true end;
-     learn := fun M e h T log =>
+     concludes := fun _ _ _ _ _ _ _ => false;
+     learn := fun M e h T log _ =>
        fold_right (fun s T => fold_right add_record T (noted levels M h (fst s) (snd s)))
          (filter (fun r => negb (fst (fst r) =? e) && negb (fst (fst r) =? h)) T) log |}.
 
@@ -238,21 +241,24 @@ Qed.
 (** Claim 3 for rule records, one-level and all-level: the records are true, and true records reject
     only false hypotheses.
     Paper, III-C: "After e is validated, what was seen behind unexplored edges is recorded." *)
-Theorem rule_records_good levels : good_rule (rule_records levels) true_records.
+Theorem rule_records_good levels :
+  good_rule (rule_records levels) (fun M W phi _ => true_records M W phi).
 Proof.
-  assert (Learned : forall M W phi e h (T : list record_of) log, is_map M -> is_map W ->
+  assert (Learned : forall M W phi e h (T : list record_of) log u, is_map M -> is_map W ->
     embedded M W phi -> true_records M W phi T -> h < darts M ->
     (forall s, In s log -> percepts W (phi h) (fst s) = Some (snd s)) ->
-    true_records M W phi (learn (rule_records levels) M e h T log)).
-  { intros M W phi e h T log WM WW E HT Lh. simpl. induction log as [|s log IH]; simpl; intros Hl.
+    true_records M W phi (learn (rule_records levels) M e h T log u)).
+  { intros M W phi e h T log u WM WW E HT Lh. simpl. induction log as [|s log IH]; simpl; intros Hl.
     - intros d w q I. apply filter_In in I as [I _]. apply HT; auto.
     - apply add_records_true; [apply IH; auto|]. apply noted_true; auto. }
   split.
-  - intros W phi d HW E d' w q [].
-  - intros M W phi T e [|s log] h w r HW WM E HT _ _ Lh _ _ Hl; simpl; auto.
+  - intros W phi d HW WM E d' w q [].
+  - intros M W phi T e [|s log] o t b h w r HW WM E HT _ _ _ _ Lh _ _ Hl; simpl; auto.
     apply (agrees_true M W phi); auto; [apply HW|apply recorded_true; auto|]. apply Hl. left. auto.
-  - intros M W phi T e h log HW WM E HT Le Lh Oe Oh E' WM' Hl. apply Learned; auto. apply HW.
-  - intros M W phi T e a log HW WM E HT Le Oe Ha N psi E' WM' Hl. assert (WW := world_is_map W HW).
+  - simpl. discriminate.
+  - intros M W phi T e h log s u t HW WM E HT _ _ _ Le Lh Oe Oh E' WM' Hl. apply Learned; auto. apply HW.
+  - intros M W phi T e a log s u t HW WM E HT _ _ _ Le Oe Ha N psi E' WM' Hl.
+    assert (WW := world_is_map W HW).
     assert (La : a < darts W) by (apply (alpha_ok W WW) in Ha; [apply Ha|apply (phi_lt _ _ _ E); auto]).
     destruct (degree_spec W WW a La) as (D & _). apply Learned; auto.
     + intros d w q I. destruct (HT d w q I) as (Ld & H). split; [unfold N; simpl; lia|].

@@ -66,7 +66,7 @@ Variables (pick : Map -> nat -> option nat) (path : Map -> nat -> nat -> list na
 (** A round begins with a move. *)
 Lemma round_moves st e : exists k g, round path order motion rule st e = Leave k g.
 Proof.
-  destruct st as (((M, p), v), T). unfold round. destruct (path M e p) as (w, k).
+  destruct st as ((((M, p), v), T), t). unfold round. destruct (path M e p) as (w, k).
   destruct w; simpl; eexists; eexists; reflexivity.
 Qed.
 

@@ -6,7 +6,8 @@
     rule fulfil the contracts of Mapper.v, and nothing else is known of them.
 
     [facing v b c]: the robot v, whose reference dart in W is b, faces dart c. What the robot does
-    moves it from one such dart to another; each lemma says to which, and at what cost. *)
+    moves it from one such dart to another; each lemma says to which, and at what cost. t is the trail,
+    u the trail as it was at vu, o as it was when the rule learned last. *)
 From Coq Require Import Arith Lia List Bool Permutation.
 Import ListNotations.
 From Topo Require Import World Rotation Embedding Vertices Augment Program Mapper.
@@ -73,6 +74,26 @@ Proof.
     destruct (percepts W b u) as [rs|] eqn:Q'; [|discriminate]. simpl in P, Q.
     apply (IH y b qs); auto; [congruence|]. rewrite Q'. congruence.
 Qed.
+
+(** A program that keeps the trail does the same; if the trail led to where the robot was, it leads to
+    where the robot is now. *)
+Lemma does_with_trail {A} W a (p : program A) t Q : does W a p Q -> led W t a ->
+  does W a (with_trail p t) (fun r b n => Q (fst r) b n /\ later t (snd r) /\ led W (snd r) b).
+Proof.
+  intros (x & b & ms & P & H) [L1 L2]. exists (x, rev ms ++ t), b, ms.
+  rewrite perform_with_trail, P. apply perform_moves in P as [P1 P2].
+  split; auto. split; auto. split; [exists (rev ms); auto|]. unfold led. simpl.
+  rewrite rev_app_distr, rev_involutive, !map_app, walk_app, L1. split; auto.
+  rewrite (percepts_app W _ _ _ _ L1), L2, P2. auto.
+Qed.
+
+(** Later is transitive. *)
+Lemma later_trans t u r : later t u -> later u r -> later t r.
+Proof. intros [l ->] [k ->]. exists (k ++ l). apply app_assoc. Qed.
+
+(** Every trail is as late as itself. *)
+Lemma later_refl t : later t t.
+Proof. exists []. auto. Qed.
 
 (** The robot v senses what there is at dart b of the world, and has turned to face dart c. *)
 Definition facing W (v : robot) b c :=
@@ -178,10 +199,11 @@ Qed.
 End Moves.
 
 Section Validation.
-Variables (motion : Motion) (rule : Rule) (true_of : Map -> Map -> (nat -> nat) -> memory rule -> Prop).
+Variables (motion : Motion) (rule : Rule)
+          (true_of : Map -> Map -> (nat -> nat) -> robot_trail -> memory rule -> Prop).
 Hypotheses (Gmotion : good_motion motion) (Grule : good_rule rule true_of).
-Variables (M W : Map) (phi : nat -> nat) (T : memory rule) (e a : nat).
-Hypotheses (WM : is_map M) (HW : world W) (E : embedded M W phi) (HT : true_of M W phi T)
+Variables (M W : Map) (phi : nat -> nat) (T : memory rule) (o : robot_trail) (e a : nat).
+Hypotheses (WM : is_map M) (HW : world W) (E : embedded M W phi) (HT : true_of M W phi o T)
            (He : e < darts M) (Oe : alpha M e = None) (Ha : alpha W (phi e) = Some a).
 Let WW : is_map W := world_is_map W HW.
 
@@ -193,13 +215,38 @@ Definition leads_home L (c : hypothesis) := fst c < darts M /\ length (snd c) <=
   exists r k, walk M (fst c) (snd c) = Some r /\ k < degree M r /\ turn M k r = root M.
 
 (** A hypothesis that the rule does not keep is false. *)
-Lemma dropped_false log L h w : log_true log -> leads_home L (h, w) ->
-  keep rule M e (percept W a) T log (h, w) = false -> phi h <> a.
+Lemma dropped_false log t b L h w : log_true log -> later o t -> led W t b -> leads_home L (h, w) ->
+  keep rule M e (percept W a) T log t (h, w) = false -> phi h <> a.
 Proof.
-  intros Hlog (Lh & _ & r & _ & Hw & _) K Eh. simpl in *.
+  intros Hlog Ot Lt (Lh & _ & r & _ & Hw & _) K Eh. simpl in *.
   rewrite <- Eh, (percept_agree M W phi) in K by auto.
-  rewrite (keep_true rule true_of Grule M W phi T e log h w r) in K; auto; [discriminate|congruence|].
+  rewrite (keep_true rule true_of Grule M W phi T e log o t b h w r) in K; auto;
+    [discriminate|congruence|].
   rewrite Eh. auto.
+Qed.
+
+(** After a conclusion that is true the robot faces the dart of the map that is returned. *)
+Lemma concluded_spec h log ds v t b c : h < darts M -> phi h = a -> facing W v b c ->
+  walk W a ds = Some c -> led W t b ->
+  does W b (concluded M h log ds v t) (fun r b' cost => let '(out, log', (v', t')) := r in
+    log' = log /\ later t t' /\ led W t' b' /\ cost <= length ds /\
+    exists x, out = Some (h, x) /\ x < darts M /\ facing W v' b' (phi x)).
+Proof.
+  intros Lh Eh Hv Hw Lt. destruct v as ((d, m), k). unfold concluded. simpl fst. simpl snd.
+  assert (Hv' := Hv). destruct Hv' as (Lb & Hq & Hk & Ek). simpl in Hq, Hk, Ek. injection Hq as -> Em.
+  assert (La : a < darts W) by (rewrite <- Eh; apply (phi_lt _ _ _ E); auto).
+  destruct m as [j|].
+  - apply does_return. split; auto. split; [apply later_refl|]. split; auto. split; [lia|].
+    eexists. split; [reflexivity|]. assert (R := root_lt M WM). split; [apply turn_lt; auto|].
+    replace (phi _) with c; auto. rewrite (embedded_turn M W phi), (phi_root _ _ _ E) by auto.
+    assert (Lj : j < degree W b) by (symmetry in Em; apply find_seq in Em; lia).
+    symmetry in Em. apply marker_some in Em. rewrite <- Em, <- turn_add, <- Ek.
+    replace (k + (degree W b - j) + j) with (k + degree W b) by lia.
+    rewrite turn_add. f_equal. symmetry. apply degree_spec; auto.
+  - eapply does_bind; [apply does_with_trail; auto; apply (undo_spec W HW (rev ds) _ b c a Hv La)|].
+    { rewrite rev_involutive. auto. }
+    intros (v, t') b' n ((Hv' & ->) & Ht & Lt'). apply does_return. rewrite rev_length.
+    split; auto. split; auto. split; auto. split; [lia|]. exists h. rewrite Eh. auto.
 Qed.
 
 (** The hypothesis of which a shared door showed something else than the map is false. *)
@@ -232,33 +279,45 @@ Qed.
 (** Testing returns the true hypothesis, and the robot is where the map says; or it returns None,
     the robot is back, and no hypothesis is true. Each of n tests costs at most 2 L, if no way home
     has more than L doors. *)
-Lemma test_all_spec L n : forall log ds qs v b c H, facing W v b c ->
-  walk W a ds = Some c -> percepts W a ds = Some qs -> log_true log -> length H <= n ->
-  (forall g, In g H -> leads_home L g) ->
-  does W b (test_all motion rule n M e (percept W a) T log ds qs v H) (fun r b' cost =>
-    let '(o, log', v') := r in log_true log' /\ cost <= n * (2 * L) + length ds /\
-    match o with
-    | Some h => phi h = a /\ exists w x, In (h, w) H /\ walk M h w = Some x /\ facing W v' b' (phi x)
+Lemma test_all_spec L n : forall log ds qs v t b c H, facing W v b c ->
+  walk W a ds = Some c -> percepts W a ds = Some qs -> log_true log -> later o t -> led W t b ->
+  length H <= n -> (forall g, In g H -> leads_home L g) ->
+  does W b (test_all motion rule n M e (percept W a) T log ds qs v t H) (fun r b' cost =>
+    let '(out, log', (v', t')) := r in log_true log' /\ later t t' /\ led W t' b' /\
+    cost <= n * (2 * L) + length ds /\
+    match out with
+    | Some (h, x) => phi h = a /\ (exists w, In (h, w) H) /\ x < darts M /\ facing W v' b' (phi x)
     | None => facing W v' b' a /\ forall g, In g H -> phi (fst g) <> a
     end).
 Proof.
   assert (La : a < darts W) by (eapply alpha_ok; eauto; apply (phi_lt _ _ _ E); auto).
-  induction n as [|n IH]; intros log ds qs v b c H Hv Hw Hq Hlog Hn HH; cbn [test_all].
+  induction n as [|n IH]; intros log ds qs v t b c H Hv Hw Hq Hlog Ot Lt Hn HH; cbn [test_all].
   all: assert (None_spec : forall (none : forall g, In g H -> phi (fst g) <> a) m,
-    does W b (bind (undo v (rev ds)) (fun v => Return (@None nat, log, v))) (fun r b' cost =>
-    let '(o, log', v') := r in log_true log' /\ cost <= m + length ds /\
-    match o with
-    | Some h => phi h = a /\ exists w x, In (h, w) H /\ walk M h w = Some x /\ facing W v' b' (phi x)
+    does W b (bind (with_trail (undo v (rev ds)) t) (fun vt => Return (@None (nat * nat), log, vt)))
+      (fun r b' cost =>
+    let '(out, log', (v', t')) := r in log_true log' /\ later t t' /\ led W t' b' /\
+    cost <= m + length ds /\
+    match out with
+    | Some (h, x) => phi h = a /\ (exists w, In (h, w) H) /\ x < darts M /\ facing W v' b' (phi x)
     | None => facing W v' b' a /\ forall g, In g H -> phi (fst g) <> a
     end)) by (intros none m; eapply does_bind;
-      [apply (undo_spec W HW (rev ds) v b c a Hv La); rewrite rev_involutive; auto|];
-      intros v' b' k (Hv' & ->); apply does_return; rewrite rev_length; repeat split; auto;
-      [lia|apply Hv'..]).
+      [apply does_with_trail; auto;
+       apply (undo_spec W HW (rev ds) v b c a Hv La); rewrite rev_involutive; auto|];
+      intros (v', t') b' k ((Hv' & ->) & Ht & Lt'); apply does_return; rewrite rev_length;
+      repeat split; auto; try apply Lt'; [lia|apply Hv'..]).
   { apply None_spec. destruct H; [intros ? []|simpl in Hn; lia]. }
-  set (K := filter (keep rule M e (percept W a) T log) H).
+  set (K := filter (keep rule M e (percept W a) T log t) H).
   assert (Dropped : forall g, In g H -> ~ In g K -> phi (fst g) <> a).
-  { intros (h, w) I N. apply (dropped_false log L h w Hlog (HH _ I)).
-    destruct (keep rule M e (percept W a) T log (h, w)) eqn:B; auto. destruct N. apply filter_In. auto. }
+  { intros (h, w) I N. apply (dropped_false log t b L h w Hlog Ot Lt (HH _ I)).
+    destruct (keep rule M e (percept W a) T log t (h, w)) eqn:B; auto. destruct N.
+    apply filter_In. auto. }
+  destruct (find (concludes rule M e (percept W a) T log t) K) as [(h, w)|] eqn:F.
+  { apply find_some in F as [Ik F]. apply filter_In in Ik as [Ih _].
+    assert (Lh := proj1 (HH _ Ih)). simpl in Lh.
+    apply (conclude_true rule true_of Grule M W phi T e log o t a b h w) in F; auto.
+    eapply does_weaken; [apply (concluded_spec h log ds v t b c); auto|].
+    intros ((out, log'), (v', t')) b' cost (-> & At & Ld & C & x & -> & Lx & Fx).
+    split; auto. split; auto. split; auto. split; [lia|]. split; auto. eauto. }
   assert (G := Gmotion ds K). destruct (motion ds K) as [((h, w), s)|].
   2: { apply None_spec. intros g I. apply Dropped; auto. rewrite G. intros []. }
   destruct G as (Ih & Lsd & Lsw & Ew). simpl fst in *; simpl snd in *.
@@ -273,24 +332,27 @@ Proof.
     by (intros g I; apply filter_In in I as [I _]; apply filter_In in I; tauto).
   assert (Lost : phi h <> a -> (forall g, In g K' -> phi (fst g) <> a) ->
     forall g, In g H -> phi (fst g) <> a).
-  { intros N F g I. destruct (in_dec (fun x y : hypothesis => ltac:(repeat decide equality)) g K)
+  { intros N F' g I. destruct (in_dec (fun x y : hypothesis => ltac:(repeat decide equality)) g K)
       as [IK|NI]; [|apply Dropped; auto].
-    destruct (Nat.eq_dec (fst g) h) as [->|Ng]; auto. apply F, filter_In. split; auto.
+    destruct (Nat.eq_dec (fst g) h) as [->|Ng]; auto. apply F', filter_In. split; auto.
     apply negb_true_iff, Nat.eqb_neq. auto. }
   destruct (walk_firstn W s ds a c Hw) as (d & Hd & Hd').
   destruct (walk_firstn M s w h r Hr) as (x & Hx & Hxr).
   assert (Ld : d < darts W) by (eapply walk_lt; eauto).
   assert (Lx : x < darts M) by (eapply walk_lt; eauto).
-  eapply does_bind; [apply (undo_spec W HW (rev (skipn s ds)) v b c d); auto;
-    rewrite rev_involutive; auto|].
-  intros v1 b1 m1 (Hv1 & ->). rewrite rev_length, skipn_length.
+  eapply does_bind; [apply does_with_trail; auto; apply (undo_spec W HW (rev (skipn s ds)) v b c d);
+    auto; rewrite rev_involutive; auto|].
+  intros (v1, t1) b1 m1 ((Hv1 & ->) & Ht1 & Lt1). simpl fst in *; simpl snd in *.
+  rewrite rev_length, skipn_length. assert (Ot1 := later_trans _ _ _ Ot Ht1).
   assert (P := percepts_walk M w h). rewrite Hr in P.
-  destruct (percepts M h w) as [ps|] eqn:Hps; [|destruct P]. rewrite Hx.
+  destruct (percepts M h w) as [ps|] eqn:Hps; [|destruct P]. rewrite Hx, Hr.
   destruct (_ && _) eqn:B.
   - assert (Ep := shared_end h w s qs ds ps x d Hq Ew Hps Hx Hd B).
-    eapply does_bind; [apply (follow_spec W HW M WM (skipn s w) x v1 b1 d r); auto|].
-    intros ((matched, more), v2) b2 m2 (-> & Lm & Hm & (y & Hy & Hv2 & Ht) & Hf).
-    rewrite skipn_length in Lm.
+    eapply does_bind; [apply does_with_trail; auto;
+      apply (follow_spec W HW M WM (skipn s w) x v1 b1 d r); auto|].
+    intros (((matched, more), v2), t2) b2 m2 ((-> & Lm & Hm & (y & Hy & Hv2 & Ht) & Hf) & Ht2 & Lt2).
+    simpl fst in *; simpl snd in *. rewrite skipn_length in Lm.
+    assert (Ot2 := later_trans _ _ _ Ot1 Ht2). assert (T2 := later_trans _ _ _ Ht1 Ht2).
     assert (Hwalk : walk W a (firstn s ds ++ firstn (length more) (skipn s w)) = Some y)
       by (rewrite walk_app, Hd; auto).
     assert (Hperc : percepts W a (firstn s ds ++ firstn (length more) (skipn s w)) =
@@ -301,26 +363,28 @@ Proof.
       destruct (marker_of M r k Hk Er) as [j Hj].
       assert (Eh : a = phi h).
       { apply (confirm M W phi WM WW E a h w y r j); auto. injection Epr as _ Epr. congruence. }
-      apply does_return. split; auto. split; [rewrite skipn_length in Lq; lia|]. split; auto.
-      exists w, r. repeat split; auto; try apply Hv2.
+      apply does_return. split; auto. split; auto. split; auto.
+      split; [rewrite skipn_length in Lq; lia|]. split; auto.
+      split; [eauto|]. split; [eapply walk_lt; eauto|].
       apply (forward_walk M W phi) in Hr; auto. rewrite <- Eh, Hwalk in Hr.
-      destruct Hv2 as (_ & _ & _ & ->).
-      congruence.
+      injection Hr as <-. auto.
     + assert (N : phi h <> a).
       { intros Eh. apply (Hf eq_refl phi E). apply (forward_walk M W phi) in Hx; auto.
         rewrite Eh, Ew, Hd in Hx. congruence. }
-      eapply does_weaken; [apply (IH _ _ _ v2 b2 y K' Hv2 Hwalk Hperc); auto|].
+      eapply does_weaken; [apply (IH _ _ _ v2 t2 b2 y K' Hv2 Hwalk Hperc); auto|].
       { intros q [<-|I]; auto. }
-      intros ((o, log'), v') b' cost (Hl & Hc & Ho). split; auto. split.
+      intros ((out, log'), (v', t')) b' cost (Hl & Hla & Hle & Hc & Ho). split; auto.
+      split; [eapply later_trans; eauto|]. split; auto. split.
       * rewrite app_length, !firstn_length, skipn_length in Hc. lia.
-      * destruct o as [h'|]; [|destruct Ho; auto].
-        destruct Ho as (A & w' & x' & I & B'). split; auto. exists w', x'. auto.
+      * destruct out as [(h', x')|]; [|destruct Ho; auto].
+        destruct Ho as (A & (w' & I) & C). split; auto. split; eauto.
   - assert (N := compared_false h w s qs ds ps Lh Hq Ew Hps B).
-    eapply does_weaken; [apply (IH log (firstn s ds) (firstn s qs) v1 b1 d K' Hv1 Hd); auto|].
+    eapply does_weaken; [apply (IH log (firstn s ds) (firstn s qs) v1 t1 b1 d K' Hv1 Hd); auto|].
     { apply percepts_firstn; auto. }
-    intros ((o, log'), v') b' cost (Hl & Hc & Ho). split; auto. split.
+    intros ((out, log'), (v', t')) b' cost (Hl & Hla & Hle & Hc & Ho). split; auto.
+    split; [eapply later_trans; eauto|]. split; auto. split.
     + rewrite firstn_length in Hc. lia.
-    + destruct o as [h'|]; [|destruct Ho; auto].
-      destruct Ho as (A & w' & x' & I & B'). split; auto. exists w', x'. auto.
+    + destruct out as [(h', x')|]; [|destruct Ho; auto].
+      destruct Ho as (A & (w' & I) & C). split; auto. split; eauto.
 Qed.
 End Validation.
