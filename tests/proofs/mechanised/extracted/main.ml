@@ -20,6 +20,7 @@ let algorithm = function
   | "enhancement-iii-one+i" -> enhancement_iii_one_i
   | "enhancement-iii-all" -> enhancement_iii_all
   | "enhancement-iii-all+i" -> enhancement_iii_all_i
+  | "folding" -> folding
   | name -> failwith ("no algorithm " ^ name)
 
 let word () = Scanf.scanf " %s" Fun.id
