@@ -235,6 +235,20 @@ def test_in_the_families_no_round_of_homing_runs_out(monkeypatch: pytest.MonkeyP
         assert explore(families.lattice(6, 6, holes=0.2, seed=1), name).cost
 
 
+def test_no_walk_to_the_next_edge_begins_among_its_ghosts(monkeypatch: pytest.MonkeyPatch) -> None:
+    began: list[tuple[bool, bool]] = []
+    reach = steering.reach
+
+    def watched(history: History, e: MapDart) -> None:
+        began.append((history.in_s(), history.beside(e)))
+        reach(history, e)
+
+    monkeypatch.setattr(steering, "reach", watched)
+    for name in STEERED:
+        assert explore(families.lattice(6, 6, holes=0.2, seed=1), name).cost
+    assert set(began) == {(True, False)}
+
+
 # ---------------------------------------------------------------- in the catalogue
 
 

@@ -111,6 +111,10 @@ class History:
         """Whether the robot is known to stand at a vertex of S."""
         return self.places.vertex(self.at) is not None
 
+    def beside(self, e: MapDart) -> bool:
+        """Whether the robot stands at a ghost that hangs together with the place behind e."""
+        return e in self.crossed and self.places.place(self.at) in self.ghosts(e)
+
     def away(self) -> int:
         """How far the robot is from the nearest vertex of S."""
         search = self.outward(self.at)

@@ -5,7 +5,8 @@ by construction, and this file touches nothing but the cost. Four rules:
 
 1. **From where the robot stands.** The basic algorithm walks the ways home of one hypothesis after
    the other, each from vu. Here each ghost that the robot has seen behind e is a place of S if h is
-   true, and so has a way home; the robot follows one from the ghost where it stands.
+   true, and so has a way home; the robot follows one from the ghost where it stands. Nor does it
+   walk to vu to begin with an e behind which it stands already.
 2. **No way back.** When e is settled, the robot goes on from there. The fold says where that is.
 3. **New edges first.** The next edge is the one behind which the robot is soonest; of two that are
    equally near, one that was never crossed comes before a ghost.

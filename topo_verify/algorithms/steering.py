@@ -64,7 +64,8 @@ def explore(
     patience, settled = PATIENCE, 0
     while history.chart.unexplored:  # H.2
         e = edge(history)  # H.3
-        reach(history, e)  # H.4
+        if not history.beside(e):
+            reach(history, e)  # H.4
         if history.settled > settled:
             patience, settled = PATIENCE, history.settled
         while e in history.crossed and not history.in_s():  # H.5
