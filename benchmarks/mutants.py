@@ -84,6 +84,8 @@ NO_TRY_LEFT = "where no try is left for a pair, none is left for the pairs behin
 NO_OTHER_ORDER = "one event is not both an augmentation and a rejection"
 BOTH_FALSE = "None is false, too"
 BACKWARDS = "each face is then walked backwards, past the same unexplored darts"
+ODD_MANY = "a path has an odd number of darts, so its last but one is at an odd place anyway"
+AS_MANY = "both have as many"
 NO_DART = "a world without a dart has no marked dart, whatever its place"
 
 SAME = {
@@ -110,6 +112,9 @@ SAME = {
     "folding.py Fold.identify: self._size[b] += self._size[a] -> pass": BY_SIZE,
     "folding.py Fold.world: if here < number[end]: -> if not here < number[end]:": EITHER_END,
     "folding.py Fold.world: here < number[end] -> here <= number[end]": EITHER_END,
+    "folding.py Fold.world: 1 -> 2 (3)": ODD_MANY,
+    "folding.py Fold.world: True -> False": AS_MANY,
+    "folding.py Fold.world: True -> False (2)": AS_MANY,
     "map_in_world.py MapInWorld.grow: return False -> return None": BOTH_FALSE,
     "map_in_world.py MapInWorld.grow: return False -> return None (2)": BOTH_FALSE,
     "map_on_fold.py MapOnFold._add_vertex: door + 1 -> door - 1": BACKWARDS,

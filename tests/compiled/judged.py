@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
 from random import Random
@@ -110,13 +110,22 @@ def by_checkers(run: Run) -> Judged:
 _J = [0] * JUDGE_SIZE
 
 
-def by_judge(run: Run) -> Judged | None:
-    """What the kernels of the judge say of a run, as plain Python; None: the verdict is open."""
-    W, J = workspace_of(run), _J  # noqa: N806  the names of the kernels
+def by_judge(
+    run: Run,
+    *,
+    judge: Callable[[list[int], list[int]], int] | None = None,
+    words: list[int] = _J,
+) -> Judged | None:
+    """What the kernels of the judge say of a run, as plain Python; None: the verdict is open.
+
+    Args:
+        judge: another judge than `verdict.judge`; `words` is its array.
+    """
+    W, J = workspace_of(run), words  # noqa: N806  the names of the kernels
     J[J_DARTS], J[J_VERTICES] = len(run.world.alpha), len(run.world.degrees)
     J[J_BOUND], J[J_LEVEL] = run.world.cost_bound, CLAIM_COUNT
     J[J_DELIVERED], J[J_REPORTED] = run.map is not None, -1 if run.cost is None else run.cost
-    if verdict.judge(W, J) < 0:
+    if (judge or verdict.judge)(W, J) < 0:
         return None
     return tuple(
         (STATUSES[J[J_STATUS + k]], J[J_JUDGED + k], J[J_OF + k]) for k in range(CLAIM_COUNT)

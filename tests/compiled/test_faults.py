@@ -80,7 +80,8 @@ def test_a_mistake_is_seen_as_a_difference_from_the_reference() -> None:
 
 def beyond_its_fields(space: Sequence[int], layout: WordLayout) -> list[str]:
     """The fields beyond whose end something was written."""
-    ends = {one.name: layout.at(one.name) + CAPACITIES.get(one.capacity, 1) for one in FIELDS}
+    sizes = {**layout.constants, "": 1}
+    ends = {one.name: layout.at(one.name) + sizes[one.capacity] for one in FIELDS}
     return [name for name, end in ends.items() if end < len(space) and space[end] != 0]
 
 
@@ -95,5 +96,5 @@ def test_a_wrong_mapper_writes_nothing_beyond_a_field(name: str) -> None:
 
 def test_what_is_written_beyond_a_field_is_seen() -> None:
     space = [0] * FAULTY.at("TR")
-    space[FAULTY.at("PP") + CAPACITIES["CHART_DARTS"]] = 7
+    space[FAULTY.at("PP") + FAULTY.at("CHART_DARTS")] = 7
     assert beyond_its_fields(space, FAULTY) == ["PP"]

@@ -65,7 +65,7 @@ def add_vertex(W: Words, percept: int) -> int:
     v = W[NV]
     first = W[NDARTS]
     degree = percept >> SHIFT
-    if first + degree > CHART_DARTS or v >= CHART_DARTS:
+    if first + degree > CHART_DARTS:  # a vertex has a dart, so there is room for vertices, too
         W[STOP] = STOP_FULL + FULL_CHART
         return 0
     marker = percept & MASK  # 1 + marker

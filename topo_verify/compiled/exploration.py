@@ -154,6 +154,8 @@ def settle(W: Words, at: int) -> int:
         join(W, e, entered)  # non-loop augmentation: A1.19 A2.27 A3.28
         declare_augment(W, e, NEW, entered, percept >> SHIFT)
     learn(W, e, entered, h < 0)
+    if W[STOP] != 0:  # a walk back that the budget ends would hide the reason
+        return 0
     return localise(W, entered)
 
 

@@ -74,6 +74,15 @@ KERNELS = {
 }
 """Every algorithm of the catalogue."""
 
+KEPT = (
+    "the map S",
+    "the sequences behind one edge",
+    "the records T",
+    "the places that were seen",
+    "the trace",
+)
+"""What a full buffer keeps, by the number of `FULL_…`."""
+
 MOST_EDGES = 1 << 16
 """The most edges of a world that the large layout has room for."""
 
@@ -196,8 +205,8 @@ class CompiledJob(NamedTuple):
         stop = int(space[layout.at("STOP")])
         if stop >= STOP_FULL:
             raise InputError(
-                f"the run of {self.algorithm} needs more room than the compiled engine has (kind"
-                f" {stop - STOP_FULL}): use the reference engine"
+                f"the run of {self.fault or self.algorithm} needs more room than the compiled"
+                f" engine has for {KEPT[stop - STOP_FULL]}: use the reference engine"
             )
         trace = layout.at("TR")
         words = space[trace : trace + int(space[layout.at("NTR")])] if self.trace else None

@@ -20,7 +20,6 @@ from topo_verify.compiled.prefix import cite
 from topo_verify.compiled.workspace import (
     CA,
     CF,
-    CHART_DARTS,
     CV,
     DOORS,
     EV_FIRST,
@@ -55,7 +54,7 @@ def observe_sequence(W: Words) -> None:
     """Keep the excursion as one of the sequences executed for e; NSEQ counts it already."""
     n = W[NDOORS]
     first = W[NSTEPS]
-    if first + n + 1 > STEPS or W[NSEQ] > CHART_DARTS:
+    if first + n + 1 > STEPS:  # each sequence is that of another dart, so all have their SQ_FIRST
         W[STOP] = STOP_FULL + FULL_STEPS
         return
     W[SQ_FIRST + W[NSEQ] - 1] = first
@@ -115,6 +114,8 @@ def learn_records(W: Words, e: int, entry: int) -> None:
             if at < 0:
                 record(W, exit_dart, sequence, step)
                 break
+        if W[STOP] != 0:
+            return
 
 
 @kernel

@@ -80,13 +80,7 @@ def move(W: Words, door: int, purpose: int) -> int:
     W[POS] = dart
     W[COST] += 1
     percept = sensed(W, dart)
-    if W[TRACING] != 0:
-        i = TR + took(W, 4)
-        if W[STOP] == 0:
-            W[i] = MOVE
-            W[i + 1] = door
-            W[i + 2] = percept
-            W[i + 3] = purpose
+    declare(W, MOVE, door, percept, purpose)
     return percept
 
 
@@ -102,6 +96,18 @@ def took(W: Words, words: int) -> int:
     else:
         W[NTR] = i + words
     return i
+
+
+@inlined
+def declare(W: Words, kind: int, first: int, second: int, third: int) -> None:
+    """Write down an event of four words."""
+    if W[TRACING] != 0:
+        i = TR + took(W, 4)
+        if W[STOP] == 0:
+            W[i] = kind
+            W[i + 1] = first
+            W[i + 2] = second
+            W[i + 3] = third
 
 
 @kernel
@@ -147,13 +153,7 @@ def declare_reject(W: Words, e: int, h: int, by: int) -> None:
 @kernel
 def declare_confirm(W: Words, e: int, h: int, by: int) -> None:
     """Put on record that the other end of e is h."""
-    if W[TRACING] != 0:
-        i = TR + took(W, 4)
-        if W[STOP] == 0:
-            W[i] = CONFIRM
-            W[i + 1] = e
-            W[i + 2] = h
-            W[i + 3] = by
+    declare(W, CONFIRM, e, h, by)
 
 
 @kernel

@@ -5,9 +5,10 @@ this costs what a local array would. (A tuple of eighteen arrays took 1.5 times 
 have 64 bits: narrower ones were not faster, and no sum overflows.
 
 There are layouts. `SMALL` is for worlds of up to 12 edges: what a run touches stays in the fastest
-cache of the processor. `FAULTY` has the same capacities and lets mistakes be planted (`faults.py`).
-`LARGE` is for worlds of up to 65,536 edges; pages that are never touched take no memory. The
-constants below are those of `SMALL`; `compiled` puts those of another layout in their place.
+cache of the processor. `FAULTY` lets mistakes be planted (`faults.py`), by which S may grow without
+end, and has room for a larger S. `LARGE` is for worlds of up to 65,536 edges; pages that are never
+touched take no memory. The constants below are those of `SMALL`; `compiled` puts those of another
+layout in their place.
 
 Nothing here is cleared between runs: a kernel sets what it reads. A buffer that is full ends the
 run with a reason in `STOP`; nothing is written beyond it.
@@ -233,7 +234,7 @@ STOP_FULL = 16  # a buffer is full; STOP - STOP_FULL is one of FULL_… below
 FULL_CHART, FULL_STEPS, FULL_RECORDS, FULL_PLACES, FULL_TRACE = range(5)
 
 SMALL = layout("small", CAPACITIES)
-FAULTY = layout("faulty", CAPACITIES, faults=True, gap=1)
+FAULTY = layout("faulty", {**CAPACITIES, "CHART_DARTS": 4096}, faults=True, gap=1)
 LARGE = layout(
     "large",
     {

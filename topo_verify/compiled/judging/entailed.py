@@ -96,7 +96,9 @@ def fold_history(W: Words, J: Words) -> bool:
 def note_rejection(J: Words, cited_follows: int) -> None:
     """Take note whether the contradiction that a rejection cites follows."""
     number = J[S_REJECTION] + 1
-    if number < JUDGE_STEPS:
+    if number >= JUDGE_STEPS:
+        J[J_FULL] = 1
+    else:
         J[S_MET + number] = cited_follows
     J[S_REJECTION] = number
 

@@ -77,7 +77,7 @@ def unmet(W: Words, J: Words, i: int) -> bool:
         return True
     if W[i + 5] != 0 or W[i + 8] != ABSENT or W[i + 9] != ABSENT or W[i + 10] != ABSENT:
         return True
-    if J[J_CITED] >= JUDGE_STEPS:
+    if J[J_REJECTIONS] >= JUDGE_STEPS:  # `J_CITED` is less
         J[J_FULL] = 1
         return True
     J[J_CITED_BY + J[J_CITED]] = J[J_REJECTIONS]
@@ -182,7 +182,7 @@ def record_sequences(W: Words, J: Words, start: int) -> None:
         for k in range(size):
             exit_dart = J[J_NUMBER + exit_of(W, J[J_PHI + at], J[J_ARENA_DOOR + begin + k])]
             if J[J_ALPHA + exit_dart] < 0:
-                record = J[J_RECORDS]
+                record = J[J_RECORDS]  # a sequence leaves one record at most, so there is room
                 J[J_RECORD_AT + record] = begin + k
                 J[J_RECORD_REST + record] = size - k - 1
                 J[J_RECORD_BEFORE + record] = J[J_RECORD_OF + exit_dart]

@@ -128,27 +128,56 @@ def is_chart(W: Words, darts: int, vertices: int) -> bool:
 
 @kernel
 def is_world(W: Words, J: Words) -> bool:
-    """Whether the delivered map is the world: isomorphic, the marker on the marker.
+    """Whether the delivered map is the world, the marker on the marker."""
+    if not is_chart(W, J[J_DARTS], J[J_VERTICES]):
+        return False
+    return is_same_map(W, J, W, AL, VT, ST, DG, 0)
+
+
+@kernel
+def proves_map(W: Words, J: Words) -> bool:
+    """Whether no dart of the fold is open, and the fold is the delivered map."""
+    if lay_out(J) != 0:  # without an open dart it is the world, for which there is room
+        return False
+    darts = J[F_SIZE]
+    vertices = 0
+    for d in range(darts):
+        if J[F_NUMBER + J[F_VERTEX + d]] == d:
+            vertices += 1
+    if not is_chart(W, darts, vertices):
+        return False
+    root = J[F_NUMBER + find_node(J, 0)] + find_dart(J, 0, 0)
+    return is_same_map(W, J, J, F_ALPHA, F_VERTEX, F_NUMBER, F_DEGREE, root)
+
+
+@inlined
+def is_same_map(
+    W: Words, J: Words, M: Words, alpha: int, vertex: int, first: int, degree: int, root: int
+) -> bool:
+    """Whether the delivered map is isomorphic to the one in M, its dart 0 being the root there.
 
     The image of a dart decides that of all darts of its vertex and of its other end. A map of as
     many darts, onto a connected one, is one to one.
+
+    Args:
+        M: W or J. In it are, from these places on: of each dart its other end and its vertex; of
+            each vertex its first dart and its degree.
     """
-    darts = J[J_DARTS]
-    if not is_chart(W, darts, J[J_VERTICES]):
-        return False
+    darts = W[NDARTS]
     for d in range(darts):
         J[J_IMAGE + d] = -1
-    if not place_image(W, J, 0, 0, 0, W[DG]):
+    v = M[vertex + root]
+    if not place_image(W, J, 0, root, M[first + v], M[degree + v]):
         return False
     for d in range(darts):
         if J[J_IMAGE + d] < 0:
             J[J_FULL] = 1  # S numbers its darts in the order of discovery; this map does not
             return False
         other = W[CA + d]
-        image = W[AL + J[J_IMAGE + d]]
+        image = M[alpha + J[J_IMAGE + d]]
         if J[J_IMAGE + other] < 0:
-            v = W[VT + image]
-            if not place_image(W, J, other, image, W[ST + v], W[DG + v]):
+            v = M[vertex + image]
+            if not place_image(W, J, other, image, M[first + v], M[degree + v]):
                 return False
         elif J[J_IMAGE + other] != image:
             return False
@@ -165,40 +194,6 @@ def place_image(W: Words, J: Words, d: int, image: int, first: int, degree: int)
     for k in range(degree):
         dart = d + k if d + k < begin + degree else d + k - degree
         J[J_IMAGE + dart] = image + k if image + k < first + degree else image + k - degree
-    return True
-
-
-@kernel
-def proves_map(W: Words, J: Words) -> bool:
-    """Whether no dart of the fold is open, and the fold is the delivered map."""
-    if lay_out(J) != 0:
-        return False
-    darts = J[F_SIZE]
-    vertices = 0
-    for d in range(darts):
-        if J[F_NUMBER + J[F_VERTEX + d]] == d:
-            vertices += 1
-    if not is_chart(W, darts, vertices):
-        return False
-    for d in range(darts):
-        J[J_IMAGE + d] = -1
-    v0 = find_node(J, 0)
-    first = J[F_NUMBER + v0]
-    root = first + find_dart(J, 0, 0)
-    if not place_image(W, J, 0, root, first, J[F_DEGREE + v0]):
-        return False
-    for d in range(darts):
-        if J[J_IMAGE + d] < 0:
-            J[J_FULL] = 1
-            return False
-        other = W[CA + d]
-        image = J[F_ALPHA + J[J_IMAGE + d]]
-        if J[J_IMAGE + other] < 0:
-            node = J[F_VERTEX + image]
-            if not place_image(W, J, other, image, J[F_NUMBER + node], J[F_DEGREE + node]):
-                return False
-        elif J[J_IMAGE + other] != image:
-            return False
     return True
 
 
