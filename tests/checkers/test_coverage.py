@@ -236,3 +236,16 @@ def test_after_a_door_that_is_not_there_no_percept_is_judged() -> None:
 def test_a_cost_that_is_not_reported_is_not_judged() -> None:
     honest = told(LATTICE, edited(lattice_trace(), -1, cost=None))["cost-honest"]
     assert (honest.status, honest.judged, honest.of) == ("ok", 0, 0)
+
+
+def test_a_pose_of_an_explored_edge_hides_nothing_of_what_follows() -> None:
+    trace = lattice_trace()
+    at = place(trace, Augment)
+    augment = trace[at]
+    assert isinstance(augment, Augment)
+    explored = Pose(augment.edge, ())
+    found = told(LATTICE, (*trace[: at + 1], explored, *trace[at + 1 :]))
+    assert found["true-hypothesis-posed"].status == "failed"
+    for claim in DECISIONS[:-1]:
+        before = told(LATTICE, trace)[claim]
+        assert (found[claim].judged, found[claim].of) == (before.judged, before.of)
