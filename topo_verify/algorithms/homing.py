@@ -9,7 +9,8 @@ by construction, and this file touches nothing but the cost. Four rules:
    walk to vu to begin with an e behind which it stands already.
 2. **No way back.** When e is settled, the robot goes on from there. The fold says where that is.
 3. **New edges first.** The next edge is the one behind which the robot is soonest; of two that are
-   equally near, one that was never crossed comes before a ghost.
+   equally near, one that was never crossed comes before a ghost. Where all places look alike, it
+   lies along a face: next_edge.py.
 4. **Doors by what they tell.** Behind an open dart of a ghost each hypothesis foretells what the
    robot will see. The next door leads towards the open dart with the least
 
@@ -35,6 +36,7 @@ from typing import NamedTuple
 from topo_verify.algorithms.chart import Survey
 from topo_verify.algorithms.folding import NodeDart
 from topo_verify.algorithms.history import History
+from topo_verify.algorithms.next_edge import nearest_edge
 from topo_verify.algorithms.places import PlaceNode, Places
 from topo_verify.algorithms.steering import HistoryOf, explore
 from topo_verify.robot.events import MapDart, Robot
@@ -64,20 +66,6 @@ class Belief(NamedTuple):
 def homing(robot: Robot, *, history_of: HistoryOf = History) -> Survey:
     """Map the robot's world."""
     return explore(robot, edge=nearest_edge, door=most_telling_door, history_of=history_of)
-
-
-def nearest_edge(history: History) -> MapDart:
-    """The dart of U behind which the robot is soonest; one never crossed wins a tie."""
-    best: tuple[int, bool, MapDart] | None = None
-    for place, distance, _ in history.outward(history.at):
-        if best is not None and distance > best[0]:
-            break
-        for e in history.leads(place):
-            crossed = e in history.crossed
-            found = distance + (not crossed), crossed, e
-            best = found if best is None else min(best, found)
-    assert best is not None, "U is not empty and S is connected"
-    return best[2]
 
 
 def alike(_: MapDart) -> float:

@@ -27,11 +27,9 @@ from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.folding import NodeDart
 from topo_verify.algorithms.history import History
 from topo_verify.algorithms.homing import most_telling_door
+from topo_verify.algorithms.next_edge import outward_edge
 from topo_verify.algorithms.steering import HistoryOf, explore
 from topo_verify.robot.events import MapDart, Robot
-
-OUTWARD = 0.2
-"""So many moves each step away from home is worth, when the next edge is chosen."""
 
 FAR = 9
 """Distances and steps from here on are one kind; so are darts on no face beside e."""
@@ -47,22 +45,6 @@ def planner(robot: Robot, *, history_of: HistoryOf = History) -> Survey:
     """Map the robot's world."""
     habits = Habits()
     return explore(robot, edge=outward_edge, door=habits.door, history_of=history_of)
-
-
-def outward_edge(history: History) -> MapDart:
-    """The dart of U that is nearest, but for a fraction of a move for each step away from home."""
-    depth, vertex = history.home().depth, history.chart.vertex
-    deepest = max(depth)
-    best: tuple[float, bool, MapDart] | None = None
-    for place, distance, _ in history.outward(history.at):
-        if best is not None and distance - OUTWARD * deepest > best[0]:
-            break
-        for e in history.leads(place):
-            crossed = e in history.crossed
-            found = distance + (not crossed) - OUTWARD * depth[vertex[e]], crossed, e
-            best = found if best is None else min(best, found)
-    assert best is not None, "U is not empty and S is connected"
-    return best[2]
 
 
 class Habits:
