@@ -68,6 +68,7 @@ class ToldHistory(History):
         self.phi: list[int] = []
         self.map_dart_of: dict[int, MapDart] = {}
         self.left: dict[MapDart, Collection[MapDart]] = {}
+        self.told_new: set[MapDart] = set()
         assert world.root is not None, "the world has an edge"
         self._add_vertex(world.root)
 
@@ -77,6 +78,15 @@ class ToldHistory(History):
             self.map_dart_of[entry] = len(self.phi)
             self.phi.append(entry)
             entry = self.world.sigma[entry]
+
+    def leads_to_new(self, e: MapDart) -> bool:
+        """Whether e leads to a vertex that S does not have yet."""
+        return self.world.alpha[self.phi[e]] not in self.map_dart_of
+
+    def tell_new(self, e: MapDart) -> None:
+        """Settle a crossed e that leads to a new vertex, for nothing."""
+        self.told_new.add(e)
+        self._settle()
 
     def suppose(self, e: MapDart, h: MapDart) -> Places | None:
         """The places if a crossed e ends in h, or None if no world or not the oracle allows it."""
@@ -89,7 +99,7 @@ class ToldHistory(History):
         """The hypotheses for e that the oracle leaves."""
         true = self.map_dart_of.get(self.world.alpha[self.phi[e]])
         if true is None:
-            return () if self.tells_new else self.chart.unexplored
+            return () if self.tells_new or e in self.told_new else self.chart.unexplored
         if self.most is None:
             return self.chart.unexplored
         if e not in self.left:
