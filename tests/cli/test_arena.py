@@ -143,7 +143,7 @@ def test_a_program_takes_part_over_the_pipe_and_pays_what_its_twin_pays(results:
 
 
 def test_what_is_not_decided_has_no_place_and_exits_3(call: Call) -> None:
-    done = call("arena basic mappers.py:strolls --suite triangle --world-timeout 0.1 --workers 0")
+    done = call("arena basic mappers.py:strolls --suite triangle --world-timeout 0.02 --workers 0")
     assert done.exit_code == 3
     assert "mappers.py:strolls has no place in triangle: 1 world of 1 not decided" in done.stdout
 
