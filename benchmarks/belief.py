@@ -4,7 +4,7 @@ While an edge e is unsettled, each hypothesis for it has odds: the rate of its k
 coincidences say against chance (algorithms/homing.py, planner.py). What they leave is the belief
 that the place behind e is new. The oracle of column `p` says so, if it is true and believed with p
 or more; e is settled then for nothing. It never speaks where the belief is wrong, and nothing that
-it says must be proved later. So no mapper that acts on this belief can save more by it.
+it says must be proved later. So this is about the most that acting on such beliefs could save.
 
     .venv/bin/python benchmarks/belief.py --families 'lattice(10' 'king(10,10,holes'
     .venv/bin/python benchmarks/belief.py --calibration --families 'lattice(10'
