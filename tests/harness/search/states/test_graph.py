@@ -93,9 +93,12 @@ def test_the_states_have_the_costs_and_verdicts_of_all_runs_one_by_one(name: str
             assert graph.shortest_failing() is not None
 
 
+@pytest.mark.parametrize("step", [20, pytest.param(6, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", ["basic", "enhancement-iii-one+i", "folding"])
-def test_the_states_have_the_costs_of_all_runs_in_worlds_of_three_edges(name: str) -> None:
-    for world in worlds(3)[::6]:
+def test_the_states_have_the_costs_of_all_runs_in_worlds_of_three_edges(
+    name: str, step: int
+) -> None:
+    for world in worlds(3)[::step]:
         runs = set(all_runs(CATALOGUE[name], world))
         assert costs_of_all(searched(CATALOGUE[name], world)) == {cost for cost, _ in runs}
         assert all(ok for _, ok in runs)
