@@ -10,7 +10,7 @@ prove the rest as ever. The columns are what it tells:
     new, k     `new`; and if the place is known, the true hypothesis and k-1 others are left
 
 No hypothesis is confirmed for nothing: the fold must prove it. Each cell is the mean cost over the
-mean least cost of a proof, with the standard error of that mean. Every run delivers the right map,
+mean least cost of a proof, with the standard error of this ratio. Every run delivers the right map,
 or the script stops. An oracle knows the world, so there is none in the package. Run it:
 
     .venv/bin/python benchmarks/ignorance.py --families 'lattice(10' 'king(10,10,holes'

@@ -19,14 +19,14 @@ from pathlib import Path
 from time import perf_counter, process_time
 
 from topo_verify import explore, families
-from topo_verify.harness.conform.batch import BatchReplay
-from topo_verify.harness.search.exhaustive import Search
-from topo_verify.harness.search.plan import Plan
-from topo_verify.harness.targets import one_target
+from topo_verify.campaign.backend import here
+from topo_verify.campaign.targets import one_target
 from topo_verify.programs.program import Program
 from topo_verify.programs.protocol import BatchRun
 from topo_verify.robot.events import Move
 from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.studies.conform.batch import BatchReplay
+from topo_verify.studies.search.search import Search, search_campaign
 
 SOURCE = Path(__file__).resolve().parents[1] / "examples" / "mapper_c" / "mapper.c"
 
@@ -72,9 +72,9 @@ def apart(edges: int) -> float:
         file.write_text(MINE)
         for in_process in (True, False) * 3:
             target = one_target(f"{file}:explore", in_process=in_process)
-            plan = Plan(targets=(target.text,), edges=edges, in_process=in_process)
+            campaign = search_campaign((target,), edges=edges, in_process=in_process)
             start = perf_counter()
-            work = Search(plan, (target,))
+            work = Search(campaign, (target,), here((target,)))
             work.work()
             best[in_process] = min(best[in_process], perf_counter() - start)
             if isinstance(target.mapper, Program):

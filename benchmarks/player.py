@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from topo_verify import World, families
+from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
-from topo_verify.harness.run import explore
 from topo_verify.player.page import player_page
 from topo_verify.player.recording import PlayedRun
 from topo_verify.world.drawing import lay_out

@@ -1,17 +1,17 @@
 """The price of not knowing the map: mean costs over seeded worlds, as a ratio to the least cost.
 
 `least` is the least cost of a proof with the map in hand. Each other column is the mean cost of one
-mapper divided by the mean least cost, with the standard error of that mean; every run delivered the
-right map, or the script stops. Run it:
+mapper divided by the mean least cost, with the standard error of this ratio; every run delivered
+the right map, or the script stops. Run it:
 
     .venv/bin/python benchmarks/price.py
     .venv/bin/python benchmarks/price.py --mappers homing,planner --families torus --seeds 5 --ms
     .venv/bin/python benchmarks/price.py --mappers folding,homing --against folding --runs runs.csv
     .venv/bin/python benchmarks/price.py --gap
 
-Worlds differ from each other more than mappers do in one world. So `--against M` prints a second
-table, of the differences in the same worlds: cost minus the cost of M, over the mean least cost,
-with the standard error of that mean; and the mean cost as a multiple of that of M.
+In the same worlds mappers can be compared more closely. So `--against M` prints a second table, of
+the differences there: cost minus the cost of M, over the mean least cost, with the standard error
+of this ratio; and the mean cost as a multiple of that of M.
 
 A run takes up to minutes. `--runs FILE` keeps every finished run in a CSV file, and makes none anew
 that stands there. It does not know when a mapper has changed: take its lines out then.
@@ -26,13 +26,13 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from math import sqrt
 from pathlib import Path
-from statistics import mean, stdev
+from statistics import mean
 from typing import NamedTuple
 
 from topo_verify import World, explore
-from topo_verify.harness.gap import gap
-from topo_verify.harness.run import Exploration
+from topo_verify.campaign.run import Exploration
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.gap import gap
 from topo_verify.world.resolve import resolve_world
 
 MAPPERS = "basic,enhancement-iii-all+i,folding,homing,planner"
@@ -133,27 +133,32 @@ class Store:
             writer.writerow((*job, *run))
 
 
-def with_error(numbers: Sequence[float], *, sign: str = "") -> str:
-    """The mean of some numbers, with its standard error; of one world there is none."""
-    error = f" ± {stdev(numbers) / sqrt(len(numbers)):.3f}" if len(numbers) > 1 else ""
-    return f"{mean(numbers):{sign}.3f}{error}"
+def with_error(costs: Sequence[float], least: Sequence[int], *, sign: str = "") -> str:
+    """The ratio of two means with its standard error; of one world there is no error.
+
+    Costs and least costs rise together. So the error is that of the ratio estimator: from the
+    residuals of the costs, as if each were its least cost times the ratio.
+    """
+    n, ratio = len(costs), sum(costs) / sum(least)
+    if n < 2:
+        return f"{ratio:{sign}.3f}"
+    squares = sum((cost - ratio * bound) ** 2 for cost, bound in zip(costs, least, strict=True))
+    return f"{ratio:{sign}.3f} ± {sqrt(squares / (n * (n - 1))) / mean(least):.3f}"
 
 
 def ratio(runs: Sequence[Run]) -> str:
     """The mean cost as a ratio to the mean least cost, with its standard error."""
-    scale = mean(run.least for run in runs)
-    return with_error([run.cost / scale for run in runs])
+    return with_error([run.cost for run in runs], [run.least for run in runs])
 
 
 def difference(runs: Sequence[Run], base: Sequence[Run]) -> str:
-    """How much dearer than others in the same worlds, over the mean least cost; and how many times.
+    """The mean difference in the same worlds over the mean least cost; and how many times.
 
     Both in the same order of worlds.
     """
-    scale = mean(run.least for run in runs)
-    paired = [(one.cost - other.cost) / scale for one, other in zip(runs, base, strict=True)]
-    times = mean(run.cost for run in runs) / mean(run.cost for run in base)
-    return f"{with_error(paired, sign='+')}, {times:.3f} ×"
+    paired = [one.cost - other.cost for one, other in zip(runs, base, strict=True)]
+    times = sum(run.cost for run in runs) / sum(run.cost for run in base)
+    return f"{with_error(paired, [run.least for run in runs], sign='+')}, {times:.3f} ×"
 
 
 def head(columns: Sequence[str], *, texts: int = 1) -> str:
@@ -178,7 +183,8 @@ def asked() -> argparse.Namespace:
     ask.add_argument("--mappers", default=MAPPERS, help="names, with commas")
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")
     ask.add_argument("--also", nargs="+", default=[], help="families more, without their seed")
-    ask.add_argument("--seeds", type=int, default=30, help="0 … N-1 (torus: one world)")
+    ask.add_argument("--seeds", type=int, default=30, help="how many (torus: one world)")
+    ask.add_argument("--first", type=int, default=0, help="the first seed")
     ask.add_argument("--workers", type=int, default=2, help="processes")
     ask.add_argument("--runs", type=Path, help="keep finished runs in this CSV file")
     ask.add_argument("--against", metavar="MAPPER", help="also the differences to this mapper")
@@ -199,7 +205,8 @@ def main() -> None:
     print(head(["family", "worlds", *["m"] * args.costs, "least", *mappers]))
     with ProcessPoolExecutor(args.workers) as pool:
         for family in [*chosen, *args.also]:
-            seeds = range(1 if family.startswith("torus") else args.seeds)
+            number = 1 if family.startswith("torus") else args.seeds
+            seeds = range(args.first, args.first + number)
             found = {
                 mapper: store.make([Job(family, seed, mapper) for seed in seeds], pool)
                 for mapper in mappers

@@ -13,10 +13,11 @@ import argparse
 from collections.abc import Callable
 from time import process_time
 
+from topo_verify.campaign.campaign import Shard
+from topo_verify.campaign.compiled import examine_compiled, warm
+from topo_verify.campaign.targets import targets
 from topo_verify.compiled.shard import examine_range
-from topo_verify.harness.search.compiled_shard import CompiledShard, warm
-from topo_verify.harness.search.plan import Plan, Shard
-from topo_verify.harness.targets import targets
+from topo_verify.studies.search.search import search_campaign
 from topo_verify.world.enumeration import rank_order
 
 ALGORITHMS = ("basic", "enhancement-iii-all+i", "folding")
@@ -47,8 +48,9 @@ def main() -> None:
     print("| --- | ---: | ---: | ---: | ---: | ---: |")
     whole: dict[tuple[str, int], float] = {}
     for algorithm in ALGORITHMS:
-        plan = Plan(targets=(algorithm,), edges=9, engine="compiled")
-        warm(plan)
+        mappers = targets(algorithm)
+        campaign = search_campaign(mappers, edges=9, engine="compiled")
+        warm(campaign)
         for edges in (7, 8, 9):
             start = rank_order.count(edges) // 2
             row = [
@@ -59,8 +61,12 @@ def main() -> None:
                 )
                 for c in (8, 9, 10)
             ]
-            shard = CompiledShard(plan, targets(algorithm), Shard(edges, start, start + worlds))
-            row.append(taken(lambda shard=shard: shard.examine(lambda _worlds: None)))
+            shard = Shard(edges, start, start + worlds)
+            row.append(
+                taken(
+                    lambda c=campaign, m=mappers, s=shard: examine_compiled(c, m, s, lambda _: None)
+                )
+            )
             whole[algorithm, edges] = row[-1] / worlds
             cells = " | ".join(f"{1e6 * seconds / worlds:.2f}" for seconds in row)
             print(f"| {algorithm} | {edges} | {cells} |", flush=True)

@@ -11,7 +11,7 @@ import resource
 from collections.abc import Callable
 from time import perf_counter
 
-from topo_verify.harness.search.exhaustive import search
+from topo_verify.studies.search.search import search
 
 Row = Callable[[str, str, str], None]
 

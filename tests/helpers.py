@@ -13,10 +13,10 @@ from topo_verify import World
 from topo_verify.algorithms import CATALOGUE, NAMED, Algorithm
 from topo_verify.algorithms.exploration import Rule
 from topo_verify.algorithms.motion import Motion, retrace
+from topo_verify.campaign.run import explore
 from topo_verify.checkers import Status, check
-from topo_verify.harness.run import explore
 from topo_verify.programs.loader import Mapper
-from topo_verify.robot.events import Event, Move, Reject, Trace
+from topo_verify.robot.events import Event, MapData, Move, Reject, Trace
 from topo_verify.robot.percept import Percept
 from topo_verify.world.enumeration import rank_order
 
@@ -147,3 +147,10 @@ def edited(trace: Trace, index: int, **changes: Any) -> Trace:
 def place(trace: Trace, kind: type[Event], nth: int = 0) -> int:
     """Where the n-th event of a type stands (-1: the last)."""
     return [index for index, event in enumerate(trace) if isinstance(event, kind)][nth]
+
+
+def with_darts(delivered: MapData, name: Callable[[int], int]) -> MapData:
+    """The same map with other numbers for its darts."""
+    vertices = tuple(tuple(map(name, vertex)) for vertex in delivered.vertices)
+    edges = tuple(tuple(map(name, edge)) for edge in delivered.edges)
+    return MapData(vertices, edges, None if delivered.marker is None else name(delivered.marker))

@@ -93,6 +93,17 @@ def test_what_it_uses_is_pinned_to_a_version() -> None:
         ("basic", "", 0, "EXHAUSTED"),
         ("basic,folding+planar", "--class genus:1", 1, "REFUTED"),
         ("no-such-mapper", "", 2, ""),
+        # Every line of the options counts, and every word of a line.
+        ("folding+planar", "--keep-going\n--class genus:1\n", 1, "REFUTED"),
+        ("folding+planar", "  --keep-going \t\n\n  --class\n  planar", 0, "EXHAUSTED"),
+        ("basic", "--edges 1", 2, ""),
+        ("basic", "*", 2, ""),
+        ("", "", 2, ""),
+        # What judges nothing is no success.
+        ("--help", "", 2, ""),
+        ("-h", "", 2, ""),
+        ("basic", "--help", 2, ""),
+        ("basic", "--class planar\n-h", 2, ""),
     ],
 )
 def test_the_search_fails_the_step_just_as_it_should(

@@ -14,8 +14,8 @@ def test_each_pattern_names_a_test_of_its_file(file: str) -> None:
 
 
 def test_what_no_pattern_names_is_not_long() -> None:
-    file, name = "harness/test_gap.py", "test_the_basic_algorithm_has_the_largest"
+    file, name = "studies/test_gap.py", "test_the_basic_algorithm_has_the_largest"
     assert is_long(TESTS / file, name)
     assert not is_long(TESTS / file, name + "[1]")
-    assert not is_long(TESTS / "harness" / "test_tally.py", name)
+    assert not is_long(TESTS / "campaign" / "test_tally.py", name)
     assert not is_long(TESTS.parent / file, name)

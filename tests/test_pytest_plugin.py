@@ -253,6 +253,33 @@ def test_a_target_that_is_none_is_an_error_of_collection(session: Session) -> No
     assert "no algorithm 'nix': there are basic" in result.stdout.str()
 
 
+@pytest.mark.parametrize(
+    ("option", "first", "second"),
+    [
+        ("--topo-target", "mappers.py:guesses", "basic"),
+        ("--topo-edges", "3", "1"),
+        ("--topo-move-timeout", "1", "2"),
+        ("--topo-world-timeout", "1", "2"),
+    ],
+)
+def test_an_option_given_twice_is_refused(
+    option: str, first: str, second: str, session: Session
+) -> None:
+    result = session(option, first, f"{option}={second}")
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    words = f"expected {option} at most once, got {first!r} and {second!r}: leave one out"
+    assert words in result.stderr.str()
+
+
+def test_the_command_line_replaces_an_option_of_the_configuration(
+    session: Session, pytester: pytest.Pytester
+) -> None:
+    pytester.makeini("[pytest]\naddopts = --topo-target folding --topo-edges 2")
+    result = session("--topo-target", "basic", "--topo-edges", "1")
+    result.assert_outcomes(passed=len(CLAIMS))
+    result.stdout.fnmatch_lines(["basic: 2 of 2 worlds*"])
+
+
 def test_numbers_that_cannot_be_meant_are_refused() -> None:
     parser = pytest.Parser(_ispytest=True)
     plugin.pytest_addoption(parser)
@@ -328,7 +355,7 @@ def test_the_first_example_of_a_property_test_imports_nothing(
         @settings(max_examples=1)
         @given(world=worlds())
         def test_it(world) -> None:
-            assert ("topo_verify.harness.judge" in sys.modules) is {loaded}
+            assert ("topo_verify.campaign.judge" in sys.modules) is {loaded}
         """
     )
     result.assert_outcomes(passed=1)
@@ -387,7 +414,7 @@ def test_the_traceback_of_a_bug_of_ours_is_shown_whole(session: Session) -> None
         "--tb=short",
         test="""
         import topo_verify as tv
-        from topo_verify.harness import judge
+        from topo_verify.campaign import judge
 
         def test_bug(monkeypatch) -> None:
             monkeypatch.setattr(judge, "check", None)
@@ -401,7 +428,7 @@ def test_the_traceback_of_a_bug_of_ours_is_shown_whole(session: Session) -> None
         """,
     )
     result.assert_outcomes(failed=2)
-    assert len(re.findall(r"harness/judge\.py:\d+: in judge_trace", result.stdout.str())) == 2
+    assert len(re.findall(r"campaign/judge\.py:\d+: in judge_trace", result.stdout.str())) == 2
 
 
 # ---------------------------------------------------------------- beside others
@@ -414,7 +441,7 @@ def test_nothing_heavy_is_imported_until_a_mapper_is_tested(tmp_path: Path) -> N
         "import sys, pytest\n"
         "pytest.main(['-q', '-p', 'no:hypothesispytest', '-p', 'no:cacheprovider'])\n"
         f"print('loaded', [name for name in {heavy!r} if name in sys.modules],\n"
-        "      'topo_verify.harness' in sys.modules, 'topo_verify.pytest_plugin' in sys.modules)"
+        "      'topo_verify.campaign' in sys.modules, 'topo_verify.pytest_plugin' in sys.modules)"
     )
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False

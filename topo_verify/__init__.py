@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from topo_verify import strategies
     from topo_verify.algorithms import CATALOGUE, Algorithm
+    from topo_verify.campaign.judge import Report, assert_maps, examine
+    from topo_verify.campaign.run import Exploration, explore
     from topo_verify.errors import (
         ClaimFailed,
         ClaimUndecided,
@@ -23,14 +25,12 @@ if TYPE_CHECKING:
         InternalError,
         TopoVerifyError,
     )
-    from topo_verify.harness.judge import Report, assert_maps, examine
-    from topo_verify.harness.log_report import Certificate, certify
-    from topo_verify.harness.run import Exploration, explore
     from topo_verify.robot.events import Policies, Robot
     from topo_verify.robot.limits import Limits
     from topo_verify.robot.percept import Percept
+    from topo_verify.studies.log_report import Certificate, certify
     from topo_verify.world import families
-    from topo_verify.world.enumeration.listing import worlds
+    from topo_verify.world.enumeration.pruned import worlds
     from topo_verify.world.rooted_map import World
 
 __version__ = "0.2.0"
@@ -73,11 +73,11 @@ _MODULES = {
     "robot.limits": ("Limits",),
     "robot.events": ("Policies", "Robot"),
     "robot.percept": ("Percept",),
-    "harness.judge": ("Report", "assert_maps", "examine"),
-    "harness.log_report": ("Certificate", "certify"),
-    "harness.run": ("Exploration", "explore"),
+    "campaign.judge": ("Report", "assert_maps", "examine"),
+    "studies.log_report": ("Certificate", "certify"),
+    "campaign.run": ("Exploration", "explore"),
     "world": ("families",),
-    "world.enumeration.listing": ("worlds",),
+    "world.enumeration.pruned": ("worlds",),
     "world.rooted_map": ("World",),
 }
 """The modules of the names of `__all__`."""
@@ -93,7 +93,7 @@ def __getattr__(name: str) -> Any:
     if "hypothesis" in sys.modules:
         # Hypothesis bounds the time of an example, and the first one must not import what runs and
         # judges a mapper. (A test asks for a name when it is defined: `world: tv.World`.)
-        import_module("topo_verify.harness.judge")
+        import_module("topo_verify.campaign.judge")
     found = globals()[name] = getattr(import_module(_HOME[name]), name)
     return found
 

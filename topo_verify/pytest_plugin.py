@@ -10,14 +10,11 @@ these runs. The first test of a mapper runs it; the others read the results (wit
 in each process). A test passes if its claim holds in every world. It fails if the claim fails in a
 world, and shows the first such world with its replay command. It fails also if the claim is
 undecided: a run exceeded its time, or a decision was neither proved nor refuted. It is skipped if
-there is a world in which the mapper did not declare the decisions that the claim is about, since
-the claim was then not judged there.
+in some world the mapper declared no decision that the claim is about.
 
 The results travel in the `user_properties` of the test reports, so the summary at the end is the
-same with pytest-xdist, and JUnit files hold them.
-
-Pytest loads this file in every session of its environment. So the file imports no
-room of topo_verify and no library before there is a mapper to test.
+same with pytest-xdist, and JUnit files hold them. Pytest loads this file in every session of its
+environment. So it imports no room of topo_verify and no library before there is a mapper to test.
 
 What this does not show: anything about worlds with more edges than N.
 """
@@ -38,17 +35,14 @@ import pytest
 from topo_verify.text import shown
 
 if TYPE_CHECKING:
-    from topo_verify.harness.judge import Report
-    from topo_verify.harness.verify.by_claim import ClaimResults
+    from topo_verify.campaign.judge import Report
     from topo_verify.programs.loader import Mapper, Target
     from topo_verify.robot.simulator import SimulatedRobot
+    from topo_verify.studies.verify.by_claim import ClaimResults
     from topo_verify.world.rooted_map import World
 
-EDGES = 4
-"""The default of `--topo-edges`: 792 worlds, about a second."""
-
-_CASE = "_topo_case"
-"""The parameter that makes one test for each claim from a marked function."""
+EDGES = 4  # the default of --topo-edges: 792 worlds, about a second
+_CASE = "_topo_case"  # the parameter that makes one test for each claim from a marked function
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +112,8 @@ def _seconds(text: str) -> float:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Make the mark known."""
+    """Refuse options that are given twice, and make the mark known."""
+    _require_once(config)
     config.stash[_SESSION] = _Session()
     config.addinivalue_line(
         "markers",
@@ -126,6 +121,18 @@ def pytest_configure(config: pytest.Config) -> None:
         " (a text as for --topo-target, or the callable) in every world of 1 to `edges` edges;"
         " then the body runs.",
     )
+
+
+def _require_once(config: pytest.Config) -> None:
+    """Refuse an option that the command line has twice; it may replace one of `addopts`."""
+    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+    for name in ("target", "edges", "move-timeout", "world-timeout"):
+        parser.add_argument(f"--topo-{name}", dest=f"--topo-{name}", action="append", default=[])
+    given, _ = parser.parse_known_args(list(map(str, config.invocation_params.args)))
+    for name, values in vars(given).items():
+        if len(values) > 1:
+            got = " and ".join(repr(shown(value)) for value in values)
+            raise pytest.UsageError(f"expected {name} at most once, got {got}: leave one out")
 
 
 # ---------------------------------------------------------------- collecting
@@ -153,7 +160,7 @@ def _import_for(metafunc: pytest.Metafunc) -> None:
         for one in vars(module).values():
             home = getattr(one, "__name__" if inspect.ismodule(one) else "__module__", None)
             if str(home).startswith("topo_verify"):
-                import_module("topo_verify.harness.judge")
+                import_module("topo_verify.campaign.judge")
                 break
 
 
@@ -189,10 +196,10 @@ def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Itera
     Raises:
         CollectError: there is no such mapper, or too many edges are asked for.
     """
+    from topo_verify.campaign.corpus import MOST_ENUMERATED
+    from topo_verify.campaign.targets import one_target, targets
     from topo_verify.checkers import CLAIMS
     from topo_verify.errors import InputError
-    from topo_verify.harness.corpus import MOST_ENUMERATED
-    from topo_verify.harness.targets import one_target, targets
 
     if edges > MOST_ENUMERATED:
         raise pytest.Collector.CollectError(
@@ -287,8 +294,8 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Generator[None, object, o
 
 def _judge(item: pytest.Item, case: ClaimTest) -> None:
     """Pass, fail or skip a test by the verdict on its claim."""
-    from topo_verify.harness.verify.by_claim import by_claim
     from topo_verify.robot.limits import Limits
+    from topo_verify.studies.verify.by_claim import by_claim
 
     known = item.config.stash[_SESSION].results
     key = (id(case.target.mapper), case.edges)
@@ -340,7 +347,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if by_mapper:
         terminalreporter.write_sep("=", "topo-verify")
     for facts in by_mapper.values():
-        from topo_verify.harness.verify.by_claim import summary
+        from topo_verify.studies.verify.by_claim import summary
 
         for line in summary(facts):
             terminalreporter.write_line(line)
@@ -378,7 +385,7 @@ def topo_examine() -> Callable[..., Report]:
     """
 
     def examine(mapper: Mapper | str, world: World | str, **options: Any) -> Report:
-        from topo_verify.harness.judge import examine
+        from topo_verify.campaign.judge import examine
 
         if isinstance(world, str):
             options.setdefault("where", world)

@@ -1,23 +1,28 @@
 """The exhaustive search, for use from Python: `from topo_verify.search import search`.
 
-The search itself lives in `topo_verify.harness.search`; docs/search.md says what it does.
+The search itself lives in `topo_verify.studies.search`; docs/search.md says what it does.
 """
 
-from topo_verify.harness.search.exhaustive import Search, SearchResult, Size, search
-from topo_verify.harness.search.plan import Choices, Plan
-from topo_verify.harness.tally import CostComparison, CostPair, CostTotals, Failing, Failure, Tally
+from topo_verify.studies.search.choices import Choices
+from topo_verify.studies.search.search import (
+    ByEdges,
+    CostComparison,
+    CostPair,
+    Counterexample,
+    FailingClaim,
+    Search,
+    SearchEntry,
+    search,
+)
 
 __all__ = [
+    "ByEdges",
     "Choices",
     "CostComparison",
     "CostPair",
-    "CostTotals",
-    "Failing",
-    "Failure",
-    "Plan",
+    "Counterexample",
+    "FailingClaim",
     "Search",
-    "SearchResult",
-    "Size",
-    "Tally",
+    "SearchEntry",
     "search",
 ]

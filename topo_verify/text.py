@@ -16,6 +16,15 @@ def shown(text: str | PathLike[str], *, limit: int = 200) -> str:
     return line if len(line) <= limit else line[: limit - 1] + "…"
 
 
+def is_utf8(text: str) -> bool:
+    """Whether the text can be written as UTF-8: a file's name may hold other bytes."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
 def plural(number: int, thing: str, things: str = "") -> str:
     """The number with its noun: `1 world`, `2 worlds`."""
     return f"{number} {thing if number == 1 else things or thing + 's'}"

@@ -7,13 +7,17 @@
 
     readers.py      every format (formats.py), mutated: read, or refused with one sentence
     flips.py        single bits of ledgers and baselines: refused, or harmless
+    caches.py       damaged machine code: the result of our sources, or refused
     programs.py     programs that misbehave in several ways: one report, nothing left over
+    resumed.py      resumed runs with other options: refused, or as from the start
+    forged.py       mappers that write messages of the protocol: a finding, whatever and whenever
+    intrusion.py    a mapper that attacks the processes that judge it
     kills.py        signals at random moments: nothing lost, nothing wrong afterwards
     trial.py        a command line in a forked process, and what is wrong with its end
     mutations.py    changes of bytes, lines, JSON, XML and numbers
     planted.py      commands with one fault each, which the torture must see before it begins
     processes.py    what a command left over
-    hostile.py, replies.py    the programs
+    hostile.py, replies.py, forger.py    the programs, and the mapper
 
 This is a measurement with a seed and figures, not a list of cases, so it stands beside the
 benchmarks and not among the tests: `make test` stays short and does the same each time. What the
@@ -37,20 +41,26 @@ from time import monotonic
 
 os.environ |= {"OPENBLAS_NUM_THREADS": "1", "NO_COLOR": "1"}  # before numpy is imported
 
+import caches
 import flips
+import forged
+import intrusion
 import kills
 import planted
 import programs
 import readers
+import resumed
 from formats import FORMATS
 from processes import adopt
 from readers import Count
 
 KEEP = Path("torture-failures").resolve()
-TRIALS = {"readers": 400, "bit flips": 3000, "programs": 40, "kills": 9}
+TRIALS = {"readers": 400, "bit flips": 3000, "programs": 40, "messages": 40}
+TRIALS |= {"intrusion": 8, "kills": 9, "resumed": 30, "caches": 100}
 """How many trials each row of a part has with --scale 1."""
 
-PIECE = {"readers": 50, "bit flips": 100, "programs": 2, "kills": 3}
+PIECE = {"readers": 50, "bit flips": 100, "programs": 2, "messages": 2}
+PIECE |= {"intrusion": 2, "kills": 3, "resumed": 3, "caches": 25}
 """How many trials a worker does at a time. (Every third trial of a piece kills a helper.)"""
 
 
@@ -85,8 +95,17 @@ def rows(seed: int, scale: float) -> Iterator[Row]:
     several = cut("bit flips", bits)
     what = f"opened: {len(bits)} of {flips.bits('ledger')} bits"
     yield Row("bit flips", what, [partial(flips.openings, one, KEEP) for one in several])
+    several = cut("caches", seeds("caches", "kernels"))
+    yield Row("caches", "kept machine code", [partial(caches.trials, one) for one in several])
     several = cut("programs", seeds("programs", "hostile", 10**4))
     yield Row("programs", "hostile programs", [partial(programs.trials, one) for one in several])
+    for name in resumed.COMMANDS:
+        several = cut("resumed", seeds("resumed", name, 10**3))
+        yield Row("resumed", name, [partial(resumed.trials, name, one) for one in several])
+    several = cut("messages", seeds("messages", "forged", 10**4))
+    yield Row("messages", "forged messages", [partial(forged.trials, one) for one in several])
+    several = cut("intrusion", seeds("intrusion", "intruder", 10**3))
+    yield Row("intrusion", "an intruder", [partial(intrusion.trials, one) for one in several])
     for name in kills.COMMANDS:
         several = cut("kills", seeds("kills", name, 10**3))
         yield Row("kills", name, [partial(kills.trials, name, one) for one in several])
@@ -101,7 +120,7 @@ def main() -> int:
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     asked = parser.parse_args()
     adopt()
-    if missed := planted.unseen():
+    if missed := [*planted.unseen(), *intrusion.unseen()]:
         sys.exit(f"the torture does not see these planted faults: {', '.join(missed)}")
     began = monotonic()
     fork = multiprocessing.get_context("fork")

@@ -19,11 +19,13 @@ from formats import FORMATS
 from mutations import flipped
 from readers import Count, attempt
 
-from topo_verify import __version__
+from topo_verify.campaign.campaign import Ranks
+from topo_verify.campaign.identity import source_hash
+from topo_verify.campaign.store import Store
+from topo_verify.campaign.targets import targets
 from topo_verify.errors import InputError
-from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.search.plan import Plan
-from topo_verify.harness.targets import targets
+from topo_verify.programs.loaded import Loaded
+from topo_verify.studies.search.search import search_campaign
 
 
 def bits(name: str) -> int:
@@ -79,10 +81,12 @@ def openings(places: list[int], keep: Path) -> Count:
 
 
 def _rows(path: Path, data: bytes) -> object:
-    """What a search reads in a ledger of these bytes."""
+    """What a search reads in a store of these bytes."""
     path.write_bytes(data)
-    plan = Plan(targets=("basic",), edges=3)
-    with Ledger(str(path), plan, targets("basic"), __version__) as ledger:
-        rows = [ledger.get(shard) for shard in plan.shards()]
-        assert all(row is not None for row in rows), "the ledger is of a finished search"
-        return rows, ledger.shards, ledger.loaded, ledger.since
+    mappers = targets("basic")
+    campaign = search_campaign(mappers, edges=3)
+    with Store(path) as store:
+        known = store.campaign(campaign.identity(source_hash(mappers)), Loaded())
+        results = [known.get(shard) for shard in Ranks(3).shards()]
+        assert all(result is not None for result in results), "the store is of a finished search"
+        return results, known.known(), known.loaded, known.since

@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Callable
 
+import resumed
 import trial
 from trial import MEMORY, Outcome, difference, objection, run
 
@@ -91,6 +92,8 @@ def unseen() -> list[str]:
         found.append("refuses, which is no fault")
     if difference({"a": 0, "b": [1, 2]}, {"a": 0, "b": [1, 3]}) != "$.b[1]: 2 and 3":
         found.append("a difference of two results")
+    if not resumed.forgets():
+        found.append("a ledger that forgets an option")
     return found
 
 

@@ -19,9 +19,8 @@ from topo_verify.algorithms.folding import NodeDart
 from topo_verify.algorithms.history import History
 from topo_verify.algorithms.homing import most_telling_door
 from topo_verify.algorithms.next_edge import nearest_edge
-from topo_verify.harness.judge import Report
-from topo_verify.harness.mapper_names import text_of
-from topo_verify.harness.targets import targets
+from topo_verify.campaign.judge import Report
+from topo_verify.campaign.targets import targets, text_of
 from topo_verify.robot.events import MapDart, Robot
 from topo_verify.robot.percept import Purpose
 from topo_verify.world.resolve import resolve_world

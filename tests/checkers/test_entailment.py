@@ -15,10 +15,10 @@ from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.campaign.judge import Report
 from topo_verify.checkers import check, claims, decision_conclusions
 from topo_verify.checkers.entailment import map_conclusion
 from topo_verify.faults import FAULTS
-from topo_verify.harness.judge import Report
 from topo_verify.robot.events import (
     Augment,
     Confirm,

@@ -28,9 +28,9 @@ Program = Callable[..., "subprocess.CompletedProcess[str]"]
 
 @pytest.fixture(autouse=True)
 def few_worlds_run_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A search runs many worlds again; tests/harness/search/test_again.py tries that."""
-    monkeypatch.setattr("topo_verify.harness.search.again.MOST", 2)
-    monkeypatch.setattr("topo_verify.harness.search.again.ROW", 2)
+    """A search runs many worlds again; tests/studies/search/test_again.py tries that."""
+    monkeypatch.setattr("topo_verify.studies.search.again.MOST", 2)
+    monkeypatch.setattr("topo_verify.studies.search.again.ROW", 2)
 
 
 @pytest.fixture

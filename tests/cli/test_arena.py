@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import json
 import shlex
+import signal
+import subprocess
 import sys
-from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from tests.cli.conftest import Call, Results
-from topo_verify.harness.arena.rows import ArenaResult
-from topo_verify.harness.arena.suites import SUITES, Suite, SuiteFamily, drawn, every
-
-command: Any = import_module("topo_verify.cli.arena")  # its package has the command itself
+from topo_verify.campaign.campaign import Shard, ShardResult
+from topo_verify.campaign.store import StoredCampaign
+from topo_verify.studies.arena.suites import SUITES, Suite, SuiteFamily, drawn, every
 
 FIELDS = {
     *("mapper", "suite", "worlds", "ratio", "rejected_free", "ms_per_move", "claims"),
     "counterexample",
 }
-"""What docs/commands.md promises of an entry."""
+"""What docs/reference/commands.md lists of an entry."""
 
 LINE = "arena basic,folding --suite small --workers 0"
 FAULT = "topo_verify.faults:FAULTS.forgets-its-orientation"
@@ -85,27 +84,98 @@ def test_the_same_bytes_however_many_workers_and_however_often_interrupted(
 ) -> None:
     assert call(f"{LINE} --out whole").exit_code == 0
     assert call(f"{LINE.removesuffix('0')}2 --out two").exit_code == 0
-    real = command.ArenaStore.put
-    kept: list[ArenaResult] = []
+    real = StoredCampaign.put
+    kept: list[ShardResult] = []
 
-    def cut_off(store: object, result: ArenaResult) -> None:
+    def cut_off(store: StoredCampaign, shard: Shard, result: ShardResult) -> None:
         if len(kept) == 3:
             raise KeyboardInterrupt
         kept.append(result)
-        real(store, result)
+        real(store, shard, result)
 
-    monkeypatch.setattr(command.ArenaStore, "put", cut_off)
+    monkeypatch.setattr(StoredCampaign, "put", cut_off)
     done = call(f"{LINE} --out parts")
     assert done.exit_code == 3
-    assert "the runs so far are kept in parts/runs.jsonl; the same command" in done.stderr
-    made = Path("parts/runs.jsonl").read_bytes()
-    Path("parts/runs.jsonl").write_bytes(made + made[-40:-1])  # as if killed in midst of a line
-    monkeypatch.setattr(command.ArenaStore, "put", real)
+    assert "3 of 8 runs are kept in parts/runs.db; the same command goes on" in done.stderr
+    monkeypatch.setattr(StoredCampaign, "put", real)
     done = call(f"{LINE} --out parts")
     assert done.exit_code == 0
-    assert "half a line at its end was cut off" in done.stderr
-    assert "3 of 8 runs are in parts/runs.jsonl" in done.stderr
+    assert "3 of 8 runs are in parts/runs.db" in done.stderr
     assert files("whole") == files("two") == files("parts")
+
+
+@pytest.mark.parametrize(("then", "now"), [("--in-process", ""), ("", "--in-process")])
+def test_runs_in_our_process_and_runs_apart_do_not_meet(call: Call, then: str, now: str) -> None:
+    """In our process a mapper can replace the checkers: `--in-process` says what a run is worth."""
+    line = "arena mappers.py:silent --suite triangle --workers 0 --out here"
+    assert call(f"{line} {then}").exit_code == 0
+    done = call(f"{line} {now}")
+    assert done.exit_code == 2
+    words = "its in-process is true, now it is false" if then else "false, now it is true"
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert call(f"{line} basic {then}").exit_code == 0
+
+
+KILLER = """
+import os, pathlib, signal
+from topo_verify import CATALOGUE
+
+worlds = []
+
+def kills(robot):
+    worlds.append(robot)
+    if len(worlds) == 3 and not os.path.exists("killed"):
+        os.mkdir("killed")
+        os.kill(os.getpid(), signal.SIGKILL)
+    return CATALOGUE["basic"](robot)
+"""
+
+
+def test_a_league_that_is_killed_goes_on_where_it_was(call: Call) -> None:
+    Path("killer.py").write_text(KILLER)
+    line = "arena killer.py:kills folding --suite tiny --workers 0 --in-process --out here"
+    command = [sys.executable, "-m", "topo_verify", *line.split()]
+    assert subprocess.run(command, check=False).returncode == -signal.SIGKILL
+    done = call(line.replace("tiny", "small"))
+    assert done.exit_code == 0
+    assert "2 of 8 runs are in here/runs.db" in done.stderr
+
+
+@pytest.mark.parametrize("option", ["--budget 1000", "--world-timeout 61"])
+def test_runs_under_other_limits_do_not_meet(call: Call, option: str) -> None:
+    line = "arena basic --suite triangle --workers 0 --out here"
+    assert call(line).exit_code == 0
+    done = call(f"{line} {option}")
+    assert done.exit_code == 2
+    assert "holds another campaign of basic: its limits is" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_store_of_version_02_is_named_and_left_alone(call: Call) -> None:
+    Path("here").mkdir()
+    Path("here/runs.jsonl").write_text("runs\n")
+    done = call("arena basic --suite triangle --workers 0 --out here")
+    assert done.exit_code == 0
+    assert "topo-verify 0.2 or before wrote here/runs.jsonl: its runs are made" in done.stderr
+    assert Path("here/runs.jsonl").read_text() == "runs\n"
+
+
+SPY = """
+from pathlib import Path
+from topo_verify import CATALOGUE
+
+def peeks(robot):
+    assert b",seed=" not in Path("here/runs.db").read_bytes()
+    return CATALOGUE["basic"](robot)
+"""
+
+
+def test_the_seed_of_drawn_worlds_is_out_of_reach(call: Call) -> None:
+    """docs/arena.md says what secrecy is worth."""
+    Path("spy.py").write_text(SPY)
+    line = "arena spy.py:peeks --suite small --seed 271 --workers 0 --out here"
+    assert call(line).exit_code == 0
 
 
 def test_a_mapper_that_has_changed_is_refused(call: Call) -> None:
@@ -116,7 +186,7 @@ def test_a_mapper_that_has_changed_is_refused(call: Call) -> None:
     done = call(line)
     assert done.exit_code == 2
     assert done.stderr.count("\n") == 1
-    assert "target 'mappers.py:silent'" in done.stderr
+    assert "campaign of mappers.py:silent" in done.stderr
     assert "changed" in done.stderr
 
 
@@ -178,3 +248,41 @@ def test_bad_usage_is_one_sentence(call: Call, line: str, words: str) -> None:
     assert done.exit_code == 2
     assert words in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+ENTRANTS = """
+import os, sys
+import topo_verify as tv
+from topo_verify.programs import loaded
+
+basic = tv.CATALOGUE["basic"]
+
+def descends(robot):
+    sys.setrecursionlimit(60)
+    def walk():
+        robot.move(0)
+        walk()
+    walk()
+
+def denies(robot):
+    loaded.loaded = lambda *_: os._exit(0)
+    return basic(robot)
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("descends", "the mapper raised RecursionError"),
+        ("denies", "its process ended with exit code 0 before it said what it had loaded"),
+    ],
+)
+def test_an_entrant_that_fails_between_two_messages_ends_no_league(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, words: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.py").write_text(ENTRANTS)
+    done = call(f"arena mine.py:{name} folding --suite triangle --workers 0 --out league")
+    assert done.exit_code == 1
+    assert "1  folding  " in done.stdout
+    assert words in done.stdout.replace("\n ", "")

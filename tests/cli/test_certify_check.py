@@ -1,20 +1,34 @@
 """`topo-verify certify --check`: a certificate that somebody sends, accepted or refused."""
 
+# A test may look inside.
+# pyright: reportPrivateUsage=false
+
 from __future__ import annotations
 
+import operator
+import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from tests.cli.conftest import Call, Results
-from tests.helpers import edited, place, trace_of
+from tests.helpers import edited, place, trace_of, with_darts
 from tests.proofs.mechanised.conftest import nowhere
 from topo_verify import families
 from topo_verify.proofs.mechanised import certificates, toolchain
 from topo_verify.proofs.mechanised.certificate_format import HEADER, text_of
-from topo_verify.robot.events import Event, Move, Reject, write_trace
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Finish,
+    Move,
+    Reject,
+    write_trace,
+)
 from topo_verify.robot.percept import Percept
 
 RUN = trace_of(families.lattice(3, 3))
@@ -28,6 +42,32 @@ def files(folder: Path) -> None:
     """A log and its certificate."""
     (folder / "run.jsonl").write_bytes(write_trace(RUN))
     (folder / "run.cert").write_text(TEXT)
+
+
+ENDED = {
+    "killed": "kill -KILL $$",
+    "killed under a shell": "exit 137",
+    "no memory": "echo 'Error: Out of memory.'; exit 1",
+    "no stack": "echo 'Error: Stack overflow.'; exit 1",
+    "no room": "echo 'Error: System error: \"No space left on device\"'; exit 1",
+    "no memory at its start": "echo 'Fatal error: not enough memory' >&2; kill -ABRT $$",
+}
+"""How a coqc ends that has decided nothing, as shell commands."""
+
+
+def put_coqc(monkeypatch: pytest.MonkeyPatch, ends: str, file: str) -> None:
+    """Install a coqc that ends in this way at its last word, and compiles all other files."""
+    toolchain.version.cache_clear()
+    Path("bin").mkdir()
+    for name in ("coqc", "coqchk"):
+        program = Path("bin", name)
+        program.write_text(
+            f'#!/bin/sh\nfor word; do :; done\n[ "$word" = {file} ] && {{ {ends}; }}\n'
+            '[ "$word" = -print-version ] && { echo "8.16.1 4.13.1"; exit; }\n'
+            'touch "${word%.v}.vo"\n'
+        )
+        program.chmod(0o700)
+    monkeypatch.setenv("PATH", f"{Path('bin').absolute()}{os.pathsep}{os.environ['PATH']}")
 
 
 @pytest.fixture
@@ -60,6 +100,46 @@ def test_a_certificate_is_accepted_and_says_what_it_states(call: Call, results: 
     text = " ".join(call("certify --check run.cert").stdout.split())
     assert "one world alone shows its log, and it is the map in the certificate" in text
     assert "The delivered map is that world. Proved to follow: 20 of 20 decisions." in text
+
+
+HIDDEN = (Confirm(0, 10**6 + 1, "motion"), Augment(-1, "new", 0, 2))
+"""Decisions about numbers that no dart has; with any other decision behind them."""
+
+
+@pytest.mark.parametrize("hidden", [HIDDEN, (*HIDDEN, Confirm(0, 1, "motion"))])
+def test_what_a_certificate_cannot_state_of_a_log_counts_as_not_proved(
+    call: Call, results: Results, monkeypatch: pytest.MonkeyPatch, hidden: tuple[Event, ...]
+) -> None:
+    def check(*_: object) -> certificates.CertificateCheck:
+        return certificates.CertificateCheck(
+            accepted=True, by="coqc 0", statement="map", delivered=True, certified=20, decisions=20
+        )
+
+    monkeypatch.setattr(certificates._Checker, "check", check)
+    Path("hide.jsonl").write_bytes(write_trace((*RUN[:-1], *hidden, RUN[-1])))
+    line = "certify --check run.cert --log hide.jsonl"
+    (entry,) = results(line, code=3)["results"]
+    assert (entry["accepted"], entry["statement"]) == (True, "map")
+    assert entry["decisions"] == {"certified": 20, "total": 20 + len(hidden)}
+    assert f"{len(hidden)} decisions of the log cannot be stated" in entry["why"]
+    text = " ".join(call(line).stdout.split())
+    assert f"Proved to follow: 20 of {20 + len(hidden)} decisions." in text
+    assert "NOT PROVED: " in text
+
+
+@pytest.mark.usefixtures("compiled")
+@pytest.mark.parametrize("name", [operator.neg, (2**61).__add__])
+def test_the_numbers_of_a_delivered_map_do_not_matter(
+    results: Results, name: Callable[[int], int]
+) -> None:
+    end = RUN[-1]
+    assert isinstance(end, Finish)
+    renamed = (*RUN[:-1], msgspec.structs.replace(end, map=with_darts(end.map, name)))
+    Path("named.jsonl").write_bytes(write_trace(renamed))
+    (entry,) = results("certify named.jsonl --kernel")["results"]
+    assert (entry["verdict"], entry["kernel"]["delivered"]) == ("PROVED", True)
+    (entry,) = results(f"certify --check {entry['kernel']['file']} --log named.jsonl")["results"]
+    assert entry["delivered"]
 
 
 # ---------------------------------------------------------------- refused
@@ -193,3 +273,38 @@ def test_without_coq_nothing_is_accepted(
     assert (entry["accepted"], entry["by"]) == (None, "")
     assert "apt-get install" in entry["why"]
     assert "NOT CHECKED" in call("certify --check run.cert").stdout
+
+
+@pytest.fixture
+def own_version() -> Iterator[None]:
+    """What another coqc says is forgotten."""
+    yield
+    toolchain.version.cache_clear()
+
+
+@pytest.mark.usefixtures("own_version")
+@pytest.mark.parametrize("file", ["World.v", "Data.v", "Checked.v"])
+@pytest.mark.parametrize("how", ENDED)
+def test_a_coqc_that_was_killed_or_lacked_memory_has_refused_nothing(
+    results: Results, call: Call, monkeypatch: pytest.MonkeyPatch, how: str, file: str
+) -> None:
+    put_coqc(monkeypatch, ENDED[how], file)
+    (entry,) = results("certify --check run.cert", code=3)["results"]
+    assert (entry["accepted"], entry["statement"]) == (None, None)
+    assert "coqc " in entry["why"]
+    assert "NOT CHECKED: coqc " in call("certify --check run.cert").stdout
+    # A certificate of our own that coqc refuses would be a bug of ours, exit code 70.
+    (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
+    assert (entry["verdict"], entry["kernel"]["accepted"]) == ("PROVED", None)
+
+
+@pytest.mark.usefixtures("own_version")
+@pytest.mark.parametrize("file", ["World.v", "-print-version"])
+def test_a_coqc_that_was_killed_refutes_no_theorem(
+    results: Results, monkeypatch: pytest.MonkeyPatch, file: str
+) -> None:
+    put_coqc(monkeypatch, ENDED["killed"], file)
+    (entry,) = results("prove coq-certificate --timeout 77", code=3)["results"]
+    assert (entry["verdict"], entry["ok"]) == ("UNKNOWN", False)
+    if file == "World.v":
+        assert "coqc was ended by signal 9" in entry["note"]

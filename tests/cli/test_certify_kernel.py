@@ -169,7 +169,7 @@ def test_decisions_whose_evidence_is_too_long_make_the_run_incomplete(
 ) -> None:
     write_log("run.jsonl")
     judging(monkeypatch, certified(0))
-    monkeypatch.setattr("topo_verify.proofs.mechanised.decision_evidence.MOST", 5)
+    monkeypatch.setattr("topo_verify.proofs.mechanised.evidence.MOST", 5)
     (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
     assert entry["kernel"]["accepted"]
     assert entry["kernel"]["decisions"]["certified"] == 0

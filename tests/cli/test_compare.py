@@ -75,6 +75,15 @@ def test_a_wrong_mapper_exits_1_and_the_line_shows_it_again(results: Results, ca
     assert "A regression: in 88 worlds a claim fails." in text
 
 
+def test_workers_and_a_store_change_nothing(results: Results) -> None:
+    line = "compare basic.gz mappers.py:guesses"
+    alone = results(line, code=1)["results"]
+    for workers, stored in ((2, 0), (0, 89)):
+        envelope = results(f"{line} --workers {workers} --store runs.db", code=1)
+        assert envelope["results"] == alone
+        assert envelope["timing"]["from_store"] == stored
+
+
 def test_a_time_out_is_incomplete(call: Call, results: Results) -> None:
     call("record mappers.py:strolls --worlds m1/0 --worlds m6/8161 --world-timeout 1.5 --out s.gz")
     (entry,) = results("compare s.gz mappers.py:strolls", code=3)["results"]

@@ -11,8 +11,8 @@ import pytest
 
 from tests.cli.conftest import Call, Results
 from tests.helpers import trace_of
+from topo_verify.campaign import judge
 from topo_verify.checkers import Judgement, check, claims
-from topo_verify.harness import judge
 from topo_verify.robot.events import write_trace
 
 PARTIAL = {

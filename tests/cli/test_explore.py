@@ -226,7 +226,7 @@ def test_replay_lines_are_split_by_a_shell_as_they_were_meant(results: Call, fol
 
 # ---------------------------------------------------------------- the animated SVG
 
-RUN_SVG = "'family:lattice(2,4,holes=0.1,seed=2)' --algorithm enhancement-ii --svg"
+RUN_SVG = "'family:lattice(2,4,holes=0.1,seed=2)' --target enhancement-ii --svg"
 DOCS = Path(__file__).parents[2] / "docs"
 
 
@@ -260,7 +260,7 @@ def test_choices_are_told_one_by_one(call: Call) -> None:
     told = call("explore m2/8 --algorithm folding+planar --choices 0 --format json")
     assert told.exit_code == 1
     (entry,) = json.loads(told.stdout)["results"]
-    line = "topo-verify explore m2/8 --algorithm folding+planar --choices 0"
+    line = "topo-verify explore m2/8 --target folding+planar --choices 0"
     assert {finding["replay"] for finding in entry["findings"]} == {line}
     assert call("explore m2/8 --algorithm basic --choices 0,1").exit_code == 0
 

@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 
+from topo_verify.checkers import check
+
 Call = Callable[..., Any]
 
 RUDE = """
@@ -38,6 +40,13 @@ def forgets(robot):
     moves = [event for event in events if type(event).__name__ == "Move"]
     events.remove(moves[-1])
     return found
+
+def cheats(robot):
+    from topo_verify.checkers import CLAIMS, Judgement
+    judge = sys.modules["topo_verify.campaign.judge"]
+    judge.check = lambda *_, **__: [Judgement(claim, "ok", 1, 1) for claim in CLAIMS]
+    robot.move(0)
+    return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
 """
 
 
@@ -146,3 +155,25 @@ def test_a_program_that_dies_shows_the_last_lines_of_its_standard_error(
     line = f'explore m2/5 --cmd "{sys.executable} throws.py"'
     (entry,) = results(line, code=1)["results"]
     assert "Error: Cannot find module './rules' / at somewhere" in entry["stopped"]
+
+
+JUDGING = {
+    **LINES,
+    "search": "search rude.py:{} --edges 2 --workers 0",
+    "arena": "arena rude.py:{} --suite tiny --workers 0",
+    "verify": "verify rude.py:{} --quick",
+    "compare": "compare base.gz rude.py:{}",
+}
+
+
+@pytest.mark.usefixtures("rude")
+@pytest.mark.parametrize("line", JUDGING.values(), ids=JUDGING)
+def test_a_mapper_that_replaces_the_checkers_is_refuted_below_the_least_cost_of_a_proof(
+    call: Call, monkeypatch: pytest.MonkeyPatch, line: str
+) -> None:
+    if "base.gz" in line:
+        assert call("record basic --worlds m2/5 --out base.gz").exit_code == 0
+    monkeypatch.setattr("topo_verify.campaign.judge.check", check)  # taken back after the test
+    done = call(line.format("cheats") + " --in-process --format json")
+    assert done.exit_code == 1, done.output
+    assert "and the least cost of a proof is" in done.stdout

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Call, Results
-from topo_verify.harness.baseline import file
+from topo_verify.studies.baseline import file
 
 FIELDS = {"target", "worlds", "equal", "wrong", "dearer", "cheaper", "other_decisions"}
 PROGRAM = """
@@ -38,6 +38,40 @@ def test_two_recordings_are_the_same_file(call: Call, folder: Path) -> None:
         done = call(f"record mappers.py:right --worlds 'edges<=3' --seed 3 --out {name}")
         assert done.exit_code == 0
     assert (folder / "one").read_bytes() == (folder / "other").read_bytes()
+
+
+def test_workers_and_a_store_change_nothing_in_the_file(
+    call: Call, results: Results, folder: Path
+) -> None:
+    line = "record mappers.py:guesses --worlds 'edges<=2' --out"
+    alone = results(f"{line} one", code=1)["results"][0]
+    for out, workers, stored in (("two", 2, 0), ("three", 0, 12), ("four", 1, 12)):
+        envelope = results(f"{line} {out} --workers {workers} --store runs.db", code=1)
+        assert envelope["timing"]["from_store"] == stored
+        assert {**envelope["results"][0], "file": "one"} == alone
+        assert (folder / out).read_bytes() == (folder / "one").read_bytes()
+    done = call(f"{line} five --store runs.db")
+    assert "12 of 12 runs are in runs.db" in done.stderr
+
+
+def test_a_store_is_resumed_in_more_worlds_and_by_compare(results: Results) -> None:
+    stored = [
+        results(line)["timing"]["from_store"]
+        for line in (
+            "record basic --worlds 'edges<=1' --out b --store runs.db",
+            "record basic --worlds nyc --worlds 'edges<=2' --out b --store runs.db",
+            "compare b basic --store runs.db",
+        )
+    ]
+    assert stored == [0, 2, 13]
+
+
+def test_a_store_of_other_runs_is_refused(call: Call) -> None:
+    assert call("record basic --worlds m1/0 --out b --store runs.db").exit_code == 0
+    for line in ("record folding", "record basic --pick last", "record basic --budget 9"):
+        done = call(f"{line} --worlds m1/0 --out b --store runs.db")
+        assert done.exit_code == 2
+        assert "store runs.db holds another campaign" in done.stderr
 
 
 def test_limits_worlds_seed_and_policies_are_in_the_file(call: Call, folder: Path) -> None:

@@ -10,6 +10,9 @@ from typing import Any
 import pytest
 
 from topo_verify import families
+from topo_verify.checkers import Judgement
+from topo_verify.cli.runs import unjudged
+from topo_verify.report.account import claim_cases
 
 Call = Callable[..., Any]
 
@@ -191,3 +194,41 @@ def test_a_trace_with_a_map_says_nothing_of_a_stop(results: Call, trace: Path) -
     trace.write_text("\n".join([json.dumps(event), *rest]))
     (entry,) = results("replay basic.jsonl")["results"]
     assert (entry["ok"], entry["stopped"]) == (True, None)
+
+
+@pytest.mark.parametrize(
+    ("mapper", "words"),
+    [
+        (
+            "CATALOGUE['basic'](robot)",
+            "Not judged, because mine.py:explore delivers no map: map-entailed. ",
+        ),
+        (
+            "robot.move(0)",
+            (
+                "Not judged, because mine.py:explore declares nothing about it:"
+                " true-hypothesis-posed, true-hypothesis-kept, no-false-confirm,"
+                " rejection-justified, decisions-entailed."
+                " Not judged, because mine.py:explore delivers no map: map-entailed. "
+            ),
+        ),
+    ],
+)
+def test_a_mapper_that_delivers_no_map_is_not_said_to_declare_nothing(
+    call: Call, folder: Path, mapper: str, words: str
+) -> None:
+    text = f"from topo_verify import CATALOGUE\ndef explore(robot):\n    {mapper}\n"
+    (folder / "mine.py").write_text(text)
+    done = call("replay m3/14 --target mine.py:explore")
+    assert done.exit_code == 1
+    assert words in " ".join(done.stdout.split()) + " "
+
+
+def test_worlds_without_a_map_are_the_reason_why_map_entailed_is_judged_in_part() -> None:
+    one = Judgement("map-entailed", "partial", 3, 4)
+    (sentence,) = unjudged("x", "these worlds", [one])
+    assert sentence.text == (
+        "Judged in part, because x delivers no map in some of these worlds: map-entailed 3 of 4."
+    )
+    (case,) = claim_cases([one])
+    assert case.message == "the mapper delivers no map in some worlds"

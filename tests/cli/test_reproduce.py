@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
-from importlib import import_module
+from collections.abc import Callable
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 from zlib import crc32
 
-import msgspec
 import pytest
+from msgspec.structs import replace
 
+from tests.studies.reproduce.rows import made_up
+from topo_verify.campaign.campaign import Campaign, Shard, ShardResult
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.store import StoredCampaign
+from topo_verify.campaign.tally import Counts
 from topo_verify.checkers import Finding
-from topo_verify.harness.reproduce.measuring import MeasuredRun, PlannedRun
 from topo_verify.report.figures.pictures import picture
+from topo_verify.studies.reproduce.figures import PAIRS, REFERENCE
+from topo_verify.studies.reproduce.measuring import PlannedRun
 
 Call = Callable[..., Any]
-
-command: Any = import_module("topo_verify.cli.reproduce")  # its package has the command itself
 
 DRAWING = "topo_verify.report.figures.pictures.picture"
 
@@ -31,17 +35,13 @@ def csv(folder: str) -> bytes:
     return Path(folder, "figure-3.csv").read_bytes()
 
 
-def make(run: PlannedRun) -> MeasuredRun:
-    """A run that nobody made: fast, and different for each graph."""
-    return MeasuredRun(
-        run, 5, 20, 30, 100 + len(run.algorithm) + crc32(run.world.encode()) % 50, 10, 10
-    )
+Changes = list[Callable[[Row], Row]]
+"""What is done to the first rows, one each."""
 
 
-def made_up(
-    runs: list[PlannedRun], _workers: int, _engine: str = "reference"
-) -> Iterator[MeasuredRun]:
-    return map(make, runs)
+def make(run: PlannedRun) -> Row:
+    """A row of a run that was not made: fast, and different for each graph."""
+    return made_up(run, 100 + len(run.algorithm) + crc32(run.world.encode()) % 50, 20, 30)
 
 
 def draw_nothing(*_arguments: object) -> bytes:
@@ -55,8 +55,20 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def fast(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(command, "measured_runs", made_up)
+def fast(monkeypatch: pytest.MonkeyPatch) -> Changes:
+    """No run is made; the changes are made to the first rows."""
+    changes: Changes = []
+
+    def examine(campaign: Campaign, _mappers: object, shard: Shard, *_: object) -> ShardResult:
+        pairs = (REFERENCE,) if campaign.ways is None else PAIRS
+        runs = [PlannedRun(shard.listed[0][0], *campaign.mappers, *astuple(p)) for p in pairs]
+        rows = [changes.pop()(make(run)) if changes else make(run) for run in runs]
+        counts = Counts()
+        counts.enter(rows)
+        return ShardResult(counts.tally(), tuple(rows))
+
+    monkeypatch.setattr("topo_verify.campaign.backend.examine", examine)
+    return changes
 
 
 @pytest.mark.usefixtures("fast")
@@ -68,7 +80,7 @@ def test_an_entry_has_the_promised_fields_and_the_files_are_there(results: Call)
     assert [(e["algorithm"], e["size"], e["paper"]) for e in stated] == [("basic", 10, 10000)]
     assert {(e["held"], e["of"]) for e in envelope["results"] if e["pick"]} == {(10, 10)}
     assert {path.name for path in Path("here").iterdir()} == {
-        "figure-3.csv", "figure-3.svg", "figure-3.png", "growth.csv", "figures.md", "runs.jsonl",
+        "figure-3.csv", "figure-3.svg", "figure-3.png", "growth.csv", "figures.md", "runs.db",
     }  # fmt: skip
 
 
@@ -76,25 +88,24 @@ def test_the_same_bytes_however_many_workers_and_however_often_interrupted(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert call(f"{LINE} --out whole").exit_code == 0
-    assert call(f"{LINE} --out two --workers 2").exit_code == 0
-    real = command.measured_runs
+    assert call(f"{LINE.removesuffix('1')}2 --out two").exit_code == 0
+    real = StoredCampaign.put
+    kept: list[ShardResult] = []
 
-    def cut_off(
-        runs: list[PlannedRun], workers: int, _engine: str = "reference"
-    ) -> Iterator[MeasuredRun]:
-        for number, made in enumerate(real(runs, workers)):
-            if number == 3:
-                raise KeyboardInterrupt
-            yield made
+    def cut_off(store: StoredCampaign, shard: Shard, result: ShardResult) -> None:
+        if len(kept) == 3:
+            raise KeyboardInterrupt
+        kept.append(result)
+        real(store, shard, result)
 
-    monkeypatch.setattr(command, "measured_runs", cut_off)
+    monkeypatch.setattr(StoredCampaign, "put", cut_off)
     done = call(f"{LINE} --out parts")
     assert done.exit_code == 3
-    assert "3 of 16 runs are kept in parts/runs.jsonl; the same command goes on" in done.stderr
-    monkeypatch.setattr(command, "measured_runs", real)
+    assert "3 of 16 runs are kept in parts/runs.db; the same command goes on" in done.stderr
+    monkeypatch.setattr(StoredCampaign, "put", real)
     done = call(f"{LINE} --out parts")
     assert done.exit_code == 0
-    assert "3 of 16 runs are in parts/runs.jsonl" in done.stderr
+    assert "3 of 16 runs are in parts/runs.db" in done.stderr
     assert csv("whole") == csv("two") == csv("parts")
 
 
@@ -134,36 +145,18 @@ def test_without_matplotlib_the_csv_is_written_all_the_same(
     assert ".svg" not in Path("bare/figures.md").read_text()
 
 
-def test_a_claim_that_fails_in_a_run_is_a_finding(
-    call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    found = Finding("no-false-confirm", 3, None, None, "confirmed", replay="topo-verify replay x")
-
-    def faulty(
-        runs: list[PlannedRun], _workers: int, _engine: str = "reference"
-    ) -> Iterator[MeasuredRun]:
-        first, *rest = map(make, runs)
-        yield msgspec.structs.replace(first, held=9, findings=(found,))
-        yield from rest
-
-    monkeypatch.setattr(command, "measured_runs", faulty)
+def test_a_claim_that_fails_in_a_run_is_a_finding(call: Call, fast: Changes) -> None:
+    wrong = Finding("no-false-confirm", 3, None, None, "confirmed", replay="topo-verify replay x")
+    fast.append(lambda row: replace(row, findings=(wrong,)))
     done = call(LINE)
     assert done.exit_code == 1
     assert "16 runs were judged: a claim fails in 1 of them." in done.stdout
     assert "again: topo-verify replay x" in done.stdout
-    monkeypatch.setattr(command, "measured_runs", made_up)
     assert call(LINE).exit_code == 1  # from the store, too
 
 
-def test_a_run_out_of_time_is_incomplete(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    def slow(
-        runs: list[PlannedRun], _workers: int, _engine: str = "reference"
-    ) -> Iterator[MeasuredRun]:
-        first, *rest = map(make, runs)
-        yield msgspec.structs.replace(first, undecided="out of time")
-        yield from rest
-
-    monkeypatch.setattr(command, "measured_runs", slow)
+def test_a_run_out_of_time_is_incomplete(call: Call, fast: Changes) -> None:
+    fast.append(lambda row: replace(row, undecided="out of time"))
     done = call(LINE)
     assert done.exit_code == 3
     assert "15 runs were judged: 10 of 10 claims held in each. 1 more were not" in done.stdout
@@ -186,8 +179,8 @@ def test_bad_usage_is_one_sentence(call: Call, line: str, words: str) -> None:
 
 def test_a_foreign_store_is_one_sentence(call: Call) -> None:
     Path("figures").mkdir()
-    Path("figures/runs.jsonl").write_text("mine\n")
+    Path("figures/runs.db").write_text("mine\n" * 100)
     done = call(LINE)
     assert done.exit_code == 2
     assert done.stderr.count("\n") == 1
-    assert "figures/runs.jsonl: it is no store of reproduce" in done.stderr
+    assert "figures/runs.db: it is no store of topo-verify" in done.stderr

@@ -78,7 +78,7 @@ def test_a_mapper_out_of_time_exits_3(results: Call, call: Call) -> None:
         ("search basic --class tidy", "class 'tidy': expected any, planar"),
         ("search basic --class simple,planar --edges 9", "there is no formula"),
         ("search basic,folding --ledger L", "--ledger L: expected one TARGET, got 2"),
-        ("search basic --ledger mappers.py", "it is no ledger: name another file"),
+        ("search basic --ledger mappers.py", "it is no store of topo-verify: name"),
         ("search basic --policies every --edges 7", "for basic it goes to 6 edges"),
         ("search mappers.py:silent --policies all", "has no policies"),
         ("search basic --workers -1", "invalid value for '--workers'"),
@@ -193,11 +193,26 @@ def test_every_choice_shows_the_range_of_the_costs(results: Call, call: Call) ->
     line = "search basic --edges 2 --workers 0 --policies every --worst"
     (entry,) = results(line)["results"]
     every = entry["by_edges"][1]["every"]
-    assert (every["worlds"], every["states"], every["choices"]) == (10, 62, 145)
+    assert (every["worlds"], every["states"], every["choices"]) == (10, 68, 157)
     assert (every["cheapest"], every["reference"], every["dearest"]) == (22, 23, 27)
     assert every["most_saved"] == {"world": "m2/6", "reference": 3, "cheapest": 2}
     assert every["judged_by"] == "every claim, on a run for each choice"
+    assert (every["decided_by"], entry["decided_by"]) == ("mapper", "mapper")
     shown = " ".join(call(line).stdout.split())
     assert "No policy of pick and order saves more than 4.0% of what" in shown
     (entry,) = results("search basic --edges 1 --workers 0")["results"]
-    assert entry["by_edges"][0]["every"] is None
+    assert entry["by_edges"][0]["every"] is entry["decided_by"] is None
+
+
+def test_what_a_model_decides_is_sampled_of_the_mapper(results: Call, call: Call) -> None:
+    pytest.importorskip("numba")
+    line = "search basic --class max-degree:2 --edges 5 --workers 0 --policies every"
+    envelope = results(line)
+    (entry,) = envelope["results"]
+    assert (entry["verdict"], entry["checked"], envelope["exit"]) == ("SAMPLED", entry["total"], 0)
+    assert entry["decided_by"] == "model"
+    deciders = [size["every"]["decided_by"] for size in entry["by_edges"]]
+    assert deciders == ["mapper"] * 4 + ["model"]
+    shown = " ".join(call(line).stdout.split())
+    assert "SAMPLED: 20 of 20 worlds checked, no claim failed; the worlds of 5 edges are" in shown
+    assert "EXHAUSTED" not in shown

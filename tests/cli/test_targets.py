@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from click.shell_completion import ShellComplete
 from click.testing import Result
 
 from topo_verify.cli import main
@@ -43,7 +44,7 @@ def test_an_argument_and_the_option_are_the_same(name: str, call: Call) -> None:
     assert untimed(call(line.format("basic"))) == untimed(call(line.format("--target basic")))
 
 
-def test_explore_calls_it_algorithm_as_well(call: Call) -> None:
+def test_the_hidden_alias_of_target_works(call: Call) -> None:
     one, other = (call(f"explore m2/3 {word} basic") for word in ("--algorithm", "--target"))
     assert one.exit_code == other.exit_code == 0
     assert one.stdout == other.stdout
@@ -52,10 +53,7 @@ def test_explore_calls_it_algorithm_as_well(call: Call) -> None:
 @pytest.mark.usefixtures("baseline")
 @pytest.mark.parametrize(
     "line",
-    [
-        *(line.format("basic --target folding") for line in LINES.values()),
-        "explore m2/3 --algorithm basic --target folding",
-    ],
+    [line.format("basic --target folding") for line in LINES.values()],
 )
 def test_two_targets_get_one_sentence(line: str, call: Call) -> None:
     done = call(line)
@@ -72,9 +70,25 @@ def test_a_program_is_a_target_as_well(line: str, call: Call) -> None:
     assert call(line).exit_code == 2
 
 
-@pytest.mark.parametrize("command", [*LINES, "explore", "replay"])
-def test_the_help_of_each_has_the_option(command: str, call: Call) -> None:
-    assert "--target TARGET" in " ".join(call(f"{command} --help").stdout.split())
+@pytest.mark.parametrize("command", [*LINES, "arena", "explore", "replay", "play"])
+def test_the_help_of_each_shows_one_spelling(command: str, call: Call) -> None:
+    """The argument where the command is about a mapper, --target where it is about a world."""
+    text = " ".join(call(f"{command} --help").stdout.split())
+    about_a_world = command in {"explore", "replay", "play"}
+    assert ("--target TARGET" in text) == about_a_world
+    assert ("[TARGET]" in text) != about_a_world
+    assert "--algorithm" not in text
+
+
+@pytest.mark.parametrize("command", [*LINES, "arena", "explore", "replay", "play"])
+def test_a_shell_offers_what_the_help_shows(command: str) -> None:
+    offered = {
+        item.value
+        for item in ShellComplete(main, {}, "topo-verify", "").get_completions([command], "--")
+    }
+    assert ("--target" in offered) == (command in {"explore", "replay", "play"})
+    assert "--cmd" in offered
+    assert "--algorithm" not in offered
 
 
 # ---------------------------------------------------------------- help
@@ -144,3 +158,86 @@ def test_a_wrong_target_is_told_the_right_one(
     assert done.exit_code == 2
     assert hint in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+# ---------------------------------------------------------------- names that are not UTF-8
+
+NO_UTF8 = "r\udcff.py"
+"""A file's name with the byte 0xff, as Python reads it from a command line."""
+
+NAMING = [
+    f"{command} '{NO_UTF8}:explore' {options}"
+    for command, options in {
+        "search": "--edges 2 --workers 0",
+        "search --target": "--edges 2 --workers 1",
+        "verify": "--quick",
+        "conform": "--worlds edges<=1 --workers 1",
+        "record": "--worlds edges<=1 --out base.gz",
+        "arena": "--suite tiny --workers 0 --out league",
+        "explore m2/5 --algorithm": "--format json",
+        "replay m2/5 --target": "--in-process",
+    }.items()
+]
+
+
+@pytest.mark.parametrize("line", [*NAMING, f"search --cmd './{NO_UTF8}' --edges 2 --workers 0"])
+def test_a_mapper_whose_name_is_not_utf8_is_bad_input(call: Call, folder: Path, line: str) -> None:
+    (folder / NO_UTF8).write_text("import topo_verify\nexplore = topo_verify.CATALOGUE['basic']\n")
+    done = call(line)
+    assert done.exit_code == 2, done.output
+    assert "expected a name in UTF-8; rename the file or the folder" in done.stderr
+    assert done.stderr.isascii()
+
+
+def test_a_mapper_that_reads_a_file_whose_name_is_not_utf8_has_no_ledger(
+    call: Call, folder: Path
+) -> None:
+    (folder / NO_UTF8).write_text("")
+    (folder / "reads.py").write_text(
+        "import os, topo_verify\nopen(os.fsdecode(b'r\\xff.py')).close()\n"
+        "explore = topo_verify.CATALOGUE['basic']\n"
+    )
+    line = "search reads.py:explore --edges 1 --workers 0"
+    assert call(line).exit_code == 0
+    for option in ("", f"--depends '{NO_UTF8}' --in-process"):
+        done = call(f"{line} --ledger l.db {option}")
+        assert done.exit_code == 2, done.output
+        assert "the mapper read" in done.stderr
+        assert "expected a name in UTF-8" in done.stderr
+
+
+@pytest.mark.parametrize("command", ["conform basic --workers 0", "record basic --out base.gz"])
+def test_a_world_whose_name_is_not_utf8_is_bad_input(
+    call: Call, folder: Path, command: str
+) -> None:
+    named = (folder / NO_UTF8).with_suffix(".json")
+    assert call("world convert m2/5 -o world.json").exit_code == 0
+    (folder / "world.json").rename(named)
+    done = call(f"{command} --worlds '{named.name}'")
+    assert done.exit_code == 2, done.output
+    assert "expected a name in UTF-8" in done.stderr
+
+
+# ---------------------------------------------------------------- a working folder that was removed
+
+
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("search basic --edges 1 --workers 0 --ledger l.db", 2),
+        ("search module:explore --edges 1 --workers 0", 2),
+        ("explore m1/0 --algorithm {}/mappers.py:raises_or_strolls", 1),
+        ("explore m1/0 --algorithm {}/mappers.py:raises_or_strolls --in-process", 1),
+    ],
+)
+def test_a_working_folder_that_was_removed_is_one_sentence_or_no_matter(
+    call: Call, folder: Path, monkeypatch: pytest.MonkeyPatch, line: str, code: int
+) -> None:
+    gone = folder / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    done = call(line.format(folder))
+    assert done.exit_code == code, done.output
+    assert "a bug of topo-verify" not in done.stderr
+    assert len(done.stderr.splitlines()) == (code == 2)

@@ -9,8 +9,8 @@ import pytest
 from tests.cli.conftest import Call, Results
 from tests.helpers import of_type
 from topo_verify import World
-from topo_verify.harness.map_check import tour_log
 from topo_verify.robot.events import Move, read_trace, write_trace
+from topo_verify.studies.map_check import tour_log
 
 
 @pytest.fixture(autouse=True)

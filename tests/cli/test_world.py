@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
+from importlib import import_module
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -110,6 +111,30 @@ def test_convert_writes_any_world_for_networkx(
     assert call(f"world convert w{ending}").stdout == call(f"world convert {name}").stdout
 
 
+@pytest.mark.parametrize(
+    ("file", "to"),
+    [
+        ("cube.pc", "planar_code"),
+        ("cube.PLC", "planar_code"),
+        ("cube.graphml", "graphml"),
+        ("cube.nx.json", "nx-json"),
+        ("cube.json", "json"),
+        ("cube", "json"),
+    ],
+)
+def test_convert_writes_the_format_that_the_name_of_the_file_says(
+    call: Call, results: Call, file: str, to: str
+) -> None:
+    (entry,) = results(f"world convert 'family:cube()' -o {file}")["results"]
+    assert (entry["to"], entry["file"]) == (to, file)
+    assert World.from_json(call(f"world convert {file}").stdout).code == families.cube().code
+
+
+def test_convert_says_of_world_json_too_that_its_name_is_of_another_format(call: Call) -> None:
+    done = call("world convert m4/41 --to json -o w.pc")
+    assert done.stderr == "topo-verify: w.pc: to read it again, let its name end in .json\n"
+
+
 def test_convert_says_how_a_file_is_called_that_can_be_read_again(call: Call) -> None:
     done = call("world convert m4/41 --to nx-json -o w.json")
     assert done.stderr == "topo-verify: w.json: to read it again, let its name end in .nx.json\n"
@@ -126,6 +151,10 @@ def test_convert_says_how_a_file_is_called_that_can_be_read_again(call: Call) ->
         ),
         ("m2/9 --to planar_code -o x.pc", "planar_code holds simple worlds"),
         ("named.json --to graphml -o x.pc", "GraphML cannot hold the character '\\x1b'"),
+        (
+            "m2/5 -o x.net.xml",
+            "sumo is read and not written: let the name end in one of .j",
+        ),
         ("m0/0 --to nonsense", "'json', 'planar_code', 'graphml', 'nx-json'"),
     ],
 )
@@ -137,7 +166,7 @@ def test_convert_refuses_what_it_cannot_write(
     done = call(f"world convert {line}")
     assert done.exit_code == 2
     assert sentence in done.stderr
-    assert not (folder / "x.pc").exists()
+    assert not [*folder.glob("x.*")]
 
 
 def test_list_has_every_world_of_the_class_in_order(call: Call, results: Call) -> None:
@@ -152,7 +181,8 @@ def test_list_prints_each_world_as_it_is_found(call: Call, monkeypatch: pytest.M
         yield from islice(ranked_tables(edges, kind), 2)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("topo_verify.cli.list_worlds.ranked_tables", stopped)
+    # `topo_verify.cli.world` is the group of commands, which hides the module of its name.
+    monkeypatch.setattr(import_module("topo_verify.cli.world"), "ranked_tables", stopped)
     done = call("world list --edges 4")
     assert (done.exit_code, done.stdout) == (3, "m4/0\nm4/1\n")
 

@@ -12,28 +12,14 @@ import pytest
 from msgspec import structs
 
 from topo_verify import World
+from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import check
 from topo_verify.checkers.findings import Judgement
+from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.events import decoded, spans, words
-from topo_verify.compiled.judging import verdict
-from topo_verify.compiled.judging.layout import (
-    CLAIM_COUNT,
-    J_BOUND,
-    J_DARTS,
-    J_DELIVERED,
-    J_JUDGED,
-    J_LEVEL,
-    J_OF,
-    J_REPORTED,
-    J_STATUS,
-    J_VERTICES,
-    JUDGE_SIZE,
-    STATUSES,
-)
+from topo_verify.compiled.judging import layout, verdict
 from topo_verify.compiled.kernel import SOURCES
 from topo_verify.compiled.shard import ShardCounts
-from topo_verify.compiled.workspace import AL, CA, CD, CF, CV, DG, NDARTS, NTR, NV, ST, TR, VT
-from topo_verify.harness.run import Exploration, explore
 from topo_verify.programs.loader import Mapper
 from topo_verify.robot.events import Event, Finish, MapData, Start
 from topo_verify.robot.simulator import first_percept
@@ -107,7 +93,7 @@ def by_checkers(run: Run) -> Judged:
     return as_judged(check(world, events, None if run.map is not None else "it was stopped"))
 
 
-_J = [0] * JUDGE_SIZE
+_J = [0] * layout.JUDGE_SIZE
 
 
 def by_judge(
@@ -122,36 +108,40 @@ def by_judge(
         judge: another judge than `verdict.judge`; `words` is its array.
     """
     W, J = workspace_of(run), words  # noqa: N806  the names of the kernels
-    J[J_DARTS], J[J_VERTICES] = len(run.world.alpha), len(run.world.degrees)
-    J[J_BOUND], J[J_LEVEL] = run.world.cost_bound, CLAIM_COUNT
-    J[J_DELIVERED], J[J_REPORTED] = run.map is not None, -1 if run.cost is None else run.cost
+    J[layout.J_DARTS], J[layout.J_VERTICES] = len(run.world.alpha), len(run.world.degrees)
+    J[layout.J_BOUND], J[layout.J_LEVEL] = run.world.cost_bound, layout.CLAIM_COUNT
+    J[layout.J_DELIVERED], J[layout.J_REPORTED] = (
+        run.map is not None,
+        -1 if run.cost is None else run.cost,
+    )
     if (judge or verdict.judge)(W, J) < 0:
         return None
     return tuple(
-        (STATUSES[J[J_STATUS + k]], J[J_JUDGED + k], J[J_OF + k]) for k in range(CLAIM_COUNT)
+        (layout.STATUSES[J[layout.J_STATUS + k]], J[layout.J_JUDGED + k], J[layout.J_OF + k])
+        for k in range(layout.CLAIM_COUNT)
     )
 
 
 def workspace_of(run: Run) -> list[int]:
     """The workspace that the judge reads: the world, the trace and the map."""
-    W = [0] * (TR + len(run.events))  # noqa: N806  the name of the kernels
-    W[TR:], W[NTR] = run.events, len(run.events)
+    W = [0] * (ws.TR + len(run.events))  # noqa: N806  the name of the kernels
+    W[ws.TR :], W[ws.NTR] = run.events, len(run.events)
     degrees, alpha = run.world.code
     first = 0
     for v, degree in enumerate(degrees):
-        W[ST + v], W[DG + v] = first, degree
-        W[VT + first : VT + first + degree] = [v] * degree
+        W[ws.ST + v], W[ws.DG + v] = first, degree
+        W[ws.VT + first : ws.VT + first + degree] = [v] * degree
         first += degree
-    W[AL : AL + len(alpha)] = alpha
+    W[ws.AL : ws.AL + len(alpha)] = alpha
     if run.map is not None:
-        W[NV], W[NDARTS] = len(run.map.vertices), sum(map(len, run.map.vertices))
-        W[CA : CA + W[NDARTS]] = [-1] * W[NDARTS]
+        W[ws.NV], W[ws.NDARTS] = len(run.map.vertices), sum(map(len, run.map.vertices))
+        W[ws.CA : ws.CA + W[ws.NDARTS]] = [-1] * W[ws.NDARTS]
         for v, darts in enumerate(run.map.vertices):
-            W[CF + v], W[CD + v] = darts[0] if darts else 0, len(darts)
+            W[ws.CF + v], W[ws.CD + v] = darts[0] if darts else 0, len(darts)
             for dart in darts:
-                W[CV + dart] = v
+                W[ws.CV + dart] = v
         for one, other in run.map.edges:
-            W[CA + one], W[CA + other] = other, one
+            W[ws.CA + one], W[ws.CA + other] = other, one
     return W
 
 

@@ -69,6 +69,98 @@ def test_a_trace_grows_until_it_holds_the_run(monkeypatch: pytest.MonkeyPatch) -
     assert run_world(world, "basic", trace=True) == whole
 
 
+GIB = 1 << 30
+
+
+@pytest.mark.parametrize(
+    ("most", "room", "runs"),
+    [
+        (1500, 1000, [1000, 1]),  # 442 moves have more words than that
+        (1800, 100, [100, 1, 400, 1, 1600, 1, 1800]),  # the moves alone have 1,768
+    ],
+)
+def test_a_trace_that_the_free_memory_does_not_hold_is_refused(
+    most: int, room: int, runs: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    world, rooms, run = families.lattice(5, 5), list[int](), explore.CompiledJob.run
+
+    def spied(job: explore.CompiledJob, layout: workspace.WordLayout, words: int) -> Any:
+        rooms.append(words)
+        return run(job, layout, words)
+
+    monkeypatch.setattr(explore, "TRACE_ROOM", room)
+    monkeypatch.setattr(explore, "free_memory", lambda: 2 * explore.WORD_BYTES * most)
+    monkeypatch.setattr(explore.CompiledJob, "run", spied)
+    words = r"trace of basic in this world of 40 edges needs at least 0.00 GiB.*trace=False"
+    with pytest.raises(InputError, match=words):
+        run_world(world, "basic", trace=True)
+    assert rooms == runs
+
+
+def test_a_trace_may_take_half_of_the_free_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    world = families.lattice(5, 5)
+    whole = run_world(world, "basic", trace=True)
+    assert whole.trace is not None
+    monkeypatch.setattr(explore, "TRACE_ROOM", 8)
+    monkeypatch.setattr(explore, "free_memory", lambda: 144 * len(whole.trace or ()))
+    assert run_world(world, "basic", trace=True) == whole
+
+
+@pytest.mark.parametrize(
+    ("files", "free"),
+    [
+        ({"/proc/meminfo": "MemTotal: 9 kB\nMemAvailable: 1048576 kB"}, GIB),
+        (
+            {
+                "/proc/meminfo": "MemAvailable: 1048576 kB",
+                "/proc/self/cgroup": "0::/a",
+                "/sys/fs/cgroup/a/memory.max": "5000",
+                "/sys/fs/cgroup/a/memory.current": "3000",
+                "/sys/fs/cgroup/a/memory.stat": "anon 7\ninactive_file 500",
+            },
+            2500,
+        ),
+        (
+            {
+                "/proc/meminfo": "MemAvailable: 1048576 kB",
+                "/proc/self/cgroup": "3:cpuset:/\n4:memory:/b\n0::/",
+                "/sys/fs/cgroup/memory/b/memory.limit_in_bytes": "5000",
+                "/sys/fs/cgroup/memory/b/memory.usage_in_bytes": "6000",
+            },
+            0,
+        ),
+        (
+            {
+                "/proc/meminfo": "MemAvailable: 1048576 kB",
+                "/proc/self/cgroup": "0::/a",
+                "/sys/fs/cgroup/a/memory.max": "max",
+                "/sys/fs/cgroup/a/memory.current": "3000",
+            },
+            GIB,
+        ),
+    ],
+)
+def test_free_memory_is_that_of_the_machine_or_of_the_control_group(
+    files: dict[str, str], free: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def lines(path: str) -> list[str]:
+        return files.get(path, "").splitlines()
+
+    monkeypatch.setattr(explore, "_lines", lines)
+    assert explore.free_memory() == free
+
+
+def test_without_address_space_the_limit_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    import numpy as np
+
+    def none(_words: int, _kind: object) -> object:
+        raise MemoryError
+
+    monkeypatch.setattr(np, "zeros", none)
+    with pytest.raises(InputError, match=r"GiB of address space .*ulimit -v"):
+        explore.workspace(workspace.LARGE, 1)
+
+
 def test_an_algorithm_that_has_no_kernel_is_refused() -> None:
     with pytest.raises(InputError, match="expected an algorithm of the catalogue, got 'mine'"):
         run_world(WORLD, "mine")

@@ -19,36 +19,24 @@ from tests.compiled.judged import Run, by_judge, run_of
 from tests.compiled.test_judge_fold import fold_of
 from topo_verify import InputError, World
 from topo_verify.compiled import explore, workspace
+from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.events import POSE, spans
 from topo_verify.compiled.explore import run_world
-from topo_verify.compiled.folding import start_fold
+from topo_verify.compiled.folding import add_place, join_places, lay, start_fold
 from topo_verify.compiled.judging import consequences, entailed, fold, layout
-from topo_verify.compiled.partial_fold import add_place, join_places, lay
-from topo_verify.compiled.workspace import (
-    CAPACITIES,
-    FULL_CHART,
-    FULL_PLACES,
-    FULL_RECORDS,
-    FULL_STEPS,
-    FULL_TRACE,
-    SMALL,
-    STOP_BUDGET,
-    STOP_FULL,
-    P,
-)
 
 # ---------------------------------------------------------------- runs
 
 RUNS = [
-    ("CHART_DARTS", FULL_CHART, "basic", "m4/73"),
-    ("STEPS", FULL_STEPS, "enhancement-iii-one", "m5/705"),
-    ("STEPS", FULL_STEPS, "enhancement-iii-all+i", "m8/408983"),
-    ("RECORDS", FULL_RECORDS, "enhancement-iii-one+i", "m8/408983"),
-    ("RECORDS", FULL_RECORDS, "enhancement-iii-all", "m8/408983"),
-    ("PLACE_DARTS", FULL_PLACES, "folding", "m4/41"),
-    ("CHANGED", FULL_PLACES, "folding", "m4/41"),
-    ("LAYER_WORDS", FULL_PLACES, "folding", "m4/41"),
-    ("TRACE", FULL_TRACE, "basic", "m3/9"),
+    ("CHART_DARTS", ws.FULL_CHART, "basic", "m4/73"),
+    ("STEPS", ws.FULL_STEPS, "enhancement-iii-one", "m5/705"),
+    ("STEPS", ws.FULL_STEPS, "enhancement-iii-all+i", "m8/408983"),
+    ("RECORDS", ws.FULL_RECORDS, "enhancement-iii-one+i", "m8/408983"),
+    ("RECORDS", ws.FULL_RECORDS, "enhancement-iii-all", "m8/408983"),
+    ("PLACE_DARTS", ws.FULL_PLACES, "folding", "m4/41"),
+    ("CHANGED", ws.FULL_PLACES, "folding", "m4/41"),
+    ("LAYER_WORDS", ws.FULL_PLACES, "folding", "m4/41"),
+    ("TRACE", ws.FULL_TRACE, "basic", "m3/9"),
 ]
 """A capacity, the reason that it gives, and a run that fills some of it."""
 
@@ -62,33 +50,33 @@ def test_a_run_is_itself_or_ends_for_the_buffer_that_is_full(
     size = 1
     while (run := run_within({capacity: size}, world, algorithm)) != (0, whole):
         stop, trace = run
-        assert stop == STOP_FULL + reason
+        assert stop == ws.STOP_FULL + reason
         assert trace == whole[: len(trace)]
         size += 1
-    assert 1 < size < CAPACITIES[capacity]
+    assert 1 < size < ws.CAPACITIES[capacity]
 
 
 def test_every_capacity_of_the_workspace_has_a_run_that_fills_it() -> None:
-    assert {capacity for capacity, *_ in RUNS} == CAPACITIES.keys() - {"WORLD_DARTS"}
+    assert {capacity for capacity, *_ in RUNS} == ws.CAPACITIES.keys() - {"WORLD_DARTS"}
 
 
 def test_a_budget_that_ends_at_the_same_time_does_not_hide_a_full_buffer() -> None:
     """S has grown by a false edge, and the robot is to go back before it goes on."""
     world, fault = World.from_id("m3/5"), "confirms-what-is-alone"
     stop, words = run_within({}, world, "basic", fault=fault, budget=3)
-    assert stop == STOP_BUDGET
+    assert stop == ws.STOP_BUDGET
     full = {"TRACE": len(words) - 1}
     stop, _ = run_within(full, world, "basic", fault=fault, budget=3)
-    assert stop == STOP_FULL + FULL_TRACE
+    assert stop == ws.STOP_FULL + ws.FULL_TRACE
 
 
 @pytest.mark.parametrize(
     ("reason", "said"),
     [
-        (FULL_CHART, "for the map S: use the reference engine"),
-        (FULL_STEPS, "for the sequences behind one edge: use the reference engine"),
-        (FULL_RECORDS, "for the records T: use the reference engine"),
-        (FULL_PLACES, "for the places that were seen: use the reference engine"),
+        (ws.FULL_CHART, "for the map S: use the reference engine"),
+        (ws.FULL_STEPS, "for the sequences behind one edge: use the reference engine"),
+        (ws.FULL_RECORDS, "for the records T: use the reference engine"),
+        (ws.FULL_PLACES, "for the places that were seen: use the reference engine"),
     ],
 )
 def test_a_run_that_fills_the_largest_layout_is_refused_in_words(
@@ -96,7 +84,7 @@ def test_a_run_that_fills_the_largest_layout_is_refused_in_words(
 ) -> None:
     def full(_job: explore.CompiledJob, layout: workspace.WordLayout, room: int) -> Any:
         space = explore.workspace(layout, room)
-        space[layout.at("STOP")] = STOP_FULL + reason
+        space[layout.at("STOP")] = ws.STOP_FULL + reason
         return space
 
     monkeypatch.setattr(explore.CompiledJob, "run", full)
@@ -159,10 +147,10 @@ def square() -> list[int]:
 
 def test_the_fold_of_a_run_has_no_room_for_more_pairs_than_darts() -> None:
     words = workspace.CAPACITIES["PLACE_DARTS"]
-    for room, stop in ((words - 2, 0), (words - 1, STOP_FULL + FULL_PLACES)):
-        space = [0] * SMALL.at("TR")
+    for room, stop in ((words - 2, 0), (words - 1, ws.STOP_FULL + ws.FULL_PLACES)):
+        space = [0] * ws.SMALL.at("TR")
         start_fold(space)
-        a, b, c, d = (add_place(space, 2 * P, 0) for _ in range(4))
+        a, b, c, d = (add_place(space, 2 * ws.P, 0) for _ in range(4))
         join_places(space, a, c)
         join_places(space, b, d)
         assert lay(space, a, b, room, 0) == (room if stop else room + 2)

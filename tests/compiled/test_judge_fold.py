@@ -14,27 +14,14 @@ pytest.importorskip("numba", reason="the compiled engine needs numba")
 
 from tests.compiled.judged import plant, sampled
 from topo_verify import InputError, World
-from topo_verify.compiled.judging import fold
-from topo_verify.compiled.judging.layout import (
-    F_BASE,
-    F_DEGREE,
-    F_DOORS,
-    F_END_DART,
-    F_END_NODE,
-    F_NODES,
-    F_OFFSET,
-    F_PARENT,
-    F_UNDOS,
-    F_WEIGHT,
-    JUDGE_SIZE,
-)
+from topo_verify.compiled.judging import fold, layout
 from topo_verify.compiled.workspace import P
 from topo_verify.robot.events import MapData
 
 
 def fold_of(degrees: tuple[int, ...]) -> list[int]:
     """A fold with nodes of these degrees, all darts open, none with the marker."""
-    J = [0] * JUDGE_SIZE  # noqa: N806  the name of the kernels
+    J = [0] * layout.JUDGE_SIZE  # noqa: N806  the name of the kernels
     fold.start_judge_fold(J, degrees[0] * P)
     for degree in degrees[1:]:
         fold.visit(J, degree * P)
@@ -43,18 +30,20 @@ def fold_of(degrees: tuple[int, ...]) -> list[int]:
 
 def known(J: list[int]) -> tuple[object, ...]:  # noqa: N803  the name of the kernels
     """Everything that the fold says: who stands for whom, and the ends of the doors."""
-    nodes, doors = range(J[F_NODES]), range(J[F_DOORS])
-    ends = [J[F_END_NODE + d] for d in doors]
-    darts = [J[F_END_DART + d] for d in doors if ends[d] >= 0]
-    rows = ([J[row + n] for n in nodes] for row in (F_PARENT, F_OFFSET, F_WEIGHT))
-    return J[F_UNDOS], ends, darts, *rows
+    nodes, doors = range(J[layout.F_NODES]), range(J[layout.F_DOORS])
+    ends = [J[layout.F_END_NODE + d] for d in doors]
+    darts = [J[layout.F_END_DART + d] for d in doors if ends[d] >= 0]
+    rows = (
+        [J[row + n] for n in nodes] for row in (layout.F_PARENT, layout.F_OFFSET, layout.F_WEIGHT)
+    )
+    return J[layout.F_UNDOS], ends, darts, *rows
 
 
 def draw_changes(J: list[int], draw: Random, number: int) -> None:  # noqa: N803  (the same)
     """Make places one and join ends, as the dice fall, contradictions and all."""
     for _ in range(number):
-        a, b = (draw.randrange(J[F_NODES]) for _ in range(2))
-        i, j = (draw.randrange(J[F_DEGREE + node]) for node in (a, b))
+        a, b = (draw.randrange(J[layout.F_NODES]) for _ in range(2))
+        i, j = (draw.randrange(J[layout.F_DEGREE + node]) for node in (a, b))
         draw.choice([fold.make_one, fold.join_ends, fold.join_ends])(J, a, i, b, j)
 
 
@@ -65,7 +54,7 @@ def not_restored() -> list[int]:
         draw = Random(seed)
         J = fold_of(tuple(draw.choice([2, 3, 3]) for _ in range(8)))  # noqa: N806  (the same)
         draw_changes(J, draw, 3)
-        before, mark = known(J), J[F_UNDOS]
+        before, mark = known(J), J[layout.F_UNDOS]
         draw_changes(J, draw, 4)
         fold.roll_back(J, mark)
         if known(J) != before:
@@ -105,7 +94,7 @@ def says_planar(world: World, opened: set[int]) -> bool:
             vertex, end = world.vertex_of[dart], world.vertex_of[other]
             first, end_first = world.vertices[vertex][0], world.vertices[end][0]
             fold.put_end(J, vertex, dart - first, end, other - end_first)
-    assert J[F_BASE] == 0
+    assert J[layout.F_BASE] == 0
     assert fold.lay_out(J) == len(opened)
     return fold.is_planar_fold(J)
 

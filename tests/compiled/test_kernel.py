@@ -4,34 +4,24 @@ from __future__ import annotations
 
 import ast
 import fcntl
+import os
+import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from topo_verify import worlds
 from topo_verify.compiled import exploration, kernel
+from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.events import digest
 from topo_verify.compiled.explore import KERNELS, place_world, run_world, workspace
 from topo_verify.compiled.kernel import compiled, module_source
-from topo_verify.compiled.workspace import (
-    BUDGET,
-    FAULTY,
-    FIELDS,
-    LARGE,
-    MOTION,
-    NTR,
-    ROOM,
-    RULE,
-    SMALL,
-    TR,
-    TRACING,
-    WordLayout,
-    layout,
-)
+from topo_verify.errors import InputError
 
 
 def forget() -> None:
@@ -50,7 +40,9 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def test_every_index_is_unsigned() -> None:
-    functions = [n for n in ast.parse(module_source(SMALL)).body if isinstance(n, ast.FunctionDef)]
+    functions = [
+        n for n in ast.parse(module_source(ws.SMALL)).body if isinstance(n, ast.FunctionDef)
+    ]
     slices = [n.slice for f in functions for n in ast.walk(f) if isinstance(n, ast.Subscript)]
     slices = [i for one in slices for i in (one.elts if isinstance(one, ast.Tuple) else [one])]
     assert slices
@@ -58,33 +50,33 @@ def test_every_index_is_unsigned() -> None:
 
 
 def test_every_layout_has_its_own_constants() -> None:
-    sources = {one.name: module_source(one) for one in (SMALL, FAULTY, LARGE)}
-    for one in (SMALL, FAULTY, LARGE):
+    sources = {one.name: module_source(one) for one in (ws.SMALL, ws.FAULTY, ws.LARGE)}
+    for one in (ws.SMALL, ws.FAULTY, ws.LARGE):
         assert f"\nTR = {one.at('TR')}\n" in sources[one.name]
     assert "\nFAULTS = 0\n" in sources["small"]
     assert "\nFAULTS = 1\n" in sources["faulty"]
 
 
 def test_the_constants_of_the_kernels_are_those_of_the_small_layout() -> None:
-    assert SMALL.at("TR") == TR
-    assert SMALL.at("NTR") == NTR
+    assert ws.SMALL.at("TR") == ws.TR
+    assert ws.SMALL.at("NTR") == ws.NTR
 
 
 def test_no_two_fields_share_a_word() -> None:
-    spread = layout("spread", {}, gap=2)
-    offsets = [spread.at(field.name) for field in FIELDS]
-    assert offsets == list(range(0, 3 * len(FIELDS), 3))
+    spread = ws.layout("spread", {}, gap=2)
+    offsets = [spread.at(field.name) for field in ws.FIELDS]
+    assert offsets == list(range(0, 3 * len(ws.FIELDS), 3))
 
 
 def test_machine_code_is_kept_and_found_again(
     cache: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    compiled(digest, SMALL)
+    compiled(digest, ws.SMALL)
     assert "compiling digest for this machine" in capsys.readouterr().err
     (folder,) = cache.iterdir()
     written = {path.name: path.stat().st_mtime_ns for path in (folder / "__pycache__").iterdir()}
     forget()
-    compiled(digest, SMALL)
+    compiled(digest, ws.SMALL)
     assert capsys.readouterr().err == ""
     assert (
         written.items()
@@ -101,7 +93,7 @@ def test_processes_do_not_compile_the_same_kernels_at_the_same_time(cache: Path)
         "from topo_verify.compiled.workspace import SMALL\n"
         "compiled(digest, SMALL)"
     )
-    path = Path(str(kernel.machine_code(SMALL, checked=False).__file__))  # written, not compiled
+    path = Path(str(kernel.machine_code(ws.SMALL, checked=False).__file__))  # written, not compiled
     assert path.parent.parent == cache
     with (path.parent / "lock").open("a") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
@@ -117,42 +109,257 @@ def test_processes_do_not_compile_the_same_kernels_at_the_same_time(cache: Path)
 def test_a_change_in_any_kernel_is_a_change_of_all_machine_code(
     cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    compiled(digest, SMALL)
+    compiled(digest, ws.SMALL)
     forget()
-    changed = module_source(SMALL).replace("return h", "return h + 1")
+    changed = module_source(ws.SMALL).replace("return h", "return h + 1")
 
-    def source(_layout: WordLayout, *, checked: bool) -> str:
+    def source(_layout: ws.WordLayout, *, checked: bool) -> str:
         assert not checked
         return changed
 
     monkeypatch.setattr(kernel, "module_source", source)
-    compiled(digest, SMALL)
+    compiled(digest, ws.SMALL)
     assert len(list(cache.iterdir())) == 2
 
 
+# ---------------------------------------------------------------- damaged caches
+
+
+TRACE = [3, 5, 7]
+
+
+def digest_of_trace() -> int:
+    """What the machine code of `digest` makes of a trace, as a fresh process would load it."""
+    forget()
+    words = kernel_words(len(TRACE))
+    words[ws.NTR] = len(TRACE)
+    for place, word in enumerate(TRACE, ws.TR):
+        words[place] = word
+    return compiled(digest, ws.SMALL)(words)
+
+
+@pytest.fixture(scope="module")
+def filled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A cache with the machine code of `digest`, and of a version that returns 1 more."""
+    folder = tmp_path_factory.mktemp("filled")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TOPO_VERIFY_CACHE", str(folder))
+        true = digest_of_trace()
+        changed = module_source(ws.SMALL).replace("return h", "return h + 1")
+
+        def source(_layout: ws.WordLayout, *, checked: bool) -> str:
+            assert not checked
+            return changed
+
+        patch.setattr(kernel, "module_source", source)
+        assert digest_of_trace() == true + 1
+    forget()
+    return folder / "compiled"
+
+
+@pytest.fixture
+def kept(cache: Path, filled: Path) -> Path:
+    """The folder with the machine code of `digest` in a cache for this test."""
+    shutil.copytree(filled, cache)
+    return Path(str(kernel.machine_code(ws.SMALL, checked=False).__file__)).parent
+
+
+def another_version(kept: Path) -> Path:
+    (folder,) = (one for one in kept.parent.iterdir() if one != kept)
+    return folder
+
+
+def flipped(kept: Path, suffix: str) -> None:
+    (file,) = (kept / "__pycache__").glob(f"*.{suffix}")
+    data = bytearray(file.read_bytes())
+    data[len(data) // 2] ^= 1
+    file.write_bytes(data)
+
+
+def flip_code(kept: Path) -> None:
+    flipped(kept, "nbc")
+
+
+def flip_index(kept: Path) -> None:
+    flipped(kept, "nbi")
+
+
+def flip_sums(kept: Path) -> None:
+    flipped(kept, "sums")
+
+
+def copy_code(kept: Path) -> None:
+    (file,) = (another_version(kept) / "__pycache__").glob("*.nbc")
+    shutil.copy(file, kept / "__pycache__")
+
+
+def copy_all(kept: Path) -> None:
+    shutil.copytree(another_version(kept), kept, dirs_exist_ok=True)
+
+
+def remove_sums(kept: Path) -> None:
+    (file,) = (kept / "__pycache__").glob("*.sums")
+    file.unlink()
+
+
+@pytest.mark.parametrize(
+    "damage", [flip_code, flip_index, flip_sums, copy_code, copy_all, remove_sums]
+)
+def test_damaged_machine_code_is_compiled_again_with_a_warning(
+    damage: Callable[[Path], None], kept: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    true = digest_of_trace()
+    assert capsys.readouterr().err == ""
+    damage(kept)
+    assert digest_of_trace() == true
+    warning = capsys.readouterr().err
+    assert f"in {kept}/__pycache__ are damaged or of another version: compiling it again" in warning
+    assert digest_of_trace() == true
+    assert capsys.readouterr().err == ""
+
+
+def test_the_source_in_the_cache_is_not_believed(
+    kept: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    true = digest_of_trace()
+    source = kept / "kernels_small.py"
+    text = source.read_text()
+    source.write_text(text.replace("return h", "return h + 1"))
+    assert digest_of_trace() == true
+    assert f"{source} is damaged: writing it again" in capsys.readouterr().err
+    assert source.read_text() == text
+
+
+def test_what_an_interrupted_process_left_is_removed(kept: Path) -> None:
+    code = kept / "__pycache__"
+    left = [kept / "kernels_small.py.x.new", code / "kernels_small.sums.y.new"]
+    left.append(code / "kernels_small.digest-9.py311.nbi.tmp.0123456789abcdef")
+    for file in left:
+        file.touch()
+    remove_sums(kept)
+    digest_of_trace()
+    assert not [file for file in left if file.exists()]
+
+
+LIMITED = (
+    "import resource\n"
+    "from topo_verify.compiled.events import digest\n"
+    "from topo_verify.compiled.kernel import compiled\n"
+    "from topo_verify.compiled.workspace import SMALL\n"
+    "from topo_verify.errors import InputError\n"
+    "import numba\n"
+    "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"
+    "try:\n"
+    "    compiled(digest, SMALL)\n"
+    "except InputError as error:\n"
+    "    print(error)\n"
+)
+"""A process that compiles a kernel, and whose files may have 1,000 bytes, as on a full disk."""
+
+
+@pytest.mark.parametrize("written", ["nothing", "the source"])
+def test_a_full_disk_is_an_error_that_names_the_folder_and_leaves_nothing(
+    written: str, cache: Path
+) -> None:
+    if written == "the source":
+        kernel.machine_code(ws.SMALL, checked=False)
+    done = subprocess.run(
+        [sys.executable, "-c", LIMITED], capture_output=True, text=True, check=False
+    )
+    assert f"the compiled engine keeps its machine code in {cache}" in done.stdout, done.stderr
+    assert "(File too large): free some space there" in done.stdout
+    files = {file.name for file in cache.rglob("*") if file.is_file()}
+    assert files <= {"lock", "kernels_small.py"}
+
+
+def test_a_damaged_folder_is_an_error_that_names_it(kept: Path) -> None:
+    shutil.rmtree(kept / "__pycache__")
+    (kept / "__pycache__").touch()
+    with pytest.raises(InputError, match=rf"machine code in {kept}, .*remove the folder"):
+        digest_of_trace()
+
+
+# ---------------------------------------------------------------- where the cache is
+
+
+@pytest.fixture
+def homes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """No variable names a cache; the user's home is here."""
+    for name in ("TOPO_VERIFY_CACHE", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path))
+
+    def user(_number: int) -> SimpleNamespace:
+        return SimpleNamespace(pw_dir=tmp_path / "pw")
+
+    monkeypatch.setattr(kernel, "getpwuid", user)
+    monkeypatch.chdir(tmp_path)
+    forget()
+    yield tmp_path
+    forget()
+
+
+@pytest.mark.parametrize(
+    ("variables", "folder"),
+    [
+        ({}, ".cache/topo-verify"),
+        ({"HOME": ""}, "pw/.cache/topo-verify"),
+        ({"HOME": "relative"}, "pw/.cache/topo-verify"),
+        ({"XDG_CACHE_HOME": ""}, ".cache/topo-verify"),
+        ({"XDG_CACHE_HOME": "relative"}, ".cache/topo-verify"),
+        ({"TOPO_VERIFY_CACHE": "relative"}, "relative"),
+    ],
+)
+def test_an_empty_or_relative_home_is_ignored(
+    variables: dict[str, str], folder: str, homes: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    assert kernel.cache_folder() == homes / folder / "compiled"
+
+
+def test_without_any_home_the_cache_lasts_as_long_as_the_process(
+    homes: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def unknown(user: int) -> object:
+        raise KeyError(user)
+
+    monkeypatch.setenv("HOME", "")
+    monkeypatch.setattr(kernel, "getpwuid", unknown)
+    assert homes not in kernel.cache_folder().parents
+    assert "for no home folder is known; set TOPO_VERIFY_CACHE" in capsys.readouterr().err
+
+
+def is_read_only(_path: Path, mode: int) -> bool:
+    return mode != os.W_OK
+
+
 def test_a_folder_that_cannot_be_written_is_replaced_for_as_long_as_the_process_lasts(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "file").touch()
-    monkeypatch.setenv("TOPO_VERIFY_CACHE", str(tmp_path / "file"))
-    forget()
-    folder = kernel.cache_folder()
-    forget()
-    assert folder.is_dir()
-    assert tmp_path not in folder.parents
+    for name, why in (("file", "(Not a directory)"), ("read-only", "(it is read-only)")):
+        monkeypatch.setenv("TOPO_VERIFY_CACHE", str(tmp_path / name))
+        monkeypatch.setattr("os.access", is_read_only)
+        forget()
+        folder = kernel.cache_folder()
+        forget()
+        assert folder.is_dir()
+        assert tmp_path not in folder.parents
+        assert f"{tmp_path / name}/compiled cannot be used {why}; set" in capsys.readouterr().err
 
 
 @pytest.mark.usefixtures("cache")
 def test_a_checked_kernel_sees_an_index_out_of_range() -> None:
     words = kernel_words(3)
-    words[NTR] = 1 << 40
+    words[ws.NTR] = 1 << 40
     with pytest.raises(IndexError, match="out of bounds"):
-        compiled(digest, SMALL, checked=True)(words)
+        compiled(digest, ws.SMALL, checked=True)(words)
 
 
 def kernel_words(length: int) -> kernel.Words:
     """A workspace with so many words of trace."""
-    return workspace(SMALL, length)
+    return workspace(ws.SMALL, length)
 
 
 class Strict(list[int]):
@@ -166,17 +373,17 @@ class Strict(list[int]):
 @pytest.mark.parametrize("name", KERNELS)
 def test_kernels_run_as_plain_functions_and_use_no_negative_index(name: str) -> None:
     for world in islice(worlds(edges=4), 0, None, 25):
-        space = workspace(SMALL, 4096)
-        place_world(space, SMALL, world)
+        space = workspace(ws.SMALL, 4096)
+        place_world(space, ws.SMALL, world)
         plain = Strict(space.tolist())
         for place, word in (
-            (RULE, KERNELS[name].rule),
-            (MOTION, KERNELS[name].motion),
-            (BUDGET, world.cost_bound),
-            (TRACING, 1),
-            (ROOM, 4096),
+            (ws.RULE, KERNELS[name].rule),
+            (ws.MOTION, KERNELS[name].motion),
+            (ws.BUDGET, world.cost_bound),
+            (ws.TRACING, 1),
+            (ws.ROOM, 4096),
         ):
             plain[place] = word
         exploration.explore(plain)
         run = run_world(world, name, trace=True)
-        assert tuple(plain[TR + i] for i in range(plain[NTR])) == run.trace
+        assert tuple(plain[ws.TR + i] for i in range(plain[ws.NTR])) == run.trace

@@ -10,6 +10,7 @@ pytest.importorskip("numba", reason="the compiled engine needs numba")
 
 from tests.compiled.judged import as_judged, counted
 from topo_verify import CATALOGUE, worlds
+from topo_verify.campaign.run import explore
 from topo_verify.checkers import CLAIMS, check
 from topo_verify.compiled.events import words
 from topo_verify.compiled.faults import PLANTED
@@ -17,7 +18,6 @@ from topo_verify.compiled.shard import ShardCounts, examine_range
 from topo_verify.compiled.workspace import TRACE
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
-from topo_verify.harness.run import explore
 from topo_verify.programs.loader import Mapper
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World

@@ -10,10 +10,10 @@ from topo_verify import World
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.compiled.events import words
 from topo_verify.compiled.explore import CompiledRun, run_world
-from topo_verify.harness.conform.likeness import event_text
 from topo_verify.robot.events import Event, Finish, MapData, Robot
 from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.studies.conform.likeness import event_text
 from topo_verify.world.enumeration import rank_order
 
 LOST = 100

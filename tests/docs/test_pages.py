@@ -48,7 +48,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
     for most in ("MOST", "ROW"):  # a search runs many worlds again; test_again.py tries that
-        monkeypatch.setattr(f"topo_verify.harness.search.again.{most}", 2)
+        monkeypatch.setattr(f"topo_verify.studies.search.again.{most}", 2)
     for name in ("FORCE_COLOR", "COLUMNS"):
         monkeypatch.delenv(name, raising=False)
     return tmp_path

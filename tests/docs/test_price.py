@@ -50,5 +50,41 @@ def test_a_run_of_the_data_is_paid_again(name: str) -> None:
     assert explore(world, name).cost == int(row["cost"])
 
 
+def printed_ratio(lines: list[str], tmp_path: Path, *more: str) -> str:
+    """What the script prints of these runs of a family of one mapper: the last cell of a row."""
+    runs = tmp_path / "runs.csv"
+    runs.write_text("\n".join(["family,seed,mapper,m,least,cost,ms", *lines]) + "\n")
+    words = [
+        "--families",
+        "none",
+        "--also",
+        "king(2,2)",
+        "--seeds",
+        "3",
+        "--runs",
+        str(runs),
+        *more,
+    ]
+    script = ROOT / "benchmarks" / "price.py"
+    done = subprocess.run(
+        [sys.executable, script, *words], capture_output=True, text=True, check=True
+    )
+    return done.stdout.splitlines()[-1].split("|")[-2].strip()
+
+
+def test_the_error_is_that_of_the_ratio_and_not_of_the_cost_alone(tmp_path: Path) -> None:
+    # Costs are twice the least cost, whatever that is: the ratio is known without an error.
+    alike = [f'"king(2,2)",{k},one,5,{least},{2 * least},1.0' for k, least in enumerate((1, 5, 9))]
+    assert printed_ratio(alike, tmp_path, "--mappers", "one") == "2.000 ± 0.000"
+    # Residuals 1, -2, 1 of costs 3, 8, 19 beside 2·(1, 5, 9): sqrt(6 / (3·2)) / 5 = 0.2.
+    costs = ((1, 3), (5, 8), (9, 19))
+    apart = [f'"king(2,2)",{k},one,5,{least},{cost},1.0' for k, (least, cost) in enumerate(costs)]
+    assert printed_ratio(apart, tmp_path, "--mappers", "one") == "2.000 ± 0.200"
+    # The same beside a mapper that pays the least cost.
+    half = [f'"king(2,2)",{k},half,5,{least},{least},1.0' for k, (least, _) in enumerate(costs)]
+    paired = printed_ratio(apart + half, tmp_path, "--mappers", "one,half", "--against", "half")
+    assert paired == "+1.000 ± 0.200, 2.000 ×"
+
+
 def test_there_are_tables() -> None:
     assert len(COMMANDS) >= 2

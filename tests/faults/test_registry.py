@@ -6,10 +6,10 @@ import pytest
 
 from topo_verify import explore
 from topo_verify.algorithms import CATALOGUE, exploration
+from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import CLAIMS
 from topo_verify.faults import FAULTS
 from topo_verify.faults.fault import mapper, rebound
-from topo_verify.harness.targets import one_target
 from topo_verify.world.rooted_map import World
 
 

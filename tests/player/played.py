@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from topo_verify import World
+from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
-from topo_verify.harness.run import explore
 from topo_verify.player.page import player_page
 from topo_verify.player.recording import PlayedRun
 

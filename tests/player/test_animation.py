@@ -190,9 +190,9 @@ def test_without_animation_it_shows_the_end() -> None:
 def test_it_tells_each_moment_in_one_sentence() -> None:
     playback, _, film = played()
     told = [film.words(at) for _, at in frames(playback)]
-    assert told[0] == "A robot that recognises nothing but the marker"
+    assert told[0] == "The robot wakes up beside the marker"
     assert "Guess 2 is wrong too, without a step" in told
-    assert told[-1] == "The map is complete, and nothing in it is a guess"
+    assert told[-1] == "The map is complete"
     assert [words for words in told if "wrong" in words] == [
         "Guess 1 is wrong",
         "Guess 1 is wrong",

@@ -1,4 +1,7 @@
-"""What the page finds again from the doors is what the checkers' replay says, event by event."""
+"""What the page finds again from the doors is what the checkers' replay says, event by event.
+
+And what it says of an event is what the narrator says.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +12,20 @@ import pytest
 
 from tests.browser import Open
 from tests.player.played import played
-from topo_verify import CATALOGUE, World, families
+from topo_verify import CATALOGUE, Percept, World, families
 from topo_verify.faults import FAULTS
+from topo_verify.player.narrator import Narrator
 from topo_verify.player.page import player_page
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.scenes import Moment, Playback
+from topo_verify.robot.events import Reject
 
 TOLD = """
 JSON.parse(byId('recording').textContent).runs.map((recorded) => {
   const run = new Run(new Picture(JSON.parse(byId('recording').textContent).worlds[0]), recorded);
   const events = run.events.map((one, when) => {
-    const round = run.round(when);
+    const doors = one.rule === 'folding' ? [] : one.evidence;
+    const round = run.rounds[when];
     const found = one.type === 'reject' ? run.evidence(when) : null;
     const left = round && when < round.to ? round.hypotheses.filter((h) => h.out > when) : [];
     return {
@@ -27,17 +33,18 @@ JSON.parse(byId('recording').textContent).runs.map((recorded) => {
       left: run.left[when],
       spent: run.costs.map((row) => row[when]),
       hypotheses: left.map((h) => h.dart),
-      learned: run.learned.filter((record) => record.when === when).map((record) => record.dart),
-      evidence: found && [one.doors, found.real.end, found.believed.at, found.believed.rest.length],
+      learned: one.records ?? [],
+      evidence: found && [doors, found.real.at, found.believed.at, found.believed.rest.length],
     };
   });
-  return { events, darts: run.map.darts.map((d) => [d.image, d.born, d.joined]) };
+  const said = events.map((_, when) => run.said(when));
+  return { events, said, darts: run.map.darts.map((d) => [d.image, d.born, d.joined]) };
 })
 """
 """What the scripts of the page make of each run in it."""
 
 
-def expected(moment: Moment) -> dict[str, Any]:
+def expected(moment: Moment, *, cites_records: bool) -> dict[str, Any]:
     """The same of one event, by the replay of the checkers."""
     found, evidence = moment.mismatch, None
     if found is not None:
@@ -49,20 +56,35 @@ def expected(moment: Moment) -> dict[str, Any]:
         "left": -1 if moment.left_by is None else moment.left_by,
         "spent": list(moment.spent),
         "hypotheses": list(moment.hypotheses),
-        "learned": [dart for dart, _ in moment.recorded],
+        "learned": [dart for dart, _ in moment.recorded] if cites_records else [],
         "evidence": evidence,
     }
+
+
+def percept(seen: Percept | None) -> list[int | None] | None:
+    """A percept as the page has it."""
+    return None if seen is None else [seen.degree, seen.marker]
 
 
 def compare(told: dict[str, Any], run: PlayedRun, playback: Playback) -> None:
     """Assert that the page and the checkers agree on a run."""
     replayed = playback.replayed
+    cites_records = any(isinstance(e, Reject) and e.rule == "records" for e in run.trace)
     end = len(run.trace) if replayed.spoiled is None else replayed.spoiled
     for event, moment in zip(told["events"], playback.moments[:end], strict=False):
-        wanted = expected(moment)
+        wanted = expected(moment, cites_records=cites_records)
         if wanted["evidence"] is None:
             event["evidence"] = None  # it cites what is not there: the page shows what it can
         assert event == wanted, f"{run.name}, event {moment.number}"
+    for said, saying in zip(told["said"], Narrator(playback).sayings, strict=True):
+        assert said == {
+            "kind": saying.kind,
+            "title": saying.title,
+            "text": saying.text,
+            "sees": percept(saying.seen),
+            "should": percept(saying.expected),
+            "labels": list(saying.labels),
+        }
     drawn = replayed.map
     for dart, image in drawn.phi.items():
         if drawn.born[dart] < end:

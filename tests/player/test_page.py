@@ -11,8 +11,8 @@ from dataclasses import replace
 from tests.html_parts import Parts
 from tests.player.played import page_of, played
 from topo_verify import families
+from topo_verify.campaign.run import explore
 from topo_verify.checkers import Finding, Judgement
-from topo_verify.harness.run import explore
 from topo_verify.player.page import SCRIPTS, part, player_page
 
 HOSTILE = "</script><script>alert(1)</script>\"'\x1b[31m{script}&lt;\ud800"
@@ -75,6 +75,12 @@ def test_the_street_network_with_1468_moves_takes_less_than_150_kilobytes() -> N
 
     page = page_of(resolve_world("nyc"), "basic")
     assert len(page.encode()) < 150_000
+
+
+def test_a_network_of_216_edges_takes_less_than_300_kilobytes() -> None:
+    world = families.king(10, 10, holes=0.2, seed=1)
+    assert len(world.edges) == 216
+    assert len(page_of(world, "basic").encode()) < 300_000
 
 
 def test_a_notebook_shows_a_run_in_a_frame_that_may_run_scripts_and_nothing_else() -> None:

@@ -12,9 +12,9 @@ import pytest
 from tests.browser import Open
 from tests.player.played import page_of, played
 from topo_verify import World, families
+from topo_verify.campaign.run import explore
 from topo_verify.checkers import Finding, Judgement
 from topo_verify.faults import FAULTS
-from topo_verify.harness.run import explore
 from topo_verify.player.fold_places import fold_places
 from topo_verify.player.page import player_page
 from topo_verify.player.scenes import Playback
@@ -141,7 +141,7 @@ def test_a_run_with_findings_opens_at_the_first_and_goes_on_to_the_next(
 ) -> None:
     page = show(wrong)
     first = step(page)
-    assert title(page) == "Guess 2 is wrong"
+    assert title(page) == "Guess 2 is wrong, it says"
     assert "true-hypothesis-kept" in page.inner_text(".say .wrong")
     assert page.locator(".world .ring").count() >= 1
     assert page.locator(".map .ring").count() == 1
@@ -154,6 +154,19 @@ def test_a_run_with_findings_opens_at_the_first_and_goes_on_to_the_next(
     assert step(page) == int(page.get_attribute("#slider", "max") or 0)
     page.click("#finding")
     assert step(page) == first
+
+
+@pytest.mark.parametrize("fault", ["mirrors-the-direction", "ignores-direction-behind-e"])
+def test_the_page_of_a_wrong_confirmation_says_what_speaks_against_it(
+    show: Open, fault: str
+) -> None:
+    page = show(page_of(World.from_id("m2/5"), FAULTS[fault].mapper))
+    assert title(page) == "Guess 1 is right, it says"
+    assert "no-false-confirm" in page.inner_text(".say .wrong")
+    assert "as it should" not in page.inner_text(".say")
+    assert "the marker would have to point another way" in page.inner_text(".say p")
+    assert "who comes in by v0:1 sees (3, marker 2)" in page.inner_text(".say .wrong")
+    assert page.inner_text(".compared b") == "≠"
 
 
 def test_luck_is_shown_beside_the_witness(show: Open, lucky: str) -> None:
@@ -307,3 +320,10 @@ def test_a_notebook_s_frame_plays_on_its_own(show: Open) -> None:
     inside.locator("#on").click()
     inside.locator("#after").click()
     assert int(inside.locator("#slider").input_value()) > 1
+
+
+def test_a_wrong_confirmation_is_drawn_as_wrong(show: Open, wrong: str) -> None:
+    page = show(wrong, at="#step=54")
+    assert title(page) == "Guess 1 is right, it says"
+    assert page.locator(".ghost.bad, .badge.hot").count() == 2
+    assert not page.locator(".badge.kept").count()

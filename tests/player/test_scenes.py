@@ -10,9 +10,9 @@ import pytest
 from tests.helpers import trace_of, worlds
 from topo_verify import World
 from topo_verify.algorithms import CATALOGUE
+from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
 from topo_verify.checkers.darts import KnownDart
-from topo_verify.harness.run import explore
 from topo_verify.player.scenes import Growth, Playback, Spent
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept

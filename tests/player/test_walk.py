@@ -11,11 +11,11 @@ import pytest
 
 from tests.helpers import trace_of, worlds
 from topo_verify import CATALOGUE, Percept, Robot, World
+from topo_verify.campaign.run import explore
 from topo_verify.checkers import Finding, Judgement, check
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.faults.hypotheses import leaves_out_the_darts_of_vk
 from topo_verify.faults.motion import goes_on_as_if_just_come_in, sets_out_unturned
-from topo_verify.harness.run import explore
 from topo_verify.player.detours import circle, turns, way_home
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import Extent, is_shown, lines, parting

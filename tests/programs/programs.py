@@ -11,11 +11,12 @@ from typing import Any
 
 import pytest
 
-from topo_verify import World
-from topo_verify.harness.conform.examiner import Examiner
-from topo_verify.harness.conform.outcome import ConformJob, WorldResult
-from topo_verify.harness.corpus import Named, corpus_from
-from topo_verify.robot.limits import Limits
+from topo_verify.campaign.backend import here
+from topo_verify.campaign.campaign import Campaign, CorpusWorlds, ListedWorlds, results
+from topo_verify.campaign.corpus import Corpus, corpus_from
+from topo_verify.studies.conform.conform import Conform
+from topo_verify.studies.conform.look import Asked
+from topo_verify.studies.conform.outcome import WorldOutcome, outcome_of
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -37,6 +38,21 @@ def misbehaving(way: str) -> str:
     return python(HERE / "misbehaving.py", way)
 
 
+def deadly(folder: Path, deed: str, *, once: bool) -> str:
+    """A mapper that is right, but does this where the robot sees a loop; once or each time."""
+    done = folder / "done"
+    mapper = folder / "deadly.py"
+    mapper.write_text(
+        "import os\nimport topo_verify as tv\nfrom pathlib import Path\n"
+        "def explore(robot):\n"
+        f"    if robot.percept.degree == 2 and not Path({str(done)!r}).exists():\n"
+        f"        Path({str(done if once else folder)!r}).touch()\n"
+        f"        {deed}\n"
+        "    return tv.CATALOGUE['basic'](robot)\n"
+    )
+    return f"{mapper}:explore"
+
+
 def compiled(source: Path, folder: Path, *flags: str) -> str:
     """A TARGET: a program in C."""
     compiler = shutil.which("cc") or shutil.which("gcc")
@@ -56,26 +72,26 @@ def javascript(source: Path) -> str:
     return "--cmd " + shlex.join([node, str(source)])
 
 
-def named(*ids: str) -> list[Named]:
-    """Worlds by their ids."""
-    return [Named(text, World.from_id(text), text, ("--worlds", text)) for text in ids]
+def conforming(target: str, corpus: Corpus, **more: Any) -> Conform:
+    """The study of an implementation; `more`: fields of `Asked` and of the campaign."""
+    asked = Asked(**{name: more.pop(name) for name in Asked._fields if name in more})
+    worlds = ListedWorlds(corpus.total)
+    return Conform(Campaign(worlds=worlds, mappers=(target,), **more), corpus, asked)
 
 
-def outcomes(
-    target: str, *ids: str, limits: Limits | None = None, **more: Any
-) -> list[WorldResult]:
-    """What becomes of these worlds, or of WORLDS that are no ids, one after the other."""
-    job = ConformJob(target=target, limits=limits or Limits(), **more)
-    worlds = named(*ids) if ids and ids[0].startswith("m") else corpus_from(ids)
-    with Examiner(job) as examiner:
-        return [examiner.examine(at) for at in worlds]
+def outcomes(target: str, *texts: str, **more: Any) -> list[WorldOutcome]:
+    """What becomes of these worlds, one after the other."""
+    corpus = corpus_from(texts)
+    study = conforming(target, corpus, **more)
+    found = results(study.campaign, here(), CorpusWorlds(corpus))
+    return [outcome_of(row, study.asked.like) for _, result in found for row in result.rows]
 
 
-def kinds(made: WorldResult) -> list[str]:
+def kinds(made: WorldOutcome) -> list[str]:
     """The kinds of what is wrong, level by level."""
     return [found.kind for level in made.findings.values() for found in level]
 
 
-def messages(made: WorldResult) -> str:
+def messages(made: WorldOutcome) -> str:
     """All that is said of what is wrong."""
     return "\n".join(found.message for level in made.findings.values() for found in level)

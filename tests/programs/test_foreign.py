@@ -8,14 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.harness.conform.test_misbehaviour import alive, gone
 from tests.helpers import worlds
+from tests.studies.conform.test_misbehaviour import alive, gone
+from tests.studies.search.searching import search_of
 from topo_verify import Limits, World, examine, explore
+from topo_verify.campaign.targets import one_target, targets
 from topo_verify.errors import InputError
-from topo_verify.harness.search.exhaustive import Search
-from topo_verify.harness.search.plan import Plan
-from topo_verify.harness.targets import one_target, targets
-from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.foreign import Foreign, Unlisted
 from topo_verify.programs.program import Program
 
 WORLD = World.from_id("m3/14")
@@ -256,6 +255,20 @@ def test_a_mapper_that_ends_its_process_while_it_is_loaded_is_bad_input(folder: 
         targets("ends.py:explore", in_process=False)
 
 
+def test_a_mapper_that_cannot_be_loaded_again_fails_in_that_world(folder: Path) -> None:
+    (folder / "once.py").write_text(
+        "import os\nfirst = not os.path.exists('ran')\nopen('ran', 'w').close()\n"
+        "def explore(robot):\n    os._exit(3)\nassert first"
+    )
+    with Foreign("once.py:explore") as mapper:
+        told = [str(explore(WORLD, mapper.target).stopped) for _ in range(3)]
+        assert told[0].startswith("the program ended with exit code 3")
+        assert "'once.py' fails: AssertionError" in told[1]
+        assert told[1] == told[2]
+        with pytest.raises(Unlisted, match=r"'once\.py' fails: AssertionError"):
+            mapper.loaded()
+
+
 def test_a_name_of_the_catalogue_needs_no_process() -> None:
     assert not isinstance(one_target("basic", in_process=False).mapper, Program)
 
@@ -274,6 +287,81 @@ def test_one_process_plays_all_worlds_though_a_mapper_raises(folder: Path) -> No
     with Foreign("once.py:explore") as mapper:
         assert len({explore(WORLD, mapper.target).stopped for _ in range(3)}) == 1
         assert str(os.getpid()) not in str(explore(WORLD, mapper.target).stopped)
+
+
+INTERRUPTED = """
+import itertools, os, sys
+import topo_verify as tv
+
+worlds, turns = itertools.count(), itertools.count()
+basic = tv.CATALOGUE["basic"]
+
+def descends(robot):
+    sys.setrecursionlimit(200)
+    def walk():
+        robot.move(0)
+        walk()
+    def padded(frames):
+        padded(frames - 1) if frames else walk()
+    padded(next(worlds) % 16)
+
+POINTS = [("call", "write"), ("return", "write"), ("call", "flush"), ("return", "flush"),
+          ("call", "readline"), ("return", "readline"), ("call", "decode"), ("return", "decode")]
+
+def interrupted(robot):
+    event, name = POINTS[next(worlds) % len(POINTS)]
+    def strike(_frame, seen, function):
+        if seen == f"c_{event}" and function.__name__ == name:
+            sys.setprofile(None)
+            raise ValueError(f"{event} of {name}")
+    robot.move(0)
+    sys.setprofile(strike)
+    robot.move(0)
+
+def goes_on(robot):
+    try:
+        interrupted(robot)
+    except ValueError:
+        pass
+    return basic(robot)
+
+def right(robot):
+    return (interrupted if next(turns) % 2 else basic)(robot)
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("descends", "the mapper raised RecursionError"),
+        ("interrupted", "the mapper raised ValueError"),
+        ("goes_on", "an exception interrupted robot.move: the robot does not go on"),
+    ],
+)
+@pytest.mark.parametrize("fresh", [False, True])
+def test_an_exception_in_the_middle_of_a_move_ends_that_world_and_no_other(
+    folder: Path, name: str, why: str, *, fresh: bool
+) -> None:
+    (folder / "struck.py").write_text(INTERRUPTED)
+    with Foreign(f"struck.py:{name}", fresh=fresh) as mapper:
+        processes: set[int | None] = set()
+        for _ in range(16):
+            run = explore(WORLD, mapper.target, limits=Limits(budget=1000))
+            assert str(run.stopped).startswith(why)
+            assert run.misbehaved is not None
+            assert run.misbehaved.kind == "no-map"
+            processes.add(mapper.process)
+        assert len(processes) == 1
+        if not fresh:
+            assert {Path(path).name for path in mapper.loaded().files} == {"struck.py"}
+
+
+def test_the_world_after_an_interrupted_move_is_judged_like_any_other(folder: Path) -> None:
+    (folder / "struck.py").write_text(INTERRUPTED)
+    with Foreign("struck.py:right") as mapper:
+        runs = [explore(WORLD, mapper.target) for _ in range(16)]
+    assert [run.map is not None for run in runs] == [True, False] * 8
+    assert {run.trace[1:] for run in runs[::2]} == {explore(WORLD, "basic").trace[1:]}
 
 
 STOPPED = """
@@ -360,12 +448,11 @@ def test_its_process_ends_with_the_last_object_that_uses_it(folder: Path) -> Non
     text = "import os\ndef explore(robot):\n    raise OSError(os.getpid())\n"
     (folder / "tells.py").write_text(text)
     target = one_target("tells.py:explore", in_process=False)
-    plan = Plan(targets=(target.text,), edges=1, in_process=False)
-    work = Search(plan, (target,))
-    work.work()
-    failure = work.found().counterexample
+    study = search_of(target, edges=1, in_process=False)
+    study.work()
+    failure = study.entry().counterexample
     assert failure is not None
-    process = int(failure.findings[0].message.split("OSError: ")[1].split()[0])
+    process = int(failure.message.split("OSError: ")[1].split()[0])
     assert alive(process)
-    del target, work
+    del target, study
     assert gone(process)

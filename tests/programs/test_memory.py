@@ -12,24 +12,22 @@ from tests.programs.programs import served
 
 SCRIPT = """
 import resource, sys
-from topo_verify.harness.conform.conform import ConformTally
-from topo_verify.harness.corpus import corpus_from
-from topo_verify.harness.conform.examiner import Examiner
-from topo_verify.harness.conform.outcome import ConformJob
+from tests.programs.programs import conforming
+from topo_verify.campaign.backend import here
+from topo_verify.campaign.campaign import CorpusWorlds, results
+from topo_verify.campaign.corpus import corpus_from
 
 def size():
     with open("/proc/self/statm") as file:
         return int(file.read().split()[1]) * resource.getpagesize()
 
 corpus = corpus_from(["edges<=5", "generated:1046"])
-job = ConformJob(target=sys.argv[1], like="basic")
-books = ConformTally(job, corpus)
-with Examiner(job) as examiner:
-    for at in corpus:
-        books.enter(examiner.examine(at))
-        if books.tried == 2000:
-            before = size()
-print(books.tried, size() - before)
+study = conforming(sys.argv[1], corpus, like="basic")
+for _, result in results(study.campaign, here(), CorpusWorlds(corpus)):
+    study.enter(*result.rows)
+    if study.tried == 2000:
+        before = size()
+print(study.tried, size() - before)
 """
 
 LEEWAY = 10 * 2**20

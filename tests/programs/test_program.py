@@ -16,13 +16,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.harness.conform.test_misbehaviour import alive, gone
 from tests.helpers import worlds
 from tests.programs.programs import ROOT, misbehaving, python, served
+from tests.studies.conform.test_misbehaviour import alive, gone
 from topo_verify import World, examine, explore
+from topo_verify.campaign.targets import target_arguments, target_text, targets
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
-from topo_verify.harness.targets import target_arguments, target_text, targets
 from topo_verify.programs.child import Child, Silent
 from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
@@ -364,6 +364,26 @@ def test_a_program_that_dies_slowly_on_a_busy_machine_has_crashed(
     dies = "import os, time\nos.close(1)\ntime.sleep(0.3)\nos._exit(3)"
     with pytest.raises(Misbehaved, match="ended with exit code 3 before it delivered a map"):
         program(python("-c", dies))(SimulatedRobot(World.from_id("m1/0"), 9))
+
+
+def test_a_time_in_which_the_harness_did_not_run_is_no_silence_of_a_program(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    began = time.monotonic()
+
+    def frozen() -> float:
+        """The clock of a machine that stood still for an hour."""
+        now = time.monotonic()
+        return now if now < began + 0.2 else now + 3600
+
+    monkeypatch.setattr("topo_verify.robot.stopwatch.monotonic", frozen)
+    reaper = ReaperProcess()
+    program = Child([sys.executable, "-c", "import time; time.sleep(0.5); print('yes')"], reaper)
+    try:
+        assert program.line(seconds=60) == b"yes"
+    finally:
+        program.end()
+        reaper.close()
 
 
 def test_a_program_that_sleeps_is_not_looked_at_in_vain_while_others_want_the_processor(

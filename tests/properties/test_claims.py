@@ -18,8 +18,8 @@ from tests.helpers import SURE, any_world, edited, place
 from tests.properties.statements import OF_ALL_WORLDS, STATEMENTS
 from tests.properties.worlds import STRATEGIES, runs
 from topo_verify import CATALOGUE, Exploration, World, explore
+from topo_verify.campaign.judge import judge
 from topo_verify.checkers import CLAIMS
-from topo_verify.harness.judge import judge
 from topo_verify.robot.events import (
     Augment,
     Confirm,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from codecs import BOM_UTF8
 from typing import Any
 
 import pytest
@@ -132,6 +133,14 @@ def test_what_was_written_is_read_back_a_line_an_event() -> None:
 def test_real_traces_survive_the_round_trip(world: World) -> None:
     trace = trace_of(world, "enhancement-iii-all+i")
     assert read_trace(write_trace(trace)) == trace
+
+
+def test_a_byte_order_mark_is_passed_over_at_the_begin_and_nowhere_else() -> None:
+    text = write_trace([START, Move(0, Percept(1, None))])
+    assert read_trace(BOM_UTF8 + text) == read_trace(text)
+    start, move = text.splitlines(keepends=True)
+    with pytest.raises(InputError, match="trace, line 2"):
+        read_trace(start + BOM_UTF8 + move)
 
 
 def test_a_trace_may_hold_only_start_and_moves_without_purposes_and_more_fields() -> None:

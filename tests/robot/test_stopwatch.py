@@ -1,8 +1,12 @@
 """The stopwatch: it goes while a mapper sleeps or computes, and stands still while it waits."""
 
+# A test may look inside.
+# pyright: reportPrivateUsage=false
+
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -12,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from topo_verify.robot import stopwatch
-from topo_verify.robot.limits import Limits, helped_by, within
+from topo_verify.robot.limits import Limits, MoveTimeout, _Watch, helped_by, within
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
 ACCOUNTS = Path("/proc/self/schedstat").exists() and hasattr(os, "sched_setaffinity")
@@ -119,6 +123,48 @@ def test_a_wait_before_an_answer_is_not_charged_later(machine: Machine) -> None:
     assert watch.seconds() == pytest.approx(12)
 
 
+def test_of_a_time_without_a_look_one_tick_is_used(machine: Machine) -> None:
+    watch = Stopwatch(tick=1)
+    machine.now = 101.9  # late, but no look is missing
+    assert watch.seconds() == pytest.approx(1.9)
+    machine.now = 110
+    assert watch.seconds() == pytest.approx(2.9)
+    machine.now = 111
+    assert watch.seconds() == pytest.approx(3.9)
+
+
+def test_what_ran_without_a_look_was_used(machine: Machine) -> None:
+    """A mapper in C code lets no alarm strike, and the harness may stand still without it."""
+    machine.waits = {"a": 0}
+    watch = Stopwatch(lambda: machine.waits, tick=1)
+    machine.now, machine.ran, machine.waits = 110, 77 + 6, {"a": 2}
+    assert watch.seconds() == pytest.approx(1 + 6)
+    machine.now, machine.ran = 120, 77 + 16
+    assert watch.seconds() == pytest.approx(1 + 6 + 10)
+
+
+def test_waits_that_were_excused_in_vain_are_used_though_a_look_is_missing(
+    machine: Machine,
+) -> None:
+    machine.waits = {"sleeps": 0}
+    watch = Stopwatch(lambda: machine.waits, lambda: 0, tick=1)
+    machine.now, machine.own = 105, 4
+    assert watch.seconds() == pytest.approx(1)
+    machine.now = 120
+    assert watch.seconds() == pytest.approx(1 + 4 + 1)
+
+
+def test_a_time_in_which_nobody_ran_exceeds_no_limit(machine: Machine) -> None:
+    watch = _Watch(Limits(move_timeout=5, world_timeout=12), lambda: 0, 1.25)
+    for frozen in (8, 9, 1000):
+        machine.now += frozen
+        assert watch.overdue() is None
+    machine.now += 1.25
+    assert watch.overdue() is None
+    machine.now += 1.25
+    assert isinstance(watch.overdue(), MoveTimeout)
+
+
 def test_without_accounts_it_is_the_wall_clock(
     machine: Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -142,8 +188,9 @@ def test_limits_excuse_the_waits_of_a_process_that_helps(
 
     def work() -> str:
         with helped_by(7):
-            machine.now, machine.waits = 500, {"7/task/7": 399}
-            time.sleep(0.2)  # some ticks look at the clock
+            for look in range(1, 5):
+                machine.now, machine.waits = 100 + 2.4 * look, {"7/task/7": 2.0 * look}
+                signal.raise_signal(signal.SIGALRM)
         return "a map"
 
     assert within(Limits(move_timeout=5), lambda: 0, work) == "a map"

@@ -1,4 +1,4 @@
-"""Worlds drawn outside of tests: as many as asked for, and the same ones for the same seed."""
+"""A strategy by its name and arguments, and worlds drawn from it outside of any test."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import find
 
+from topo_verify import InputError, strategies
 from topo_verify.strategies import tree_worlds, worlds
-from topo_verify.strategies.sample import sample
+from topo_verify.strategies.sample import WORLDS, resolve_strategy, sample
 
 
 @pytest.mark.parametrize("number", [0, 1, 7, 150])
@@ -43,3 +45,55 @@ def test_no_module_that_is_loaded_changes_what_is_drawn(
 
 def test_nearly_all_are_different() -> None:
     assert len({world.code for world in sample(worlds(min_edges=5), 100)}) >= 90
+
+
+# ---------------------------------------------------------------- by its name
+
+
+def test_every_exported_strategy_of_worlds_has_its_name() -> None:
+    assert set(WORLDS) == {name for name in strategies.__all__ if name.endswith("worlds")} | {
+        "lattices"
+    }
+
+
+def test_a_name_alone_is_the_strategy_with_its_widest_arguments() -> None:
+    assert find(resolve_strategy("nonplanar_worlds"), lambda _: True).id == "m2/8"
+
+
+@pytest.mark.parametrize(
+    ("text", "simplest"),
+    [
+        ("nonplanar_worlds(genus=2)", "m4/629"),
+        ("worlds( min_edges = 3 , simple = True )", "m3/24"),
+        ("worlds(min_edges=1, marker='leaf', max_genus=None)", "m1/0"),
+        ('worlds(min_edges=1, marker="hub")', "m1/0"),
+        ("uniform_worlds(edges=12)", "m12/0"),
+    ],
+)
+def test_arguments_are_numbers_words_and_truth_values(text: str, simplest: str) -> None:
+    assert find(resolve_strategy(text), lambda _: True).id == simplest
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("planar", "no such strategy: 'planar'; expected one of worlds, planar_worlds"),
+        ("worlds(", "'(' was never closed; the strategy is worlds(min_edges="),
+        ("worlds(min_edges=__import__('os'))", "expected a literal, got '__import__('os')'"),
+        (
+            "worlds(edges=3)",
+            "unexpected keyword argument 'edges'; the strategy is worlds(min_edges=",
+        ),
+        ("worlds(3)", "too many positional arguments"),
+        ("worlds(simple=yes)", "expected a literal, got 'yes'; the strategy is worlds("),
+        ("worlds(simple='yes')", "worlds: simple='yes', expected True or False"),
+        ("worlds(loopless=1)", "worlds: loopless=1, expected True or False"),
+        ("uniform_worlds", "argument: 'edges'; the strategy is uniform_worlds(edges)"),
+        ("worlds(marker='here')", "worlds: marker='here', expected one of"),
+        ("worlds(max_degree='x')", "worlds: max_degree='x', expected an integer"),
+    ],
+)
+def test_what_names_no_strategy_is_told_why(text: str, sentence: str) -> None:
+    with pytest.raises(InputError) as refusal:
+        resolve_strategy(text)
+    assert sentence in str(refusal.value)

@@ -16,23 +16,13 @@ from examples.undirected import Undirected
 from tests.strategies import features
 from tests.strategies.features import Condition
 from tests.versions import older
-from topo_verify import World, examine, families
+from topo_verify import World, examine, families, strategies
 from topo_verify.algorithms import Algorithm
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, retrace
 from topo_verify.robot.limits import Limits
 from topo_verify.robot.percept import Percept
-from topo_verify.strategies import (
-    dense_worlds,
-    lattices,
-    nonplanar_worlds,
-    planar_worlds,
-    symmetric_worlds,
-    tree_worlds,
-    uniform_worlds,
-    worlds,
-)
-from topo_verify.strategies.resolve import WORLDS, resolve_strategy
+from topo_verify.strategies.sample import WORLDS, resolve_strategy
 
 PAGE = Path(__file__).parents[2] / "docs" / "property-tests.md"
 
@@ -65,22 +55,22 @@ def minimal(
 @pytest.mark.parametrize(
     ("strategy", "simplest"),
     [
-        (worlds(), "m1/0"),
-        (worlds(min_edges=0), "m0/0"),
-        (worlds(marker="leaf"), "m1/0"),
-        (worlds(simple=True, min_edges=4), "m4/266"),
-        (planar_worlds(), "m1/0"),
-        (nonplanar_worlds(), "m2/8"),
-        (nonplanar_worlds(genus=2), "m4/629"),
-        (tree_worlds(), "m1/0"),
-        (dense_worlds(), "m1/0"),
-        (dense_worlds(min_edges=3, simple=True), "m3/24"),
-        (lattices(), "m1/0"),
-        (lattices(min_edges=4), "m4/87"),
-        (symmetric_worlds(), "m1/0"),
-        (symmetric_worlds(min_edges=3), "m3/13"),
-        (uniform_worlds(edges=0), "m0/0"),
-        (uniform_worlds(edges=12), "m12/0"),
+        (strategies.worlds(), "m1/0"),
+        (strategies.worlds(min_edges=0), "m0/0"),
+        (strategies.worlds(marker="leaf"), "m1/0"),
+        (strategies.worlds(simple=True, min_edges=4), "m4/266"),
+        (strategies.planar_worlds(), "m1/0"),
+        (strategies.nonplanar_worlds(), "m2/8"),
+        (strategies.nonplanar_worlds(genus=2), "m4/629"),
+        (strategies.tree_worlds(), "m1/0"),
+        (strategies.dense_worlds(), "m1/0"),
+        (strategies.dense_worlds(min_edges=3, simple=True), "m3/24"),
+        (strategies.lattices(), "m1/0"),
+        (strategies.lattices(min_edges=4), "m4/87"),
+        (strategies.symmetric_worlds(), "m1/0"),
+        (strategies.symmetric_worlds(min_edges=3), "m3/13"),
+        (strategies.uniform_worlds(edges=0), "m0/0"),
+        (strategies.uniform_worlds(edges=12), "m12/0"),
     ],
 )
 def test_the_simplest_world_of_a_strategy(strategy: SearchStrategy[World], simplest: str) -> None:
@@ -137,7 +127,7 @@ def test_what_worlds_shrink_to(condition: Condition, simplest: str) -> None:
         pytest.skip("Hypothesis before 6.152.9 draws other worlds and ends in another minimum")
     # Hypothesis also draws constants of the modules that are loaded, so that a seed alone does not
     # fix the draws: now and then one of them ends in a larger world, but not each of three.
-    ends = [minimal(worlds(), condition, seed=seed) for seed in (1, 2, 3)]
+    ends = [minimal(strategies.worlds(), condition, seed=seed) for seed in (1, 2, 3)]
     assert simplest in [world.id for world, _ in ends]
     assert max(calls for _, calls in ends) <= CALLS
 
@@ -174,12 +164,12 @@ def errs(mapper: Algorithm) -> Callable[[World], bool]:
 
 
 SMALLEST = [
-    (Undirected, worlds(max_edges=30), 2),
-    (Undirected, worlds(max_edges=30, loopless=True), 3),
-    (Undirected, worlds(max_edges=30, simple=True), 4),
-    (NoMarker, worlds(max_edges=30), 2),
-    (NoMarker, worlds(max_edges=30, loopless=True), 3),
-    (NoMarker, worlds(max_edges=30, simple=True), 4),
+    (Undirected, strategies.worlds(max_edges=30), 2),
+    (Undirected, strategies.worlds(max_edges=30, loopless=True), 3),
+    (Undirected, strategies.worlds(max_edges=30, simple=True), 4),
+    (NoMarker, strategies.worlds(max_edges=30), 2),
+    (NoMarker, strategies.worlds(max_edges=30, loopless=True), 3),
+    (NoMarker, strategies.worlds(max_edges=30, simple=True), 4),
 ]
 """What is compared, where, and the edges of the smallest world of all in which it goes wrong."""
 

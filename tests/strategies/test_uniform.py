@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from topo_verify import World
 from topo_verify.strategies import uniform_worlds
-from topo_verify.strategies.uniform import rank
+from topo_verify.strategies.draws import scaled
 from topo_verify.world.enumeration import rank_order
 
 
 @pytest.mark.parametrize("total", [1, 2, 10, 74, 255, 256, 706])
 def test_every_rank_has_as_many_bytes_as_any_other_give_or_take_one(total: int) -> None:
-    counts = Counter(rank(number.to_bytes(2), total) for number in range(256**2))
+    counts = Counter(scaled(total, *number.to_bytes(2)) for number in range(256**2))
     assert set(counts) == set(range(total))
     assert max(counts.values()) - min(counts.values()) <= 1
 
@@ -24,7 +24,7 @@ def test_every_rank_has_as_many_bytes_as_any_other_give_or_take_one(total: int) 
 @given(one=st.binary(min_size=9, max_size=9), other=st.binary(min_size=9, max_size=9))
 def test_greater_bytes_never_mean_a_lower_rank(one: bytes, other: bytes) -> None:
     low, high = sorted([one, other])
-    assert 0 <= rank(low, 8162) <= rank(high, 8162) < 8162
+    assert 0 <= scaled(8162, *low) <= scaled(8162, *high) < 8162
 
 
 def test_a_thousand_draws_of_74_worlds_are_spread_evenly() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codecs import BOM_UTF8
 from pathlib import Path
 
 import pytest
@@ -30,6 +31,20 @@ FILES = {
     "w.graphml": GRAPHML.encode(),
     "w.net.xml": NET.encode(),
 }
+
+
+@pytest.mark.parametrize("name", ["w.pc", "w.PLC", "w.graphml", "w.net.xml", "w.nx.json"])
+def test_world_json_is_not_saved_under_a_name_of_another_format(name: str, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"expected a name for world JSON, as w\.json, got one"):
+        families.path(2).save(tmp_path / name)
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize("name", ["w.json", "w.graphml", "w.net.xml"])
+def test_a_byte_order_mark_is_passed_over(name: str, tmp_path: Path) -> None:
+    file = tmp_path / name
+    file.write_bytes(BOM_UTF8 + FILES[name])
+    assert World.load(file) == families.path(2)
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -8,7 +8,7 @@ it; like every policy of steering.py they touch the cost alone.
    of h is from that of e on S, and after how many steps a walk along the face beside e, on either
    side, passes h. A kind's rate is how often hypotheses of that kind were true so far, drawn
    towards the rate of all kinds while few were seen. It is the prior by which `homing`'s rule 4
-   weighs the hypotheses. In a world without such a habit all rates become alike.
+   weighs the hypotheses. In a world without such a habit the rates differ by chance alone.
 2. **Outward.** Of two edges the one further from home may be a fraction of a move further from the
    robot: it need not be fetched later.
 

@@ -1,6 +1,6 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
-verify.py, explore.py, world.py (sample.py), search.py, prove.py (theorems.py), faults.py,
+verify.py, explore.py, world.py, search.py, prove.py, faults.py,
 conform.py, record.py, compare.py, replay.py, play.py, certify.py, tour.py,
 arena.py (arena_files.py), reproduce.py  the commands
 runs.py       worlds as the user names them, findings as shown

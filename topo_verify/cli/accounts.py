@@ -1,111 +1,32 @@
 """What the results of each judging command come to: its `Account`, for page, JUnit and badge.
 
-The letter on a badge is the weakest verdict that counts: a refutation, else what is undecided, else
-what was sampled. `verify` names its finite class and its samples apart.
+A verdict here is the weakest that counts: a refutation, else what is undecided, else what was
+sampled. `output.py` replaces it by that of the exit code.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 
-from topo_verify.checkers.findings import Verdict
-from topo_verify.cli.searched import SearchEntry
-from topo_verify.cli.theorems import KINDS, ProveEntry
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.harness.arena.league import LeagueEntry
-from topo_verify.harness.conform.conform import LevelResult
-from topo_verify.harness.faults.checks import Smallest
-from topo_verify.harness.faults.detection import Caught
-from topo_verify.harness.verify.parts import Part
 from topo_verify.report.account import (
     Account,
     Exhibit,
     JudgedCase,
     JudgedExtent,
     JudgedSuite,
-    Outcome,
     claim_cases,
     counted,
+    extent,
     joint_verdict,
     outcome_of,
+    worlds,
 )
 from topo_verify.report.blocks import Block
+from topo_verify.studies.arena.league import LeagueEntry
+from topo_verify.studies.conform.conform import LevelResult
+from topo_verify.studies.search.search import SearchEntry
 from topo_verify.text import plural
-
-WORLDLESS = {"counts": "numbers of worlds", "proofs": "theorems"}
-"""The parts of `verify` that run no mapper, and what they count."""
-
-
-def worlds(number: int) -> str:
-    """The noun behind a number of worlds."""
-    return "world" if number == 1 else "worlds"
-
-
-def extent(
-    verdict: Verdict, checked: int, total: int, failing: int, things: str = ""
-) -> JudgedExtent:
-    """The extent of a search or of trials, by its verdict."""
-    if verdict == "REFUTED":
-        things = things or worlds(checked)
-        return JudgedExtent(verdict, counted(failing, checked, f"{things} fail"))
-    return JudgedExtent(verdict, counted(checked, total, things or worlds(total)))
-
-
-# ---------------------------------------------------------------- verify
-
-
-def verify_account(
-    who: str, parts: Sequence[Part], blocks: Iterable[Block], found: FoundRuns
-) -> Account:
-    """The account of `verify`: a suite a part, a case a claim."""
-    return Account(
-        about=who,
-        extent=_verify_extent(parts),
-        suites=tuple(JudgedSuite(part.part, tuple(_part_cases(part))) for part in parts),
-        blocks=tuple(blocks),
-        exhibits=found.exhibits,
-        left_out=found.left_out,
-    )
-
-
-def _part_cases(part: Part) -> Iterator[JudgedCase]:
-    first = part.findings[0].replay if part.findings else ""
-    yield JudgedCase(
-        name="the part as a whole",
-        verdict=part.verdict,
-        outcome=outcome_of(part.verdict),
-        judged=f"{part.checked:,} of {part.total:,}",
-        message=part.summary,
-        again=first,
-    )
-    for case in claim_cases(part.judgements):
-        failing = part.claims.get(case.name, {}).get("failed", 0)
-        counted = f"fails in {plural(failing, 'run')}" if failing else ""
-        yield replace(case, message="; ".join(filter(None, (counted, case.message))))
-
-
-def _verify_extent(parts: Sequence[Part]) -> JudgedExtent:
-    """The worlds of the finite class, and the sampled ones; theorems have a table of their own."""
-    tried = [part for part in parts if part.part not in WORLDLESS]
-    verdict = joint_verdict([part.verdict for part in parts])
-    checked, total = sum(p.checked for p in tried), sum(p.total for p in tried)
-    if verdict == "REFUTED":
-        failing = sum(part.failing for part in tried)
-        if not failing:
-            wrong = ", ".join(part.part for part in parts if part.verdict == "REFUTED")
-            return JudgedExtent(verdict, f"{wrong}: see the report")
-        return extent(verdict, checked, total, failing)
-    if verdict == "UNKNOWN":
-        return extent(verdict, checked, total, 0)
-    finite = [part for part in tried if part.verdict == "EXHAUSTED"]
-    sampled = sum(part.checked for part in tried if part.verdict == "SAMPLED")
-    if not finite:
-        return extent("SAMPLED", checked, total, 0)
-    number = sum(part.checked for part in finite)
-    words = counted(number, sum(part.total for part in finite), worlds(number))
-    return JudgedExtent("EXHAUSTED", f"{words}, {sampled:,} sampled" if sampled else words)
-
 
 # ---------------------------------------------------------------- search
 
@@ -155,110 +76,6 @@ def _search_cases(entry: SearchEntry) -> Iterator[JudgedCase]:
 def _failing(claim: str, number: int, message: str, again: str) -> JudgedCase:
     where = f"in {plural(number, 'world')}; {message}"
     return JudgedCase(claim, "failed", "failed", message=where, again=again)
-
-
-# ---------------------------------------------------------------- faults
-
-
-def faults_account(
-    entries: Sequence[Caught], checks: str, blocks: Iterable[Block], found: FoundRuns
-) -> Account:
-    """The account of `faults`: a suite a part of the mapper, a case a fault."""
-    parts: dict[str, list[JudgedCase]] = {}
-    for entry in entries:
-        place = "harmless" if entry.harmless else entry.part
-        parts.setdefault(place, []).append(_fault_case(entry, checks))
-    asked = [entry for entry in entries if entry.asked]
-    wrong = sum(not entry.ok and not entry.undecided for entry in asked)
-    late = any(entry.undecided for entry in asked)
-    verdict: Verdict = "REFUTED" if wrong else "UNKNOWN" if late or not asked else "SAMPLED"
-    things = "mapper" if len(asked) == 1 else "mappers"
-    right = sum(entry.ok for entry in asked)
-    return Account(
-        about=plural(len(entries), "faulty mapper"),
-        extent=JudgedExtent(verdict, counted(right, len(asked), f"{things} told right from wrong")),
-        suites=tuple(JudgedSuite(part, tuple(cases)) for part, cases in parts.items()),
-        blocks=tuple(blocks),
-        exhibits=found.exhibits,
-        left_out=found.left_out,
-    )
-
-
-def _fault_case(entry: Caught, checks: str) -> JudgedCase:
-    outcome: Outcome = "passed" if entry.ok else "undecided" if entry.undecided else "failed"
-    words = {"passed": "caught", "failed": "missed", "undecided": "undecided"}
-    if entry.harmless:
-        words |= {"passed": "not flagged", "failed": "flagged"}
-    search = entry.search
-    return JudgedCase(
-        name=entry.name,
-        verdict=words[outcome] if entry.asked else "not asked",
-        outcome=outcome if entry.asked else "not-judged",
-        judged="" if search is None else f"{search.checked:,} of {search.total:,}",
-        message=f"{_where(search)}{entry.why}",
-        again=f"topo-verify faults {entry.name} --by {checks}",
-    )
-
-
-def _where(search: Smallest | None) -> str:
-    """In how many of the judged worlds, those of the smallest size, a claim fails."""
-    if search is None or not search.failing:
-        return ""
-    return f"fails in {plural(search.failing, 'world')} of {plural(search.edges, 'edge')}; "
-
-
-# ---------------------------------------------------------------- prove
-
-
-def prove_account(
-    entries: Sequence[ProveEntry], options: str, blocks: Iterable[Block], found: FoundRuns
-) -> Account:
-    """The account of `prove`: a suite a kind, a case a theorem.
-
-    Args:
-        options: what the command that proves one theorem again needs besides its name.
-    """
-    kinds = [(kind, [entry for entry in entries if entry.kind == kind]) for kind in KINDS]
-    cases = [_theorem_case(entry, options) for entry in entries]
-    right = sum(case.outcome == "passed" for case in cases)
-    positive = joint_verdict(
-        [e.verdict for e in entries if e.expected != "REFUTED"] or ["EXHAUSTED"]
-    )
-    verdict: Verdict = "PROVED" if joint_verdict(positive) == "PROVED" else "EXHAUSTED"
-    if any(case.outcome == "undecided" for case in cases) or not cases:
-        verdict = "UNKNOWN"
-    if any(case.outcome == "failed" for case in cases):
-        verdict = "REFUTED"
-    things = "theorem" if len(cases) == 1 else "theorems"
-    return Account(
-        about=plural(len(cases), "theorem"),
-        extent=JudgedExtent(verdict, counted(right, len(cases), f"{things} as expected")),
-        suites=tuple(
-            JudgedSuite(kind, tuple(_theorem_case(entry, options) for entry in mine))
-            for kind, mine in kinds
-            if mine
-        ),
-        blocks=tuple(blocks),
-        exhibits=found.exhibits,
-        left_out=found.left_out,
-    )
-
-
-def _theorem_case(entry: ProveEntry, options: str) -> JudgedCase:
-    outcome: Outcome = "passed"
-    if not entry.ok:
-        # As the exit code has it: only a definite verdict that is not the expected one fails.
-        definite = entry.verdict not in ("UNKNOWN", entry.expected)
-        outcome = "failed" if definite else "undecided"
-    whole = entry.checked is not None and entry.total is not None
-    return JudgedCase(
-        name=entry.name,
-        verdict=entry.verdict,
-        outcome=outcome,
-        judged=f"{entry.checked:,} of {entry.total:,}" if whole else "",
-        message=f"{entry.words.removesuffix('.')}; {entry.note}" if entry.note else entry.words,
-        again=f"topo-verify prove {entry.name}{options}",
-    )
 
 
 # ---------------------------------------------------------------- conform

@@ -10,38 +10,34 @@ from typing import Any
 
 import click
 
+from topo_verify.campaign.campaign import close
+from topo_verify.campaign.targets import targets as targets_of
+from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.accounts import arena_account
 from topo_verify.cli.arena_files import REPORT, dearest_exhibits, write_folder
 from topo_verify.cli.arena_game import game_of_catalogue
+from topo_verify.cli.kept_runs import open_store, stored_rows
 from topo_verify.cli.output import Ending, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import ReportFiles, report_options, write_reports
 from topo_verify.cli.runs import unjudged
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
-from topo_verify.harness.arena.league import League, LeagueEntry
-from topo_verify.harness.arena.match import arena_job, close, play
-from topo_verify.harness.arena.rows import ArenaJob, ArenaResult, ArenaRun, ArenaTask, MemoryRun
-from topo_verify.harness.arena.store import ArenaStore
-from topo_verify.harness.arena.suites import DEFAULT, SUITES, Suite, chosen_suites
-from topo_verify.harness.targets import targets as targets_of
-from topo_verify.harness.work import processors
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX
 from topo_verify.report.account import Account, Exhibit
 from topo_verify.report.blocks import Block, PictureBlock, Text
-from topo_verify.report.league.plot import ratio_plot
-from topo_verify.report.league.tables import Memory, broken_blocks, suite_blocks
+from topo_verify.report.league import Memory, broken_blocks, ratio_plot, suite_blocks
 from topo_verify.robot.limits import Limits
-from topo_verify.text import plural
-
-STORE = "runs.jsonl"
-"""The file in the folder that keeps the runs."""
+from topo_verify.studies.arena.league import League, LeagueEntry
+from topo_verify.studies.arena.match import matches, measure
+from topo_verify.studies.arena.suites import DEFAULT, SUITES, Suite, chosen_suites
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Rank mappers by cost, only sound ones.",
     epilog=options.epilog(
         "arena basic,folding",
@@ -51,7 +47,9 @@ STORE = "runs.jsonl"
     ),
 )
 @click.argument("texts", nargs=-1, metavar="[TARGET]...")
-@click.option("--target", "named", multiple=True, metavar="TARGET", help="The same as TARGET.")
+@click.option(
+    "--target", "named", multiple=True, metavar="TARGET", hidden=True, help="the argument TARGET"
+)
 @click.option(
     "--cmd",
     "commands",
@@ -118,15 +116,13 @@ def arena(  # noqa: PLR0913  an argument an option
     if folder is not None:
         _add_page(output, folder)
     mappers = _loaded(asked, in_process=in_process)
-    made: dict[ArenaTask, ArenaRun | MemoryRun] = {}
-    league = League(mappers, suites, seed, made)
+    league = League(mappers, suites, seed)
     _require_players(league)
-    job = arena_job(mappers, limits, in_process=in_process, identify=folder is not None)
     found, dearest = FoundRuns(output), list[Exhibit]()
 
     def entries() -> Iterator[Result[LeagueEntry]]:
         try:
-            _play(output, league, made, job, folder, processors() if workers is None else workers)
+            _play(output, league, limits, folder, processors() if workers is None else workers)
         except KeyboardInterrupt:
             yield from map(_result, league.entries())  # what is done is printed
             raise
@@ -195,48 +191,18 @@ def _result(entry: LeagueEntry) -> Result[LeagueEntry]:
 
 
 def _play(
-    output: Output,
-    league: League,
-    made: dict[ArenaTask, ArenaRun | MemoryRun],
-    job: ArenaJob,
-    folder: Path | None,
-    workers: int,
+    output: Output, league: League, limits: Limits, folder: Path | None, workers: int
 ) -> None:
     """Make the runs, and keep them in the folder if there is one."""
     for mapper in league.mappers:
         for suite in league.suites:
             if not league.plays(mapper, suite):
                 output.note(f"{mapper.text} assumes planar worlds: left out of {suite.name}")
-    if folder is None:
-
-        def keep(result: ArenaResult) -> None:
-            made[result.made.task] = result.made
-
-        play(league, job, keep, workers=workers, tell=output.progress)
-        return
-    with ArenaStore(folder / STORE, job.limits) as store:
-        store.enter(league.mappers)
-        made.update(store.made)
-        done = len(league.planned) - len(store.missing(league.planned))
-        _tell_of(output, store, done, len(league.planned))
-
-        def put(result: ArenaResult) -> None:
-            store.put(result)
-            made[result.made.task] = result.made
-
-        try:
-            play(league, job, put, workers=workers, tell=output.progress)
-        except KeyboardInterrupt:
-            output.note(f"the runs so far are kept in {store.path}; the same command goes on")
-            raise
-
-
-def _tell_of(output: Output, store: ArenaStore, done: int, planned: int) -> None:
-    if store.repaired:
-        output.note(f"{store.path}: half a line at its end was cut off; that run is made again")
-    if done:
-        output.note(f"{done} of {plural(planned, 'run')} are in {store.path}")
-    output.timing["from_store"] = done
+    with open_store(output, folder) as store:
+        campaigns = matches(league, limits, store)
+        for row in stored_rows(output, campaigns, workers, store):
+            league.made[row.mapper, row.world] = row
+        measure(league, limits, store, output.progress)
 
 
 def _run_again(

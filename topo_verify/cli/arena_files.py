@@ -19,20 +19,19 @@ from pathlib import Path
 
 import msgspec
 
+from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
 from topo_verify.cli.failures import version
 from topo_verify.cli.walks import target_title
-from topo_verify.harness.arena.league import DearestWorld, League, LeagueEntry
-from topo_verify.harness.conform.examiner import file_name
-from topo_verify.harness.run import explore
 from topo_verify.player.page import player_page
 from topo_verify.player.recording import PlayedRun
 from topo_verify.report.account import Exhibit
 from topo_verify.report.blocks import Text
-from topo_verify.report.league.plot import ratio_plot
-from topo_verify.report.league.tables import broken_blocks, runs_csv, suite_blocks, table_csv
+from topo_verify.report.league import broken_blocks, ratio_plot, runs_csv, suite_blocks, table_csv
 from topo_verify.report.markdown import markdown
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.arena.league import DearestWorld, League, LeagueEntry
+from topo_verify.studies.conform.look import file_name
 from topo_verify.world.formats import files
 from topo_verify.world.resolve import resolve_world
 

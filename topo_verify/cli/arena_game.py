@@ -11,9 +11,9 @@ from click.core import ParameterSource
 from topo_verify.algorithms import NAMED
 from topo_verify.cli.output import Output, Result
 from topo_verify.errors import InputError, InternalError
-from topo_verify.harness.game.mapper_costs import MapperCosts, least_costs, mapper_costs
-from topo_verify.harness.game.values import MOST_EDGES, GameValue, game_values
 from topo_verify.report.blocks import Block, Text, TextTable
+from topo_verify.studies.game.mapper_costs import MapperCosts, least_costs, mapper_costs
+from topo_verify.studies.game.values import MOST_EDGES, GameValue, game_values
 
 
 class CostsOfRobot(msgspec.Struct, frozen=True):

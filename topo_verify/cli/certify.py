@@ -1,41 +1,37 @@
-"""`topo-verify certify`: what a log of percepts and doors proves, with no world at all."""
+"""`topo-verify certify`: what a log proves with no world at all; certificates for Coq."""
 
 from __future__ import annotations
 
+import re
 import shlex
-from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import IO
 
 import click
 import msgspec
 
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
-from topo_verify.cli.kernel_check import (
-    CertificateEntry,
-    KernelCheck,
-    checked_certificate,
-    checking,
-    prove,
-    show_proof,
-    show_received,
-)
-from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_line
-from topo_verify.errors import InputError
-from topo_verify.harness.log_report import Certificate
-from topo_verify.harness.log_report import certify as judge
-from topo_verify.harness.open_doors import OpenDoor, open_doors
+from topo_verify.errors import InputError, InternalError
+from topo_verify.proofs.mechanised import certificate_format, certificates, evidence
+from topo_verify.proofs.mechanised.certificates import CertificateCheck
 from topo_verify.report.blocks import Block, Bullets, Text, TextTable
 from topo_verify.robot.events import Trace, read_events
 from topo_verify.robot.limits import MOST_SECONDS
+from topo_verify.studies.log_report import Certificate
+from topo_verify.studies.log_report import certify as judge
+from topo_verify.studies.open_doors import OpenDoor, open_doors
 from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
-from topo_verify.world.rooted_map import World
+
+NumbersChecker = Callable[[Sequence[int]], CertificateCheck]
 
 MOST_OPEN_DOORS = 100
 """So many open doors of a log are listed, the nearest; more would not help who has to walk them."""
@@ -48,8 +44,80 @@ class DecisionCount(msgspec.Struct, frozen=True):
     total: int
 
 
+class CertifiedDecisions(msgspec.Struct, frozen=True):
+    """How many of the decisions that follow Coq accepted.
+
+    Attributes:
+        by: the checker; "" if nothing was checked.
+        why: the reason why some are not certified; "" if all are.
+    """
+
+    certified: int
+    entailed: int
+    by: str
+    why: str
+
+
+class KernelCheck(msgspec.Struct, frozen=True):
+    """The certificate for Coq of one log, and what its checker said.
+
+    Attributes:
+        statement: map, undetermined or impossible.
+        file: the certificate.
+        accepted: null if nothing checked the certificate.
+        by, why: the checker; the reason why nothing was checked.
+        command: checks it again, in the folder of the certificate.
+        delivered: whether Coq accepted that the delivered map is the world.
+        decisions: those of the log that follow, certified.
+    """
+
+    statement: str
+    file: str
+    accepted: bool | None
+    by: str
+    why: str
+    command: str
+    delivered: bool
+    decisions: CertifiedDecisions
+
+    @property
+    def incomplete(self) -> bool:
+        """True if the certificate or a decision that follows was left unchecked."""
+        return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
+
+
+class ReceivedDecisions(msgspec.Struct, frozen=True):
+    """How many decisions of a log a certificate proves to follow."""
+
+    certified: int
+    total: int
+
+
+class CertificateEntry(msgspec.Struct, frozen=True):
+    """One received certificate: the entry of `results`.
+
+    Attributes:
+        accepted: null if nothing checked the certificate.
+        by: what accepted or refused it; "" if nothing did.
+        statement: map, undetermined or impossible, of an accepted certificate; else null.
+        why: the reason why it is refused, or not checked, or says nothing about a part of the log;
+            "" if it is accepted and is about the whole log.
+        delivered: whether it states that the delivered map is the world.
+        decisions: those of the log if one is given, else those in the certificate.
+        certificate: its file.
+    """
+
+    certificate: str
+    accepted: bool | None
+    by: str
+    statement: str | None
+    why: str
+    delivered: bool
+    decisions: ReceivedDecisions
+
+
 class CertifyEntry(msgspec.Struct, frozen=True):
-    """One log: an entry of `results`; docs/commands.md.
+    """One log: an entry of `results`.
 
     Attributes:
         verdict: PROVED. UNKNOWN: the log is incomplete, true of several worlds. REFUTED: no world
@@ -58,6 +126,8 @@ class CertifyEntry(msgspec.Struct, frozen=True):
         open_doors: those of an incomplete log, nearest to its end first; at most 100.
         witnesses: two worlds that show this log and differ: the files if written, else the ids.
         kernel: the certificate for Coq; null without --kernel.
+        trace: the file of the log.
+        open_darts: how many darts of the map are not explored.
     """
 
     trace: str
@@ -73,6 +143,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Judge a log with no world: is its map proved?",
     epilog=options.epilog(
         "certify log.jsonl",
@@ -122,36 +193,37 @@ def certify(  # noqa: PLR0913  an argument an option
     checked the exit code is 3.
 
     With --check a certificate that you received is checked by Coq: accepted (0), refused (1), not
-    readable as a certificate (2), or not checked, for want of Coq or of time (3).
+    readable as a certificate (2), or not checked, for want of Coq, time or memory (3). Exit code 3
+    says as well that the log has decisions or a map that no certificate can state.
     """
     _require_one_task(traces, received, about, others=bool(map_file or folder or proving))
+    doing = partial(output.progress, done=0, total=1)
     if received is not None:
 
         def checked() -> Iterator[Result[CertificateEntry]]:
-            with checking(output, timeout) as check:
+            with certificates.checking(timeout=timeout, progress=doing) as check:
                 log = None if about is None else _read(about)
-                yield checked_certificate(received, log, check)
+                yield _checked(received, log, check)
 
-        return output.run("certify", checked, show_received)
+        return output.run("certify", checked, _show_received)
 
     def certified() -> Iterator[Result[CertifyEntry]]:
         if map_file is not None and len(traces) != 1:
             raise InputError(f"-o {map_file}: expected one TRACE, got {len(traces)}")
-        with checking(output, timeout) as check:
+        with certificates.checking(timeout=timeout, progress=doing) as check:
             for number, trace in enumerate(traces):
                 output.progress(f"folding {trace}", number, len(traces))
                 log = _read(trace)
-                certificate = _judged(log, _name(trace))
+                try:
+                    certificate = judge(log)
+                except InputError as error:
+                    raise InputError(f"{_name(trace)}: {error}") from error
                 if map_file is not None and certificate.map is not None:
-                    files.write(map_file, certificate.map.to_json() + "\n")
-                proof = prove(traces, number, log, certificate, check) if proving else None
+                    certificate.map.save(map_file)
+                proof = _prove(traces, number, log, certificate, check) if proving else None
                 yield _result(trace, certificate, folder, proof)
 
     return output.run("certify", certified, _show)
-
-
-def _name(trace: str) -> str:
-    return "standard input" if trace == "-" else trace
 
 
 def _require_one_task(
@@ -170,19 +242,13 @@ def _require_one_task(
 
 
 def _read(trace: str) -> Trace:
-    with _opened(trace) as stream:
-        return tuple(read_events(files.lines(stream, name=_name(trace)), name=_name(trace)))
+    name = _name(trace)
+    with nullcontext(files.standard_input()) if trace == "-" else files.opened(trace) as stream:
+        return tuple(read_events(files.lines(stream, name=name), name=name))
 
 
-def _opened(trace: str) -> AbstractContextManager[IO[bytes]]:
-    return nullcontext(files.standard_input()) if trace == "-" else files.opened(trace)
-
-
-def _judged(log: Trace, name: str) -> Certificate:
-    try:
-        return judge(log)
-    except InputError as error:
-        raise InputError(f"{name}: {error}") from error
+def _name(trace: str) -> str:
+    return "standard input" if trace == "-" else trace
 
 
 def _result(
@@ -192,12 +258,10 @@ def _result(
     findings = tuple(
         msgspec.structs.replace(finding, replay=replay_command) for finding in certificate.findings
     )
-    entry = CertifyEntry(
+    entry = entry_of(
+        CertifyEntry,
+        certificate,
         trace=trace,
-        verdict=certificate.verdict,
-        vertices=certificate.vertices,
-        edges=certificate.edges,
-        open_darts=certificate.open_darts,
         open_doors=tuple(open_doors(certificate, MOST_OPEN_DOORS)),
         decisions=DecisionCount(certificate.entailed, certificate.decisions),
         witnesses=_witnesses(trace, certificate, folder),
@@ -220,16 +284,12 @@ def _witnesses(trace: str, certificate: Certificate, folder: str | None) -> tupl
         return tuple(f"a world of {size} edges (--witness DIR writes it)" for size in sizes)
     if folder is None:
         return tuple(world.id for world in certificate.witnesses)
-    return tuple(
-        _written(folder, f"{Path(trace).stem}-witness-{number}.json", world)
-        for number, world in enumerate(certificate.witnesses, 1)
-    )
-
-
-def _written(folder: str, name: str, world: World) -> str:
-    path = str(options.make_folder(folder, "--witness") / name)
-    files.write(path, world.to_json() + "\n")
-    return path
+    place = options.make_folder(folder, "--witness")
+    written: list[str] = []
+    for number, world in enumerate(certificate.witnesses, 1):
+        written.append(str(place / f"{Path(trace).stem}-witness-{number}.json"))
+        files.write(written[-1], world.to_json() + "\n")
+    return tuple(written)
 
 
 def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
@@ -252,7 +312,7 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Text(f"{plural(len(entry.witnesses), 'world')} that show this log and differ:")
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
-            yield from show_proof(entry.kernel)
+            yield from _show_proof(entry.kernel)
 
 
 def _incomplete(entry: CertifyEntry) -> str:
@@ -276,3 +336,150 @@ def _decisions(entry: CertifyEntry) -> str:
     if not entry.decisions.total:
         return "none declared"
     return f"{entry.decisions.entailed} of {entry.decisions.total}"
+
+
+# ---------------------------------------------------------------- a certificate made here
+
+
+def _prove(
+    traces: Sequence[str], number: int, log: Trace, certificate: Certificate, check: NumbersChecker
+) -> KernelCheck:
+    """Write the certificate of a log, and return what its checker says of it.
+
+    Raises:
+        InternalError: Coq refuses it, or it states another result than the fold.
+    """
+    # The certificate is stated by a fold of its own. Were the two folds to differ, Coq would
+    # still accept a true statement, but not the one that the user was told.
+    stated = certificates.certificate_of(log)
+    shown = "undetermined" if certificate.fold is not None else "impossible"
+    if stated.statement != ("map" if certificate.map is not None else shown):
+        raise InternalError(f"{traces[number]}: two folds of one log differ: {stated.statement}")
+    file = f"{_stem(traces, number)}.cert"
+    text = certificate_format.text_of(stated)
+    files.write(file, text)
+    checked = check(certificate_format.parse(text.encode(), name=file))
+    # `accepted` is None where nothing was checked; only False means that Coq refused. Where the
+    # conclusion is true, some evidence is accepted (coq/Accepted.v): the mistake is Python's.
+    if checked.accepted is False:
+        raise InternalError(
+            f"{checked.by} refuses {file}, so our conclusion or our evidence is wrong:"
+            f" {checked.why}"
+        )
+    log_name = "LOG" if traces[number] == "-" else traces[number]
+    return entry_of(
+        KernelCheck,
+        checked,
+        statement=stated.statement,
+        file=file,
+        command=shlex.join(["topo-verify", "certify", "--check", file, "--log", log_name]),
+        decisions=_certified_decisions(
+            checked, certificate.entailed, too_long=stated.decisions.too_long
+        ),
+    )
+
+
+def _certified_decisions(
+    checked: CertificateCheck, entailed: int, *, too_long: bool
+) -> CertifiedDecisions:
+    """How many of the decisions that follow are certified, and why the others are not."""
+    if not entailed:
+        return CertifiedDecisions(0, 0, "", "")
+    if not checked.accepted:
+        return CertifiedDecisions(0, entailed, "", "the certificate is not checked")
+    if too_long:
+        why = f"their evidence has more than {evidence.MOST:,} steps"
+        return CertifiedDecisions(0, entailed, "", why)
+    why = (
+        "the others follow in planar worlds only, or rest on one that does, and the proofs in Coq"
+        " do not speak of planarity"
+    )
+    missing = checked.certified < entailed
+    return CertifiedDecisions(checked.certified, entailed, checked.by, why if missing else "")
+
+
+def _stem(traces: Sequence[str], number: int) -> str:
+    """The name of a log's certificate without its suffix, different for each of the logs."""
+    # Two logs may have one stem: hence the number.
+    name = "standard_input" if traces[number] == "-" else Path(traces[number]).stem
+    stem = re.sub(r"\W", "_", name, flags=re.ASCII)
+    return f"certificate_{stem}" + (f"_{number + 1}" if len(traces) > 1 else "")
+
+
+_STATED = {
+    "map": "one world alone shows its log, and it is the map in the certificate",
+    "undetermined": "two worlds that differ show its log, so it proves no map",
+    "impossible": "no world shows its log",
+}
+
+
+def _show_proof(proof: KernelCheck) -> Iterator[Block]:
+    """The lines that tell of a certificate: what it states, who accepted it, how to check it."""
+    outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
+    delivered = " The delivered map is that world." if proof.delivered else ""
+    decisions = _decisions_sentence(proof.decisions)
+    yield Text("")
+    yield Text(
+        f"{proof.file}: {_STATED[proof.statement]}; {outcome}.{delivered}{decisions}"
+        " To check it again, in the folder of that file:"
+    )
+    yield Bullets((proof.command,))
+
+
+def _decisions_sentence(proved: CertifiedDecisions) -> str:
+    if not proved.entailed:
+        return ""
+    by = f" by {proved.by}" if proved.by else ""
+    why = f": {proved.why}" if proved.why else ""
+    of = f"{proved.certified} of {proved.entailed}"
+    return f" Of the decisions that follow, {of} are certified{by}{why}."
+
+
+# ---------------------------------------------------------------- a certificate received
+
+
+def _checked(file: str, log: Trace | None, check: NumbersChecker) -> Result[CertificateEntry]:
+    """The result of checking a certificate that is said to be about a log, if one is given.
+
+    Raises:
+        InputError: the file is no certificate, or no certificate can be about that log.
+    """
+    numbers = certificate_format.parse(files.read(file), name=file)
+    if log is not None and not certificates.is_about(numbers, log):
+        checked = certificates.CertificateCheck(
+            accepted=False, by="topo-verify", why="the certificate is about another log"
+        )
+    else:
+        checked = check(numbers)
+    # What no certificate can state counts as not proved, so that nothing hides from its numbers.
+    silent = ""
+    if log is not None and checked.accepted:
+        silent = certificate_format.left_out(log)
+        total = certificate_format.decisions_in(log)
+        checked = replace(checked, why=silent, decisions=total)
+    entry = entry_of(
+        CertificateEntry,
+        checked,
+        certificate=file,
+        decisions=ReceivedDecisions(checked.certified, checked.decisions),
+    )
+    incomplete = checked.accepted is None or bool(silent)
+    return Result(entry, failed=checked.accepted is False, incomplete=incomplete)
+
+
+def _show_received(entries: Sequence[CertificateEntry]) -> Iterator[Block]:
+    """The lines that tell whether a received certificate is accepted, and what it states."""
+    for entry in entries:
+        if entry.statement is None:
+            word = "NOT CHECKED" if entry.accepted is None else f"REFUSED by {entry.by}"
+            yield Text(f"{entry.certificate}: {word}: {entry.why}")
+            continue
+        delivered = " The delivered map is that world." if entry.delivered else ""
+        of = f"{entry.decisions.certified} of {plural(entry.decisions.total, 'decision')}"
+        decisions = f" Proved to follow: {of}." if entry.decisions.total else ""
+        yield Text(
+            f"{entry.certificate}: accepted by {entry.by}: {_STATED[entry.statement]}."
+            f"{delivered}{decisions}"
+        )
+        if entry.why:
+            yield Text(f"{entry.certificate}: NOT PROVED: {entry.why}.")

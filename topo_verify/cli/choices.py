@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from topo_verify.algorithms import Algorithm
+from topo_verify.campaign.judge import Report
+from topo_verify.campaign.run import Exploration
 from topo_verify.errors import InputError
-from topo_verify.harness.judge import Report
-from topo_verify.harness.run import Exploration
-from topo_verify.harness.search.states.every import with_choices
-from topo_verify.harness.search.states.script import Listed, choices_of, scripted
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.search.states.every import with_choices
+from topo_verify.studies.search.states.script import Listed, choices_of, scripted
 
 
 def require_no_policies(choices: str, pick: str | None, order: str | None) -> None:

@@ -10,23 +10,38 @@ from fractions import Fraction
 import click
 import msgspec
 
+from topo_verify.campaign.judge import judge
+from topo_verify.campaign.run import explore
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
-from topo_verify.cli.accounts import extent, worlds
+from topo_verify.cli.kept_runs import opened, stored_rows
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.record import MapperOpener, mapper_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns, exhibit_of
-from topo_verify.harness.baseline import file
-from topo_verify.harness.baseline.compare import KINDS, Change, ChangeKind, Comparison, Group
-from topo_verify.harness.baseline.compare import compare as run_all
-from topo_verify.harness.judge import judge
-from topo_verify.harness.run import explore
 from topo_verify.programs.loader import Target
-from topo_verify.report.account import Account, JudgedCase, JudgedSuite, Outcome
+from topo_verify.report.account import (
+    Account,
+    JudgedCase,
+    JudgedSuite,
+    Outcome,
+    extent,
+    worlds,
+)
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.robot.events import Policies
+from topo_verify.studies.baseline import file
+from topo_verify.studies.baseline.compare import (
+    KINDS,
+    BaselineWorlds,
+    Change,
+    ChangeKind,
+    Comparison,
+    Group,
+)
+from topo_verify.studies.baseline.compare import compare as join
+from topo_verify.studies.baseline.record import baseline_runs
 from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
@@ -56,14 +71,24 @@ SHOWN = 5
 
 
 class CostChange(msgspec.Struct, frozen=True):
-    """Total edge traversals over the worlds in which the mapper is right then and now."""
+    """Total edge traversals over the worlds in which the mapper is right then and now.
+
+    Attributes:
+        before, after: in the baseline, and now.
+    """
 
     before: int
     after: int
 
 
 class BaselineSummary(msgspec.Struct, frozen=True):
-    """The baseline: its file, its mapper and its corpus."""
+    """The baseline: its file, its mapper and its corpus.
+
+    Attributes:
+        tool: the version of topo-verify that recorded it.
+        policies: those of the recording; null: the mapper had none.
+        corpus, digest: the worlds, in words and as a digest.
+    """
 
     file: str
     target: str
@@ -74,7 +99,7 @@ class BaselineSummary(msgspec.Struct, frozen=True):
 
 
 class CompareEntry(msgspec.Struct, frozen=True):
-    """One comparison: an entry of `results`; docs/commands.md.
+    """One comparison: an entry of `results`.
 
     Attributes:
         worlds: those of the baseline; the sum of the seven numbers that follow.
@@ -83,6 +108,12 @@ class CompareEntry(msgspec.Struct, frozen=True):
         groups: the same numbers by class of worlds.
         examples: of each kind but `equal`; the largest changes of cost first, else the smallest
             worlds.
+        wrong: where a claim fails.
+        dearer, cheaper: where the cost has changed.
+        other_decisions: where the cost is equal and a decision is not.
+        equal: where nothing has changed.
+        newly_right: where a claim failed in the baseline.
+        undecided: where the run was not decided.
     """
 
     target: str
@@ -110,6 +141,7 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Show what has changed since a baseline was recorded.",
     epilog=options.epilog(
         "compare baseline.jsonl.gz my_mapper.py:explore",
@@ -129,7 +161,14 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
 @output_options
 @report_options
 def compare(
-    output: Output, *, baseline: str, mapper: MapperOpener, in_process: bool, tolerance: str
+    output: Output,
+    *,
+    baseline: str,
+    mapper: MapperOpener,
+    in_process: bool,
+    workers: int,
+    store: str | None,
+    tolerance: str,
 ) -> int:
     """Run a mapper in the worlds of a BASELINE, under its limits, and show what has changed.
 
@@ -139,14 +178,12 @@ def compare(
 
     def compared() -> Iterator[Result[CompareEntry]]:
         then = file.load(baseline)
-        with mapper(then.header.policies) as target:
-            found = run_all(
-                then,
-                target,
-                tolerance=Fraction(tolerance),  # exact: a float may put a world on the wrong side
-                name=baseline,
-                tell=output.progress,
-            )
+        named, limits = BaselineWorlds(then, baseline), then.header.limits
+        with opened(store) as kept, mapper(then.header.policies) as target:
+            made = baseline_runs(target, named, len(then.entries), limits=limits, store=kept)
+            rows = stored_rows(output, [made], workers, kept)
+            # An exact number: a float may put a world on the wrong side.
+            found = join(then, target, rows, tolerance=Fraction(tolerance))
             if output.exhibits:
                 _run_again(then, target, found, runs)
         entry = _entry(found, target, then.header, baseline, tolerance)
@@ -258,7 +295,7 @@ def _examples(kind: ChangeKind, entry: CompareEntry) -> Iterator[Block]:
     if not changes:
         return
     yield Text("")
-    # The order that harness/baseline/compare.py chose.
+    # The order that studies/baseline/compare.py chose.
     first = "largest" if kind in ("dearer", "cheaper") else "smallest worlds"
     yield Text(f"{TITLES[kind]}: {_count(entry, kind):,}, {first} first")
     yield Bullets(tuple(map(_line, changes)))

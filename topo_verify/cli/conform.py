@@ -5,12 +5,17 @@ from __future__ import annotations
 import re
 import secrets
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import click
 
+from topo_verify.campaign.backend import pooled
+from topo_verify.campaign.campaign import Backend, Campaign, ListedWorlds
+from topo_verify.campaign.corpus import corpus_from
+from topo_verify.campaign.run import explore
+from topo_verify.campaign.targets import each_text, one_target, target_arguments, target_text
+from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.accounts import conform_account
 from topo_verify.cli.differing import exhibits, failing_run
@@ -19,34 +24,20 @@ from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.runs import unjudged
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.harness.conform.conform import ConformTally, LevelResult
-from topo_verify.harness.conform.conform import conform as try_all
-from topo_verify.harness.conform.outcome import ConformJob, WorldFinding
-from topo_verify.harness.corpus import Corpus, corpus_from
-from topo_verify.harness.run import explore
-from topo_verify.harness.targets import target_arguments, target_text, targets
-from topo_verify.harness.work import processors
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
 from topo_verify.programs.program import PREFIX
 from topo_verify.report.account import Account
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, View
-from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.conform.batch import batched
+from topo_verify.studies.conform.conform import Conform, LevelResult
+from topo_verify.studies.conform.look import Asked
+from topo_verify.studies.conform.outcome import WorldFinding
 from topo_verify.text import plural
 
 SHOWN = 3
 """The number of findings of a level, and of worlds with costs, that are shown; JSON has more."""
-
-
-@dataclass(frozen=True)
-class _ConformOptions:
-    """The options of one call that are not part of the job."""
-
-    corpus: Corpus
-    workers: int
-    batch: bool
-    order_seed: int
 
 
 def _seeds(_context: click.Context, _option: click.Parameter, value: str | None) -> tuple[int, int]:
@@ -60,6 +51,7 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Compare an implementation, in any language, with the reference.",
     epilog=options.epilog(
         "conform my_mapper.py:explore",
@@ -84,12 +76,7 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
 )
 @options.policies
 @click.option("--batch", is_flag=True, help="The program reads worlds and writes runs.")
-@click.option(
-    "--workers",
-    type=click.IntRange(min=0),
-    metavar="N",
-    help="Number of worker processes; 0: only this one.  [default: one per processor]",
-)
+@options.workers()
 @click.option("--validate", is_flag=True, help="Refuse fields that no schema lists.")
 @options.strict
 @click.option("--transcript", metavar="DIR", help="Write the messages of failing worlds to DIR.")
@@ -133,9 +120,11 @@ def conform(  # noqa: PLR0913  an argument an option
 
     def standings() -> Iterator[Result[LevelResult]]:
         text = target_text(target, command)
-        policies = Policies(pick or "nearest", order or "shortest")
+        corpus = corpus_from(texts, seed=seed)
+        usual = Asked()
+        asked = Asked(like or "", pick or usual.pick, order or usual.order, transcript or "")
         number = processors() if workers is None else workers
-        asked = _ConformOptions(corpus_from(texts, seed=seed), number, batch, order_seed)
+        backend = batched if batch else pooled(min(number, corpus.total))
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
         # The order is no part of the results; so they are the same whatever it is.
@@ -143,23 +132,25 @@ def conform(  # noqa: PLR0913  an argument an option
         output.note(f"seed {seed}:{order_seed}")
         flags = dict(batch=batch, validate=validate, strict=strict, in_process=in_process)  # noqa: C408
         for one in _texts(text):
-            job = ConformJob(
-                target=one,
-                like=like,
-                policies=policies,
+            campaign = Campaign(
+                worlds=ListedWorlds(corpus.total),
+                mappers=(one,),
                 limits=limits,
-                validate=validate,
                 strict=strict,
-                transcript=transcript,
+                validate=validate,
                 in_process=in_process,
-                replay_arguments=_replay_command(one, like, (pick, order), flags, limits),
+                seed=order_seed,
+                drawn=not batch,  # such a program is given the worlds in their order
             )
-            yield from _tried(output, job, asked, shared, found)
+            again = _replay_command(one, like, (pick, order), flags, limits)
+            study = Conform(campaign, corpus, asked, again)
+            yield from _tried(output, study, backend, shared, found)
 
     shared: dict[str, Playback] = {}
-    found, corpus = FoundRuns(output), list(texts) or ["corpus"]
+    found = FoundRuns(output)
     show = partial(_show, shared=shared, found=found)
-    more: dict[str, Any] = {"seed": seed, "corpus": corpus, "in_process": in_process}
+    named = list(texts) or ["corpus"]
+    more: dict[str, Any] = {"seed": seed, "corpus": named, "in_process": in_process}
     account = partial(_account, show=show, found=found)
     return output.run("conform", standings, show, account=account, **more)
 
@@ -174,16 +165,17 @@ def _account(
 
 def _texts(text: str) -> list[str]:
     """Each TARGET of a text. A mapper of the user's is loaded by the process that runs it."""
-    # Commas separate names of the catalogue, but a command line may contain them.
-    if text.startswith(PREFIX) or ":" in text:
-        return [text]
-    return [found.text for found in targets(text)]
+    asked = each_text(text)
+    for name in asked:
+        if not (name.startswith(PREFIX) or ":" in name):
+            one_target(name)  # refuses a name that is not in the catalogue
+    return list(asked)
 
 
 def _tried(
     output: Output,
-    job: ConformJob,
-    asked: _ConformOptions,
+    study: Conform,
+    backend: Backend,
     shared: dict[str, Playback],
     found: FoundRuns,
 ) -> Iterator[Result[LevelResult]]:
@@ -192,30 +184,22 @@ def _tried(
     Args:
         shared: gets the reference's run where the implementation parts from it.
     """
-    tally = ConformTally(job, asked.corpus)
     try:
-        try_all(
-            job,
-            asked.corpus,
-            tally,
-            workers=asked.workers,
-            batch=asked.batch,
-            seed=asked.order_seed,
-            tell=output.progress,
-        )
+        study.work(backend, output.progress)
     except KeyboardInterrupt:
         # Yield before raising: `Output` prints what it has and then exits 3.
-        yield from map(_result, tally.level_results())
+        yield from map(_result, study.level_results())
         raise
-    levels = tuple(tally.level_results())
-    if output.style != "json" and not asked.batch:
-        found.walk(failing_run(job, asked.corpus, levels))
+    levels = tuple(study.level_results())
+    batch = backend is batched
+    if output.style != "json" and not batch:
+        found.walk(failing_run(study, levels))
     if output.exhibits:
-        for exhibit in exhibits(job, asked.corpus, levels, batch=asked.batch):
+        for exhibit in exhibits(study, levels, batch=batch):
             found.show(exhibit)
     for level in levels:
         if output.style != "json" or output.exhibits:
-            shared.update(_shared(job, asked.corpus, level))
+            shared.update(_shared(study, level))
         yield _result(level)
 
 
@@ -310,16 +294,15 @@ def _difference(
     yield Text("")
 
 
-def _shared(job: ConformJob, corpus: Corpus, level: LevelResult) -> dict[str, Playback]:
+def _shared(study: Conform, level: LevelResult) -> dict[str, Playback]:
     """The reference's run where a mapper first parts from it, by the command that shows it again.
 
     It is run once more: it does the same again, which a mapper need not.
     """
     for found in level.findings:
         if found.difference is not None:
-            world = next(at.world for at in corpus if at.name == found.world)
-            pick, order = job.policies.pick, job.policies.order
-            run = explore(world, job.reference, pick=pick, order=order)
+            world = next(at.world for at in study.corpus if at.name == found.world)
+            run = explore(world, study.asked.reference)
             return {found.replay: Playback(world, run.trace)}
     return {}
 

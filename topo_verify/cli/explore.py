@@ -9,9 +9,12 @@ from typing import Literal
 
 import click
 
+from topo_verify.campaign.engines import Engine, on_engine
+from topo_verify.campaign.run import explore as run_mapper
+from topo_verify.campaign.targets import targets
 from topo_verify.cli import markers, options
 from topo_verify.cli.choices import ListedChoices, require_no_policies
-from topo_verify.cli.explored import ExploreEntry, explore_result
+from topo_verify.cli.explored import ExploreEntry, explore_account, explore_result
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.play import (
@@ -21,6 +24,7 @@ from topo_verify.cli.play import (
     write_animation,
     write_page,
 )
+from topo_verify.cli.reporting import report_options
 from topo_verify.cli.runs import (
     NamedWorld,
     claims_cell,
@@ -31,9 +35,6 @@ from topo_verify.cli.runs import (
 )
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
-from topo_verify.harness.engines import Engine, on_engine
-from topo_verify.harness.run import explore as run_mapper
-from topo_verify.harness.targets import target_text, targets
 from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import Block, Text, TextTable
@@ -57,23 +58,20 @@ class _ExploreOptions:
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Run algorithms in given worlds: costs and verdicts.",
     epilog=options.epilog(
         "explore nyc",
-        "explore m3/14 --algorithm basic,enhancement-ii --trace FILE",
-        "explore m2/8 --algorithm folding+planar --choices 0,1",
-        "explore nyc --algorithm folding --marker all --svg heat.svg",
-        "explore 'family:lattice(10,10,holes=0.2)' --algorithm my_mapper.py:explore",
+        "explore m3/14 --target basic,enhancement-ii --trace FILE",
+        "explore m2/8 --target folding+planar --choices 0,1",
+        "explore nyc --target folding --marker all --svg heat.svg",
+        "explore 'family:lattice(10,10,holes=0.2)' --target my_mapper.py:explore",
     ),
 )
 @click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
-@click.option(
-    "--algorithm",
-    metavar="TARGET",
-    help="Names of the catalogue; module:attribute or file.py:attribute.  [default: all]",
+@options.algorithms(
+    "all", "Names of the catalogue, module:attribute or file.py:attribute, with commas."
 )
-@click.option("--target", metavar="TARGET", help="The same as --algorithm.")
-@options.program
 @options.in_process
 @options.policies
 @click.option(
@@ -92,13 +90,12 @@ class _ExploreOptions:
 )
 @options.limits
 @output_options
+@report_options
 def explore(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
     worlds: tuple[str, ...],
-    algorithm: str | None,
-    target: str | None,
-    command: str | None,
+    algorithms: Sequence[str],
     in_process: bool,
     pick: str | None,
     order: str | None,
@@ -119,8 +116,9 @@ def explore(  # noqa: PLR0913  an argument an option
     """
 
     def runs() -> Iterator[Result[ExploreEntry]]:
-        text = target_text(options.one_of(algorithm, target), command, "all")
-        named = targets(text, pick=pick, order=order, in_process=in_process)
+        named = chain.from_iterable(
+            targets(text, pick=pick, order=order, in_process=in_process) for text in algorithms
+        )
         found = on_engine(engine, named, limits)
         if marker == "all":
             markers.require_alone({"--trace": trace, "--player": player, "--gap": gap})
@@ -141,10 +139,12 @@ def explore(  # noqa: PLR0913  an argument an option
         return _results(output, starts, found, asked, walk)
 
     walk = FoundRuns(output)
+    table = markers.show if marker == "all" else show
     return output.run(
         "explore",
         runs,
-        lambda entries: chain((markers.show if marker == "all" else show)(entries), walk.blocks()),
+        lambda entries: chain(table(entries), walk.blocks()),
+        account=lambda entries: explore_account(entries, table(entries), walk),
         in_process=in_process,
     )
 
@@ -157,7 +157,7 @@ def _require_one_run(
     if len(found) * len(starts) != 1:
         raise InputError(
             f"{option} {file}: expected one run, got {len(found) * len(starts)}; name one"
-            " WORLD, and one algorithm with --algorithm"
+            " WORLD, and one mapper with --target"
         )
 
 

@@ -1,15 +1,31 @@
-"""An entry of `explore`: one run in one world, for scripts."""
+"""An entry of `explore`: one run in one world, for scripts; and what all of them come to."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
+
 import msgspec
 
+from topo_verify.campaign.judge import Report
+from topo_verify.campaign.run import Exploration
 from topo_verify.checkers import Finding, Judgement, Status
+from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.output import Result
 from topo_verify.cli.runs import NamedWorld
-from topo_verify.harness.gap import gap as measure
-from topo_verify.harness.judge import Report
-from topo_verify.harness.run import Exploration
+from topo_verify.cli.walks import FoundRuns
+from topo_verify.report.account import (
+    Account,
+    JudgedCase,
+    JudgedExtent,
+    JudgedSuite,
+    claim_cases,
+    counted,
+    joint_verdict,
+    outcome_of,
+)
+from topo_verify.report.blocks import Block
+from topo_verify.studies.gap import gap as measure
+from topo_verify.text import plural
 
 
 class ChosenPolicies(msgspec.Struct, frozen=True):
@@ -20,7 +36,7 @@ class ChosenPolicies(msgspec.Struct, frozen=True):
 
 
 class MeasuredGap(msgspec.Struct, frozen=True):
-    """The gap of a rule to the best possible one; see `topo_verify.harness.gap`.
+    """The gap of a rule to the best possible one; see `topo_verify.studies.gap`.
 
     Attributes:
         false: false hypotheses posed.
@@ -36,7 +52,7 @@ class MeasuredGap(msgspec.Struct, frozen=True):
 
 
 class ExploreEntry(msgspec.Struct, frozen=True):
-    """One run: an entry of `results`; docs/commands.md.
+    """One run: an entry of `results`.
 
     Attributes:
         least_cost: the least cost of a proof (docs/semantics.md, section 11).
@@ -51,6 +67,8 @@ class ExploreEntry(msgspec.Struct, frozen=True):
         place: the vertex where the marker lies, likewise.
         same_as: with `--marker all`, the least dart from which the world looks the same, if that
             is another one: the two are one rooted map, so this run is that one's.
+        rejected_free, rejected_moving: hypotheses rejected without motion, and by motion.
+        confirmed: hypotheses confirmed.
     """
 
     world: str
@@ -123,3 +141,48 @@ def explore_result(
         place=0 if at.world.root is None else at.world.vertex_of[at.world.root],
     )
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
+
+
+def explore_account(
+    entries: Sequence[ExploreEntry], blocks: Iterable[Block], found: FoundRuns
+) -> Account:
+    """The account of `explore`: a suite a run; the run, and a case a claim."""
+    verdicts = [_verdict(entry) for entry in entries]
+    failing, decided = verdicts.count("REFUTED"), verdicts.count("SAMPLED")
+    words = counted(decided, len(entries), "runs")
+    if failing:
+        words = counted(failing, len(entries), "runs fail")
+    mappers = list(dict.fromkeys(entry.algorithm for entry in entries))
+    return Account(
+        about=mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
+        extent=JudgedExtent(joint_verdict(verdicts), words),
+        suites=tuple(
+            JudgedSuite(_run_name(entry), tuple(_run_cases(entry)))
+            for entry in entries
+            if entry.same_as is None
+        ),
+        blocks=tuple(blocks),
+        exhibits=found.exhibits,
+        left_out=found.left_out,
+    )
+
+
+def _verdict(entry: ExploreEntry) -> Verdict:
+    return "REFUTED" if entry.findings else "SAMPLED" if entry.ok else "UNKNOWN"
+
+
+def _run_name(entry: ExploreEntry) -> str:
+    at = "" if entry.marker is None else f", marker at dart {entry.marker}"
+    return f"{entry.algorithm} in {entry.world}{at}"
+
+
+def _run_cases(entry: ExploreEntry) -> Iterator[JudgedCase]:
+    first, verdict = entry.findings[0] if entry.findings else None, _verdict(entry)
+    yield JudgedCase(
+        name="the run as a whole",
+        verdict=verdict,
+        outcome=outcome_of(verdict),
+        message=(entry.stopped or "") if first is None else f"{first.claim}: {first.message}",
+        again="" if first is None else first.replay,
+    )
+    yield from claim_cases(entry.judgements)

@@ -21,6 +21,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from enum import IntEnum
 from importlib import metadata
+from pathlib import Path
 from typing import IO
 
 import click
@@ -94,11 +95,27 @@ def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
             " or fewer --workers"
         )
         return ExitCode.INCOMPLETE
-    full = getattr(error, "errno", None) in (errno.ENOSPC, errno.EROFS, errno.EDQUOT)
-    if full or (isinstance(error, OSError) and "temporary directory" in str(error)):
-        say(f"topo-verify: the system refuses: {error}; is the disk full, or TMPDIR no folder?")
+    if (refusal := _refusal_by_the_system(error)) is not None:
+        say(f"topo-verify: {refusal}")
         return ExitCode.BAD_INPUT
     return _our_bug(error, arguments)
+
+
+def _refusal_by_the_system(error: Exception) -> str | None:
+    """What the system refuses to any program in this place; None if that is not the reason."""
+    if isinstance(error, FileNotFoundError) and not _has_working_folder():
+        return "the working folder was removed: change to another folder"
+    full = getattr(error, "errno", None) in (errno.ENOSPC, errno.EROFS, errno.EDQUOT)
+    if full or (isinstance(error, OSError) and "temporary directory" in str(error)):
+        return f"the system refuses: {error}; is the disk full, or TMPDIR no folder?"
+    return None
+
+
+def _has_working_folder() -> bool:
+    try:
+        return bool(Path.cwd())
+    except FileNotFoundError:
+        return False
 
 
 def _usage(error: click.ClickException) -> str:

@@ -6,8 +6,10 @@ from collections.abc import Iterator, Sequence
 
 import click
 
+from topo_verify.campaign.engines import Engine, planted
+from topo_verify.campaign.run import explore
+from topo_verify.campaign.work import processors
 from topo_verify.cli import options
-from topo_verify.cli.accounts import faults_account
 from topo_verify.cli.failures import version
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
@@ -16,9 +18,11 @@ from topo_verify.cli.walks import FoundRuns
 from topo_verify.compiled import require
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS, Fault
-from topo_verify.harness.engines import Engine, planted
-from topo_verify.harness.faults.checks import A_SECOND, EXAMPLES, LARGEST, STRATEGIES
-from topo_verify.harness.faults.detection import (
+from topo_verify.programs.loader import Target
+from topo_verify.report.account import Account, JudgedCase, JudgedExtent, Outcome, counted
+from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
+from topo_verify.studies.faults.checks import A_SECOND, EXAMPLES, LARGEST, STRATEGIES
+from topo_verify.studies.faults.detection import (
     CHECKS,
     LARGEST_HARMLESS,
     LARGEST_THOROUGH,
@@ -26,10 +30,6 @@ from topo_verify.harness.faults.detection import (
     Check,
     try_faults,
 )
-from topo_verify.harness.run import explore
-from topo_verify.harness.work import processors
-from topo_verify.programs.loader import Target
-from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
@@ -39,6 +39,7 @@ WIDTHS = (29, 21, 13, 5, 3)
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Show which check finds which mistake, in faulty mappers.",
     epilog=options.epilog(
         "faults",
@@ -125,7 +126,7 @@ def faults(
         tried,
         _show,
         live=Live(head, live, _end),
-        account=lambda entries: faults_account(entries, checks, _show(entries), found),
+        account=lambda entries: _account(entries, checks, found),
         by=checks,
         engine=engine,
     )
@@ -135,17 +136,15 @@ def _run_again(entry: Caught, world: str, found: FoundRuns) -> None:
     """Keep the run of a fault in the smallest world in which it fails."""
     assert entry.search is not None
     target = Target(entry.target, FAULTS[entry.name].mapper)
-    for claim in entry.search.claims:
+    if claim := next(iter(entry.search.claims), None):
         found.run_again((target,), world, claim, A_SECOND, entry.search.message)
-        return
 
 
 def _warm(chosen: Sequence[Fault]) -> None:
     """Have the kernels with mistakes compiled, before workers look for them in the cache."""
     require("--engine compiled")
-    for mapper in filter(None, (planted(fault.name) for fault in chosen)):
+    if mapper := next(filter(None, (planted(fault.name) for fault in chosen)), None):
         explore(World.from_id("m1/0"), Target(mapper.name, mapper))
-        return
 
 
 def _part(entry: Caught) -> str:
@@ -169,6 +168,43 @@ def _checks(text: str) -> list[Check]:
             f"--by {text}: expected checks out of {', '.join(CHECKS)}, got {unknown[0]!r}"
         )
     return [check for check in CHECKS if check in asked]
+
+
+# ---------------------------------------------------------------- the account
+
+
+def _account(entries: Sequence[Caught], checks: str, found: FoundRuns) -> Account:
+    """The account of `faults`: a suite a part of the mapper, a case a fault."""
+    suites: dict[str, list[JudgedCase]] = {}
+    for entry in entries:
+        suites.setdefault(_part(entry), []).append(_case(entry, checks))
+    asked = [entry for entry in entries if entry.asked]
+    mappers = "mapper" if len(asked) == 1 else "mappers"
+    right = counted(sum(e.ok for e in asked), len(asked), f"{mappers} told right from wrong")
+    return found.account(
+        plural(len(entries), "faulty mapper"),
+        JudgedExtent("SAMPLED" if asked else "UNKNOWN", right),
+        suites,
+        _show(entries),
+    )
+
+
+def _case(entry: Caught, checks: str) -> JudgedCase:
+    outcome: Outcome = "passed" if entry.ok else "undecided" if entry.undecided else "failed"
+    words = {"passed": "caught", "failed": "missed", "undecided": "undecided"}
+    if entry.harmless:
+        words |= {"passed": "not flagged", "failed": "flagged"}
+    search, where = entry.search, ""
+    if search is not None and search.failing:
+        where = f"fails in {plural(search.failing, 'world')} of {plural(search.edges, 'edge')}; "
+    return JudgedCase(
+        name=entry.name,
+        verdict=words[outcome] if entry.asked else "not asked",
+        outcome=outcome if entry.asked else "not-judged",
+        judged="" if search is None else f"{search.checked:,} of {search.total:,}",
+        message=f"{where}{entry.why}",
+        again=f"topo-verify faults {entry.name} --by {checks}",
+    )
 
 
 # ---------------------------------------------------------------- for people

@@ -14,12 +14,12 @@ from typing import Literal
 import click
 import msgspec
 
+from topo_verify.campaign.run import explore
 from topo_verify.cli.explored import ExploreEntry, explore_result
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import NamedWorld, claims_cell, finding_blocks, judged
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
-from topo_verify.harness.run import explore
 from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
@@ -81,7 +81,7 @@ def results(
     if svg is not None and (svg == "-" or len(starts) * len(found) != 1):
         raise InputError(
             f"--svg {svg}: expected the name of a file, one WORLD and one algorithm, with"
-            " --algorithm, since a heat map shows one cost for each place"
+            " --target, since a heat map shows one cost for each place"
         )
     total = len(found) * sum(len(at.world.alpha) for at in starts)
     done = 0

@@ -3,18 +3,78 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from copy import copy
 from functools import wraps
 from pathlib import Path
 from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
+from topo_verify.campaign.engines import ENGINES
+from topo_verify.campaign.targets import target_text
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import SUMMARY
 from topo_verify.errors import InputError
-from topo_verify.harness.engines import ENGINES
 from topo_verify.robot.limits import MOST_SECONDS, Limits
+from topo_verify.text import shown
+
+
+class OnceCommand(click.Command):
+    """A command that refuses an option of one value that is given twice.
+
+    Click lets the last value win, and so `conform --cmd bad --cmd good` would judge only `good`.
+    """
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Parse the arguments, as click does, after the check."""
+        if not ctx.resilient_parsing:  # a shell that completes a line
+            self._require_once(ctx, args)
+        return super().parse_args(ctx, args)
+
+    def _require_once(self, ctx: click.Context, args: Sequence[str]) -> None:
+        options = [one for one in self.get_params(ctx) if isinstance(one, click.Option)]
+        parser = self.make_parser(ctx)
+        for option in options:
+            collecting = copy(option)
+            collecting.multiple = True  # the parser keeps every value
+            collecting.add_to_parser(parser, ctx)
+        given, _, _ = parser.parse_args(list(args))  # click empties the list
+        if any(option.is_eager and option.name in given for option in options):
+            return  # --help is answered, whatever stands beside it
+        for option in options:
+            values = given.get(option.name, ())
+            if len(values) > 1 and not option.multiple:
+                name, times = "/".join(option.opts), len(values)
+                got = "it twice" if times == 2 else f"it {times} times"
+                if not option.is_flag:
+                    *rest, last = (repr(shown(value, limit=80)) for value in values)
+                    got = f"{', '.join(rest)} and {last}"
+                leave = "leave one out" if times == 2 else "leave out all but one"
+                ctx.fail(f"expected {name} at most once, got {got}: {leave}")
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """What a shell offers; a hidden alias is no part of it."""
+        hidden = {name for option in self.get_params(ctx) for name in aliases(option)}
+        return [
+            item for item in super().shell_complete(ctx, incomplete) if item.value not in hidden
+        ]
+
+
+class AliasedOption(click.Option):
+    """An option of which --help shows the first spelling; the other ones work as well."""
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        """The line of --help."""
+        first = copy(self)
+        first.opts = self.opts[:1]
+        return super(AliasedOption, first).get_help_record(ctx)
+
+
+def aliases(option: click.Parameter) -> Sequence[str]:
+    """The hidden spellings of an option."""
+    return option.opts[1:] if isinstance(option, AliasedOption) else ()
 
 
 def epilog(*examples: str) -> str:
@@ -105,13 +165,22 @@ marker = click.option(
 MAX_EDGES = 1000
 """The most edges of a world that is counted or drawn here: larger counts take minutes."""
 
+
+def _joined(_context: click.Context, _option: click.Parameter, values: Sequence[str]) -> str:
+    """The classes as one text: a comma means "and"."""
+    return ",".join(values)
+
+
 world_class = click.option(
     "--class",
     "kind",
-    default="any",
+    multiple=True,
+    default=["any"],
     show_default=True,
+    callback=_joined,
     metavar="CLASS",
-    help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; several with commas.",
+    help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; with commas, or given"
+    " several times: worlds with all of these properties.",
 )
 
 
@@ -145,10 +214,10 @@ in_process = click.option(
 
 
 def target(command: Callable[..., int]) -> Callable[..., int]:
-    """Add TARGET, as an argument or as --target; the command gets it as `target`."""
+    """Add the argument TARGET; the command gets it as `target`. --target is a hidden alias."""
 
     @click.argument("target", required=False, metavar="[TARGET]")
-    @click.option("--target", "named", metavar="TARGET", help="The same as the argument TARGET.")
+    @click.option("--target", "named", metavar="TARGET", hidden=True, help="the argument TARGET")
     @wraps(command)
     def wrapper(*args: Any, target: str | None, named: str | None, **kwargs: Any) -> int:
         return command(*args, target=one_of(target, named), **kwargs)
@@ -172,6 +241,54 @@ program = click.option(
     "command",
     metavar="'PROGRAM ARGS'",
     help="Run this program as the TARGET, without a shell; see docs/oracle.md.",
+)
+
+
+def algorithms(default: str, meaning: str) -> Callable[[Callable[..., int]], Callable[..., int]]:
+    """Add --target and --cmd; the command gets the text of each TARGET as `algorithms`.
+
+    --algorithm is a hidden alias.
+
+    Args:
+        default: the text if none is given.
+        meaning: the help of --target.
+    """
+
+    def decorate(run: Callable[..., int]) -> Callable[..., int]:
+        @click.option(
+            "--target",
+            "--algorithm",
+            "texts",
+            cls=AliasedOption,
+            multiple=True,
+            metavar="TARGET",
+            help=f"{meaning} May be repeated.  [default: {default}]",
+        )
+        @program
+        @wraps(run)
+        def wrapper(*args: Any, texts: Sequence[str], command: str | None, **kwargs: Any) -> int:
+            first = target_text(texts[0] if texts else None, command, default)
+            return run(*args, algorithms=(first, *texts[1:]), **kwargs)
+
+        return wrapper
+
+    return decorate
+
+
+def workers(default: int | None = None) -> Callable[[Callable[..., int]], Callable[..., int]]:
+    """Add --workers; without a default, None stands for one worker per processor."""
+    usual = "one per processor" if default is None else default
+    return click.option(
+        "--workers",
+        type=click.IntRange(min=0),
+        default=default,
+        metavar="N",
+        help=f"Number of worker processes; 0: only this one.  [default: {usual}]",
+    )
+
+
+store = click.option(
+    "--store", metavar="FILE", help="Keep finished runs in FILE and resume from it."
 )
 
 

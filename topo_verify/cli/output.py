@@ -14,7 +14,7 @@ import os
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import wraps
 from pathlib import Path
 from time import perf_counter
@@ -23,10 +23,11 @@ from typing import IO, Any, Concatenate, Generic, ParamSpec, TypeVar
 import click
 import msgspec
 
-from topo_verify.cli.failures import exit_code, say, silence, version
+from topo_verify.checkers.findings import Verdict
+from topo_verify.cli.failures import ExitCode, exit_code, say, silence, version
 from topo_verify.cli.progress import ProgressBar
 from topo_verify.errors import InputError
-from topo_verify.report.account import Account
+from topo_verify.report.account import Account, JudgedExtent
 from topo_verify.report.blocks import Block, Text
 from topo_verify.report.markdown import markdown
 from topo_verify.report.terminal import pretty
@@ -44,7 +45,7 @@ class Result(Generic[E]):
     """One entry of `results`, and what it means for the exit code.
 
     Attributes:
-        entry: what is printed; its fields are promised in docs/commands.md.
+        entry: what is printed; its fields are promised in docs/reference/.
         failed: a claim fails in it.
         incomplete: something that was asked for was not done.
     """
@@ -67,7 +68,7 @@ class _Done(Generic[E]):
         return [result.entry for result in self.results]
 
     @property
-    def code(self) -> int:
+    def code(self) -> ExitCode:
         incomplete = not self.finished or any(result.incomplete for result in self.results)
         return exit_code(failed=any(r.failed for r in self.results), incomplete=incomplete)
 
@@ -99,6 +100,24 @@ class Ending:
     seconds: float
     timing: dict[str, Any]
     by_result: tuple[float, ...]
+
+
+def entry_of(kind: type[E], *sources: object, **more: object) -> E:
+    """An entry of `results` that reports on these objects.
+
+    Each field of the entry is the one of `more`, else the attribute of this name of the first
+    source that has it; a field that neither has takes its default.
+
+    Raises:
+        msgspec.ValidationError: a field is missing or of another type.
+    """
+    fields = {
+        name: getattr(source, name)
+        for name in kind.__struct_fields__
+        for source in reversed(sources)
+        if name not in more and hasattr(source, name)
+    }
+    return msgspec.convert(fields | more, kind, from_attributes=True)
 
 
 class _ReaderGone(Exception):
@@ -157,7 +176,7 @@ class Output:
                 self._pretty(live.head)
             self._collect(done, results(), live)
             if account is not None and self.style == "markdown":
-                last = _with_verdict(last, account)
+                last = _with_verdict(last, lambda entries: _ended(account(entries), command, done))
             self._print(command, done, last, perf_counter() - begin, more)
             if not done.finished:
                 say(f"topo-verify: interrupted after {plural(len(done.results), 'result')}")
@@ -172,7 +191,7 @@ class Output:
                 self.timing,
                 tuple(done.seconds),
             )
-            self.report(account(done.entries), ending)
+            self.report(_ended(account(done.entries), command, done), ending)
         return done.code
 
     def _collect(
@@ -276,6 +295,25 @@ def _with_verdict(
         yield from show(entries)
 
     return shown
+
+
+def _ended(account: Account, command: str, done: _Done[E]) -> Account:
+    """The account with the verdict of the exit code, for first line, page, JUnit file and badge.
+
+    An account says what its entries are if all of them pass; it knows of no interrupt.
+    """
+    words = account.extent.words
+    verdict = _VERDICTS.get(done.code, account.extent.verdict)
+    if not done.finished:
+        words += ", interrupted"
+    about = account.about or command  # no entry names a mapper
+    return replace(account, about=about, extent=JudgedExtent(verdict, words))
+
+
+_VERDICTS: dict[ExitCode, Verdict] = {
+    ExitCode.CLAIM_FAILED: "REFUTED",
+    ExitCode.INCOMPLETE: "UNKNOWN",
+}
 
 
 def _nowhere() -> IO[str]:

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 import click
 import msgspec
 
+from topo_verify.campaign.run import explore as run_mapper
+from topo_verify.campaign.targets import targets
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import judged, named_world
 from topo_verify.errors import InputError
-from topo_verify.harness.run import explore as run_mapper
-from topo_verify.harness.targets import target_text, targets
 from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.limits import Limits
@@ -23,7 +23,7 @@ from topo_verify.world.rooted_map import World
 
 
 class PlayEntry(msgspec.Struct, frozen=True):
-    """A page that was written: the one entry of `results`; docs/commands.md.
+    """A page that was written: the one entry of `results`.
 
     Attributes:
         algorithms: whose runs it shows, in this order.
@@ -81,21 +81,16 @@ def write_animation(file: str, world: World, run: PlayedRun) -> None:
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Show runs in a browser, step by step, two side by side.",
     epilog=options.epilog(
         "play nyc -o nyc.html",
-        "play 'family:lattice(6,6)' --algorithm basic,enhancement-ii -o two.html",
-        "play m5/17 --algorithm my_mapper.py:explore",
+        "play 'family:lattice(6,6)' --target basic,enhancement-ii -o two.html",
+        "play m5/17 --target my_mapper.py:explore",
     ),
 )
 @click.argument("world", metavar="WORLD")
-@click.option(
-    "--algorithm",
-    metavar="TARGET",
-    help="Whose runs to show; of several, two stand side by side.  [default: enhancement-ii]",
-)
-@click.option("--target", metavar="TARGET", help="The same as --algorithm.")
-@options.program
+@options.algorithms("enhancement-ii", "Whose runs to show; of several, two stand side by side.")
 @options.in_process
 @options.policies
 @options.marker
@@ -107,9 +102,7 @@ def play(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
     world: str,
-    algorithm: str | None,
-    target: str | None,
-    command: str | None,
+    algorithms: Sequence[str],
     in_process: bool,
     pick: str | None,
     order: str | None,
@@ -125,8 +118,11 @@ def play(  # noqa: PLR0913  an argument an option
     """
 
     def played() -> Iterator[Result[PlayEntry]]:
-        text = target_text(options.one_of(algorithm, target), command, "enhancement-ii")
-        found = targets(text, pick=pick, order=order, in_process=in_process)
+        found = [
+            target
+            for text in algorithms
+            for target in targets(text, pick=pick, order=order, in_process=in_process)
+        ]
         at = named_world(world, marker)
         require_one_world(file, 1)
         runs: list[PlayedRun] = []

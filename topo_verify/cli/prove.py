@@ -6,28 +6,158 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import get_args
 
 import click
+import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli import theorems as shown
-from topo_verify.cli.accounts import prove_account
-from topo_verify.cli.output import Live, Output, Result
+from topo_verify.cli.output import Live, Output, Result, entry_of
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError, InternalError
-from topo_verify.report.account import Account, Exhibit
-from topo_verify.report.blocks import Block, Text
+from topo_verify.proofs.theorem import (
+    Budget,
+    Theorem,
+    TheoremKind,
+)
+from topo_verify.report.account import (
+    Account,
+    Exhibit,
+    JudgedCase,
+    JudgedExtent,
+    counted,
+    joint_verdict,
+)
+from topo_verify.report.blocks import Block, Bullets, Cell, Text, TextTable
+from topo_verify.report.style import Tone
 from topo_verify.robot.limits import MOST_SECONDS
+from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
-if TYPE_CHECKING:
-    from topo_verify.proofs.theorem import Budget, Theorem
+KINDS: tuple[TheoremKind, ...] = get_args(TheoremKind)
+
+
+class ReplayCount(msgspec.Struct, frozen=True):
+    """How many of the models found the simulator has replayed.
+
+    Attributes:
+        replayed: those that came true there.
+        total: those that were found.
+    """
+
+    replayed: int
+    total: int
+
+
+class ProofCheck(msgspec.Struct, frozen=True):
+    """A certificate and what its checker said.
+
+    Attributes:
+        format: of the certificate.
+        checker: what checked it.
+        checked: whether it was accepted.
+        clauses, steps: how long it is.
+        why: the reason, if it was not accepted.
+    """
+
+    format: str
+    checker: str
+    checked: bool
+    clauses: int
+    steps: int
+    why: str
+
+
+class SecondOpinion(msgspec.Struct, frozen=True):
+    """How often a second solver agrees on the questions of a theorem.
+
+    Attributes:
+        solver: the second one.
+        agrees, unknown, total: numbers of questions.
+    """
+
+    solver: str
+    agrees: int
+    unknown: int
+    total: int
+
+
+class ProveEntry(msgspec.Struct, frozen=True):
+    """One theorem: an entry of `results`.
+
+    Attributes:
+        claim: the claims that rest on it, with commas.
+        ok: the verdict is as expected, the premises are satisfiable, every model was replayed.
+        kind: inductive, mechanised, bounded, negative or mutant.
+        premises_satisfiable: whether all premises can hold; null: not asked.
+        solver: what decided it, with its version.
+        edges: the bound of a bounded theorem.
+        checked, total: how many cases were decided, of how many; null: it has no cases.
+        counterexample: a world, or the structure that refutes a mutant of an axiom.
+        history: the doors that show it.
+        core: the premises that the proof used.
+        of: the theorem that a mutant changes.
+        words: the theorem in words.
+        note: why a verdict does not stand, if it does not.
+    """
+
+    name: str
+    kind: TheoremKind
+    claim: str
+    verdict: str
+    expected: str
+    ok: bool
+    premises_satisfiable: bool | None
+    replayed: ReplayCount | None
+    solver: str
+    edges: int | None
+    certificate: ProofCheck | None
+    checked: int | None
+    total: int | None
+    counterexample: str | None
+    history: tuple[int, ...] | None
+    core: tuple[str, ...]
+    opinion: SecondOpinion | None
+    of: str | None
+    words: str
+    note: str
+
+
+class ProveListEntry(msgspec.Struct, frozen=True):
+    """One theorem as it is stated: an entry of `results` with --list.
+
+    Attributes:
+        kind: inductive, mechanised, bounded, negative or mutant.
+        claim: the claims that rest on it, with commas.
+        expected: the verdict that is expected.
+        edges: the bound of a bounded theorem.
+        deep: whether it takes minutes, and --deep.
+        of: the theorem that a mutant changes.
+        words: the theorem in words.
+        symbols: the statement as it is given to the solver.
+        solver_part: what the solver proves.
+        argued: the steps that are argued in words, by their names in docs/proofs.md.
+        assumed: what is not proved here.
+    """
+
+    name: str
+    kind: str
+    claim: str
+    expected: str
+    edges: int | None
+    deep: bool
+    of: str | None
+    words: str
+    symbols: str
+    solver_part: str
+    argued: tuple[str, ...]
+    assumed: tuple[str, ...]
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Prove the theorems behind the claims: Z3 and Coq.",
     epilog=options.epilog(
         "prove",
@@ -43,7 +173,7 @@ if TYPE_CHECKING:
     "--kind",
     "kinds",
     multiple=True,
-    type=click.Choice(shown.KINDS),
+    type=click.Choice(KINDS),
     help="Only theorems of this kind.",
 )
 @click.option(
@@ -91,23 +221,20 @@ def prove(  # noqa: PLR0913  an argument an option
 
     NAME is a theorem; by default all quick ones are proved. Inductive theorems speak of worlds of
     any size, bounded ones of every world of a few edges; negatives and mutants must be REFUTED. A
-    theorem that is vacuous or stays UNKNOWN does not pass (exit 3).
+    vacuous theorem is UNKNOWN, which does not pass (exit 3).
     """
     from topo_verify.proofs.catalogue import choose
-    from topo_verify.proofs.theorem import Budget
 
     theorems = choose(names, kinds=kinds, edges=edges, deep=deep)
     if listing:
-        return output.run(
-            "prove-list", lambda: map(Result, map(shown.listed, theorems)), shown.show_list
-        )
+        return output.run("prove-list", lambda: map(_listed, theorems), _show_list)
     # Now and not at the first question that needs them, which may be minutes away.
     _require(second=solver == "cvc5", certify=certify)
     budget = Budget(timeout=timeout, seed=seed, certify=certify, progress=output.progress)
 
     seconds: dict[str, float] = {}
 
-    def proved() -> Iterator[Result[shown.ProveEntry]]:
+    def proved() -> Iterator[Result[ProveEntry]]:
         for number, theorem in enumerate(theorems):
             output.progress(theorem.name, number, len(theorems))
             if folder is not None:
@@ -118,19 +245,57 @@ def prove(  # noqa: PLR0913  an argument an option
             seconds[theorem.name] = perf_counter() - begin
             yield result
 
-    def one(entry: shown.ProveEntry) -> Iterator[Block]:
-        return shown.live(entry, seconds[entry.name])
+    def one(entry: ProveEntry) -> Iterator[Block]:
+        return _live(entry, seconds[entry.name])
 
-    live = Live((Text(shown.head(theorems, budget)),), one, shown.end)
+    live = Live((Text(_head(theorems, budget)),), one, _end)
     found = FoundRuns(output)
 
-    def account(entries: Sequence[shown.ProveEntry]) -> Account:
-        # What is not as expected comes first.
-        for entry in sorted(entries, key=lambda one: (one.ok, one.kind != "negative")):
-            found.show(_exhibit(entry))
-        return prove_account(entries, _again(solver, timeout, seed), shown.show(entries), found)
+    return output.run(
+        "prove",
+        proved,
+        _show,
+        live=live,
+        account=lambda entries: _account(entries, _again(solver, timeout, seed), found),
+        seed=seed,
+        deep=deep,
+    )
 
-    return output.run("prove", proved, shown.show, live=live, account=account, seed=seed, deep=deep)
+
+def _account(entries: Sequence[ProveEntry], options: str, found: FoundRuns) -> Account:
+    """The account of `prove`: a suite a kind, a case a theorem.
+
+    Args:
+        options: what the command that proves one theorem again needs besides its name.
+    """
+    # What is not as expected comes first.
+    for entry in sorted(entries, key=lambda one: (one.ok, one.kind != "negative")):
+        found.show(_exhibit(entry))
+    positive = [entry.verdict for entry in entries if entry.expected != "REFUTED"]
+    things = "theorem" if len(entries) == 1 else "theorems"
+    words = counted(sum(entry.ok for entry in entries), len(entries), f"{things} as expected")
+    suites: dict[str, list[JudgedCase]] = {}
+    for entry in sorted(entries, key=lambda one: KINDS.index(one.kind)):
+        suites.setdefault(entry.kind, []).append(_case(entry, options))
+    return found.account(
+        plural(len(entries), "theorem"),
+        JudgedExtent("PROVED" if joint_verdict(positive) == "PROVED" else "EXHAUSTED", words),
+        suites,
+        _show(entries),
+    )
+
+
+def _case(entry: ProveEntry, options: str) -> JudgedCase:
+    # As the exit code has it: only a definite verdict that is not the expected one fails.
+    undecided = entry.verdict in ("UNKNOWN", entry.expected)
+    return JudgedCase(
+        name=entry.name,
+        verdict=entry.verdict,
+        outcome="passed" if entry.ok else "undecided" if undecided else "failed",
+        judged="" if entry.total is None else f"{entry.checked:,} of {entry.total:,}",
+        message=f"{entry.words.removesuffix('.')}; {entry.note}" if entry.note else entry.words,
+        again=f"topo-verify prove {entry.name}{options}",
+    )
 
 
 def _again(solver: str, timeout: int, seed: int) -> str:
@@ -139,7 +304,7 @@ def _again(solver: str, timeout: int, seed: int) -> str:
     return "".join(f" {name} {value}" for name, (value, usual) in given.items() if value != usual)
 
 
-def _exhibit(entry: shown.ProveEntry) -> Exhibit | None:
+def _exhibit(entry: ProveEntry) -> Exhibit | None:
     """The world that refutes a statement, and the walk in it that shows it; None if none does."""
     if entry.verdict != "REFUTED" or entry.counterexample is None or entry.history is None:
         return None
@@ -176,18 +341,26 @@ def _export(theorem: Theorem, folder: Path) -> None:
         export(query, folder)
 
 
-def _result(theorem: Theorem, budget: Budget, *, second: bool) -> Result[shown.ProveEntry]:
+def _listed(theorem: Theorem) -> Result[ProveListEntry]:
+    return Result(entry_of(ProveListEntry, theorem, claim=",".join(theorem.claims)))
+
+
+def _result(theorem: Theorem, budget: Budget, *, second: bool) -> Result[ProveEntry]:
     outcome = theorem.prove(budget)
-    opinion = _opinion(theorem, budget) if second else None
     status = theorem.status(outcome)
-    return Result(
-        shown.entry_of(theorem, outcome, opinion),
-        failed=status == "failed",
-        incomplete=status == "open",
+    entry = entry_of(
+        ProveEntry,
+        theorem,
+        theorem.reported(outcome),
+        claim=",".join(theorem.claims),
+        ok=status == "ok",
+        replayed=None if outcome.replayed is None else ReplayCount(*outcome.replayed),
+        opinion=_opinion(theorem, budget) if second else None,
     )
+    return Result(entry, failed=status == "failed", incomplete=status == "open")
 
 
-def _opinion(theorem: Theorem, budget: Budget) -> shown.SecondOpinion | None:
+def _opinion(theorem: Theorem, budget: Budget) -> SecondOpinion | None:
     """How often cvc5 agrees with Z3 on a theorem's questions; None if it has none.
 
     Raises:
@@ -202,4 +375,144 @@ def _opinion(theorem: Theorem, budget: Budget) -> shown.SecondOpinion | None:
     if not opinions:
         return None
     count = Counter(opinion.agreement for opinion in opinions)
-    return shown.SecondOpinion(opinions[0].solver, count["agrees"], count["unknown"], len(opinions))
+    return SecondOpinion(opinions[0].solver, count["agrees"], count["unknown"], len(opinions))
+
+
+# ---------------------------------------------------------------- for people
+
+FEW = 5
+"""Up to this number, --list shows theorems in full."""
+
+
+def _head(theorems: Sequence[Theorem], budget: Budget) -> str:
+    """The first line: the solver, its seed, and how many theorems of each kind."""
+    from topo_verify.proofs.solvers import z3_solver
+
+    kinds = Counter[str](theorem.kind for theorem in theorems)
+    counts = ", ".join(f"{kinds[kind]} {kind}" for kind in KINDS if kinds[kind])
+    many = plural(len(theorems), "theorem")
+    return f"{z3_solver.name()}, seed {budget.seed}: {many} ({counts})"
+
+
+def _verdict(entry: ProveEntry) -> Cell:
+    """The verdict, with the tone of a pass where a REFUTED was expected."""
+    return Cell(entry.verdict, "held" if entry.ok else _TONE.get(entry.verdict, "failed"))
+
+
+_TONE: dict[str, Tone] = {"UNKNOWN": "open"}
+
+
+def _row(entry: ProveEntry) -> tuple[str | Cell, ...]:
+    return (
+        entry.name,
+        entry.kind,
+        _verdict(entry),
+        "ok" if entry.ok else "not ok",
+        _evidence(entry),
+    )
+
+
+def _evidence(entry: ProveEntry) -> str:
+    """The evidence for the verdict, in a few words."""
+    words: list[str] = []
+    if entry.total is not None:
+        words.append(f"{entry.checked} of {plural(entry.total, 'world')}")
+    if entry.kind in ("inductive", "bounded"):
+        # The other kinds are refuted by a model of the premises, or Coq proves that they can hold.
+        # Premises are asked for once the rest is proved, and so an UNKNOWN may have no answer.
+        known = entry.verdict != "UNKNOWN" or entry.premises_satisfiable is not None
+        words += [_VACUITY[entry.premises_satisfiable]] if known else []
+    if entry.core and entry.kind == "inductive":
+        words.append(f"used {plural(len(entry.core), 'premise')}")
+    if entry.history is not None:
+        words.append(f"in {entry.counterexample}, doors {' '.join(map(str, entry.history))}")
+    if entry.replayed is not None:
+        words.append("replays" if entry.replayed.replayed == entry.replayed.total else "NO REPLAY")
+    if entry.certificate is not None:
+        made = entry.certificate
+        checked = "checked" if made.checked else f"NOT CHECKED ({made.why})"
+        words.append(f"{made.format} {checked} by {made.checker}")
+    if entry.opinion is not None:
+        second = entry.opinion
+        words.append(f"{second.solver} agrees on {second.agrees} of {second.total}")
+        words += [f"unknown on {second.unknown}"] if second.unknown else []
+    # A refuting history says more than the note, unless something went wrong.
+    if entry.note and (not entry.ok or entry.history is None):
+        words.append(entry.note)
+    return "; ".join(words)
+
+
+_VACUITY = {
+    True: "premises satisfiable",
+    False: "VACUOUS: its premises cannot hold",
+    None: "premises not shown satisfiable",
+}
+
+
+def _show(entries: Sequence[ProveEntry]) -> Iterator[Block]:
+    """All theorems in one table, and the counts."""
+    yield TextTable(
+        ("theorem", "kind", "verdict", "", "what stands behind it"), [*map(_row, entries)]
+    )
+    yield from _end(entries)
+
+
+def _live(entry: ProveEntry, seconds: float) -> Iterator[Block]:
+    """The row of one theorem."""
+    evidence = _evidence(entry) if entry.ok else f"NOT OK ({entry.kind}): {_evidence(entry)}"
+    row = (entry.name, _verdict(entry), f"{seconds:.2f} s", evidence)
+    columns = ("theorem", "verdict", ">time", "what stands behind it")
+    yield TextTable(columns, [row], widths=(28, 9, 7, 0), headed=False)
+
+
+def _end(entries: Sequence[ProveEntry]) -> Iterator[Block]:
+    """How many theorems of each kind came out as expected, and which did not."""
+    yield Text("")
+    rows: list[tuple[str, ...]] = []
+    for kind in KINDS:
+        mine = [entry for entry in entries if entry.kind == kind]
+        if not mine:
+            continue
+        replays = [entry.replayed for entry in mine if entry.replayed is not None]
+        done = sum(one.replayed for one in replays)
+        papers = sum(entry.certificate is not None and entry.certificate.checked for entry in mine)
+        rows.append(
+            (
+                kind,
+                f"{sum(entry.ok for entry in mine)} of {len(mine)}",
+                f"{done} of {sum(one.total for one in replays)}" if replays else "-",
+                f"{papers} of {len(mine)}" if kind == "bounded" else "-",
+            )
+        )
+    columns = ("kind", ">as expected", ">models replayed", ">with a checked certificate")
+    yield TextTable(columns, rows)
+    wrong = [f"{entry.name}: {entry.verdict}; {entry.note}" for entry in entries if not entry.ok]
+    if wrong:
+        yield Text("Not as expected:")
+        yield Bullets(tuple(wrong))
+    yield Text("What is argued, assumed and not shown: docs/proofs.md and docs/mechanised.md.")
+
+
+def _show_list(entries: Sequence[ProveListEntry]) -> Iterator[Block]:
+    """The theorems in a table, or in full if they are few."""
+    if len(entries) <= FEW:
+        for entry in entries:
+            yield from _details(entry)
+        return
+    rows = [
+        (e.name, e.kind, e.expected, "" if e.edges is None else str(e.edges), e.words)
+        for e in entries
+    ]
+    yield TextTable(("theorem", "kind", "expected", ">edges", "what it says"), rows)
+
+
+def _details(entry: ProveListEntry) -> Iterator[Block]:
+    yield Text(f"{entry.name} ({entry.kind}, expected {entry.expected}): {entry.words}")
+    lines = (
+        f"in symbols: {entry.symbols}",
+        f"the solver: {entry.solver_part}",
+        f"argued: {'; '.join(entry.argued) or 'nothing'}",
+        f"assumed: {', '.join(entry.assumed) or 'nothing'}",
+        f"claims: {entry.claim or 'none'}",
+    )
+    yield Bullets(lines)

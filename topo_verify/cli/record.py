@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from functools import wraps
 from typing import Any
@@ -11,22 +11,25 @@ import click
 import msgspec
 
 from topo_verify.algorithms import Algorithm
+from topo_verify.campaign.campaign import CorpusWorlds
+from topo_verify.campaign.corpus import DEFAULT, Corpus, corpus_from
+from topo_verify.campaign.engines import Engine, on_engine
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.targets import one_target, target_text
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
+from topo_verify.cli.kept_runs import opened, stored_rows
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
-from topo_verify.harness.baseline import file
-from topo_verify.harness.baseline.record import MAX_TIMEOUTS, Recorded
-from topo_verify.harness.baseline.record import record as run_all
-from topo_verify.harness.corpus import DEFAULT, Corpus, corpus_from
-from topo_verify.harness.engines import Engine, on_engine
-from topo_verify.harness.targets import one_target, target_text
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.baseline.file import Baseline, encode
+from topo_verify.studies.baseline.record import MAX_TIMEOUTS, baseline_runs, replay_command
+from topo_verify.studies.baseline.record import record as run_all
 from topo_verify.text import plural
 from topo_verify.world.formats import files
 
@@ -38,7 +41,7 @@ SHOWN = 3
 
 
 class RecordEntry(msgspec.Struct, frozen=True):
-    """One recording: an entry of `results`; docs/commands.md.
+    """One recording: an entry of `results`.
 
     Attributes:
         worlds: the number of worlds in the corpus.
@@ -68,13 +71,16 @@ class RecordEntry(msgspec.Struct, frozen=True):
 def mapper_options(run: Callable[..., int]) -> Callable[..., int]:
     """Add TARGET, --cmd and so on; the command gets `mapper`, which opens it, and `in_process`.
 
-    Its argument, if given, replaces the default policies of an algorithm of the catalogue.
+    Its argument, if given, replaces the default policies of an algorithm of the catalogue. Of the
+    options of the runs the command gets `workers` and `store`.
     """
 
     @options.target
     @options.program
     @options.in_process
     @options.policies
+    @options.workers(0)
+    @options.store
     @wraps(run)
     def wrapper(
         *args: Any,
@@ -117,6 +123,7 @@ def _opened(
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Write a mapper's costs and decisions to a file, for compare.",
     epilog=options.epilog(
         "record my_mapper.py:explore --out baseline.jsonl.gz",
@@ -144,6 +151,8 @@ def record(  # noqa: PLR0913  an argument an option
     out: str,
     worlds: tuple[str, ...],
     seed: int,
+    workers: int,
+    store: str | None,
     limits: Limits,
 ) -> int:
     """Run a mapper in every world of a corpus and write its costs, decisions and maps to a file.
@@ -154,35 +163,39 @@ def record(  # noqa: PLR0913  an argument an option
     def recorded() -> Iterator[Result[RecordEntry]]:
         texts = worlds or DEFAULT
         corpus = corpus_from(texts, seed=seed)
-        failing: list[Recorded] = []
+        failing: list[Row] = []
 
-        def note(seen: Recorded) -> None:
-            if seen.entry.failed and len(failing) < SHOWN:
-                failing.append(seen)
+        def noted(rows: Iterable[Row]) -> Iterator[Row]:
+            for row in rows:
+                if row.failed and len(failing) < SHOWN:
+                    failing.append(row)
+                yield row
 
-        with mapper() as named:
-            (target,) = on_engine(engine, (named,), limits)
-            made = run_all(
-                target,
-                corpus,
-                worlds=texts,
-                seed=seed,
-                limits=limits,
-                tell=output.progress,
-                note=note,
+        with opened(store) as file, mapper() as target:
+            on_engine(engine, (target,), limits)  # whether it can be run is said before all else
+            named = CorpusWorlds(corpus)
+            runs = baseline_runs(
+                target, named, corpus.total, limits=limits, engine=engine, store=file
             )
+            rows = noted(stored_rows(output, [runs], workers, file))
+            made = run_all(target, corpus, rows, worlds=texts, seed=seed, limits=limits)
         # A baseline of some of the worlds would make every later comparison look complete.
         whole = len(made.entries) == corpus.total
         if whole:
-            files.write(out, file.encode(made))
-        kept = _entry(made, corpus, out if whole else None, failing)
+            files.write(out, encode(made))
+        findings = tuple(
+            msgspec.structs.replace(finding, replay=replay_command(target, row.world, limits))
+            for row in failing
+            for finding in row.findings
+        )
+        kept = _entry(made, corpus, out if whole else None, findings)
         yield Result(kept, failed=kept.wrong > 0, incomplete=kept.undecided > 0)
 
     return output.run("record", recorded, _show, seed=seed, in_process=in_process)
 
 
 def _entry(
-    made: file.Baseline, corpus: Corpus, file: str | None, failing: Sequence[Recorded]
+    made: Baseline, corpus: Corpus, file: str | None, findings: tuple[Finding, ...]
 ) -> RecordEntry:
     right = [entry for entry in made.entries if entry.right]
     wrong = sum(bool(entry.failed) for entry in made.entries)
@@ -199,7 +212,7 @@ def _entry(
         corpus=corpus.description,
         digest=corpus.digest,
         file=file,
-        findings=tuple(finding for seen in failing for finding in seen.report.findings),
+        findings=findings,
     )
 
 

@@ -10,6 +10,9 @@ from typing import cast
 import click
 import msgspec
 
+from topo_verify.campaign.judge import Report, in_words, judge_trace, strict_option
+from topo_verify.campaign.run import explore as run_mapper
+from topo_verify.campaign.targets import one_target, target_text
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
@@ -18,9 +21,6 @@ from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import NamedWorld, judged, named_world, unjudged
 from topo_verify.cli.walks import other_findings, walk_view
 from topo_verify.errors import InputError
-from topo_verify.harness.judge import Report, in_words, judge_trace, strict_option
-from topo_verify.harness.run import explore as run_mapper
-from topo_verify.harness.targets import one_target, target_text
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.walk import Extent
 from topo_verify.programs.loader import Target
@@ -33,7 +33,7 @@ from topo_verify.world.rooted_map import World
 
 
 class ReplayEntry(msgspec.Struct, frozen=True):
-    """The judgement of one run: an entry of `results`; docs/commands.md.
+    """The judgement of one run: an entry of `results`.
 
     Attributes:
         trace: the file of the trace; None if the target was run.
@@ -54,6 +54,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Show a counterexample again, or judge a trace again.",
     epilog=options.epilog(
         "replay m5/17 --target enhancement-ii",

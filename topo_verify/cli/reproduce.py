@@ -8,14 +8,20 @@ from pathlib import Path
 
 import click
 
+from topo_verify.campaign.engines import Engine
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.run import explore
+from topo_verify.campaign.work import processors
 from topo_verify.cli import options
+from topo_verify.cli.kept_runs import open_store, stored_rows
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import finding_blocks
 from topo_verify.compiled import require
 from topo_verify.errors import InputError
-from topo_verify.harness.engines import Engine
-from topo_verify.harness.reproduce.figures import (
+from topo_verify.report.blocks import Block, Text, TextTable
+from topo_verify.report.figures.words import PAGE, SHORT, judged_sentence, page, paragraph, stem
+from topo_verify.studies.reproduce.figures import (
     FIGURES,
     GRAPHS,
     PAIRS,
@@ -27,24 +33,15 @@ from topo_verify.harness.reproduce.figures import (
     FigureExtent,
     chosen_figures,
 )
-from topo_verify.harness.reproduce.measuring import PlannedRun, measured_runs, planned_runs
-from topo_verify.harness.reproduce.points import (
+from topo_verify.studies.reproduce.measuring import PlannedRun, line_campaigns, runs_of
+from topo_verify.studies.reproduce.points import (
     FigurePoint,
     figure_points,
     growth_csv,
     points_csv,
 )
-from topo_verify.harness.reproduce.store import RunStore
-from topo_verify.harness.work import processors
-from topo_verify.report.blocks import Block, Text, TextTable
-from topo_verify.report.figures.names import SHORT
-from topo_verify.report.figures.page import PAGE, judged_sentence, page, stem
-from topo_verify.report.figures.words import paragraph
-from topo_verify.text import plural
 from topo_verify.world.formats import files
-
-STORE = "runs.jsonl"
-"""The file in the folder that keeps the runs."""
+from topo_verify.world.rooted_map import World
 
 MATPLOTLIB = (
     "no pictures: they need matplotlib, install it with: pip install 'topo-verify[plots]'; the CSV"
@@ -55,6 +52,7 @@ _Found = list[tuple[Figure, list[FigurePoint]]]
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="The paper's figures, side by side with its numbers.",
     epilog=options.epilog(
         "reproduce --quick",
@@ -131,11 +129,9 @@ def reproduce(  # noqa: PLR0913  an argument an option
         figures = chosen_figures(figure)
         _require_engine(engine, policies=policies)
         folder = options.make_folder(out, "--out")
-        planned = planned_runs(figures, extent)
-        with RunStore(folder / STORE, engine) as store:
-            _make(output, store, planned, workers or processors())
-            found = [(one, figure_points(one, extent, store.runs)) for one in figures]
-            _write(output, folder, found, shlex.join([*words, "--out", out]))
+        made = _runs(output, figures, extent, engine, folder, workers or processors())
+        found = [(one, figure_points(one, extent, made)) for one in figures]
+        _write(output, folder, found, shlex.join([*words, "--out", out]))
         for _, line in found:
             for point in line:
                 incomplete = point.undecided > 0
@@ -161,26 +157,24 @@ def _require_engine(engine: Engine, *, policies: bool) -> None:
             )
 
 
-def _make(output: Output, store: RunStore, planned: Sequence[PlannedRun], workers: int) -> None:
-    """Make the runs that the store lacks; each is kept as soon as it is judged."""
-    missing = store.missing(planned)
-    done = len(planned) - len(missing)
-    if store.repaired:
-        output.note(f"{store.path}: half a line at its end was cut off; that run is made again")
-    if done:
-        output.note(f"{done} of {plural(len(planned), 'run')} are in {store.path}")
-    output.timing["from_store"] = done
-    try:
-        for made in measured_runs(missing, min(workers, len(missing)) or 1, store.engine):
-            store.put(made)
-            done += 1
-            output.progress(f"{made.run.algorithm} in {made.run.world}", done, len(planned))
-    except KeyboardInterrupt:
-        output.note(
-            f"{done} of {plural(len(planned), 'run')} are kept in {store.path}; the same command"
-            " goes on"
-        )
-        raise
+def _runs(
+    output: Output,
+    figures: Sequence[Figure],
+    extent: FigureExtent,
+    engine: Engine,
+    folder: Path,
+    workers: int,
+) -> dict[PlannedRun, Row]:
+    """Every run of the figures; each is kept in the folder as soon as it is judged."""
+    if engine == "compiled":
+        # Here, before the workers start: they find the kernels in the cache.
+        explore(World.from_id("m1/0"), engine=engine)
+    with open_store(output, folder) as store:
+        assert store is not None, "there is a folder"
+        campaigns = line_campaigns(figures, extent, engine, store)
+        here = 0 if workers == 1 else workers
+        rows = stored_rows(output, campaigns, here, store)
+        return {run: row for row in rows for run in runs_of(row)}
 
 
 def _write(output: Output, folder: Path, found: _Found, command: str) -> None:

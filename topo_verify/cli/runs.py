@@ -12,11 +12,18 @@ from pathlib import Path
 
 import msgspec
 
+from topo_verify.campaign.judge import (
+    Report,
+    in_words,
+    judge,
+    replay_line,
+    strict_option,
+    undecided,
+)
+from topo_verify.campaign.run import Exploration
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
 from topo_verify.errors import InputError
-from topo_verify.harness.judge import Report, in_words, judge, replay_line, strict_option, undecided
-from topo_verify.harness.run import Exploration
 from topo_verify.report.blocks import Block, Bullets, Command, Text
 from topo_verify.robot.limits import Limits
 from topo_verify.text import plural
@@ -161,12 +168,16 @@ def claims_cell(claims: Mapping[str, Status], *, incomplete: bool = False) -> st
 
 def unjudged(mapper: str, world: str, judgements: Iterable[Judgement]) -> Iterator[Text]:
     """Sentences that name the claims that were not fully judged, and say why."""
-    claims = {status: [one for one in judgements if one.status == status] for status in _REASONS}
-    for status, reason in _REASONS.items():
-        if claims[status]:
-            names = [one.claim for one in claims[status]]
-            if status in ("partial", "undecided"):
-                names = [f"{one.claim} {one.judged} of {one.of}" for one in claims[status]]
+    claims: dict[str, list[Judgement]] = {reason: [] for reason in _REASONS.values()}
+    for one in judgements:
+        reasons = _REASONS | _WITHOUT_A_MAP if one.claim == "map-entailed" else _REASONS
+        if one.status in reasons:
+            claims.setdefault(reasons[one.status], []).append(one)
+    for reason, of_reason in claims.items():
+        if of_reason:
+            names = [one.claim for one in of_reason]
+            if of_reason[0].status in ("partial", "undecided"):
+                names = [f"{one.claim} {one.judged} of {one.of}" for one in of_reason]
             text = reason.format(mapper=mapper, world=world, size=LARGE)
             yield Text(f"{text}: {', '.join(names)}.")
 
@@ -177,6 +188,12 @@ _REASONS: dict[Status, str] = {
     "undecided": "Neither proved nor refuted in {world}",
     "not-asked": "Not asked in worlds over {size} edges without --strict",
 }
+
+_WITHOUT_A_MAP: dict[Status, str] = {
+    "not-declared": "Not judged, because {mapper} delivers no map",
+    "partial": "Judged in part, because {mapper} delivers no map in some of {world}",
+}
+"""The reasons of `map-entailed`, which asks for a map and for no decision."""
 
 
 def finding_blocks(

@@ -11,34 +11,30 @@ from pathlib import Path
 
 import click
 
+from topo_verify.campaign.backend import clustered, here, pooled
+from topo_verify.campaign.campaign import Campaign
+from topo_verify.campaign.cluster import Cluster, both_given, connected
+from topo_verify.campaign.engines import Engine
+from topo_verify.campaign.identity import Identity, source_hash
+from topo_verify.campaign.store import Store, StoredCampaign
+from topo_verify.campaign.targets import target_text, targets
+from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.accounts import search_account
-from topo_verify.cli.failures import version
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.reporting import report_options
-from topo_verify.cli.search_entry import search_result
-from topo_verify.cli.searched import SearchEntry
 from topo_verify.cli.searched import show as show_entry
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
-from topo_verify.harness.cluster import Cluster, both_given, connected
-from topo_verify.harness.engines import Engine
-from topo_verify.harness.judge import Report
-from topo_verify.harness.ledger import Ledger
-from topo_verify.harness.search.choices import examinations
-from topo_verify.harness.search.exhaustive import Search
-from topo_verify.harness.search.identity import Identity
-from topo_verify.harness.search.plan import CHOICES, Choices, Plan
-from topo_verify.harness.targets import target_text, targets
-from topo_verify.harness.work import processors
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.report.account import Account
 from topo_verify.report.blocks import Block
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.search.choices import CHOICES, Choices, reports_of
+from topo_verify.studies.search.search import DONE, Search, SearchEntry, search_campaign
 from topo_verify.world.enumeration.classes import WorldClass
-from topo_verify.world.rooted_map import World
 
 
 @dataclass(frozen=True)
@@ -61,6 +57,7 @@ class _SearchOptions:
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Find the smallest counterexample among all worlds of up to N edges.",
     epilog=options.epilog(
         "search basic --edges 5",
@@ -236,8 +233,8 @@ def _searched(
     cluster: Cluster | None,
 ) -> Iterator[Result[SearchEntry]]:
     """The result of one search; after Ctrl-C, of the worlds done so far."""
-    plan = Plan(
-        targets=tuple(mapper.text for mapper in mappers),
+    campaign = search_campaign(
+        mappers,
         edges=asked.edges,
         kind=str(asked.kind),
         choices=asked.policies,
@@ -247,61 +244,56 @@ def _searched(
         in_process=asked.in_process,
         engine=asked.engine,
     )
-    identity = None if asked.ledger is None else Identity(mappers, asked.depends)
-    with _opened(output, asked, plan, mappers, identity) as ledger:
-        work = Search(
-            plan,
-            mappers,
-            workers=asked.workers,
-            cluster=cluster,
-            ledger=ledger,
-            identity=identity,
-        )
+    depends = None if asked.ledger is None else asked.depends
+    backend = pooled(asked.workers, depends) if asked.workers else here(mappers, depends=depends)
+    if cluster is not None:
+        backend = clustered(cluster, depends)
+    with _opened(output, asked, campaign, mappers) as store:
+        study = Search(campaign, mappers, backend, store)
+
+        def result() -> Result[SearchEntry]:
+            entry = study.entry(compare=asked.compare)
+            failed, incomplete = entry.verdict == "REFUTED", entry.verdict not in DONE
+            return Result(entry, failed=failed, incomplete=incomplete)
+
         try:
-            work.work(output.progress)
-            work.run_again(output.progress)
+            study.work(output.progress)
+            study.run_again(output.progress)
         except KeyboardInterrupt:
             # Yield before raising: `Output` prints what it has and then exits 3.
-            yield search_result(work.found(), compare=asked.compare)
+            yield result()
             raise
-        if plan.engine == "compiled":
-            _note_seconds(output, work)
-        result = work.found()
-        reports = None if plan.choices == "reference" else partial(_reports, plan)
-        for one in (result.counterexample, *(claim.smallest for claim in result.claims.values())):
+        if campaign.engine == "compiled":
+            _note_seconds(output, study)
+        entry = study.entry()
+        reports = None if campaign.ways is None else partial(reports_of, campaign)
+        for one in (entry.counterexample, *(claim.smallest for claim in entry.claims)):
             if one is not None:
                 found.run_again(
                     mappers, one.world, one.claim, asked.limits, one.message, reports=reports
                 )
-        yield search_result(work.found(), compare=asked.compare)
+        yield result()
 
 
-def _note_seconds(output: Output, work: Search) -> None:
+def _note_seconds(output: Output, study: Search) -> None:
     """Enter the processor time of the engine and of the checkers, apart, into `timing`."""
     known = output.timing.setdefault("engine", {"engine": 0.0, "checkers": 0.0})
-    known["engine"] += work.seconds.engine
-    known["checkers"] += work.seconds.checkers
-
-
-def _reports(plan: Plan, target: Target, world: World) -> Iterator[Report]:
-    """The reports of a mapper's runs in a world, one for each way of choosing."""
-    for tried in examinations(target, plan, world, lambda: None):
-        yield tried.report
+    known["engine"] += study.seconds.engine
+    known["checkers"] += study.seconds.checkers
 
 
 @contextmanager
 def _opened(
-    output: Output,
-    asked: _SearchOptions,
-    plan: Plan,
-    mappers: tuple[Target, ...],
-    identity: Identity | None,
-) -> Generator[Ledger | None]:
-    """The ledger, if one is asked for."""
-    if asked.ledger is None or identity is None:
+    output: Output, asked: _SearchOptions, campaign: Campaign, mappers: tuple[Target, ...]
+) -> Generator[StoredCampaign | None]:
+    """The store, if one is asked for."""
+    if asked.ledger is None:
         yield None
         return
-    with Ledger(asked.ledger, plan, mappers, version(), identity.loaded()) as ledger:
-        if ledger.since is not None:
-            output.timing["ledger"] = dict(zip(("first", "last"), ledger.since, strict=True))
-        yield ledger
+    with Store(asked.ledger) as store:
+        now = Identity(mappers, asked.depends).loaded()
+        known = store.campaign(campaign.identity(source_hash(mappers)), now)
+        if known.since is not None:
+            output.timing["ledger"] = dict(zip(("first", "last"), known.since, strict=True))
+        yield known
+        store.require_file()

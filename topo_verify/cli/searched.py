@@ -1,133 +1,16 @@
-"""The results of `topo-verify search`: their fields, and how people see them."""
+"""The results of `topo-verify search`, as people see them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import msgspec
-
-from topo_verify.checkers import Judgement
 from topo_verify.cli.runs import unjudged
-from topo_verify.harness.search.again import RunAgain
-from topo_verify.harness.tally import CostComparison
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
+from topo_verify.studies.search.search import ByEdges, CostComparison, EveryCost, SearchEntry
 from topo_verify.text import plural
 
 SHOWN = 3
 """The number of worlds shown in one cell; JSON has more."""
-
-
-class Counterexample(msgspec.Struct, frozen=True):
-    """A world in which a claim fails, and the command that shows it again."""
-
-    world: str
-    edges: int
-    claim: str
-    message: str
-    replay: str
-
-
-class FailingClaim(msgspec.Struct, frozen=True):
-    """The number of checked worlds in which a claim fails, and the smallest of them."""
-
-    claim: str
-    failing: int
-    smallest: Counterexample
-
-
-class Lost(msgspec.Struct, frozen=True):
-    """A world in which a worker was lost, and how; tried again, nothing went wrong there."""
-
-    world: str
-    how: str
-
-
-class EveryCost(msgspec.Struct, frozen=True):
-    """With --policies every: what any policy of pick and order can cost; docs/commands.md.
-
-    Attributes:
-        worlds: those in which no claim fails, whatever is chosen; the rest is about them.
-        states, choices: the number of states with more than one way, and of their ways.
-        cheapest, reference, dearest: sums of costs, in edge traversals: the least and the most
-            that a run can cost in each world, and what the reference policies cost.
-        most_saved: where the cheapest run saves the greatest share of the reference cost.
-        judged_by: what judged the choices.
-    """
-
-    worlds: int
-    states: int
-    choices: int
-    cheapest: int
-    reference: int
-    dearest: int
-    most_saved: MostSaved | None
-    judged_by: str
-
-
-class MostSaved(msgspec.Struct, frozen=True):
-    """A world, what the reference policies cost in it, and the least that a run costs."""
-
-    world: str
-    reference: int
-    cheapest: int
-
-
-class ByEdges(msgspec.Struct, frozen=True):
-    """The worlds of one size; docs/commands.md.
-
-    Attributes:
-        checked, total, failing, undecided: numbers of worlds.
-        runs: the number of runs in which no claim fails; the costs are theirs.
-        max_cost, total_cost: their highest cost and the sum, in edge traversals.
-        attained: the number of worlds with the highest cost.
-        worst: the first of these worlds.
-        compare: with --compare, where A costs more than B, and where less.
-        every: with --policies every, the range of the costs.
-    """
-
-    edges: int
-    checked: int
-    total: int
-    failing: int
-    undecided: int
-    runs: int
-    max_cost: int
-    total_cost: int
-    attained: int
-    worst: tuple[str, ...]
-    compare: CostComparison | None
-    every: EveryCost | None
-
-
-class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
-    """One search: an entry of `results`; docs/commands.md.
-
-    Attributes:
-        from_ledger: in how many of the checked worlds mappers ran before; in the others, now.
-        lost: worlds in which a worker was lost that a stranger may have killed.
-        run_again: what came of the worlds that were run again, alone and in a row.
-        engine: what ran and judged; judged_by: the same in words.
-        by_checkers: in how many worlds the checkers judged.
-    """
-
-    target: str
-    kind: str
-    edges: int
-    policies: str
-    checked: int
-    total: int
-    verdict: str
-    counterexample: Counterexample | None
-    by_edges: tuple[ByEdges, ...]
-    claims: tuple[FailingClaim, ...]
-    not_declared: tuple[str, ...]
-    judgements: tuple[Judgement, ...]
-    from_ledger: int
-    lost: tuple[Lost, ...]
-    run_again: RunAgain | None
-    engine: str
-    judged_by: str
-    by_checkers: int
 
 
 # ---------------------------------------------------------------- for people
@@ -155,7 +38,8 @@ def show(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     yield Text(f"{entry.verdict}: {_conclusion(entry)}")
     if entry.lost:
         yield Text(
-            "A worker was lost, which a stranger may have killed; tried again, nothing failed:"
+            "A worker was lost, which another program may have killed, or lacked memory; tried"
+            " again, nothing failed:"
         )
         yield Bullets(tuple(f"{one.world}: {one.how}" for one in entry.lost[:SHOWN]))
     if entry.run_again is not None and entry.run_again.others:
@@ -177,9 +61,9 @@ def _every(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     sizes = [(e.edges, e.every) for e in entry.by_edges if e.every is not None and e.every.worlds]
     if not sizes:
         return
-    rows = [(str(m), str(e.states), str(e.choices), e.judged_by) for m, e in sizes]
+    rows = [(str(m), str(e.states), str(e.choices), e.decided_by, e.judged_by) for m, e in sizes]
     yield Text("")
-    yield TextTable((">edges", ">states", ">choices", "judged by"), rows)
+    yield TextTable((">edges", ">states", ">choices", "decided by", "judged by"), rows)
     if not worst:
         return
     costs = [
@@ -242,6 +126,15 @@ def _conclusion(entry: SearchEntry) -> str:
         return f"{worlds}, a claim fails in {failing}{late}"
     if entry.verdict == "UNKNOWN":
         return f"{worlds}, no claim failed there{late}"
+    if entry.verdict == "SAMPLED":
+        models = [
+            e for e in entry.by_edges if e.every is not None and e.every.decided_by == "model"
+        ]
+        sizes = " and ".join(str(e.edges) for e in models)
+        return (
+            f"{worlds}, no claim failed{late}; the worlds of {sizes} edges are decided by a model"
+            " of the mapper, which itself made three runs in each"
+        )
     return f"{worlds}, no claim failed{late}"
 
 

@@ -15,11 +15,11 @@ from topo_verify.cli.output import options as output_options
 from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import named_world
 from topo_verify.errors import InputError
-from topo_verify.harness.map_check import check_map, tour_log
 from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import Event, Move, Start, Trace, read_events, write_trace
 from topo_verify.robot.percept import Door, Percept
+from topo_verify.studies.map_check import check_map, tour_log
 from topo_verify.text import plural
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import Dart, World
@@ -47,7 +47,7 @@ class LogAgainstMap(msgspec.Struct, frozen=True):
 
 
 class TourEntry(msgspec.Struct, frozen=True):
-    """A walk that proves a map: the one entry of `results`; docs/commands.md.
+    """A walk that proves a map: the one entry of `results`.
 
     Attributes:
         cost: how many doors it takes; without --against the least cost of the world.
@@ -65,6 +65,7 @@ class TourEntry(msgspec.Struct, frozen=True):
 
 
 @click.command(
+    cls=options.OnceCommand,
     short_help="Print the cheapest walk that proves the map of a known world.",
     epilog=options.epilog(
         "tour nyc -o tour.jsonl",

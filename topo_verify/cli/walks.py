@@ -6,17 +6,17 @@ more, and its walk is shown if the same claim fails again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
+from topo_verify.campaign.judge import Report
+from topo_verify.campaign.run import explore
 from topo_verify.cli.output import Output
 from topo_verify.cli.runs import NamedWorld, finding_line, judged
 from topo_verify.errors import InputError
-from topo_verify.harness.judge import Report
-from topo_verify.harness.run import explore
 from topo_verify.player import walk
 from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
-from topo_verify.report.account import Exhibit
+from topo_verify.report.account import Account, Exhibit, JudgedCase, JudgedExtent, JudgedSuite
 from topo_verify.report.blocks import Block, Bullets, Command, Text, View
 from topo_verify.robot.limits import Limits
 from topo_verify.world.resolve import resolve_world
@@ -143,6 +143,27 @@ class FoundRuns:
     def left_out(self) -> int:
         """How many more there were."""
         return len(self._seen) - len(self._exhibits)
+
+    def account(
+        self,
+        about: str,
+        extent: JudgedExtent,
+        suites: Mapping[str, Iterable[JudgedCase]],
+        blocks: Iterable[Block],
+    ) -> Account:
+        """What the command came to, with its counterexamples.
+
+        Args:
+            suites: the cases of each suite, by its name.
+        """
+        return Account(
+            about,
+            extent,
+            tuple(JudgedSuite(name, tuple(cases)) for name, cases in suites.items()),
+            tuple(blocks),
+            self.exhibits,
+            self.left_out,
+        )
 
     def blocks(self) -> Iterator[Block]:
         """The walk with its title, and the command that shows it again; none if there is none."""

@@ -4,26 +4,27 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import islice
+from random import Random
 from typing import Any
 
 import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.draw import draw
-from topo_verify.cli.list_worlds import list_worlds
-from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
-from topo_verify.cli.sample import sample
 from topo_verify.errors import InputError
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
 from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass
-from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
+from topo_verify.world.enumeration.pruned import ranked_tables
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, Table
 from topo_verify.world.formats import files, graphml, node_link, planar_code
-from topo_verify.world.rooted_map import World
+from topo_verify.world.io import format_of_name
+from topo_verify.world.rooted_map import Dart, World
 
 FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
     "json": (World.to_json, ".json"),
@@ -40,21 +41,20 @@ def world() -> None:
     """Show, list, convert, count, sample and draw worlds."""
 
 
-world.add_command(sample)
-world.add_command(list_worlds)
-world.add_command(draw)
-
-
 # ---------------------------------------------------------------- show
 
 
 class ShowEntry(msgspec.Struct, frozen=True):
-    """One world: an entry of `results`; docs/commands.md.
+    """One world: an entry of `results`.
 
     Attributes:
         id: None beyond 200 edges.
         rotation, edge_darts: what a world file holds as `vertices` and `edges`; these two names are
             taken by their numbers here.
+        degrees: of the vertices.
+        simple, loopless, planar: whether the world is in this class.
+        source, licence: of the world's file; empty: it names none.
+        vertex_names: of the world's file; empty: it names none.
     """
 
     name: str
@@ -76,7 +76,10 @@ class ShowEntry(msgspec.Struct, frozen=True):
     vertex_names: tuple[str, ...]
 
 
-@world.command(epilog=options.epilog("world show nyc", "world show m5/17 --format json"))
+@world.command(
+    cls=options.OnceCommand,
+    epilog=options.epilog("world show nyc", "world show m5/17 --format json"),
+)
 @click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
 @options.marker
 @output_options
@@ -165,7 +168,12 @@ def _word(fact: object) -> str:
 
 
 class ConvertEntry(msgspec.Struct, frozen=True):
-    """A world in another format, either in `file` or as `text`."""
+    """A world in another format, either in `file` or as `text`.
+
+    Attributes:
+        to: the format.
+        text: the world in it; null: it stands in the file.
+    """
 
     world: str
     to: str
@@ -174,37 +182,45 @@ class ConvertEntry(msgspec.Struct, frozen=True):
 
 
 @world.command(
-    epilog=options.epilog(
-        "world convert m5/17 --to nx-json", "world convert nyc --to graphml -o nyc.graphml"
-    )
+    cls=options.OnceCommand,
+    epilog=options.epilog("world convert m5/17 --to nx-json", "world convert nyc -o nyc.graphml"),
 )
 @click.argument("world", metavar="WORLD")
 @click.option(
-    "--to", default="json", show_default=True, type=click.Choice([*FORMATS]), help="The format."
+    "--to",
+    type=click.Choice([*FORMATS]),
+    help="The format.  [default: what the name of FILE says, else json]",
 )
 @click.option(
     "-o", "file", default="-", metavar="FILE", help="Write to FILE.  [default: standard output]"
 )
 @options.marker
 @output_options
-def convert(output: Output, *, world: str, to: str, file: str, marker: int | None) -> int:
+def convert(output: Output, *, world: str, to: str | None, file: str, marker: int | None) -> int:
     """Write a world in another format."""
 
     def converted() -> Iterator[Result[ConvertEntry]]:
+        named = "json" if file == "-" else format_of_name(file)
+        kind = named if to is None else to
+        if kind not in FORMATS:
+            endings = ", ".join(ending for _, ending in FORMATS.values())
+            raise InputError(
+                f"-o {file}: {kind} is read and not written: let the name end in one of {endings}"
+            )
         at = named_world(world, marker)
-        encode, ending = FORMATS[to]
+        encode, ending = FORMATS[kind]
         content = encode(at.world)
         # Text on stdout goes through `Output` like any result; bytes cannot.
         if file != "-":
             files.write(file, content + "\n" if isinstance(content, str) else content)
-            if to != "json" and not file.lower().endswith(ending):
+            if kind != named:
                 output.note(f"{file}: to read it again, let its name end in {ending}")
-            yield Result(ConvertEntry(at.name, to, file, None))
+            yield Result(ConvertEntry(at.name, kind, file, None))
         elif isinstance(content, str):
-            yield Result(ConvertEntry(at.name, to, None, content))
+            yield Result(ConvertEntry(at.name, kind, None, content))
         else:
             raise InputError(
-                f"--to {to}: a binary format is written to a file; name one with -o FILE"
+                f"--to {kind}: a binary format is written to a file; name one with -o FILE"
             )
 
     return output.run("world-convert", converted, _show_converted)
@@ -222,7 +238,7 @@ def _show_converted(entries: Sequence[ConvertEntry]) -> Iterator[Block]:
 
 
 class CountEntry(msgspec.Struct, frozen=True):
-    """The number of worlds of one size: an entry of `results`; docs/commands.md."""
+    """The number of worlds of one size: an entry of `results`."""
 
     edges: int
     # `class` cannot be a name in Python.
@@ -246,7 +262,8 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
 
 
 @world.command(
-    epilog=options.epilog("world count --edges 6", "world count --edges 1..5 --class simple")
+    cls=options.OnceCommand,
+    epilog=options.epilog("world count --edges 6", "world count --edges 1..5 --class simple"),
 )
 @click.option(
     "--edges", callback=_range, required=True, metavar="N", help="Number of edges, or a range A..B."
@@ -268,3 +285,314 @@ def count(output: Output, *, edges: range, kind: str) -> int:
 def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
     rows = [(str(e.edges), e.kind, str(e.total)) for e in entries]
     yield TextTable((">edges", "class", ">worlds"), rows)
+
+
+MOST_LISTED = 250_000
+"""The most ids in one list: all are kept until the end, since JSON is one object."""
+
+
+class ListEntry(msgspec.Struct, frozen=True):
+    """One world of a class: an entry of `results`."""
+
+    id: str
+    edges: int
+    kind: str = msgspec.field(name="class")
+
+
+@world.command(
+    "list",
+    cls=options.OnceCommand,
+    epilog=options.epilog("world list --edges 3", "world list --edges 30 --class planar -n 5"),
+)
+@click.option(
+    "--edges",
+    type=click.IntRange(0, MAX_ID_EDGES),
+    required=True,
+    metavar="N",
+    help="Number of edges.",
+)
+@options.world_class
+@click.option(
+    "-n",
+    "number",
+    type=click.IntRange(1, MOST_LISTED),
+    metavar="N",
+    help="The first N worlds only.  [default: all]",
+)
+@output_options
+def list_worlds(output: Output, *, edges: int, kind: str, number: int | None) -> int:
+    """List the ids of all worlds with N edges in their order: as they are found, one a line."""
+    worlds = WorldClass.parse(kind)
+    first = _first(worlds, edges, number)
+
+    def listed() -> Iterator[Result[ListEntry]]:
+        for rank, _ in first:
+            yield Result(ListEntry(id=f"m{edges}/{rank}", edges=edges, kind=str(worlds)))
+
+    return output.run(
+        "world-list", listed, _ids, live=Live((), lambda entry: _ids((entry,)), lambda _: ())
+    )
+
+
+def _first(worlds: WorldClass, edges: int, number: int | None) -> Iterator[tuple[int, Table]]:
+    """The worlds to list: the first `number`, or all.
+
+    Raises:
+        InputError: these are more than `MOST_LISTED`, or too many to be counted.
+    """
+    if number is None:
+        mend = "or name the first of them with -n N"
+        try:
+            total = worlds.count(edges)
+        except InputError as error:
+            raise InputError(f"world list: {error}, {mend}") from error
+        if total > MOST_LISTED:
+            raise InputError(
+                f"world list: expected at most {MOST_LISTED:,} worlds, got {total:,} of class"
+                f" {worlds} with {edges} edges: ask for fewer edges or a narrower class, {mend}"
+            )
+    return islice(ranked_tables(edges, worlds), number)
+
+
+def _ids(entries: Iterable[ListEntry]) -> Iterator[Block]:
+    return (Raw(entry.id) for entry in entries)
+
+
+# ---------------------------------------------------------------- sample
+
+
+class SampleEntry(msgspec.Struct, frozen=True):
+    """One drawn world: an entry of `results`.
+
+    Attributes:
+        id: None beyond 200 edges.
+        kind: the class that it was drawn from; None if it was a strategy.
+        strategy: the strategy that it was drawn from; None if it was a class.
+        file: the file that was written; None without -o.
+    """
+
+    id: str | None
+    edges: int
+    kind: str | None = msgspec.field(name="class")
+    strategy: str | None
+    seed: int
+    file: str | None
+
+
+@world.command(
+    cls=options.OnceCommand,
+    epilog=options.epilog(
+        "world sample --edges 20 -n 5", "world sample --strategy 'nonplanar_worlds(genus=2)' -n 5"
+    ),
+)
+@click.option(
+    "--edges", type=click.IntRange(0, options.MAX_EDGES), metavar="N", help="Number of edges."
+)
+@options.world_class
+@click.option(
+    "--strategy",
+    metavar="STRATEGY",
+    help="Draw from this Hypothesis strategy instead, for example 'worlds(max_edges=20)'.",
+)
+@options.seed("Seed of the drawing.")
+@click.option(
+    "-n",
+    "number",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    help="Number of worlds.",
+)
+@click.option("-o", "folder", metavar="FOLDER", help="Write world files to FOLDER.")
+@output_options
+def sample(
+    output: Output,
+    *,
+    edges: int | None,
+    kind: str,
+    strategy: str | None,
+    seed: int,
+    number: int,
+    folder: str | None,
+) -> int:
+    """Draw worlds and print their ids.
+
+    With --edges each world of the class is equally likely. With --strategy worlds are drawn as in a
+    property test.
+    """
+    worlds = WorldClass.parse(kind)
+    if strategy is None:
+        random, size = Random(seed), _size(edges, folder)
+        drawn: Iterator[World] = (worlds.sample(size, random) for _ in range(number))
+    else:
+        drawn = _by_strategy(strategy, worlds, edges, number, seed)
+
+    def sampled() -> Iterator[Result[SampleEntry]]:
+        target = None if folder is None else options.make_folder(folder, "-o")
+        output.note(f"seed {seed}")
+        output.progress("drawing worlds", 0, number)
+        for index, world in enumerate(drawn):
+            file = None
+            if target is None:
+                _require_id(len(world.edges))
+            else:
+                file = str(target / f"m{len(world.edges)}-seed{seed}-{index}.json")
+                files.write(file, world.to_json() + "\n")
+            yield Result(
+                SampleEntry(
+                    id=_id(world),
+                    edges=len(world.edges),
+                    kind=str(worlds) if strategy is None else None,
+                    strategy=strategy,
+                    seed=seed,
+                    file=file,
+                )
+            )
+            output.progress("drawing worlds", index + 1, number)
+
+    return output.run("world-sample", sampled, _show_sampled, seed=seed)
+
+
+def _size(edges: int | None, folder: str | None) -> int:
+    if edges is None:
+        raise InputError("world sample: expected --edges N or --strategy STRATEGY")
+    if folder is None:
+        _require_id(edges)
+    return edges
+
+
+def _require_id(edges: int) -> None:
+    if edges > MAX_ID_EDGES:
+        raise InputError(
+            f"world sample: a world with {edges} edges has no id to print (only worlds of up to"
+            f" {MAX_ID_EDGES} edges have one); write worlds to files with -o FOLDER"
+        )
+
+
+def _by_strategy(
+    text: str, worlds: WorldClass, edges: int | None, number: int, seed: int
+) -> Iterator[World]:
+    if edges is not None or worlds != WorldClass():
+        given = "--edges" if edges is not None else "--class"
+        raise InputError(
+            f"{given} beside --strategy: a strategy takes its bounds as arguments, as in"
+            " --strategy 'worlds(min_edges=5, max_edges=9, simple=True)'"
+        )
+    from topo_verify.strategies.sample import resolve_strategy
+    from topo_verify.strategies.sample import sample as drawn
+
+    return iter(drawn(resolve_strategy(text), number, start=seed))
+
+
+def _show_sampled(entries: Sequence[SampleEntry]) -> Iterator[Block]:
+    for entry in entries:
+        yield Raw(entry.file or str(entry.id))
+
+
+# ---------------------------------------------------------------- draw
+
+
+class DrawEntry(msgspec.Struct, frozen=True):
+    """One picture: an entry of `results`.
+
+    Attributes:
+        file: the file that was written; None without -o.
+        layout: how the world is drawn: positions, planar, bridges, cell or ball.
+        shown: how many of the vertices are shown: all of them but in a ball.
+        bridges: how many times an edge passes over another one.
+        text: the SVG, if no file was written.
+    """
+
+    world: str
+    file: str | None
+    layout: str
+    vertices: int
+    shown: int
+    bridges: int
+    text: str | None
+
+
+@world.command(
+    cls=options.OnceCommand,
+    epilog=options.epilog(
+        "world draw nyc -o nyc.svg", "world draw m5/17 --doors --darts -o m5-17.png"
+    ),
+)
+@click.argument("world", metavar="WORLD")
+@click.option(
+    "-o",
+    "file",
+    default="-",
+    metavar="FILE",
+    help="Write to FILE: .svg, .png, .pdf or .html.  [default: SVG to standard output]",
+)
+@click.option("--doors", is_flag=True, help="Number the doors of each vertex, clockwise from 0.")
+@click.option("--darts", is_flag=True, help="Write the number of each dart beside it.")
+@click.option(
+    "--around",
+    type=click.IntRange(min=0),
+    metavar="VERTEX",
+    help="Of a world that is too large to be shown whole: show what is near this vertex."
+    "  [default: that of the marker]",
+)
+@options.marker
+@output_options
+def draw(
+    output: Output,
+    *,
+    world: str,
+    file: str,
+    doors: bool,
+    darts: bool,
+    around: int | None,
+    marker: int | None,
+) -> int:
+    """Draw a world. The order of the edges at every vertex is read back from the picture."""
+    from topo_verify.world.drawing import document, format_of, lay_out
+
+    def drawn() -> Iterator[Result[DrawEntry]]:
+        kind = "svg" if file == "-" else format_of(file)
+        at = named_world(world, marker)
+        layout = lay_out(at.world, centre=_dart_at(at.world, around))
+        if around is not None and not layout.hidden:
+            output.note(f"--around {around}: the world is shown whole")
+        content = document(at.world, layout, kind, doors=doors, darts=darts)
+        if file != "-":
+            files.write(file, content)
+        yield Result(
+            DrawEntry(
+                world=at.name,
+                file=None if file == "-" else file,
+                layout=layout.kind,
+                vertices=len(at.world.vertices),
+                shown=len(at.world.vertices) - len(layout.hidden),
+                bridges=len(layout.bridges),
+                text=content.decode() if file == "-" else None,
+            )
+        )
+
+    return output.run("world-draw", drawn, _show_drawn)
+
+
+def _dart_at(world: World, vertex: int | None) -> Dart | None:
+    """A dart of a vertex of the world; None for no vertex, or one without a dart.
+
+    Raises:
+        InputError: there is no such vertex.
+    """
+    if vertex is None:
+        return None
+    if vertex >= len(world.vertices):
+        last = len(world.vertices) - 1
+        raise InputError(f"--around {vertex}: expected a vertex of the world, 0 … {last}")
+    return next(iter(world.vertices[vertex]), None)
+
+
+def _show_drawn(entries: Sequence[DrawEntry]) -> Iterator[Block]:
+    for entry in entries:
+        if entry.text is not None:
+            yield Raw(entry.text.rstrip("\n"))
+            continue
+        yield TextTable(("world", "layout", "file"), [(entry.world, entry.layout, str(entry.file))])
+        if entry.shown < entry.vertices:
+            yield Raw(f"{entry.shown} of {entry.vertices} vertices are shown; others: --around.")

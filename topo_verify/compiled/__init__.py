@@ -7,17 +7,20 @@ the one that it mirrors, and functions have the names of the reference's.
     kernel.py       what a kernel is; from sources to machine code, and where that is kept
     workspace.py    the one array: which field stands where
     events.py       the words that a run writes, from and to the events of a trace
-    robot.py        robot/simulator.py        chart.py        algorithms/chart.py
-    motion.py       algorithms/motion.py      policies.py     algorithms/policies.py
-    prefix.py       enhancement_i.py          history.py      enhancement_ii.py
-    records.py      enhancement_iii.py        partial_fold.py and folding.py   folding.py
-    planar.py       planar.py                 exploration.py  exploration.py
     faults.py       some mistakes of topo_verify/faults, by number
-    growth.py       the state of an enumeration   all_worlds.py, pruning.py, enumeration.py
-                                                  world/enumeration/
+
+    robot.py        robot/simulator.py        chart.py        algorithms/chart.py
+    motion.py       motion.py, policies.py    evidence.py     enhancement_i, _ii, _iii, planar.py
+    folding.py      folding.py                exploration.py  exploration.py
+    growth.py       the state of an enumeration
+    pruning.py, enumeration.py                world/enumeration/
     judging/        the ten claims                checkers/
     tally.py        a range of worlds, run and judged in one kernel; shard.py for use from Python
     explore.py      one run in one world of any size, for use from Python
+
+Kernels become one module with one set of constants, so they import the vocabularies whole:
+`from topo_verify.compiled.workspace import *`, and so the constants of `growth`, `faults` and
+`judging.layout`.
 
 Importing this package, or any file of it, imports neither numba nor numpy.
 """

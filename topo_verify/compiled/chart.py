@@ -15,36 +15,7 @@ from __future__ import annotations
 
 from topo_verify.compiled.faults import COUNTS_DOORS_ANTICLOCKWISE, planted
 from topo_verify.compiled.kernel import Words, inlined, kernel
-from topo_verify.compiled.workspace import (
-    CA,
-    CD,
-    CF,
-    CHART_DARTS,
-    CP,
-    CV,
-    DEP,
-    FULL_CHART,
-    MASK,
-    NDARTS,
-    NEAR,
-    NU,
-    NV,
-    PAR,
-    REACHED,
-    SEARCH,
-    SEEN,
-    SG,
-    SHIFT,
-    STOP,
-    STOP_FULL,
-    TOWARDS,
-    TREC,
-    TREE,
-    UN,
-    UO,
-    P,
-    Q,
-)
+from topo_verify.compiled.workspace import *
 
 
 @kernel

@@ -9,6 +9,8 @@
 
 Mirrors: algorithms/exploration.py, line by line. Differs: H is a row of darts; rules without memory
 of places are not asked before the first motion, since only `folding` and `planar` can reject there.
+A number selects the rule, because a kernel that is handed a function is compiled anew in every
+process.
 Wherever the reference may raise, this looks at `STOP` and returns.
 
 Source: as the reference.
@@ -25,22 +27,36 @@ from topo_verify.compiled.chart import (
     tree_of_v0,
     turn,
 )
-from topo_verify.compiled.events import BY_FOLDING, BY_MOTION, LOOP, NEW
-from topo_verify.compiled.faults import (
-    CONFIRMS_WHAT_IS_ALONE,
-    GOES_ON_AS_IF_JUST_COME_IN,
-    IGNORES_DIRECTION_AT_THE_END,
-    IGNORES_DIRECTION_BEHIND_E,
-    LEAVES_OUT_THE_DARTS_OF_V0,
-    LEAVES_OUT_THE_DARTS_OF_VK,
-    TRIES_ONLY_THE_NEAREST_TWO,
-    planted,
+from topo_verify.compiled.events import (
+    BY_FOLDING,
+    BY_HISTORY,
+    BY_MOTION,
+    BY_PLANAR,
+    BY_PREFIX,
+    BY_RECORDS,
+    LOOP,
+    NEW,
 )
-from topo_verify.compiled.folding import conclude
+from topo_verify.compiled.evidence import (
+    cite,
+    face,
+    learn_records,
+    observe_sequence,
+    refute_by_face,
+    refute_by_history,
+    refute_by_prefix,
+)
+from topo_verify.compiled.faults import *
+from topo_verify.compiled.folding import (
+    arrive_fold,
+    conclude,
+    learn_fold,
+    observe_fold,
+    refute_by_folding,
+    start_fold,
+)
 from topo_verify.compiled.kernel import Words, entry, inlined, kernel
-from topo_verify.compiled.motion import back, choice, cross, forward, walk
-from topo_verify.compiled.policies import nearest, shortest
-from topo_verify.compiled.prefix import cite
+from topo_verify.compiled.motion import back, choice, cross, forward, nearest, shortest, walk
 from topo_verify.compiled.robot import (
     declare_augment,
     declare_confirm,
@@ -48,37 +64,7 @@ from topo_verify.compiled.robot import (
     declare_reject,
     sensed,
 )
-from topo_verify.compiled.rules import arrive, learn, observe, refute, start_rule
-from topo_verify.compiled.workspace import (
-    CA,
-    CD,
-    CF,
-    COST,
-    CP,
-    CV,
-    DEP,
-    MASK,
-    NDOORS,
-    NSEQ,
-    NSTEPS,
-    NTR,
-    NU,
-    NV,
-    PAR,
-    POS,
-    PP,
-    REM,
-    RULE,
-    RULE_FOLDING,
-    RULE_NONE,
-    SG,
-    SHARED,
-    SHIFT,
-    STOP,
-    TURNED,
-    UN,
-    UO,
-)
+from topo_verify.compiled.workspace import *
 
 
 @kernel
@@ -306,3 +292,56 @@ def localise(W: Words, entered: int) -> int:
     while turned < 0:
         turned += W[CD + W[CV + entered]]
     return turn(W, entered, turned)
+
+
+# ---------------------------------------------------------------- the rule, by its number
+
+
+@kernel
+def start_rule(W: Words) -> None:
+    """Forget the run before."""
+    W[NREC] = 0
+    if W[RULE] >= RULE_FOLDING:
+        start_fold(W)
+
+
+@kernel
+def arrive(W: Words, e: int, percept: int) -> None:
+    """Take note that the robot has crossed e and senses this percept at vu."""
+    if W[RULE] >= RULE_FOLDING:
+        if W[RULE] == RULE_PLANAR:
+            face(W, e)
+        arrive_fold(W, e, percept)
+
+
+@kernel
+def observe(W: Words) -> None:
+    """Take note of a sequence that was executed and ended in a mismatch."""
+    if W[RULE] >= RULE_FOLDING:
+        observe_fold(W)
+    elif W[RULE] >= RULE_ONE:
+        observe_sequence(W)
+
+
+@kernel
+def refute(W: Words, h: int) -> int:
+    """The rule that shows the hypothesis to be false, one of BY_…; 0: it may be true."""
+    rule = W[RULE]
+    if rule == RULE_PREFIX:
+        return BY_PREFIX if refute_by_prefix(W, h) else 0
+    if rule < RULE_FOLDING:
+        if not refute_by_history(W, h):
+            return 0
+        return BY_HISTORY if W[EV_RECORD] < 0 else BY_RECORDS
+    if rule == RULE_PLANAR and refute_by_face(W, h):
+        return BY_PLANAR
+    return BY_FOLDING if refute_by_folding(W, h) else 0
+
+
+@kernel
+def learn(W: Words, e: int, entry: int, new: int) -> None:
+    """Take note that S has grown: the robot crossed e and came in by dart `entry`."""
+    if W[RULE] >= RULE_FOLDING:
+        learn_fold(W, entry, new)
+    elif W[RULE] >= RULE_ONE:
+        learn_records(W, e, entry)

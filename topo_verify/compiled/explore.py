@@ -7,41 +7,30 @@ edges. A run whose trace is longer than there is room for is made again with fou
 run that needs more of anything else than the small layout has, in the large one. Between rounds of
 the loop a run can be interrupted (Ctrl-C).
 
+A trace may take half of the memory that is free. A run that needs more is refused: by its cost,
+which a run without a trace tells, or once that half is full.
+
 What this does not show: whether the run is the reference's. tests/compiled compares the two.
 """
 
 from __future__ import annotations
 
+import os
+import resource
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from topo_verify.compiled import require
+from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.events import decoded
 from topo_verify.compiled.exploration import explore_rounds
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.kernel import compiled
-from topo_verify.compiled.workspace import (
-    CAPACITIES,
-    FAULTY,
-    FULL_TRACE,
-    LARGE,
-    RULE_ALL,
-    RULE_FOLDING,
-    RULE_HISTORY,
-    RULE_NONE,
-    RULE_ONE,
-    RULE_PLANAR,
-    RULE_PREFIX,
-    SMALL,
-    STOP_BUDGET,
-    STOP_DOOR,
-    STOP_FULL,
-    P,
-    WordLayout,
-)
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Event, Finish, MapData
+from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
@@ -61,16 +50,16 @@ class Kernel(NamedTuple):
 
 
 KERNELS = {
-    "basic": Kernel(RULE_NONE, RETRACE),
-    "enhancement-i": Kernel(RULE_PREFIX, OVERLAP),
-    "enhancement-ii": Kernel(RULE_HISTORY, RETRACE),
-    "enhancement-ii+i": Kernel(RULE_HISTORY, OVERLAP),
-    "enhancement-iii-one": Kernel(RULE_ONE, RETRACE),
-    "enhancement-iii-one+i": Kernel(RULE_ONE, OVERLAP),
-    "enhancement-iii-all": Kernel(RULE_ALL, RETRACE),
-    "enhancement-iii-all+i": Kernel(RULE_ALL, OVERLAP),
-    "folding": Kernel(RULE_FOLDING, OVERLAP),
-    "folding+planar": Kernel(RULE_PLANAR, OVERLAP),
+    "basic": Kernel(ws.RULE_NONE, RETRACE),
+    "enhancement-i": Kernel(ws.RULE_PREFIX, OVERLAP),
+    "enhancement-ii": Kernel(ws.RULE_HISTORY, RETRACE),
+    "enhancement-ii+i": Kernel(ws.RULE_HISTORY, OVERLAP),
+    "enhancement-iii-one": Kernel(ws.RULE_ONE, RETRACE),
+    "enhancement-iii-one+i": Kernel(ws.RULE_ONE, OVERLAP),
+    "enhancement-iii-all": Kernel(ws.RULE_ALL, RETRACE),
+    "enhancement-iii-all+i": Kernel(ws.RULE_ALL, OVERLAP),
+    "folding": Kernel(ws.RULE_FOLDING, OVERLAP),
+    "folding+planar": Kernel(ws.RULE_PLANAR, OVERLAP),
 }
 """Every algorithm of the catalogue."""
 
@@ -88,6 +77,12 @@ MOST_EDGES = 1 << 16
 
 TRACE_ROOM = 1 << 20
 """Words of trace for which the large layout has room at first."""
+
+WORD_BYTES = 72
+"""Bytes for a word of trace, with the events that are made of it; 33 to 67 were measured."""
+
+MOVE_WORDS = 4
+"""Words of a move."""
 
 ROUNDS = 64
 """Edges that are explored before Python is asked whether to go on."""
@@ -132,8 +127,8 @@ def run_world(
         budget: how many moves are allowed; default: the bound of claim 7.
         fault: a mistake to plant, by its name in `PLANTED`.
     Raises:
-        InputError: numba is not installed, there is no such algorithm or mistake, or the world or
-            the run is too large.
+        InputError: numba is not installed, there is no such algorithm or mistake, the world or the
+            run is too large, or the memory that is free is too small for its trace.
     """
     require("the compiled engine")
     if algorithm not in KERNELS:
@@ -146,30 +141,90 @@ def run_world(
     job = CompiledJob(
         world, algorithm, trace, world.cost_bound if budget is None else budget, fault
     )
-    small = len(world.alpha) <= CAPACITIES["WORLD_DARTS"]
+    small = len(world.alpha) <= ws.CAPACITIES["WORLD_DARTS"]
     if fault and not small:
-        most = CAPACITIES["WORLD_DARTS"] // 2
+        most = ws.CAPACITIES["WORLD_DARTS"] // 2
         raise InputError(f"faults are planted in worlds of up to {most} edges, not in this one")
-    layout, room = LARGE, TRACE_ROOM
+    layout, room = ws.LARGE, TRACE_ROOM
     if small:
-        layout, room = FAULTY if fault else SMALL, CAPACITIES["TRACE"]
+        layout, room = ws.FAULTY if fault else ws.SMALL, ws.CAPACITIES["TRACE"]
     while True:
         space = job.run(layout, room if trace else 1)
         stop = space[layout.at("STOP")]
-        if stop == STOP_FULL + FULL_TRACE:
-            room *= 4
-        elif stop >= STOP_FULL and layout is SMALL:
-            layout = LARGE
+        if stop == ws.STOP_FULL + ws.FULL_TRACE:
+            del space  # its memory is free before more is taken
+            room = _more_room(job, layout, room)
+        elif stop >= ws.STOP_FULL and layout is ws.SMALL:
+            layout = ws.LARGE
         else:
             return job.result(space, layout)
 
 
+def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
+    """More room for a trace that is longer than `room` words.
+
+    Raises:
+        InputError: half of the memory that is free does not hold the trace.
+    """
+    most, needed = free_memory() // 2 // WORD_BYTES, room + 1
+    if needed <= most:
+        bare = job._replace(trace=False).run(layout, 1)
+        needed = max(needed, MOVE_WORDS * int(bare[layout.at("COST")]))
+    if needed > most:
+        raise InputError(
+            f"the trace of {job.fault or job.algorithm} in this world of"
+            f" {plural(len(job.world.edges), 'edge')} needs at least"
+            f" {needed * WORD_BYTES / 2**30:.2f} GiB, and it may take half of the memory that is"
+            f" free, {most * WORD_BYTES / 2**30:.2f} GiB: explore a smaller world, or have no trace"
+            " (from Python, explore with trace=False)"
+        )
+    return min(4 * room, most)
+
+
+def free_memory() -> int:
+    """How many bytes this process may still take; where nothing is known, the machine's memory.
+
+    It is the least of what the machine has available, what is left to the control group of this
+    process (version 1 or 2), and what is left of its own limit of address space.
+    """
+    rows = [line.split() for line in _lines("/proc/meminfo")]
+    available = [int(row[1]) << 10 for row in rows if row[0] == "MemAvailable:"]
+    free = available or [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
+    for line in _lines("/proc/self/cgroup"):
+        _, controllers, group = line.split(":", 2)
+        if controllers == "":
+            folder, most, used = f"/sys/fs/cgroup{group}", "memory.max", "memory.current"
+        elif "memory" in controllers.split(","):
+            folder = f"/sys/fs/cgroup/memory{group}"
+            most, used = "memory.limit_in_bytes", "memory.usage_in_bytes"
+        else:
+            continue
+        limit, usage = _lines(f"{folder}/{most}"), _lines(f"{folder}/{used}")
+        if limit and usage and limit[0].isdecimal():
+            stat = dict(row.split() for row in _lines(f"{folder}/memory.stat"))
+            cache = stat.get("total_inactive_file", stat.get("inactive_file", "0"))
+            free.append(int(limit[0]) - int(usage[0]) + int(cache))
+    limit_of_space, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if limit_of_space != resource.RLIM_INFINITY:
+        pages = int(_lines("/proc/self/statm")[0].split()[0]) if _lines("/proc/self/statm") else 0
+        free.append(limit_of_space - pages * os.sysconf("SC_PAGE_SIZE"))
+    return max(0, min(free))
+
+
+def _lines(path: str) -> list[str]:
+    """The lines of a file of the system; none if it is not there."""
+    try:
+        return Path(path).read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return []
+
+
 def _require_room(world: World) -> None:
     """Raise an InputError unless the large layout has room for the world."""
-    if len(world.edges) > MOST_EDGES or max(world.degrees) >= P - 1:
+    if len(world.edges) > MOST_EDGES or max(world.degrees) >= ws.P - 1:
         raise InputError(
             f"the compiled engine explores worlds of up to {MOST_EDGES} edges with degrees below"
-            f" {P - 1}; this one has {len(world.edges)} edges: use the reference engine"
+            f" {ws.P - 1}; this one has {len(world.edges)} edges: use the reference engine"
         )
 
 
@@ -182,7 +237,7 @@ class CompiledJob(NamedTuple):
     budget: int
     fault: str
 
-    def run(self, layout: WordLayout, room: int) -> Workspace:
+    def run(self, layout: ws.WordLayout, room: int) -> Workspace:
         """The workspace after the run, with room for so many words of trace."""
         explore: Callable[[Workspace, int, int], int] = compiled(explore_rounds, layout)
         space = workspace(layout, room)
@@ -200,13 +255,13 @@ class CompiledJob(NamedTuple):
             at = explore(space, at, ROUNDS)
         return space
 
-    def result(self, space: Workspace, layout: WordLayout) -> CompiledRun:
+    def result(self, space: Workspace, layout: ws.WordLayout) -> CompiledRun:
         """What a finished workspace says."""
         stop = int(space[layout.at("STOP")])
-        if stop >= STOP_FULL:
+        if stop >= ws.STOP_FULL:
             raise InputError(
                 f"the run of {self.fault or self.algorithm} needs more room than the compiled"
-                f" engine has for {KEPT[stop - STOP_FULL]}: use the reference engine"
+                f" engine has for {KEPT[stop - ws.STOP_FULL]}: use the reference engine"
             )
         trace = layout.at("TR")
         words = space[trace : trace + int(space[layout.at("NTR")])] if self.trace else None
@@ -215,21 +270,28 @@ class CompiledJob(NamedTuple):
             None if stop else map_of(space, layout),
             {
                 0: None,
-                STOP_BUDGET: f"the mapper asked for more than {self.budget} moves",
-                STOP_DOOR: "the mapper asked for a door that is not there",
+                ws.STOP_BUDGET: f"the mapper asked for more than {self.budget} moves",
+                ws.STOP_DOOR: "the mapper asked for a door that is not there",
             }[stop],
             None if words is None else tuple(words.tolist()),
         )
 
 
-def workspace(layout: WordLayout, room: int) -> Workspace:
+def workspace(layout: ws.WordLayout, room: int) -> Workspace:
     """A workspace with room for so many words of trace; what is never touched takes no memory."""
     import numpy as np
 
-    return np.zeros(layout.at("TR") + room, np.int64)
+    words = layout.at("TR") + room
+    try:
+        return np.zeros(words, np.int64)
+    except MemoryError:
+        raise InputError(
+            f"the compiled engine needs {words * 8 / 2**30:.2f} GiB of address space for this run"
+            " and gets none: raise the limit (ulimit -v), or use the reference engine"
+        ) from None
 
 
-def place_world(space: Workspace, layout: WordLayout, world: World) -> None:
+def place_world(space: Workspace, layout: ws.WordLayout, world: World) -> None:
     """Write a world into a workspace, its darts in the order of discovery."""
     import numpy as np
 
@@ -240,7 +302,7 @@ def place_world(space: Workspace, layout: WordLayout, world: World) -> None:
         space[layout.at(name) : layout.at(name) + len(row)] = row
 
 
-def map_of(space: Workspace, layout: WordLayout) -> MapData:
+def map_of(space: Workspace, layout: ws.WordLayout) -> MapData:
     """The map S in a workspace."""
 
     def field(name: str, length: int) -> list[int]:

@@ -11,7 +11,8 @@ code of it:
    of the workspace among them. So one source serves every layout, and an offset costs nothing.
 3. It makes every index unsigned, or numba would test each one for being negative.
 4. It writes the result as one module into a cache folder, and numba keeps its machine code beside
-   it. The folder is named after a hash of that module and of the versions of numba and Python.
+   it. The folder is named after a hash of that module, of the versions of numba and Python, and of
+   the processor. A checksum of each file of machine code covers that hash as well.
 
 Why so: numba's own cache notices a change of the file that a function stands in, and none of the
 functions that it calls elsewhere; here any change of any kernel gives another folder. `_nrt=False`
@@ -21,7 +22,11 @@ every process): an integer in the workspace selects.
 
 The cache: `$TOPO_VERIFY_CACHE`, or `topo-verify` in `$XDG_CACHE_HOME` or `~/.cache`; without a home
 that can be written, a folder that lasts as long as the process. It may be deleted at any time.
-While one process compiles the kernels of a folder, others that need them wait for its lock.
+While one process compiles the kernels of a folder, others that need them wait for its lock. Machine
+code without its checksum is compiled again.
+
+What this does not show: that nobody changed a file and its checksum on purpose. The folder belongs
+to the user, and checksums guard against accidents.
 """
 
 from __future__ import annotations
@@ -38,13 +43,14 @@ from functools import cache
 from hashlib import sha256
 from importlib import import_module
 from importlib.metadata import version
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from pwd import getpwuid
 from types import ModuleType
 from typing import Any, Protocol, TypeVar, cast
 
 from topo_verify.compiled import require
 from topo_verify.compiled.workspace import WordLayout
+from topo_verify.errors import InputError
 
 F = TypeVar("F", bound=Callable[..., object])
 
@@ -95,24 +101,16 @@ SOURCES = [
         "workspace",
         "growth",
         "pruning",
-        "all_worlds",
         "enumeration",
         "events",
         "faults",
         "robot",
         "chart",
-        "policies",
         "motion",
-        "prefix",
-        "records",
-        "history",
-        "partial_fold",
+        "evidence",
         "folding",
-        "planar",
-        "rules",
         "exploration",
         "judging.layout",
-        "judging.words",
         "judging.justified",
         "judging.truth",
         "judging.fold",
@@ -152,28 +150,25 @@ def compiled(function: F, layout: WordLayout, *, checked: bool = False) -> F:
     Args:
         checked: with every index checked; an index out of range is then an IndexError.
     Raises:
-        InputError: numba is not installed.
+        InputError: numba is not installed; the folder of the cache cannot be used.
     """
     module = machine_code(layout, checked)
     dispatcher = getattr(module, function.__name__)
     if not dispatcher.signatures:
-        path = Path(str(module.__file__))
-        if _is_kept(path, function.__name__):
-            dispatcher.compile(_signature(function))
-        else:
-            with _alone(path, function.__name__):
-                if not _is_kept(path, function.__name__):
-                    _say(
-                        f"compiling {function.__name__} for this machine: once, up to a minute"
-                        f" (kept in {path.parent})"
-                    )
+        path, name = Path(str(module.__file__)), function.__name__
+        kept = _KeptCode(path, Path(dispatcher.stats.cache_path))
+        with _usable(path.parent):
+            if kept.is_whole(name):
                 dispatcher.compile(_signature(function))
+            else:
+                with _alone(path, name), kept.writing():
+                    if not kept.is_whole(name):
+                        _say(
+                            f"compiling {name} for this machine: once, up to a minute"
+                            f" (kept in {path.parent})"
+                        )
+                    dispatcher.compile(_signature(function))
     return cast("F", dispatcher)
-
-
-def _is_kept(path: Path, name: str) -> bool:
-    """Whether the cache has the machine code of an entry of the module in this file."""
-    return any((path.parent / "__pycache__").glob(f"{path.stem}.{name}-*.nbi"))
 
 
 @contextmanager
@@ -182,7 +177,7 @@ def _alone(path: Path, name: str) -> Generator[None]:
     with (path.parent / "lock").open("a") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
+        except BlockingIOError:
             _say(f"another process compiles kernels: waiting for it before {name}, up to a minute")
             fcntl.flock(file, fcntl.LOCK_EX)
         yield
@@ -215,13 +210,11 @@ def machine_code(layout: WordLayout, checked: bool) -> ModuleType:  # noqa: FBT0
     """The module of all kernels for a layout; each is compiled when it is asked for."""
     require("the compiled engine")
     name = f"kernels_{layout.name}{'_checked' if checked else ''}"
-    path = _stored(name, module_source(layout, checked=checked))
-    spec = spec_from_file_location(name, path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
+    source = module_source(layout, checked=checked)
+    module = sys.modules[name] = ModuleType(name)
+    module.__file__ = str(_stored(name, source))
+    # What is run is this text: the file tells numba where its machine code lies.
+    exec(compile(source, module.__file__, "exec"), module.__dict__)  # noqa: S102  our own kernels
     return module
 
 
@@ -288,35 +281,167 @@ def _unsigned(index: ast.expr) -> ast.expr:
 
 def _stored(name: str, source: str) -> Path:
     """The file with this source in the cache; written unless it is there."""
+    llvm = import_module("llvmlite.binding")
     made_by = f"{version('numba')} {version('llvmlite')} {platform.python_version()}"
-    key = f"{source}\n{made_by} {platform.machine()}"
-    folder = cache_folder() / sha256(key.encode()).hexdigest()[:24]
+    made_by += f" {platform.machine()} {llvm.get_host_cpu_name()}"
+    made_by += f" {llvm.get_host_cpu_features().flatten()}"
+    key = sha256(f"{source}\n{made_by}".encode()).hexdigest()[:24]
+    folder = cache_folder() / key
     path = folder / f"{name}.py"
-    if not path.exists():
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile("w", dir=folder, suffix=".new", delete=False) as file:
-            file.write(source)
-        # numba takes machine code for stale if the file is younger: whoever writes it, it is as old
-        os.utime(file.name, (0, 0))
-        Path(file.name).replace(path)
+    with _usable(folder):
+        (folder / "__pycache__").mkdir(parents=True, exist_ok=True)
+        if not _holds(path, source):
+            with _alone(path, name):
+                if path.exists() and not _holds(path, source):
+                    _say(f"{path} is damaged: writing it again")
+                _write(path, source)
+                # numba discards code when its source is newer, so every copy gets the same mtime.
+                os.utime(path, (0, 0))
     return path
+
+
+def _holds(path: Path, text: str) -> bool:
+    return path.exists() and path.read_bytes() == text.encode()
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a file whole or not at all; nothing else stays behind."""
+    with tempfile.NamedTemporaryFile(
+        "w", dir=path.parent, prefix=f"{path.name}.", suffix=".new", delete=False, encoding="utf-8"
+    ) as file:
+        try:
+            file.write(text)
+            file.close()
+            Path(file.name).replace(path)
+        except BaseException:
+            Path(file.name).unlink(missing_ok=True)
+            raise
+
+
+@contextmanager
+def _usable(folder: Path) -> Generator[None]:
+    """An OSError inside becomes an InputError that names the folder of the cache."""
+    try:
+        yield
+    except OSError as error:
+        raise InputError(
+            f"the compiled engine keeps its machine code in {folder}, and that failed"
+            f" ({error.strerror or error}): free some space there, remove the folder, or set"
+            " TOPO_VERIFY_CACHE to another one"
+        ) from error
+
+
+class _KeptCode:
+    """The machine code of one module, in files that numba reads and writes, with checksums.
+
+    Args:
+        path: the file of the module; its folder is named after the hash of what is compiled.
+        folder: of the files.
+    """
+
+    def __init__(self, path: Path, folder: Path) -> None:
+        self._path, self._folder, self._module = path, folder, path.stem
+        self._sums = folder / f"{path.stem}.sums"
+
+    def is_whole(self, name: str) -> bool:
+        """Whether the machine code of an entry is there, and every file of it has its checksum."""
+        files, sums = self._files(name), self._known()
+        index = any(file.suffix == ".nbi" for file in files)
+        try:
+            return index and all(sums.get(file.name) == self._sum(file) for file in files)
+        except FileNotFoundError:  # another process removes what is damaged
+            return False
+
+    @contextmanager
+    def writing(self) -> Generator[None]:
+        """Files are written inside; nobody else writes. Those without their checksum are removed.
+
+        One entry's code may be compiled from that of others, so this is about all of the module.
+        """
+        damaged = self._clear()
+        if damaged:
+            _say(
+                f"{damaged} of the files with machine code in {self._folder} are damaged or of"
+                " another version: compiling it again"
+            )
+        try:
+            yield
+        except BaseException:
+            self._clear()
+            raise
+        lines = [f"{self._sum(file)}  {file.name}\n" for file in self._files()]
+        _write(self._sums, "".join(lines))
+
+    def _clear(self) -> int:
+        """Remove files without their checksum: how many. Also what an interrupted write left."""
+        sums = self._known()
+        damaged = [file for file in self._files() if sums.get(file.name) != self._sum(file)]
+        partial = [
+            *self._folder.glob(f"{self._module}.*.tmp.*"),
+            *self._folder.glob(f"{self._module}.*.new"),
+            *self._path.parent.glob(f"{self._module}.*.new"),
+        ]
+        for file in (*damaged, *partial):
+            file.unlink()
+        return len(damaged)
+
+    def _files(self, name: str = "*") -> list[Path]:
+        return sorted(self._folder.glob(f"{self._module}.{name}-*.nb[ic]"))
+
+    def _sum(self, file: Path) -> str:
+        return sha256(
+            f"{self._path.parent.name} {file.name}\n".encode() + file.read_bytes()
+        ).hexdigest()
+
+    def _known(self) -> dict[str, str]:
+        """The checksums of the files by their names; none if they cannot be read."""
+        if not self._sums.exists():
+            return {}
+        lines = self._sums.read_text(encoding="utf-8", errors="replace").split("\n")
+        return {name: known for known, _, name in (line.partition("  ") for line in lines)}
 
 
 @cache
 def cache_folder() -> Path:
     """The folder of the cache; it can be written, and belongs to the user."""
-    asked = os.environ.get("TOPO_VERIFY_CACHE")
-    home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
-    folder = (Path(asked) if asked else Path(home) / "topo-verify") / "compiled"
-    try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except OSError:
-        pass
+    folder = _wanted_folder()
+    if folder is None:
+        why = "no home folder is known"
     else:
-        # Machine code is run: what somebody else may have put there is not.
-        if os.access(folder, os.W_OK) and folder.stat().st_uid == os.getuid():
-            return folder
+        why = f"{folder} cannot be used"
+        try:
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        except OSError as error:
+            why += f" ({error.strerror})"
+        else:
+            # Machine code is run, so a folder that another user may have filled is not used.
+            if folder.stat().st_uid != os.getuid():
+                why += " (it belongs to another user)"
+            elif os.access(folder, os.W_OK):
+                return folder
+            else:
+                why += " (it is read-only)"
+    _say(
+        f"compiled kernels are kept for this process alone, for {why}; set TOPO_VERIFY_CACHE to a"
+        " folder that can be written"
+    )
     return Path(_lasting_folder().name)
+
+
+def _wanted_folder() -> Path | None:
+    """The folder that the environment asks for, or the user's; None if there is no home."""
+    asked = os.environ.get("TOPO_VERIFY_CACHE")
+    if asked:
+        return Path(asked).absolute() / "compiled"
+    base = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if not base.is_absolute():
+        home = Path(os.environ.get("HOME", ""))
+        try:
+            home = home if home.is_absolute() else Path(getpwuid(os.getuid()).pw_dir)
+        except KeyError:
+            return None
+        base = home / ".cache"
+    return base / "topo-verify" / "compiled"
 
 
 @cache

@@ -1,43 +1,22 @@
-"""Motion: excursions from vu, and which hypothesis is walked next from where the robot stands.
+"""Motion: excursions from vu, and which edge and which hypothesis is walked next.
 
-Mirrors: algorithms/motion.py, `Pilot`, `Hypothesis`, `retrace`, `overlap`. Differs: a hypothesis is
-its dart alone; its way home is followed along PAR where it is needed and is written down nowhere.
+Mirrors: algorithms/motion.py, `Pilot`, `Hypothesis`, `retrace`, `overlap`; algorithms/policies.py,
+`nearest` and `shortest`. Differs: a hypothesis is its dart alone; its way home is followed along
+PAR where it is needed and is written down nowhere. Of the policies there are only these two, which
+define the reference costs. Few hypotheses are sorted by insertion, many by counting distances; both
+keep the order of darts.
 
-Source: docs/semantics.md, sections 2, 6, 7; listing 1 lines 10-15, listing 2 lines 15-23.
+Source: docs/semantics.md, sections 2, 5, 6, 7; listing 1 lines 10-15, listing 2 lines 15-23.
 """
 
 from __future__ import annotations
 
-from topo_verify.compiled.chart import door, tree
+from topo_verify.compiled.chart import door, first_in_u, reach, tree
 from topo_verify.compiled.events import CROSS, RETRACE, VALIDATE, WALK
-from topo_verify.compiled.faults import (
-    FORGETS_ITS_ORIENTATION,
-    RESTORES_WITH_THE_WRONG_SIGN,
-    RETRACES_IN_THE_WRONG_ORDER,
-    RETRACES_ONE_EDGE_SHORT,
-    SETS_OUT_UNTURNED,
-    planted,
-)
+from topo_verify.compiled.faults import *
 from topo_verify.compiled.kernel import Words, inlined, kernel
 from topo_verify.compiled.robot import move
-from topo_verify.compiled.workspace import (
-    CA,
-    CV,
-    DG,
-    DOORS,
-    MOTION,
-    NDOORS,
-    NSEQ,
-    PAR,
-    POS,
-    PP,
-    REM,
-    SHARED,
-    STOP,
-    TOWARDS,
-    TURNED,
-    VT,
-)
+from topo_verify.compiled.workspace import *
 
 
 @inlined
@@ -157,3 +136,56 @@ def common_prefix(W: Words, h: int) -> int:
             return length
         at = W[CA + up]
     return n
+
+
+# ---------------------------------------------------------------- the two reference policies
+
+
+FEW = 24
+"""The most hypotheses that are sorted by insertion."""
+
+
+@inlined
+def nearest(W: Words, at: int) -> int:
+    """The dart of U whose vertex is nearest on S to the robot; ties: the lowest dart."""
+    root = W[CV + at]
+    if W[UO + root] > 0:
+        return first_in_u(W, root)
+    return reach(W, root)
+
+
+@kernel
+def shortest(W: Words, number: int) -> None:
+    """Sort H by the length of the validation path, then by dart; it comes in the order of darts."""
+    if number > FEW:
+        counted(W, number)
+        return
+    for i in range(1, number):
+        h = W[REM + i]
+        depth = W[DEP + W[CV + h]]
+        j = i
+        while j > 0 and W[DEP + W[CV + W[REM + j - 1]]] > depth:
+            W[REM + j] = W[REM + j - 1]
+            j -= 1
+        W[REM + j] = h
+
+
+@kernel
+def counted(W: Words, number: int) -> None:
+    """Sort H as `shortest` does, in a time linear in H and S."""
+    for depth in range(W[NV]):
+        W[COUNTS + depth] = 0
+    for i in range(number):
+        W[COUNTS + W[DEP + W[CV + W[REM + i]]]] += 1
+    below = 0
+    for depth in range(W[NV]):
+        here = W[COUNTS + depth]
+        W[COUNTS + depth] = below
+        below += here
+    for i in range(number):
+        h = W[REM + i]
+        depth = W[DEP + W[CV + h]]
+        W[SORTED + W[COUNTS + depth]] = h
+        W[COUNTS + depth] += 1
+    for i in range(number):
+        W[REM + i] = W[SORTED + i]

@@ -18,31 +18,7 @@ still to create after the step, `opened` the number of open darts after it.
 
 from __future__ import annotations
 
-from topo_verify.compiled.growth import (
-    G_BEFORE,
-    G_DART_BEFORE,
-    G_DART_NEXT,
-    G_EXACT,
-    G_HANDLES,
-    G_HAS_GENUS,
-    G_LOOPLESS,
-    G_MOST_DEGREE,
-    G_MOST_GENUS,
-    G_NEAR,
-    G_NEXT,
-    G_ODD_WORDS,
-    G_OPEN_AT,
-    G_PARTNER_BEFORE,
-    G_PARTNER_NEXT,
-    G_SIMPLE,
-    G_WAS_HANDLES,
-    G_WAS_ODD_WORDS,
-    G_WAS_WORDS,
-    G_WORD,
-    G_WORD_ODD,
-    G_WORD_PLACES,
-    G_WORDS,
-)
+from topo_verify.compiled.growth import *
 from topo_verify.compiled.kernel import Words, inlined
 from topo_verify.compiled.workspace import VT
 

@@ -19,35 +19,7 @@ from topo_verify.compiled.events import (
     REJECT_WORDS,
 )
 from topo_verify.compiled.kernel import Words, inlined, kernel
-from topo_verify.compiled.workspace import (
-    AL,
-    BUDGET,
-    COST,
-    DG,
-    DOORS,
-    EV_AT,
-    EV_EXPECTED,
-    EV_FIRST,
-    EV_OBSERVED,
-    EV_RECORD,
-    EV_STEP,
-    EV_WRONG,
-    FULL_TRACE,
-    NSEQ,
-    NTR,
-    POS,
-    REM,
-    ROOM,
-    SHIFT,
-    ST,
-    STOP,
-    STOP_BUDGET,
-    STOP_DOOR,
-    STOP_FULL,
-    TR,
-    TRACING,
-    VT,
-)
+from topo_verify.compiled.workspace import *
 
 
 @inlined

@@ -11,70 +11,31 @@ What a run costs, without its trace and with nine and ten claims judged, is prin
 
     .venv/bin/python benchmarks/compiled.py --only basic nine ten
 
+`examine_steps` also gives the counts on the way: what the worlds of a step add to the counts is the
+difference of two `Snapshot`s, and the counts at the end are made of no other steps.
+
 What this does not show: that the kernels are right; tests hold them to the reference, and a search
-has a sample judged by the checkers.
+has the checkers judge some of the steps.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from topo_verify.checkers import CLAIMS, check
-from topo_verify.compiled import require
+from topo_verify.checkers import CLAIMS, Status, check
+from topo_verify.compiled import require, tally
+from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.enumeration import prepare
 from topo_verify.compiled.explore import KERNELS, CompiledJob, run_world
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.growth import G_VERTICES
-from topo_verify.compiled.judging.layout import (
-    J_COST,
-    J_DOORS_HASH,
-    J_JUDGED,
-    J_OF,
-    J_STATUS,
-    JUDGE_SIZE,
-    STATUSES,
-)
+from topo_verify.compiled.judging import layout
 from topo_verify.compiled.judging.truth import HASH_PRIME
 from topo_verify.compiled.kernel import compiled
-from topo_verify.compiled.tally import (
-    C_LEVEL,
-    C_ROW,
-    C_SIZE,
-    C_STOP_AT_FIRST,
-    KEPT_RANKS,
-    STATUS_COUNT,
-    T_ATTAINED,
-    T_CHEAPER,
-    T_CLAIM_FAILING,
-    T_CLAIM_FIRST,
-    T_CLAIM_NEWLY_FAILING,
-    T_COLUMNS,
-    T_DEARER,
-    T_DEARER_COSTS,
-    T_DEARER_OTHERS,
-    T_DEARER_RANKS,
-    T_DIGEST,
-    T_EXCESS,
-    T_FAILING,
-    T_FAILING_RANKS,
-    T_FAULT,
-    T_JUDGED,
-    T_MOST,
-    T_MOTION,
-    T_NEWLY_FAILING,
-    T_OF,
-    T_RULE,
-    T_STATUS,
-    T_TOTAL,
-    T_WORLDS,
-    T_WORST,
-    enter_open,
-    examine_worlds,
-)
-from topo_verify.compiled.workspace import FAULTY, SMALL, STOP_FULL, TRACE, WordLayout
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.simulator import first_percept
@@ -143,6 +104,18 @@ class ShardCounts(msgspec.Struct, frozen=True):
     dearer_worlds: tuple[DearerWorld, ...] = ()
 
 
+class Snapshot(NamedTuple):
+    """The counts behind a world of the range.
+
+    Attributes:
+        rank: of the last world that is counted; -1: none is.
+        counts: those of each algorithm, from the start of the range.
+    """
+
+    rank: int
+    counts: tuple[ShardCounts, ...]
+
+
 def examine_range(
     algorithms: Sequence[str],
     edges: int,
@@ -153,7 +126,7 @@ def examine_range(
     claims: int = ALL_CLAIMS,
     stop_at_first: bool = False,
     faults: Mapping[str, str] | None = None,
-    room: int = TRACE,
+    room: int = ws.TRACE,
 ) -> tuple[ShardCounts, ...]:
     """Run algorithms in every world of a range, and judge the runs: the counts of each.
 
@@ -170,13 +143,34 @@ def examine_range(
     """
     require("the compiled engine")
     shard = _Shard(algorithms, edges, kind, start, stop, claims, stop_at_first, faults or {})
-    shard.space[shard.layout.at("ROOM")] = min(room, TRACE)
-    shard.examine()
-    return shard.counts()
+    shard.space[shard.layout.at("ROOM")] = min(room, ws.TRACE)
+    (end,) = shard.examine(())
+    return end.counts
+
+
+def examine_steps(
+    algorithms: Sequence[str],
+    edges: int,
+    kind: str,
+    start: int,
+    stop: int,
+    *,
+    steps: Iterable[int],
+    stop_at_first: bool = False,
+    faults: Mapping[str, str] | None = None,
+) -> Iterator[Snapshot]:
+    """`examine_range`, with a snapshot behind each step, and behind the last world.
+
+    Args:
+        steps: the number of worlds in each step, 1 or more.
+    """
+    require("the compiled engine")
+    shard = _Shard(algorithms, edges, kind, start, stop, ALL_CLAIMS, stop_at_first, faults or {})
+    return shard.examine(steps)
 
 
 class _Shard:
-    """The arrays of one examination. Life cycle: `examine`, once; then `counts`."""
+    """The arrays of one examination. Life cycle: `examine`, once."""
 
     def __init__(
         self,
@@ -194,21 +188,23 @@ class _Shard:
         if claims not in (8, 9, 10):
             raise InputError(f"expected the first 8, 9 or 10 claims, got {claims}")
         self.names, self.faults = tuple(algorithms), faults
-        self.layout: WordLayout = FAULTY if faults else SMALL
+        self.layout: ws.WordLayout = ws.FAULTY if faults else ws.SMALL
         self.worlds = prepare(edges, WorldClass.parse(kind), start, stop)
         self.space = np.zeros(self.layout.at("SIZE"), np.int64)
-        self.judge = np.zeros(JUDGE_SIZE, np.int64)
-        self.control = np.zeros(C_SIZE, np.int64)
-        self.control[C_LEVEL], self.control[C_STOP_AT_FIRST] = claims, stop_at_first
-        self.table = np.zeros((len(self.names), T_COLUMNS), np.int64)
+        self.space[self.layout.at("ROOM")] = ws.TRACE
+        self.judge = np.zeros(layout.JUDGE_SIZE, np.int64)
+        self.control = np.zeros(tally.C_SIZE, np.int64)
+        self.control[tally.C_LEVEL], self.control[tally.C_STOP_AT_FIRST] = claims, stop_at_first
+        self.control[tally.C_RANK] = -1
+        self.table = np.zeros((len(self.names), tally.T_COLUMNS), np.int64)
         self.undecided = [0] * len(self.names)
         for row, name in zip(self.table, self.names, strict=True):
             number, algorithm = self._fault(name)
             if algorithm not in KERNELS:
                 known = ", ".join(KERNELS)
                 raise InputError(f"expected an algorithm of the catalogue, got {name!r}: {known}")
-            row[T_RULE], row[T_MOTION] = KERNELS[algorithm]
-            row[T_FAULT] = number
+            row[tally.T_RULE], row[tally.T_MOTION] = KERNELS[algorithm]
+            row[tally.T_FAULT] = number
         self.claims = tuple(CLAIMS)[:claims]
 
     def _fault(self, name: str) -> tuple[int, str]:
@@ -221,30 +217,46 @@ class _Shard:
             raise InputError(f"expected a fault that has a kernel, got {fault!r}: {known}")
         return PLANTED[fault]
 
-    def examine(self) -> None:
-        """Examine all worlds of the range."""
-        walk, rows = compiled(examine_worlds, self.layout), len(self.names)
-        while walk(self.space, self.worlds, self.judge, self.control, self.table, rows):
-            self._judge_by_checkers()
-            if compiled(enter_open, self.layout)(self.judge, self.control, self.table, rows):
-                return
+    def examine(self, steps: Iterable[int]) -> Iterator[Snapshot]:
+        """Examine all worlds of the range: a snapshot behind each step, and behind the last."""
+        for step in chain(steps, (0,)):
+            self.control[tally.C_PAUSE] = step
+            if self._walk() != tally.PAUSED:
+                break
+            yield self._snapshot()
+        yield self._snapshot()
+
+    def _walk(self) -> int:
+        """Examine worlds until the walk pauses or ends: which of the two."""
+        walk, rows = compiled(tally.examine_worlds, self.layout), len(self.names)
+        while True:
+            state = walk(self.space, self.worlds, self.judge, self.control, self.table, rows)
+            if state == tally.OPEN:
+                self._judge_by_checkers()
+                enter = compiled(tally.enter_open, self.layout)
+                state = enter(self.judge, self.control, self.table, rows)
+            if state != tally.GO_ON:
+                return state
 
     def _judge_by_checkers(self) -> None:
         """Put the verdict of the checkers on the last run into the judge's array."""
-        row, J = int(self.control[C_ROW]), self.judge
+        row, J = int(self.control[tally.C_ROW]), self.judge
         world, name = self._world(), self.names[row]
         algorithm, fault = self._fault(name)[1], self.faults.get(name, "")
-        if self.space[self.layout.at("STOP")] < STOP_FULL:
+        if self.space[self.layout.at("STOP")] < ws.STOP_FULL:
             job = CompiledJob(world, algorithm, trace=True, budget=world.cost_bound, fault=fault)
             run = job.result(self.space, self.layout)
         else:
             run = run_world(world, algorithm, trace=True, fault=fault)
-            J[J_COST], J[J_DOORS_HASH] = run.cost, doors_hash(run.events)
+            J[layout.J_COST], J[layout.J_DOORS_HASH] = run.cost, doors_hash(run.events)
         events = (Start(percept=first_percept(world)), *run.events)
         judgements = check(world, events, run.stopped)[: len(self.claims)]
         for k, one in enumerate(judgements):
-            J[J_STATUS + k], J[J_JUDGED + k] = STATUSES.index(one.status), one.judged
-            J[J_OF + k] = one.of
+            J[layout.J_STATUS + k], J[layout.J_JUDGED + k] = (
+                layout.STATUSES.index(one.status),
+                one.judged,
+            )
+            J[layout.J_OF + k] = one.of
         found = {one.status for one in judgements}
         self.undecided[row] += "undecided" in found and "failed" not in found
 
@@ -257,49 +269,50 @@ class _Shard:
 
     # ------------------------------------------------------------ the counts
 
-    def counts(self) -> tuple[ShardCounts, ...]:
-        """The counts of each algorithm."""
-        return tuple(
-            self._counts(name, row.tolist(), undecided)
-            for name, row, undecided in zip(self.names, self.table, self.undecided, strict=True)
-        )
+    def _snapshot(self) -> Snapshot:
+        """The counts of each algorithm so far."""
+        rows = zip(self.names, self.table, self.undecided, strict=True)
+        counts = tuple(self._counts(name, row.tolist(), undecided) for name, row, undecided in rows)
+        return Snapshot(int(self.control[tally.C_RANK]), counts)
 
     def _counts(self, name: str, row: list[int], undecided: int) -> ShardCounts:
         def kept(column: int, number: int) -> tuple[int, ...]:
-            return tuple(row[column : column + min(row[number], KEPT_RANKS)])
+            return tuple(row[column : column + min(row[number], tally.KEPT_RANKS)])
 
-        columns = (T_DEARER_RANKS, T_DEARER_COSTS, T_DEARER_OTHERS)
-        dearer = zip(*(kept(column, T_DEARER) for column in columns), strict=True)
+        columns = (tally.T_DEARER_RANKS, tally.T_DEARER_COSTS, tally.T_DEARER_OTHERS)
+        dearer = zip(*(kept(column, tally.T_DEARER) for column in columns), strict=True)
         places = list(enumerate(self.claims))
         statuses: dict[str, dict[str, int]] = {
-            claim: dict(zip(STATUSES, row[T_STATUS + k * STATUS_COUNT :], strict=False))
+            claim: dict(
+                zip(layout.STATUSES, row[tally.T_STATUS + k * tally.STATUS_COUNT :], strict=False)
+            )
             for k, claim in places
         }
         failing = {
-            claim: (row[T_CLAIM_FAILING + k], row[T_CLAIM_FIRST + k])
-            if row[T_CLAIM_FAILING + k]
+            claim: (row[tally.T_CLAIM_FAILING + k], row[tally.T_CLAIM_FIRST + k])
+            if row[tally.T_CLAIM_FAILING + k]
             else (0, -1)
             for k, claim in places
         }
         return ShardCounts(
             algorithm=name,
-            worlds=row[T_WORLDS],
-            failing=row[T_FAILING],
+            worlds=row[tally.T_WORLDS],
+            failing=row[tally.T_FAILING],
             claims=failing,
-            newly_failing=row[T_NEWLY_FAILING],
-            newly_failing_claims={c: row[T_CLAIM_NEWLY_FAILING + k] for k, c in places},
+            newly_failing=row[tally.T_NEWLY_FAILING],
+            newly_failing_claims={c: row[tally.T_CLAIM_NEWLY_FAILING + k] for k, c in places},
             undecided=undecided,
             statuses=statuses,
-            shares={claim: (row[T_JUDGED + k], row[T_OF + k]) for k, claim in places},
-            total=row[T_TOTAL],
-            most=row[T_MOST],
-            attained=row[T_ATTAINED],
-            worst=kept(T_WORST, T_ATTAINED),
-            failing_ranks=kept(T_FAILING_RANKS, T_FAILING),
-            digest=row[T_DIGEST] % (1 << 64),
-            dearer=row[T_DEARER],
-            cheaper=row[T_CHEAPER],
-            excess=row[T_EXCESS],
+            shares={claim: (row[tally.T_JUDGED + k], row[tally.T_OF + k]) for k, claim in places},
+            total=row[tally.T_TOTAL],
+            most=row[tally.T_MOST],
+            attained=row[tally.T_ATTAINED],
+            worst=kept(tally.T_WORST, tally.T_ATTAINED),
+            failing_ranks=kept(tally.T_FAILING_RANKS, tally.T_FAILING),
+            digest=row[tally.T_DIGEST] % (1 << 64),
+            dearer=row[tally.T_DEARER],
+            cheaper=row[tally.T_CHEAPER],
+            excess=row[tally.T_EXCESS],
             dearer_worlds=tuple(DearerWorld(*one) for one in dearer),
         )
 
@@ -311,3 +324,16 @@ def doors_hash(events: Iterable[Event]) -> int:
         if isinstance(event, Move):
             mixed = (mixed ^ event.door) * HASH_PRIME % (1 << 64)
     return mixed - (1 << 64 if mixed >> 63 else 0)
+
+
+def run_digest(rank: int, cost: int, statuses: Iterable[Status], events: Iterable[Event]) -> int:
+    """What one run adds to the digest of its algorithm: that of `enter` in tally.py.
+
+    Args:
+        statuses: of each claim, in the order of the claims.
+    """
+    mixed = (doors_hash(events) ^ cost) * tally.MIXED
+    for status in statuses:
+        mixed = (mixed ^ layout.STATUSES.index(status)) * HASH_PRIME
+    mixed = (mixed ^ rank) * tally.MIXED % (1 << 64)
+    return mixed ^ mixed >> 31

@@ -1,9 +1,11 @@
 """Runs algorithms in every world of a rank range, judges each run, and counts what came of it.
 
 `T` has one row for each algorithm: what it is, and its counts. `ROOM` says how long a trace may be.
-Mirrors harness/search/tallier.py.
+Mirrors `Counts` in campaign/tally.py.
 Differs: each algorithm is counted in its own row; ranks are kept, no findings. A run whose verdict
-is open ends the walk, so that Python has the checkers judge it and `enter_open` count it.
+is open interrupts the walk, so that Python has the checkers judge it and `enter_open` count it. The
+walk also pauses behind as many worlds as Python asks for, and then goes on in the same table: so
+Python sees what single worlds add to it.
 """
 
 from __future__ import annotations
@@ -11,32 +13,10 @@ from __future__ import annotations
 from topo_verify.compiled.enumeration import next_world
 from topo_verify.compiled.exploration import explore
 from topo_verify.compiled.growth import G_DARTS, G_VERTICES
-from topo_verify.compiled.judging.layout import (
-    CLAIM_COUNT,
-    FAILED,
-    J_BOUND,
-    J_COST,
-    J_DARTS,
-    J_DELIVERED,
-    J_DOORS_HASH,
-    J_JUDGED,
-    J_LEVEL,
-    J_OF,
-    J_REPORTED,
-    J_STATUS,
-    J_VERTICES,
-)
+from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.verdict import is_world, judge
 from topo_verify.compiled.kernel import Words, WordTable, entry, kernel
-from topo_verify.compiled.workspace import (
-    BUDGET,
-    FAULT,
-    MOTION,
-    RULE,
-    STOP,
-    STOP_FULL,
-    TRACING,
-)
+from topo_verify.compiled.workspace import *
 
 _used = 0
 
@@ -84,41 +64,39 @@ T_DEARER_COSTS = _column(KEPT_RANKS)
 T_DEARER_OTHERS = _column(KEPT_RANKS)
 T_COLUMNS = _used
 
-C_LEVEL, C_STOP_AT_FIRST, C_RANK, C_ROW, C_FAILED, C_SIZE = range(6)
+C_LEVEL, C_STOP_AT_FIRST, C_PAUSE, C_RANK, C_ROW, C_FAILED, C_SIZE = range(7)
 """The places of `C`: the level of the judge; whether the first failing world ends the walk; the
-rank of the world that lies in W, the row that is next there (0: the next world), and a mask of the
-claims that fail there in a row before."""
+number of worlds until the next pause (0: no pause); the rank of the world that lies in W, the row
+that is next there (0: the next world), and a mask of the claims that fail there in a row before."""
+
+GO_ON, ENDED, OPEN, PAUSED = range(4)
+"""The states of a walk: between two worlds; at its end; at a run whose verdict is open; paused."""
 
 MIXED = 0x9E3779B97F4A7C15 - (1 << 64)
 
 
 @entry
 def examine_worlds(W: Words, G: Words, J: Words, C: Words, T: WordTable, rows: int) -> int:
-    """Examine the worlds to come: 0, or 1 where the verdict on row `C_ROW` in the last is open."""
-    while True:
+    """Examine the worlds to come: `ENDED`, `PAUSED`, or `OPEN` at row `C_ROW` of the last one."""
+    state = GO_ON
+    while state == GO_ON:
         if C[C_ROW] == 0:
             rank = next_world(W, G)
             if rank < 0:
-                return 0
+                return ENDED
             C[C_RANK] = rank
             C[C_FAILED] = 0
-        rank = C[C_RANK]
         while C[C_ROW] < rows:
             row = C[C_ROW]
             wrong = examine_run(
                 W, G, J, C[C_LEVEL], T[row, T_RULE], T[row, T_MOTION], T[row, T_FAULT]
             )
             if wrong < 0:
-                return 1
+                return OPEN
             enter(J, C, T, wrong)
             C[C_ROW] = row + 1
-        C[C_ROW] = 0
-        if rows == 2:
-            compare_costs(T, rank)
-        if C[C_STOP_AT_FIRST] != 0:
-            for row in range(rows):
-                if T[row, T_FAILING] > 0:
-                    return 0
+        state = close(C, T, rows)
+    return state
 
 
 @kernel
@@ -192,6 +170,20 @@ def enter(J: Words, C: Words, T: WordTable, wrong: int) -> None:
 
 
 @kernel
+def close(C: Words, T: WordTable, rows: int) -> int:
+    """Close the world, as all its runs are counted: `GO_ON`, `ENDED` or `PAUSED`."""
+    C[C_ROW] = 0
+    if rows == 2:
+        compare_costs(T, C[C_RANK])
+    if C[C_STOP_AT_FIRST] != 0:
+        for row in range(rows):
+            if T[row, T_FAILING] > 0:
+                return ENDED
+    C[C_PAUSE] -= 1
+    return PAUSED if C[C_PAUSE] == 0 else GO_ON
+
+
+@kernel
 def compare_costs(T: WordTable, rank: int) -> None:
     """Compare what the two algorithms paid in the last world, if no claim fails."""
     cost = T[0, T_COST]
@@ -211,23 +203,14 @@ def compare_costs(T: WordTable, rank: int) -> None:
 
 @entry
 def enter_open(J: Words, C: Words, T: WordTable, rows: int) -> int:
-    """Count a run that the checkers judged, its verdict in J; 1 if that ends the walk."""
+    """Count a run that the checkers judged, its verdict in J: the state of the walk behind it."""
     wrong = 0
     for k in range(J[J_LEVEL]):
         if J[J_STATUS + k] == FAILED:
             wrong |= 1 << k
     enter(J, C, T, wrong)
     C[C_ROW] += 1
-    if C[C_ROW] < rows:
-        return 0
-    C[C_ROW] = 0
-    if rows == 2:
-        compare_costs(T, C[C_RANK])
-    if C[C_STOP_AT_FIRST] != 0:
-        for row in range(rows):
-            if T[row, T_FAILING] > 0:
-                return 1
-    return 0
+    return GO_ON if C[C_ROW] < rows else close(C, T, rows)
 
 
 @entry

@@ -180,7 +180,7 @@ EV_RECORD = one("EV_RECORD")  # dart of the record; -1: none
 EV_FIRST = one("EV_FIRST")  # the record's first door, as an index of DOORS
 EV_WRONG = one("EV_WRONG")  # a contradiction of folding or planar; 0: none
 
-# ---------------------------------------------------------------- sequences and T: records.py
+# ---------------------------------------------------------------- sequences and T: evidence.py
 NSEQ = one("NSEQ")  # sequences executed for e
 SQ_LENGTH = row("SQ_LENGTH", "CHART_DARTS")  # doors of each sequence
 SQ_FIRST = row("SQ_FIRST", "CHART_DARTS")  # where each begins among the steps
@@ -194,7 +194,7 @@ RC_DOOR = row("RC_DOOR", "RECORDS")  # the door that leads to it from the one be
 RC_BEHIND = row("RC_BEHIND", "RECORDS")  # the first record behind it; -1: none
 RC_NEXT = row("RC_NEXT", "RECORDS")  # the next one behind the same place; -1: none
 
-# ---------------------------------------------------------------- the fold: partial_fold.py
+# ---------------------------------------------------------------- the fold: folding.py
 NPLACE_DARTS = one("NPLACE_DARTS")  # darts of all nodes, and 0, which is none
 NODE = row("NODE", "PLACE_DARTS")  # the first dart of its node
 LOOKS = row("LOOKS", "PLACE_DARTS")  # of its node: 2 * degree, and 1 if the marker is here

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from topo_verify.algorithms.chart import Chart
 from topo_verify.faults.fault import Fault, mapper
 from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door
+
+fault = partial(Fault, part="chart")
 
 
 class _NextDart(Chart):
@@ -15,9 +19,8 @@ class _NextDart(Chart):
         super().join(e, self.turn(other, 1) if new else other)
 
 
-joins_by_the_second_dart = Fault(
+joins_by_the_second_dart = fault(
     name="joins-by-the-second-dart",
-    part="chart",
     why="a new vertex is joined one dart clockwise of the one by which it was entered",
     claim="map-isomorphic",
     mapper=mapper("basic", Chart=_NextDart),
@@ -33,9 +36,8 @@ class _OneWay(Chart):
             self.alpha[other] = None
 
 
-joins_a_loop_one_way = Fault(
+joins_a_loop_one_way = fault(
     name="joins-a-loop-one-way",
-    part="chart",
     why="on S, an edge to an older vertex can be crossed from one end only",
     claim="map-isomorphic",
     mapper=mapper("basic", Chart=_OneWay),
@@ -47,9 +49,8 @@ class _Anticlockwise(Chart):
         return super().door(exit_dart, dart)
 
 
-counts_doors_anticlockwise = Fault(
+counts_doors_anticlockwise = fault(
     name="counts-doors-anticlockwise",
-    part="chart",
     why="the door from one dart to another is counted the wrong way round",
     claim="map-isomorphic",
     mapper=mapper("basic", Chart=_Anticlockwise),
@@ -66,9 +67,8 @@ class _Unreduced(Chart):
         return self.degree[self.vertex[dart]] - 1
 
 
-stops_at_the_last_dart = Fault(
+stops_at_the_last_dart = fault(
     name="stops-at-the-last-dart",
-    part="chart",
     why="a turn past the last dart of a vertex ends there and does not go on from the first",
     claim="map-isomorphic",
     mapper=mapper("enhancement-ii", Chart=_Unreduced),

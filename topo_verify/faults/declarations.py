@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.faults.fault import Fault, ForwardingRobot
 from topo_verify.robot.events import Decision, Evidence, Reject
 from topo_verify.robot.percept import Percept
+
+fault = partial(Fault, part="declarations")
 
 basic = CATALOGUE["basic"]
 
@@ -16,9 +20,8 @@ class _SilentOnRejections(ForwardingRobot):
             super().declare(event)
 
 
-leaves_out_every_reject = Fault(
+leaves_out_every_reject = fault(
     name="leaves-out-every-reject",
-    part="declarations",
     why="no rejection is declared, so hypotheses are posed and never heard of again",
     claim="true-hypothesis-kept",
     mapper=lambda robot: basic(_SilentOnRejections(robot)),
@@ -34,9 +37,8 @@ class _SilentOnEverySecond(ForwardingRobot):
             super().declare(event)
 
 
-leaves_out_every_second_reject = Fault(
+leaves_out_every_second_reject = fault(
     name="leaves-out-every-second-reject",
-    part="declarations",
     why="every second rejection is not declared",
     claim="true-hypothesis-kept",
     mapper=lambda robot: basic(_SilentOnEverySecond(robot)),
@@ -51,9 +53,8 @@ class _CitesNonsense(ForwardingRobot):
         super().declare(event)
 
 
-calls_every_rejection_folding = Fault(
+calls_every_rejection_folding = fault(
     name="calls-every-rejection-folding",
-    part="declarations",
     why="each rejection by walking is declared as one by folding, with evidence that is made up",
     claim="rejection-justified",
     mapper=lambda robot: basic(_CitesNonsense(robot)),
@@ -67,9 +68,8 @@ class _CitesNothing(ForwardingRobot):
         super().declare(event)
 
 
-rejects_under_another_label = Fault(
+rejects_under_another_label = fault(
     name="rejects-under-another-label",
-    part="declarations",
     why="each rejection by walking is declared as one by folding, with evidence of nothing",
     claim="rejection-justified",
     mapper=lambda robot: basic(_CitesNothing(robot)),

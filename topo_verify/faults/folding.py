@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.folding import FoldingRule, NodeDart, PartialFold
@@ -10,6 +11,8 @@ from topo_verify.algorithms.motion import Hypothesis
 from topo_verify.faults.fault import Fault, mapper
 from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Percept
+
+fault = partial(Fault, part="folding")
 
 
 def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
@@ -31,9 +34,8 @@ class _StaysIdentified(PartialFold):
         return layer
 
 
-keeps_an_assumption_for_good = Fault(
+keeps_an_assumption_for_good = fault(
     name="keeps-an-assumption-for-good",
-    part="folding",
     why="what was identified under a hypothesis stays identified when that is dropped",
     claim="map-entailed",
     mapper=mapper("folding", rule=_folding(_StaysIdentified)),
@@ -45,9 +47,8 @@ class _AllKnown(PartialFold):
         return super().add(percept, known=known)
 
 
-takes_each_place_for_known = Fault(
+takes_each_place_for_known = fault(
     name="takes-each-place-for-known",
-    part="folding",
     why="a place that was only seen counts as a vertex of S, so no vertex of S can be that place",
     claim="true-hypothesis-kept",
     theorem="fold-ghost-known",
@@ -63,9 +64,8 @@ class _Unturned(PartialFold):
         return first
 
 
-identifies_without_turning = Fault(
+identifies_without_turning = fault(
     name="identifies-without-turning",
-    part="folding",
     why="two places that are one vertex are identified door 0 with door 0, without the turn",
     claim="true-hypothesis-kept",
     theorem="fold-without-offset",
@@ -79,9 +79,8 @@ class _FromDoor0(FoldingRule):
         self.vu = self.fold.seen.node[self.vu]
 
 
-enters_old_places_by_door_0 = Fault(
+enters_old_places_by_door_0 = fault(
     name="enters-old-places-by-door-0",
-    part="folding",
     why="if e leads to a place seen before, the rule assumes that the robot came in by door 0",
     claim="true-hypothesis-kept",
     mapper=mapper("folding", rule=_FromDoor0),
@@ -96,9 +95,8 @@ class _MarkerMirrored(FoldingRule):
         return super()._cross(exit_place, percept)
 
 
-lays_the_marker_on_mirrored = Fault(
+lays_the_marker_on_mirrored = fault(
     name="lays-the-marker-on-mirrored",
-    part="folding",
     why="a place that shows the marker is identified with v0 turned the wrong way round",
     claim="true-hypothesis-kept",
     mapper=mapper("folding", rule=_MarkerMirrored),
@@ -111,9 +109,8 @@ class _Hasty(FoldingRule):
         return remaining[0] if len(remaining) == 1 else None
 
 
-forgets_that_vu_may_be_new = Fault(
+forgets_that_vu_may_be_new = fault(
     name="forgets-that-vu-may-be-new",
-    part="folding",
     why="the last hypothesis is concluded though vu is not known to be a vertex of S",
     claim="map-entailed",
     theorem="conclude-the-last",

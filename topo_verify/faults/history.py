@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_ii import HistoryRule
@@ -10,6 +11,8 @@ from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.faults.fault import Fault, mapper, one_late
 from topo_verify.robot.events import Evidence, MapDart
+
+fault = partial(Fault, part="history")
 
 
 class _ThroughTheUnexplored(HistoryRule):
@@ -29,9 +32,8 @@ class _ThroughTheUnexplored(HistoryRule):
         return None
 
 
-traces_through_the_unexplored = Fault(
+traces_through_the_unexplored = fault(
     name="traces-through-the-unexplored",
-    part="history",
     why="where a door is unexplored, tracing goes on as if it led back to the same vertex",
     claim="rejection-justified",
     theorem="history-through-unexplored",
@@ -47,9 +49,8 @@ class _FromTheFirstDart(HistoryRule):
         return super().refute(chart, Hypothesis(first, chart, chart.tree(0)), sequences)
 
 
-traces_from_the_first_dart = Fault(
+traces_from_the_first_dart = fault(
     name="traces-from-the-first-dart",
-    part="history",
     why="a sequence is traced from the first dart of h's vertex, not from h",
     claim="rejection-justified",
     mapper=mapper("enhancement-ii", rule=_FromTheFirstDart),
@@ -64,9 +65,8 @@ class _NothingThere(HistoryRule):
         return Refutation("history", Evidence(step, seen, seen, number, exit_dart))
 
 
-takes_unknown_for_a_mismatch = Fault(
+takes_unknown_for_a_mismatch = fault(
     name="takes-unknown-for-a-mismatch",
-    part="history",
     why="a hypothesis is rejected where tracing leaves S, though S says nothing of the place",
     claim="rejection-justified",
     mapper=mapper("enhancement-ii", rule=_NothingThere),
@@ -88,9 +88,8 @@ class _OfTheEdgeBefore(HistoryRule):
         self.before = list(sequences)  # these started at another vu
 
 
-keeps_sequences_of_last_edge = Fault(
+keeps_sequences_of_last_edge = fault(
     name="keeps-sequences-of-last-edge",
-    part="history",
     why="the list of sequences is not emptied when the next edge is crossed",
     claim="rejection-justified",
     mapper=mapper("enhancement-ii", rule=_OfTheEdgeBefore),
@@ -104,9 +103,8 @@ class _OneStepLate(HistoryRule):
         return super().refute(chart, hypothesis, one_late(sequences))
 
 
-compares_a_step_earlier = Fault(
+compares_a_step_earlier = fault(
     name="compares-a-step-earlier",
-    part="history",
     why="what was seen before a door is compared with what S shows behind it",
     claim="rejection-justified",
     theorem="history-shifted-by-one",

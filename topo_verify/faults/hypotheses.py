@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Tree
@@ -14,15 +15,16 @@ from topo_verify.faults.fault import Fault, ForwardingRobot, crossed, mapper
 from topo_verify.robot.events import MapDart, Robot
 from topo_verify.robot.percept import Percept
 
+fault = partial(Fault, part="hypotheses")
+
 
 def _not_its_own(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
     vk = chart.vertex[crossed(chart)]
     return [h for h in hypotheses(chart, percept, order) if chart.vertex[h.dart] != vk]
 
 
-leaves_out_the_darts_of_vk = Fault(
+leaves_out_the_darts_of_vk = fault(
     name="leaves-out-the-darts-of-vk",
-    part="hypotheses",
     why="H leaves out the darts of the vertex that the edge leaves, so loops are missed",
     claim="true-hypothesis-posed",
     theorem="posed-not-at-vk",
@@ -37,9 +39,8 @@ def _no_parallels(chart: Chart, percept: Percept, order: Order) -> list[Hypothes
     return [h for h in hypotheses(chart, percept, order) if chart.vertex[h.dart] not in near]
 
 
-leaves_out_parallel_edges = Fault(
+leaves_out_parallel_edges = fault(
     name="leaves-out-parallel-edges",
-    part="hypotheses",
     why="H leaves out vertices that an edge joins already, so parallel edges are missed",
     claim="true-hypothesis-posed",
     mapper=mapper("basic", hypotheses=_no_parallels),
@@ -50,9 +51,8 @@ def _not_v0(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
     return [h for h in hypotheses(chart, percept, order) if chart.vertex[h.dart] != 0]
 
 
-leaves_out_the_darts_of_v0 = Fault(
+leaves_out_the_darts_of_v0 = fault(
     name="leaves-out-the-darts-of-v0",
-    part="hypotheses",
     why="H leaves out the darts of the marker's vertex",
     claim="true-hypothesis-posed",
     mapper=mapper("basic", hypotheses=_not_v0),
@@ -67,9 +67,8 @@ class _StaysOpen(Chart):
             self.unexplored[other] = None
 
 
-leaves_h_in_u = Fault(
+leaves_h_in_u = fault(
     name="leaves-h-in-u",
-    part="hypotheses",
     why="the other end of an edge to an older vertex stays in U",
     claim="true-hypothesis-posed",
     mapper=mapper("basic", Chart=_StaysOpen),
@@ -110,9 +109,8 @@ def _coarse(robot: Robot) -> object:
     return mapper("basic", Chart=_CoarseChart)(_CoarseSight(robot))
 
 
-compares_degrees_modulo_3 = Fault(
+compares_degrees_modulo_3 = fault(
     name="compares-degrees-modulo-3",
-    part="hypotheses",
     why="degrees are compared modulo 3, in H and in every comparison",
     claim="rejection-justified",
     mapper=_coarse,
@@ -124,9 +122,8 @@ def _nearest_two(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[Map
     return shortest(darts, chart, tree)[:2]
 
 
-tries_only_the_nearest_two = Fault(
+tries_only_the_nearest_two = fault(
     name="tries-only-the-nearest-two",
-    part="hypotheses",
     why="only the two hypotheses with the shortest ways home are posed",
     claim="true-hypothesis-posed",
     mapper=mapper("basic", order=_nearest_two),
@@ -147,9 +144,8 @@ class _ByElimination(NoRule):
         return remaining[0] if self.rejected and len(remaining) == 1 else None
 
 
-concludes_by_elimination = Fault(
+concludes_by_elimination = fault(
     name="concludes-by-elimination",
-    part="hypotheses",
     why="when all hypotheses but one are rejected, that one is confirmed, though vu may be new",
     claim="map-entailed",
     mapper=mapper("basic", rule=_ByElimination),
@@ -161,9 +157,8 @@ class _OnlyOne(NoRule):
         return remaining[0] if len(remaining) == 1 else None
 
 
-confirms_what_is_alone = Fault(
+confirms_what_is_alone = fault(
     name="confirms-what-is-alone",
-    part="hypotheses",
     why="a hypothesis without an alternative is confirmed without a walk",
     claim="map-entailed",
     theorem="conclude-the-last",
@@ -175,9 +170,8 @@ def _planar() -> PlanarRule:
     return PlanarRule(NoRule())
 
 
-assumes_a_plane_world = Fault(
+assumes_a_plane_world = fault(
     name="assumes-a-plane-world",
-    part="hypotheses",
     why="only darts on the face of e are walked, also where the world has handles",
     claim="true-hypothesis-kept",
     theorem="planar-keeps",

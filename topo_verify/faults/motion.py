@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, partial
 
 from topo_verify.algorithms.chart import Chart, Tree
 from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, Pilot, overlap
 from topo_verify.faults.fault import Fault, crossed, mapper
 from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door, Percept
+
+fault = partial(Fault, part="motion")
 
 
 class _NotRestored(Pilot):
@@ -19,9 +21,8 @@ class _NotRestored(Pilot):
             self.turned = 0  # the reference sets it to the door that was just undone
 
 
-forgets_its_orientation = Fault(
+forgets_its_orientation = fault(
     name="forgets-its-orientation",
-    part="motion",
     why="back at a place, the robot takes the dart of return for the dart of entry",
     claim="map-isomorphic",
     mapper=mapper("basic", Pilot=_NotRestored),
@@ -35,9 +36,8 @@ class _WrongSign(Pilot):
             self.turned = -self.turned
 
 
-restores_with_the_wrong_sign = Fault(
+restores_with_the_wrong_sign = fault(
     name="restores-with-the-wrong-sign",
-    part="motion",
     why="back at a place, the robot assumes that it is turned by -k where it is turned by k",
     claim="map-isomorphic",
     mapper=mapper("basic", Pilot=_WrongSign),
@@ -50,9 +50,8 @@ class _TurnForgotten(Pilot):
         return super().forward(door)
 
 
-sets_out_unturned = Fault(
+sets_out_unturned = fault(
     name="sets-out-unturned",
-    part="motion",
     why="the first door after a way back is counted from the dart of return, not of entry",
     claim="map-isomorphic",
     theorem="motion-forgets-turning",
@@ -66,9 +65,8 @@ class _FirstDoorFirst(Pilot):
         super().back(steps)
 
 
-retraces_in_the_wrong_order = Fault(
+retraces_in_the_wrong_order = fault(
     name="retraces-in-the-wrong-order",
-    part="motion",
     why="the doors k1 … kt are undone from k1 on, not from kt on",
     claim="map-isomorphic",
     mapper=mapper("basic", Pilot=_FirstDoorFirst),
@@ -80,9 +78,8 @@ class _OneStepShort(Pilot):
         super().back(max(steps, 1))
 
 
-retraces_one_edge_short = Fault(
+retraces_one_edge_short = fault(
     name="retraces-one-edge-short",
-    part="motion",
     why="the way back ends one edge before vu",
     claim="map-isomorphic",
     mapper=mapper("basic", Pilot=_OneStepShort),
@@ -94,9 +91,8 @@ def _as_it_came_in(pilot: Pilot, chart: Chart, entry: MapDart) -> MapDart:
     return entry
 
 
-goes_on_as_if_just_come_in = Fault(
+goes_on_as_if_just_come_in = fault(
     name="goes-on-as-if-just-come-in",
-    part="motion",
     why="after the last way back, the dart by which it came to vu is taken for its reference dart",
     claim="map-isomorphic",
     mapper=mapper("basic", localise=_as_it_came_in),
@@ -111,9 +107,8 @@ class _AbsoluteDoors(Hypothesis):
         return tuple(exit_dart - chart.first[chart.vertex[exit_dart]] for exit_dart in exits)
 
 
-counts_doors_from_dart_0 = Fault(
+counts_doors_from_dart_0 = fault(
     name="counts-doors-from-dart-0",
-    part="motion",
     why="the doors home are counted from each vertex' first dart, not from the dart of arrival",
     claim="map-isomorphic",
     mapper=mapper("basic", Hypothesis=_AbsoluteDoors),
@@ -129,9 +124,8 @@ class _OverTheEdge(Hypothesis):
             self.arrivals, self.doors = (dart, *way.arrivals), (0, *way.doors)
 
 
-walks_home_over_e_itself = Fault(
+walks_home_over_e_itself = fault(
     name="walks-home-over-e-itself",
-    part="motion",
     why="the way home crosses the edge from e to h, which is not on S yet",
     claim="map-entailed",
     mapper=mapper("basic", Hypothesis=_OverTheEdge),
@@ -145,9 +139,8 @@ class _WithoutTheLastDoor(Hypothesis):
         return way[:-1] if len(way) > 2 else way  # a single door stays, or none is left
 
 
-stops_a_door_before_v0 = Fault(
+stops_a_door_before_v0 = fault(
     name="stops-a-door-before-v0",
-    part="motion",
     why="if the way home has two doors or more, the last is not walked",
     claim="map-entailed",
     theorem="confirm-before-home",
@@ -162,9 +155,8 @@ class _Shifted(Hypothesis):
         return (first, *rest[1:], *rest[-1:])
 
 
-expects_a_step_ahead = Fault(
+expects_a_step_ahead = fault(
     name="expects-a-step-ahead",
-    part="motion",
     why="the percept behind each door is compared with what is expected behind the next one",
     claim="true-hypothesis-kept",
     theorem="words-trace-shifted",
@@ -179,9 +171,8 @@ def _one_door_more(hypotheses: Sequence[Hypothesis], last: Executed | None) -> C
     return Choice(h, min(shared + 1, executed, len(h.doors)))
 
 
-goes_back_one_door_too_few = Fault(
+goes_back_one_door_too_few = fault(
     name="goes-back-one-door-too-few",
-    part="motion",
     why="the common prefix with the last sequence is taken for one door longer than it is",
     claim="true-hypothesis-kept",
     mapper=mapper("enhancement-i", motion=_one_door_more),

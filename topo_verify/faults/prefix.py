@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
 from topo_verify.faults.fault import Fault, mapper, one_late
+
+fault = partial(Fault, part="prefix")
 
 
 class _OneDoorBeyond(PrefixRule):
@@ -24,9 +27,8 @@ class _OneDoorBeyond(PrefixRule):
         return super().refute(chart, hypothesis, [*before, Executed(doors, last.percepts)])
 
 
-compares_beyond_the_prefix = Fault(
+compares_beyond_the_prefix = fault(
     name="compares-beyond-the-prefix",
-    part="prefix",
     why="the percept behind the first door that differs is compared as well",
     claim="rejection-justified",
     theorem="prefix-one-too-far",
@@ -41,9 +43,8 @@ class _OneStepLate(PrefixRule):
         return super().refute(chart, hypothesis, one_late(sequences))
 
 
-compares_before_the_door = Fault(
+compares_before_the_door = fault(
     name="compares-before-the-door",
-    part="prefix",
     why="what was seen before a door of the prefix is compared with what is expected behind it",
     claim="rejection-justified",
     mapper=mapper("enhancement-i", rule=_OneStepLate),
@@ -63,9 +64,8 @@ class _EqualAnywhere(PrefixRule):
         return super().refute(chart, hypothesis, [*before, Executed(doors, last.percepts)])
 
 
-counts_equal_doors_anywhere = Fault(
+counts_equal_doors_anywhere = fault(
     name="counts-equal-doors-anywhere",
-    part="prefix",
     why="the length of the common prefix is the number of equal doors anywhere",
     claim="rejection-justified",
     mapper=mapper("enhancement-i", rule=_EqualAnywhere),

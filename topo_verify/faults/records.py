@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_iii import RecordsRule
@@ -10,6 +11,8 @@ from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.faults.fault import Fault, mapper, one_late
 from topo_verify.robot.events import MapDart
+
+fault = partial(Fault, part="records")
 
 
 class _LoopsFromDart0(RecordsRule):
@@ -20,9 +23,8 @@ class _LoopsFromDart0(RecordsRule):
         super().learn(chart, e, chart.first[chart.vertex[entry]], sequences)
 
 
-records_a_loop_from_dart_0 = Fault(
+records_a_loop_from_dart_0 = fault(
     name="records-a-loop-from-dart-0",
-    part="records",
     why="after a confirmation sequences are traced from dart 0 of h's vertex, not from h",
     claim="rejection-justified",
     theorem="records-stale-root",
@@ -37,9 +39,8 @@ class _FromTheOtherEnd(RecordsRule):
         super().learn(chart, entry, e, sequences)
 
 
-records_from_the_near_end = Fault(
+records_from_the_near_end = fault(
     name="records-from-the-near-end",
-    part="records",
     why="sequences are traced from e, by which the robot left, not from where it came in",
     claim="rejection-justified",
     mapper=mapper("enhancement-iii-all", rule=_FromTheOtherEnd),
@@ -71,9 +72,8 @@ class _ByDoor(RecordsRule):
         return dart - self.chart.first[self.chart.vertex[dart]]  # not unique on S
 
 
-files_records_by_the_door = Fault(
+files_records_by_the_door = fault(
     name="files-records-by-the-door",
-    part="records",
     why="records are filed by the number of the door at its vertex, so vertices share them",
     claim="rejection-justified",
     mapper=mapper("enhancement-iii-all", rule=_ByDoor),
@@ -90,9 +90,8 @@ class _OnSuspicion(RecordsRule):
         return found
 
 
-keeps_records_of_the_rejected = Fault(
+keeps_records_of_the_rejected = fault(
     name="keeps-records-of-the-rejected",
-    part="records",
     why="a sequence is recorded as traced from each hypothesis, even from rejected ones",
     claim="rejection-justified",
     mapper=mapper("enhancement-iii-all", rule=_OnSuspicion),
@@ -106,9 +105,8 @@ class _OneStepLate(RecordsRule):
         return super().beyond(exit_dart, one_late([sequence])[0], step, number)
 
 
-compares_records_a_door_late = Fault(
+compares_records_a_door_late = fault(
     name="compares-records-a-door-late",
-    part="records",
     why="a record is compared with what was seen one door before",
     claim="rejection-justified",
     mapper=mapper("enhancement-iii-one", rule=lambda: _OneStepLate(levels=1)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.algorithms.basic import NoRule
@@ -10,6 +11,8 @@ from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.motion import Executed, Pilot
 from topo_verify.faults.fault import Fault, ForwardingRobot, mapper
 from topo_verify.robot.events import MapDart, Robot
+
+fault = partial(Fault, part="report")
 
 basic = CATALOGUE["basic"]
 
@@ -20,9 +23,8 @@ def _no_loops(robot: Robot) -> Survey:
     return survey._replace(edges=tuple(e for e in survey.edges if vertex[e[0]] != vertex[e[1]]))
 
 
-delivers_no_loops = Fault(
+delivers_no_loops = fault(
     name="delivers-no-loops",
-    part="report",
     why="the map leaves out every edge from a vertex to itself",
     claim="map-isomorphic",
     mapper=_no_loops,
@@ -34,9 +36,8 @@ def _one_too_few(robot: Robot) -> Survey:
     return survey._replace(edges=survey.edges[:-1])
 
 
-delivers_one_edge_too_few = Fault(
+delivers_one_edge_too_few = fault(
     name="delivers-one-edge-too-few",
-    part="report",
     why="the map leaves out the edge that was found last",
     claim="map-isomorphic",
     mapper=_one_too_few,
@@ -48,9 +49,8 @@ def _every_dart(robot: Robot) -> Survey:
     return survey._replace(edges=(*survey.edges, *((b, a) for a, b in survey.edges)))
 
 
-delivers_every_edge_twice = Fault(
+delivers_every_edge_twice = fault(
     name="delivers-every-edge-twice",
-    part="report",
     why="the map has an edge for every dart, not for every pair of darts",
     claim="map-isomorphic",
     mapper=_every_dart,
@@ -62,9 +62,8 @@ def _mirrored(robot: Robot) -> Survey:
     return survey._replace(vertices=tuple(row[::-1] for row in survey.vertices))
 
 
-delivers_the_mirror_image = Fault(
+delivers_the_mirror_image = fault(
     name="delivers-the-mirror-image",
-    part="report",
     why="the exits of each vertex are listed anticlockwise",
     claim="map-isomorphic",
     mapper=_mirrored,
@@ -77,9 +76,8 @@ class _MarkerWhereItStands(Chart):
         return super().survey(cost)._replace(marker=last if self.alpha else None)
 
 
-marks_the_last_dart = Fault(
+marks_the_last_dart = fault(
     name="marks-the-last-dart",
-    part="report",
     why="the map has the marker at the dart that was found last",
     claim="map-isomorphic",
     mapper=mapper("basic", Chart=_MarkerWhereItStands),
@@ -93,9 +91,8 @@ class _WaysBackAreFree(Pilot):
         self.cost = before
 
 
-counts_no_ways_back = Fault(
+counts_no_ways_back = fault(
     name="counts-no-ways-back",
-    part="report",
     why="retracing is not counted in the cost",
     claim="cost-honest",
     mapper=mapper("basic", Pilot=_WaysBackAreFree),
@@ -107,9 +104,8 @@ def _over(robot: Robot) -> Survey:
     return survey._replace(cost=survey.cost + 1)
 
 
-counts_the_start_as_a_move = Fault(
+counts_the_start_as_a_move = fault(
     name="counts-the-start-as-a-move",
-    part="report",
     why="the cost is the number of percepts, one more than there are moves",
     claim="cost-honest",
     mapper=_over,
@@ -129,9 +125,8 @@ def _two_for_nothing(robot: Robot) -> Survey:
     return basic(robot)
 
 
-takes_back_two_moves = Fault(
+takes_back_two_moves = fault(
     name="takes-back-two-moves",
-    part="report",
     why="the robot goes out and back, and removes both moves from the trace if it can reach it",
     claim="cost-honest",
     mapper=_two_for_nothing,
@@ -149,9 +144,8 @@ def _cancelled(robot: Robot) -> Survey:
     return survey
 
 
-raises_past_exception = Fault(
+raises_past_exception = fault(
     name="raises-past-exception",
-    part="report",
     why="at the end a vertex with three exits or more raises what is no Exception",
     claim="map-isomorphic",
     mapper=_cancelled,
@@ -167,9 +161,8 @@ class _TwoDartsLeft(NoRule):
             chart.join(*chart.unexplored)
 
 
-joins_the_last_two_unseen = Fault(
+joins_the_last_two_unseen = fault(
     name="joins-the-last-two-unseen",
-    part="report",
     why="when two darts are left, they are joined to one edge unseen, and the robot stops",
     claim="map-entailed",
     mapper=mapper("basic", rule=_TwoDartsLeft),

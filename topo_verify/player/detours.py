@@ -1,16 +1,18 @@
-"""What the moves of a run show when they are read together: turns, ways home, circles.
+"""What the moves of a run show when they are read together: turns, ways home, circles, tests.
 
 None of it is a judgement; it explains what the checkers found.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
-from topo_verify.player.scenes import Playback
+from topo_verify.checkers.excursions import Excursion
+from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
-from topo_verify.robot.percept import Door
+from topo_verify.robot.percept import Door, Percept
 
 
 class Turn(NamedTuple):
@@ -119,3 +121,58 @@ def way_home(playback: Playback, dart: KnownDart, number: int) -> tuple[Door, ..
         doors.append(playback.door(playback.map.phi[at], playback.map.phi[out]))
         at = playback.map.alpha[out]
     return tuple(doors)
+
+
+class SupposedWalk:
+    """Where the robot would be on S if the guess that it tests were true."""
+
+    def __init__(self, playback: Playback) -> None:
+        self._playback, self._map = playback, playback.map
+        self._behind = Excursion()
+        self._trail: list[KnownDart | None] = []  # on S, behind each door of the word
+        self._last: tuple[KnownDart | None, int] = None, 0  # the guess and moment of the trail
+
+    def percept(self, moment: Moment, guess: int | None) -> Percept | None:
+        """What would be seen now; None where S does not say, or no guess is tested."""
+        number, position, seen_at = moment.number, moment.position, self._map.seen_at
+        if isinstance(moment.event, ev.Pose):
+            edge = moment.event.edge
+            is_open = self._map.is_open(edge, number)
+            is_behind = is_open and position == self._map.end(KnownDart(edge))
+            self._behind = Excursion(is_late=not is_behind)
+        elif isinstance(moment.event, ev.Move) and position is not None:
+            before = self._playback.replayed.positions[number - 1]
+            self._behind.move(moment.event.door, seen_at(before).degree, seen_at(position))
+        if guess is None or position is None or not self._map.is_open(guess, number):
+            return None
+        return self._traced(guess, number)
+
+    def _traced(self, guess: KnownDart, number: int) -> Percept | None:
+        word = self._behind.word
+        if self._last != (guess, number - 1):
+            self._trail = [guess]
+        self._last = guess, number
+        del self._trail[len(word) + 1 :]  # a move changes the end of the word alone
+        for step in word[len(self._trail) - 1 :]:
+            at = self._trail[-1]
+            out = None if at is None else self._map.turn(at, step.door)
+            if out is not None:
+                out = None if self._map.is_open(out, number) else self._map.alpha[out]
+            self._trail.append(out)
+        at = self._trail[-1]
+        return None if at is None else self._map.seen_at(self._map.phi[at])
+
+
+def tested_guesses(moments: Sequence[Moment]) -> dict[int, int]:
+    """By validating move, the hypothesis that it tests: that of the next decision by motion."""
+    tested: dict[int, int] = {}
+    goal = None
+    for moment in reversed(moments):
+        event = moment.event
+        if isinstance(event, ev.Pose | ev.Augment):
+            goal = None
+        elif isinstance(event, ev.Reject | ev.Confirm):
+            goal = event.hypothesis if event.rule == "motion" else goal
+        elif isinstance(event, ev.Move) and event.purpose == "validate" and goal is not None:
+            tested[moment.number] = goal
+    return tested

@@ -28,7 +28,6 @@ SCRIPTS = (
     "world_pane.js",
     "question.js",
     "map_pane.js",
-    "words.js",
     "chart.js",
     "frame.js",
     "player.js",

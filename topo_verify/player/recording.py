@@ -1,34 +1,43 @@
 """A run as compact data for the page: the events of its trace, which are deltas, and no snapshot.
 
-The page finds again from the doors where the robot stood, how S grew and what each event means
-(`page/model.js`; a test compares it with `scenes.py`, event by event). What it cannot find is added
-here: the picture of the world, percepts that are not true, where the fold of the history
-identifies visits, the findings, and the witness worlds with their pictures.
+The page follows the doors and draws S as it grows (`page/model.js`; a test compares it with
+`scenes.py`, event by event). What the replay of the checkers knows is added here: where evidence
+lies, what records are kept, the picture of the world, the narrator's sentences, where the fold of
+the history identifies visits, the findings, and the witness worlds with their pictures.
 
-    move       "c2": by door 2, to cross (w walk, c cross, v validate, t retrace, m: no purpose)
-    pose       ["p", edge, hypotheses]
-    reject     ["r", edge, hypothesis, rule, step, observed, expected, sequence, at, record,
-               contradiction], without the empty end; rules by their first letter, planar "l";
-               or, where a contradiction is all that is cited, [..., rule, its number as text]
-    confirm    ["c", edge, hypothesis, rule]
-    augment    ["a" new or "l" loop, edge, dart, degree]
+The events are one text, a letter and numbers for each:
+
+    move       c2: by door 2, to cross (w walk, c cross, v validate, t retrace, m: no purpose)
+    pose       p edge, hypotheses
+    reject     r edge, hypothesis, rule, and where its evidence lies: behind these doors, or, by
+               folding, at two darts of the world; -1: the replay does not find it
+    confirm    k edge, hypothesis, rule
+    augment    a (new) or l (loop) edge, dart, degree, the darts of which a record is kept from now
     percept    a degree, or [degree, door of the marker]
+    saying     [kind, title, sentences, seen, expected, labels], without the usual end; kinds and
+               texts by their numbers. The number of an event's saying is a digit of 64, behind a
+               blank for each further 64; frequent ones are less
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+import string
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import hypot, inf
-from typing import TYPE_CHECKING, Any, assert_never
+from typing import TYPE_CHECKING, Any, assert_never, get_args
 
 from topo_verify.checkers import Finding, Judgement
-from topo_verify.player.fold_places import fold_places
-from topo_verify.player.gallery import gallery
-from topo_verify.player.scenes import Playback
+from topo_verify.player.detours import turns
+from topo_verify.player.narrator import SEES, SENSES, Narrator
+from topo_verify.player.remarks import remarks
+from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.text import LINE, shown
+from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
@@ -39,6 +48,26 @@ MOST_WITNESSES = 4
 
 WIDEST_WITNESS = 200
 """The most edges of a witness world that is drawn: larger ones take seconds."""
+
+
+GALLERY = (
+    ("one road", "m1/0"),
+    ("one loop", "m1/1"),
+    ("three roads", "m3/14"),
+    ("four roads", "m4/41"),
+    ("two loops that cross: a torus", "m2/9"),
+    ("a ring of five", "family:cycle(5)"),
+    ("a wheel", "family:wheel(4)"),
+    ("two by three", "family:lattice(3,2)"),
+    ("three by three", "family:lattice(3,3)"),
+    ("seven places", "family:lattice(2,4,holes=0.1,seed=2)"),
+    ("a small torus", "family:torus(3,3)"),
+    ("a cube", "family:cube()"),
+)
+"""Worlds to walk, with every page: what each is called in the page, and its name as a WORLD."""
+
+DIGITS = string.digits + string.ascii_letters + "-_"
+"""Digits of numbers in text: none of them is escaped in JSON."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +99,7 @@ def recording(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> dic
         "least_cost": world.least_cost(),
         "runs": [_run(world, run, worlds, places) for run in runs],
         "worlds": worlds,
-        "gallery": gallery(),
+        "gallery": _gallery(),
     }
 
 
@@ -91,6 +120,20 @@ def pictured(world: World) -> dict[str, Any]:
     if world.vertex_names:
         data["names"] = [shown(one) for one in world.vertex_names]
     return data
+
+
+def _gallery() -> list[dict[str, Any]]:
+    """The worlds of the gallery as data for JSON, easy ones first."""
+    worlds = [(name, text, resolve_world(text)) for name, text in GALLERY]
+    return [
+        {
+            "name": f"{name} ({text})",
+            "vertices": world.vertices,
+            "edges": world.edges,
+            "marker": world.root,
+        }
+        for name, text, world in worlds
+    ]
 
 
 def _roomy_layout(world: World) -> Layout:
@@ -122,20 +165,68 @@ def _run(
     world: World, run: PlayedRun, worlds: list[dict[str, Any]], places: dict[str, int]
 ) -> dict[str, Any]:
     playback = Playback(world, run.trace, run.judgements, run.stopped)
-    rules = {event.rule for event in run.trace if isinstance(event, ev.Reject)}
-    folded = fold_places(playback.moments if "folding" in rules else ())
-    lies = {when: _percept(told) for when, told, _ in playback.replayed.false_percepts}
-    contradictions: dict[str, int] = {}
+    narrator = Narrator(playback)
+    cites_records = any(isinstance(e, ev.Reject) and e.rule == "records" for e in run.trace)
     return {
         "name": shown(run.name),
-        "events": [_event(event, contradictions) for event in run.trace],
-        "contradictions": list(contradictions),
-        "findings": [_finding(one, worlds, places) for one in playback.findings],
-        "lies": lies,
-        "places": folded.clashes,
-        "identified": folded.identified,
-        "records": "records" in rules,
+        "events": "".join(
+            _event(one, narrator.folded.clashes, cites_records=cites_records)
+            for one in playback.moments
+        ),
+        "said": _said(narrator),
+        "findings": _findings(playback, worlds, places),
+        "identified": narrator.folded.identified,
     }
+
+
+def _said(narrator: Narrator) -> dict[str, Any]:
+    """What the narrator says of each event: numbers of sayings, which are numbers of texts."""
+    texts = {text: number for number, text in enumerate(SEES)}
+    rows: list[str] = []
+    for saying in narrator.sayings:
+        title, sentences, labels = (
+            [texts.setdefault(text, len(texts)) for text in group]
+            for group in ((saying.title,), saying.sentences, saying.labels)
+        )
+        row = [
+            SENSES.index(saying.kind),
+            *title,
+            sentences,
+            _percept(saying.seen),
+            _percept(saying.expected),
+            labels,
+        ]
+        for usual in ([0, 1], None, None):
+            if row[-1] != usual:
+                break
+            row.pop()
+        rows.append(json.dumps(row))
+    sayings = [row for row, _ in Counter(rows).most_common()]
+    number = {row: place for place, row in enumerate(sayings)}
+    return {
+        "texts": list(texts),
+        "sayings": list(map(json.loads, sayings)),
+        "events": "".join(_digits(number[row]) for row in rows),
+    }
+
+
+def _digits(number: int) -> str:
+    return " " * (number // len(DIGITS)) + DIGITS[number % len(DIGITS)]
+
+
+def _findings(
+    playback: Playback, worlds: list[dict[str, Any]], places: dict[str, int]
+) -> list[dict[str, Any]]:
+    """The findings; the first at an event has the remarks of the text walk on this event."""
+    found: list[dict[str, Any]] = []
+    turned, told = turns(playback), set[int | None]([None])
+    for finding in playback.findings:
+        number, notes = finding.event, list[str]()
+        if number is not None and number not in told:
+            notes = list(remarks(playback, playback.moments[number], turned.get(number)))
+        told.add(number)
+        found.append({**_finding(finding, worlds, places), "remarks": notes})
+    return found
 
 
 def _finding(
@@ -155,54 +246,37 @@ def _finding(
     }
 
 
+_RULES = get_args(ev.RuleName)
 _LETTERS = {"walk": "w", "cross": "c", "validate": "v", "retrace": "t", None: "m"}
 
 
-def _event(event: ev.Event, contradictions: dict[str, int]) -> Any:
-    """An event as the page reads it; contradictions are numbered as they come."""
-    kept: Any
-    match event:
+def _event(moment: Moment, clashes: Mapping[int, Sequence[int]], *, cites_records: bool) -> str:
+    """An event as the page reads it: a letter and numbers."""
+    found: Sequence[int] = ()
+    match moment.event:
         case ev.Start():
-            kept = "s"
+            letter, numbers = "s", []
         case ev.Move(door, _, purpose):
-            kept = f"{_LETTERS[purpose]}{door}"
+            letter, numbers = _LETTERS[purpose], [door]
         case ev.Pose(edge, hypotheses):
-            kept = ["p", edge, hypotheses]
-        case ev.Reject(edge, hypothesis, rule, evidence):
-            kept = ["r", edge, hypothesis, _rule(rule), *_evidence(evidence, contradictions)]
+            letter, numbers = "p", [edge, *hypotheses]
+        case ev.Reject(edge, hypothesis, rule):
+            if rule == "folding":
+                found = clashes.get(moment.number, ())
+            else:
+                found = (-1,) if moment.mismatch is None else moment.mismatch.doors
+            letter, numbers = "r", [edge, hypothesis, _RULES.index(rule), *found]
         case ev.Confirm(edge, hypothesis, rule):
-            kept = ["c", edge, hypothesis, _rule(rule)]
+            letter, numbers = "k", [edge, hypothesis, _RULES.index(rule)]
         case ev.Augment(edge, kind, dart, degree):
-            kept = ["a" if kind == "new" else "l", edge, dart, degree]
-        case ev.Finish(cost):
-            kept = ["f", cost]
+            if cites_records:
+                found = [dart for dart, _ in moment.recorded]
+            letter, numbers = "a" if kind == "new" else "l", [edge, dart, degree, *found]
+        case ev.Finish():
+            letter, numbers = "f", []
         case _:
-            assert_never(event)
-    return kept
-
-
-def _rule(rule: str) -> str:
-    return "l" if rule == "planar" else rule[0]
-
-
-def _evidence(evidence: ev.Evidence, contradictions: dict[str, int]) -> list[Any]:
-    """What is cited, without the empty end."""
-    text = evidence.contradiction and shown(evidence.contradiction, limit=LINE)
-    if text and evidence == ev.Evidence(0, contradiction=evidence.contradiction):
-        return [str(contradictions.setdefault(text, len(contradictions)))]
-    record = evidence.record
-    kept: list[Any] = [
-        evidence.step,
-        _percept(evidence.observed),
-        _percept(evidence.expected),
-        evidence.sequence,
-        evidence.at,
-        record and [record.dart, record.doors],
-        text,
-    ]
-    while kept[-1] is None:
-        kept.pop()
-    return kept
+            assert_never(moment.event)
+    return letter + ",".join(map(str, numbers))
 
 
 def _percept(percept: Percept | None) -> Any:

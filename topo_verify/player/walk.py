@@ -14,14 +14,10 @@ from itertools import chain
 from topo_verify.checkers import Finding
 from topo_verify.player import walk_map
 from topo_verify.player.detours import circle, turns
+from topo_verify.player.names import either_place, percept_words, world_place
+from topo_verify.player.narrator import Narrator
+from topo_verify.player.remarks import remarks
 from topo_verify.player.scenes import Moment, Playback
-from topo_verify.player.walk_words import (
-    decision_words,
-    either_place,
-    percept_words,
-    remarks,
-    world_place,
-)
 from topo_verify.robot import events as ev
 from topo_verify.text import LINE, plural, shortened, shown
 from topo_verify.world.rooted_map import World
@@ -119,6 +115,7 @@ class _View:
 
     def __init__(self, playback: Playback, width: int, focus: int | None = None) -> None:
         self.playback, self.width = playback, width
+        self.narrator = Narrator(playback)
         self.turns, self.circle = turns(playback), circle(playback)
         self.focus = self._focus() if focus is None else focus
 
@@ -157,7 +154,7 @@ class _View:
             if moment.number in rows:
                 yield _line(columns, rows[moment.number], widths, gap)
             else:
-                yield from self.wrapped(decision_words(self.playback, moment), number, indent)
+                yield from self.wrapped(self.narrator.line(moment), number, indent)
             for remark in remarks(self.playback, moment, self.turns.get(moment.number)):
                 yield from self.wrapped(f"({remark})", indent, f"{indent} ")
             for finding in moment.findings:

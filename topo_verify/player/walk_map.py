@@ -14,8 +14,8 @@ from collections.abc import Iterator
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
 from topo_verify.errors import InputError
+from topo_verify.player.names import either_place, listed, map_place, world_place
 from topo_verify.player.scenes import DeclaredMap, Moment, Playback
-from topo_verify.player.walk_words import either_place, listed, map_place, world_place
 from topo_verify.robot import events as ev
 from topo_verify.text import plural
 from topo_verify.world.rooted_map import World

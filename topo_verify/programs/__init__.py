@@ -2,11 +2,10 @@
 
 protocol.py         protocol 1 and the batch format: every message as a type, and its JSON Schema
 child.py            a program as a child process: its lines in and out, and its end
-exit_status.py      how it ended, looked up without reaping it
-processor.py        keeps it on the processor of the harness
-standard_error.py   what it writes on standard error
+process.py          its processor, how it ended, and what it writes on standard error
 reaper.py           kills the programs whose parent was killed; reaper_process.py starts it
 isolation.py        keeps worlds from other processes; starts Python processes of our own
+launcher.py         starts those that no other program can look into, not even at first
 program.py          a program behind protocol 1 as a mapper, called with a robot
 misbehaviour.py     what a program does instead of delivering a map
 loader.py           a mapper by module:attribute or file.py:attribute

@@ -9,7 +9,7 @@ leaves no process behind.
 
 Harness and program take turns, so they are fastest on one processor: the kernel switches from one
 to the other in a few microseconds, while a processor that idles takes tens of them to wake up. A
-program with a single thread is therefore kept on the processor of the harness (processor.py), where
+program with a single thread is therefore kept on the processor of the harness (process.py), where
 a poll sleeps at once. Others run where they like, and a poll looks some hundred times before it
 sleeps.
 
@@ -32,13 +32,11 @@ from secrets import token_hex
 from time import monotonic, sleep
 
 from topo_verify.errors import InputError
-from topo_verify.programs import reaper
-from topo_verify.programs.exit_status import ExitStatus, exit_status
+from topo_verify.programs import launcher, reaper
 from topo_verify.programs.isolation import sleep_briefly
-from topo_verify.programs.processor import SharedProcessor
+from topo_verify.programs.process import ExitStatus, SharedProcessor, StandardError, exit_status
 from topo_verify.programs.protocol import LIMIT
 from topo_verify.programs.reaper_process import ReaperProcess
-from topo_verify.programs.standard_error import StandardError
 from topo_verify.robot.limits import TICK
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
@@ -102,6 +100,7 @@ class Child:
         longest: int = LIMIT,
         echo: str | None = None,
     ) -> None:
+        launcher.prepare()
         self.mark = token_hex(16)
         self._longest = longest
         try:
@@ -159,7 +158,7 @@ class Child:
             Ended: the output has ended (in the middle of a line, if `in_half_a_line`).
             TooLong: the line has more bytes than a message may have.
         """
-        clock = None if seconds == inf or self._lines else self._stopwatch()
+        clock = None if seconds == inf or self._lines else self._stopwatch(seconds)
         while not self._lines:
             if self._output_ended:
                 raise Ended
@@ -217,9 +216,14 @@ class Child:
         """Whether anything came that was not asked for; reads without waiting."""
         return self.has_line or bool(self._rest)
 
-    def _stopwatch(self) -> Stopwatch:
-        """A stopwatch of the seconds that the program uses from now on, while we wait for it."""
-        return Stopwatch(lambda: tasks_of(self.process), lambda: self.heard)
+    def _stopwatch(self, seconds: float) -> Stopwatch:
+        """A stopwatch of the seconds that the program uses from now on, while we wait for it.
+
+        Args:
+            seconds: how long we wait.
+        """
+        tick = max(TICK, seconds / 4)
+        return Stopwatch(lambda: tasks_of(self.process), lambda: self.heard, tick=tick)
 
     def _listen(self, seconds: float = TICK) -> bool:
         """Read what has come, after waiting a tick at most; whether anything came."""
@@ -337,9 +341,8 @@ class Child:
     def exit_status(self) -> str | None:
         """The exit status in words; None if the program still runs after `LAST_WORDS` seconds."""
         # Not by the wall clock: on a busy machine a program that dies waits for a processor, too.
-        clock = Stopwatch(
-            lambda: tasks_of(self.process)
-        )  # it answers no more: each wait is excused
+        # It answers no more: each wait is excused.
+        clock = Stopwatch(lambda: tasks_of(self.process), tick=LAST_WORDS / 4)
         while (status := self._status()) is None:
             if clock.seconds() > LAST_WORDS:
                 return None

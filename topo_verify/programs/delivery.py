@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 from operator import index
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -98,8 +99,9 @@ def _place(error: BaseException) -> str:
     if not chosen:
         return ""
     path = Path(chosen[-1].filename)
-    here = path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path
-    return f"{os.fspath(here)}, line {chosen[-1].lineno}"
+    with suppress(ValueError, OSError):  # it is not below the working folder, or that was removed
+        path = path.relative_to(Path.cwd())
+    return f"{os.fspath(path)}, line {chosen[-1].lineno}"
 
 
 def finish_of(result: object) -> Finish:

@@ -17,7 +17,7 @@ and `loaded` are its own words; moves, cost and trace are ours.
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar, TypeVar
 
 import msgspec
 
@@ -33,6 +33,8 @@ from topo_verify.programs.reaper_process import ReaperProcess
 from topo_verify.robot.limits import Limits, MapperStopped, helped_by, within
 from topo_verify.robot.simulator import EXPECTED
 
+T = TypeVar("T")
+
 LOADING = 120.0
 """Seconds that a mapper has to be imported."""
 
@@ -43,6 +45,8 @@ LONGEST = 2**26
 """The most bytes of a message: a mapper in Python need not know of the protocol's limit."""
 
 _from_child: msgspec.json.Decoder[ms.FromChild] = msgspec.json.Decoder(ms.FromChild)
+_from_loading: msgspec.json.Decoder[ms.FromLoading] = msgspec.json.Decoder(ms.FromLoading)
+_from_stock: msgspec.json.Decoder[ms.FromStock] = msgspec.json.Decoder(ms.FromStock)
 
 _OVER = msgspec.json.encode(ms.OverMessage()) + b"\n"
 
@@ -64,6 +68,10 @@ def _decoded(line: bytes) -> ms.FromChild:
     raise Misbehaved("bad-declaration", f"{EXPECTED}: {words}")
 
 
+class Unlisted(InputError):
+    """A mapper's process does not say what it has loaded, though it has played."""
+
+
 class Foreign(Program):
     """A Python mapper in a process of its own; the module's docstring says how.
 
@@ -71,7 +79,8 @@ class Foreign(Program):
         text: the TARGET, `package.module:attribute` or `path/file.py:attribute`.
         fresh: it plays each world in a process that has played none.
     Raises (by `start` and by a call):
-        InputError: there is no such module, file or attribute; or it cannot be called.
+        InputError: there is no such module, file or attribute; or it cannot be called. Once the
+            mapper was loaded, that it cannot be loaded again is a misbehaviour of its world.
     """
 
     longest: ClassVar[int] = LONGEST
@@ -81,6 +90,7 @@ class Foreign(Program):
         super().__init__(python_command(f"topo_verify.programs.{served}", text))
         self.text = text
         self._decode = _decoded
+        self._was_loaded = False
 
     @property
     def target(self) -> Target:
@@ -91,14 +101,18 @@ class Foreign(Program):
         """What its process has loaded until now.
 
         Raises:
-            InputError: the process ends or is silent instead of saying it.
+            InputError: the mapper cannot be loaded; the name of a file cannot be kept.
+            Unlisted: its process ends, is silent, or says something else.
         """
         self.settle()
-        child = self._ready()
-        self._send(child, ms.StockMessage())
-        answer = self._answer(child)
-        if not isinstance(answer, ms.LoadedMessage):
-            raise InputError(f"target {self.text!r}: expected what it has loaded, got {answer!r}")
+        try:
+            child = self._ready()
+            self._send(child, ms.StockMessage())
+            answer = self._answer(child, _from_stock, "said what it had loaded")
+        except Misbehaved as why:
+            raise Unlisted(f"target {self.text!r}: {why}") from None
+        if isinstance(answer, ms.RefusedMessage):
+            raise InputError(f"target {self.text!r}: {answer.why}")
         return answer.loaded
 
     def _unwound(self) -> bool:
@@ -107,40 +121,53 @@ class Foreign(Program):
         def unwind() -> None:
             child.write(_OVER)
             with helped_by(child.process, lambda: child.heard):
-                while not isinstance(self._decode(child.line()), _WORLD_ENDS):
+                while not isinstance(
+                    decoded(child.line(), self._decode, validate=False), _WORLD_ENDS
+                ):
                     pass
                 self._await_next(child)
 
         try:
             within(UNWINDING, lambda: 0, unwind)
-        except (MapperStopped, Ended, TooLong, msgspec.MsgspecError):
+        except (MapperStopped, Ended, TooLong):
             return False
         return self._idle
 
     def _started(self, reaper: ReaperProcess) -> Child:
         child = Child(self.command, reaper, longest=self.longest, echo=self.text)
+        why: Misbehaved | InputError
         try:
-            answer = self._answer(child)
+            answer = self._answer(child, _from_loading, "was loaded")
+        except Misbehaved as wrong:
+            why = wrong if self._was_loaded else InputError(f"target {self.text!r}: {wrong}")
         except BaseException:
             child.end()
             raise
-        if isinstance(answer, ms.ReadyMessage):
-            return child
+        else:
+            if isinstance(answer, ms.ReadyMessage):
+                self._was_loaded = True
+                return child
+            refused = answer.why
+            why = Misbehaved("crashed", refused) if self._was_loaded else InputError(refused)
         child.end()
-        raise InputError(
-            answer.why
-            if isinstance(answer, ms.RefusedMessage)
-            else f"target {self.text!r}: it wrote a message of its own while it was loaded"
-        )
+        raise why
 
-    def _answer(self, child: Child) -> Any:
-        """The child's next message outside of a world."""
+    def _answer(self, child: Child, decoder: msgspec.json.Decoder[T], due: str) -> T:
+        """The child's next message outside of a world.
+
+        Args:
+            due: what the child had yet to do, as in "was loaded".
+        Raises:
+            Misbehaved: no such message came; the sentence says what came.
+        """
         try:
-            return decoded(child.line(seconds=LOADING), self._decode, validate=False)
+            message: T = decoded(child.line(seconds=LOADING), decoder.decode, validate=False)
         except Silent:
-            why = f"it gave no sign of life for {LOADING:g} s"
+            why = Misbehaved("silent", f"the program gave no sign of life for {LOADING:g} s")
         except (Ended, TooLong):
-            why = str(crash_report(child, "was loaded")).replace("the program", "its process")
+            why = crash_report(child, due)
         except Misbehaved as error:
-            why = str(error)
-        raise InputError(f"target {self.text!r}: {why}")
+            why = error
+        else:
+            return message
+        raise Misbehaved(why.kind, str(why).replace("the program", "its process", 1))

@@ -10,7 +10,8 @@
 On Linux a process may read the memory of another one of the same user (/proc/PID/mem), unless that
 one says it is not dumpable. A process of root may all the same, if it has the capability to trace;
 so that is taken out of what our children can ever have. `shield` is called before the first child
-is started, by every process that starts one.
+is started, by every process that starts one. A process that is started while a mapper runs must be
+shielded from its first moment: launcher.py starts it.
 
 What this does not show: on other systems nothing is hidden. A mapper that runs as root may still
 load a kernel module or read the disk; one that runs as the user may read the user's files. The

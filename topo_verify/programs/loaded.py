@@ -27,6 +27,8 @@ from typing import Any
 import msgspec
 
 from topo_verify import errors
+from topo_verify.errors import InputError
+from topo_verify.text import is_utf8
 
 _PACKAGE = str(Path(errors.__file__).resolve().parent)
 
@@ -41,11 +43,23 @@ class Loaded(msgspec.Struct, frozen=True):
         files: the SHA-256 of each file, by its absolute path.
         distributions: the version of each installed distribution that it imported, by its name.
         values: a hash of what the mapper was made with (values.py); empty: not known.
+        modules: the file of each module among them, by the module's name.
+    Raises:
+        InputError: the name of a file is not UTF-8, so no store can keep it.
     """
 
     files: dict[str, str] = {}
     distributions: dict[str, str] = {}
     values: str = ""
+    modules: dict[str, str] = {}
+
+    def __post_init__(self) -> None:
+        for path in self.files:
+            if not is_utf8(path):
+                raise InputError(
+                    f"the mapper read {path!r}: expected a name in UTF-8; rename the file or the"
+                    " folder"
+                )
 
 
 # ---------------------------------------------------------------- files
@@ -85,18 +99,23 @@ def loaded(values: str = "") -> Loaded:
 
     Args:
         values: the hash of the mapper's values, as it was when the mapper was loaded.
+    Raises:
+        InputError: the name of a file is not UTF-8, so no store can keep it.
     """
     files: dict[str, str] = {}
+    modules: dict[str, str] = {}
     tops: set[str] = set()
     for name, module in list(sys.modules.items()):
         path = getattr(module, "__file__", None)
         if isinstance(path, str):
-            _enter(files, os.path.abspath(path))  # noqa: PTH100
+            _enter(files, whole := os.path.abspath(path))  # noqa: PTH100
+            if whole in files and name != "__main__":  # which names the program, not the mapper
+                modules[name] = whole
             if _is_installed(path):
                 tops.add(name.partition(".")[0])
     for path in list(_opened):
         _enter(files, path)
-    return Loaded(files, _versions(frozenset(tops)), values)
+    return Loaded(files, _versions(frozenset(tops)), values, modules)
 
 
 def hashes(paths: Iterable[str]) -> dict[str, str]:

@@ -9,6 +9,7 @@ import importlib
 import importlib.util
 import sys
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
@@ -65,8 +66,9 @@ def _attribute(whole: object, name: str) -> object:
 
 
 def _load_module(name: str, text: str) -> object:
-    if "" not in sys.path and str(Path.cwd()) not in sys.path:
-        sys.path.insert(0, str(Path.cwd()))  # a console script lacks the working folder
+    with suppress(FileNotFoundError):  # the working folder was removed
+        if "" not in sys.path and str(Path.cwd()) not in sys.path:
+            sys.path.insert(0, str(Path.cwd()))  # a console script lacks it
     try:
         return importlib.import_module(name)
     except BaseException as error:

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, ClassVar, Literal, Self
 
 import msgspec
@@ -104,7 +105,11 @@ class Program:
         """
         self.settle()
         self.misbehaved, self.lines = None, []
-        child = self._ready()
+        try:
+            child = self._ready()
+        except Misbehaved as why:
+            self.misbehaved = why.copy()
+            raise
         self._idle = self._halted = False
         child.beside()
         found: Finish | Misbehaved | None = None
@@ -215,7 +220,8 @@ class Program:
         Raises:
             InputError: the program cannot be started.
         """
-        self._ready()
+        with suppress(Misbehaved):  # it was started before; the world in which it fails says so
+            self._ready()
 
     @property
     def process(self) -> int | None:

@@ -113,7 +113,8 @@ FromProgram = MoveMessage | DeclareMessage | DoneMessage | SkipMessage | ErrorMe
 # ---------------------------------------------------------------- our own child
 
 # A mapper in Python runs in a process of ours (serve.py), which says more than protocol 1 can.
-# Other programs never receive these messages, and may not send them.
+# Other programs never receive these messages, and may not send them. What the child may say depends
+# on what it was asked: a message that does not belong there is a finding, as an unknown one is.
 
 
 class ReadyMessage(_Message, frozen=True):
@@ -121,7 +122,7 @@ class ReadyMessage(_Message, frozen=True):
 
 
 class RefusedMessage(_Message, frozen=True):
-    """From our child: the TARGET names no mapper; then the child ends."""
+    """From our child: the TARGET names no mapper; or what it has loaded cannot be listed."""
 
     why: str
 
@@ -148,7 +149,12 @@ class LoadedMessage(_Message, frozen=True):
 
 
 ToChild = ToProgram | OverMessage | StockMessage
-FromChild = FromProgram | ReadyMessage | RefusedMessage | UndeliveredMessage | LoadedMessage
+FromLoading = ReadyMessage | RefusedMessage
+"""From our child while it loads the mapper."""
+FromStock = LoadedMessage | RefusedMessage
+"""From our child in answer to `stock`."""
+FromChild = MoveMessage | DeclareMessage | DoneMessage | UndeliveredMessage
+"""From our child in a world. A mapper in Python has no way to skip one or to give it up."""
 
 
 # ---------------------------------------------------------------- batch

@@ -52,12 +52,13 @@ class RemoteRobot:
         misuse: how the mapper misused the robot, which then never moves again; None: it did not.
     """
 
-    __slots__ = ("_over", "_percept", "_reader", "_writer", "misuse")
+    __slots__ = ("_is_under_way", "_over", "_percept", "_reader", "_writer", "misuse")
 
     def __init__(self, percept: Percept, reader: BinaryIO, writer: BinaryIO) -> None:
         self._percept, self._reader, self._writer = percept, reader, writer
         self.misuse: tuple[Literal["bad-door", "bad-declaration"], Misuse] | None = None
         self._over: MapperStopped | None = None  # the harness has ended the world
+        self._is_under_way = False  # a move was begun, and its percept has not come
 
     @property
     def percept(self) -> Percept:
@@ -73,6 +74,9 @@ class RemoteRobot:
         except Misuse as why:
             self.misuse = ("bad-door", why)
             raise
+        # An exception may strike anywhere below: the recursion limit, a signal handler. Then this
+        # robot does not know whether it moved. `serve` passes over the percept that may come yet.
+        self._is_under_way = True
         self._writer.write(_encode(ms.MoveMessage(number, purpose)) + b"\n")
         self._writer.flush()
         line = self._reader.readline()
@@ -85,6 +89,7 @@ class RemoteRobot:
         if not isinstance(message, ms.PerceptMessage):
             raise InputError(f"expected a percept in answer to a move, got {message!r}")
         self._percept = Percept(message.degree, message.marker)
+        self._is_under_way = False
         return self._percept
 
     def declare(self, event: Decision | Mapping[str, object]) -> None:
@@ -104,7 +109,12 @@ class RemoteRobot:
             raise self.misuse[1]
         if self._over is not None:
             raise self._over
+        if self._is_under_way:
+            raise MapperStopped("an exception interrupted robot.move: the robot does not go on")
 
+
+LATE = ms.OverMessage | ms.PerceptMessage
+"""The messages of a world that may come after the mapper was done with it, and would not read."""
 
 Player = Callable[[Mapper, RemoteRobot], object]
 """Plays one world: has the mapper steer the robot, and returns the message that ends the world."""
@@ -123,9 +133,9 @@ def serve(
         if isinstance(message, ms.StartMessage):
             answer = play(mapper, RemoteRobot(message.percept, reader, writer))
         elif isinstance(message, ms.StockMessage):
-            answer = ms.LoadedMessage(loaded.loaded(values))
-        elif isinstance(message, ms.OverMessage):
-            continue  # the mapper was done with that world before it would have read this
+            answer = _listed(values)
+        elif isinstance(message, LATE):
+            continue
         else:
             return
         # First what the mapper printed: it belongs to the world that ends now.
@@ -133,6 +143,13 @@ def serve(
             sys.stdout.flush()
         writer.write(_encode(answer) + b"\n")
         writer.flush()
+
+
+def _listed(values: str) -> ms.FromStock:
+    try:
+        return ms.LoadedMessage(loaded.loaded(values))
+    except InputError as error:
+        return ms.RefusedMessage(_words(str(error)))
 
 
 def _as_program(mapper: Mapper, robot: RemoteRobot) -> object:

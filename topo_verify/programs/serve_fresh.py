@@ -20,7 +20,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs import isolation
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.loader import load
-from topo_verify.programs.serve import play_once
+from topo_verify.programs.serve import LATE, play_once
 
 _to_child: msgspec.json.Decoder[ms.ToChild] = msgspec.json.Decoder(ms.ToChild)
 
@@ -32,8 +32,8 @@ def fresh(text: str) -> None:
     writer.flush()
     for line in reader:
         message = _to_child.decode(line)
-        if isinstance(message, ms.OverMessage):
-            continue  # the mapper was done with that world before it would have read this
+        if isinstance(message, LATE):
+            continue
         if not isinstance(message, ms.StartMessage):
             return
         played = os.fork()

@@ -8,7 +8,7 @@ no line here:
     inductive   first_order/obligations/<theme>.OBLIGATIONS    an `Obligation`
     mechanised  mechanised/theorems.STATEMENTS                 a theorem of a file of coq/
     bounded     bounded/statements.py                          a `BoundedStatement`
-    negative    bounded/negatives.SMALLEST                     a `Negative`
+    negative    bounded/mutants.SMALLEST                       a `Negative`
     mutant      `needs` of its obligation                      the premise that is dropped
                 first_order/mutants/<theme>.py                 a `RuleMutant`
                 bounded/mutants.py                             a rule with a `RuleFault`
@@ -23,8 +23,7 @@ from functools import cache
 from topo_verify.errors import InputError, InternalError
 from topo_verify.proofs.bounded import mutants as bounded_mutants
 from topo_verify.proofs.bounded.theorems import MOST_EDGES, bounded
-from topo_verify.proofs.first_order import mutants
-from topo_verify.proofs.first_order.theorems import AXIOM_MUTANTS, INDUCTIVE
+from topo_verify.proofs.first_order import theorems as first_order
 from topo_verify.proofs.mechanised.theorems import MECHANISED
 from topo_verify.proofs.theorem import Theorem, TheoremKind
 
@@ -42,13 +41,13 @@ def catalogue(edges: int | None = None) -> tuple[Theorem, ...]:
         InputError: no edges, or more than are feasible.
     """
     theorems = (
-        *INDUCTIVE,
+        *first_order.INDUCTIVE,
         *MECHANISED,
         *bounded(MOST_EDGES if edges is None else edges),
         *bounded_mutants.negative_theorems(),
-        mutants.PLANAR,
-        *AXIOM_MUTANTS,
-        *mutants.MUTANTS,
+        first_order.PLANAR,
+        *first_order.AXIOM_MUTANTS,
+        *first_order.FAULTY_RULES,
         *bounded_mutants.mutant_theorems(),
     )
     names = [theorem.name for theorem in theorems]

@@ -12,19 +12,20 @@ expected to be proved and came back `unknown` is not proved: no code turns one a
     mutant      a theorem with one thing changed               REFUTED, with what breaks
 
 A theorem whose premises cannot all hold is **vacuous**: it is true, and says nothing. Its result is
-never `ok`, whatever the verdict.
+never `ok`, and it is reported as UNKNOWN.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from time import perf_counter
 from typing import Literal
 
 from topo_verify.checkers.findings import Verdict
+from topo_verify.text import plural
 
 TheoremKind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
-
 
 SolverAnswer = Literal["sat", "unsat", "unknown"]
 """A solver's answer. Compare it with `==`: each is a non-empty text, so each counts as true."""
@@ -131,6 +132,16 @@ class TheoremResult:
     note: str = ""
 
 
+def timed(prove: Callable[[Budget], TheoremResult]) -> Callable[[Budget], TheoremResult]:
+    """The same, and its result has the seconds that it took."""
+
+    def with_seconds(budget: Budget) -> TheoremResult:
+        begin = perf_counter()
+        return replace(prove(budget), seconds=perf_counter() - begin)
+
+    return with_seconds
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Theorem:
     """A statement, the claims that rest on it, and the function that proves it.
@@ -169,17 +180,31 @@ class Theorem:
     def ok(self, outcome: TheoremResult) -> bool:
         """Is this the expected result, with nothing vacuous, unknown, unreplayed or refused?"""
         # `expected` is never UNKNOWN; the chain makes sure that no slip there turns into a pass.
-        replayed = outcome.replayed
-        certificate = outcome.certificate
-        return (
-            outcome.verdict == self.expected != "UNKNOWN"
-            # What refutes a theorem is itself a model of the premises.
-            and (self.expected == "REFUTED" or outcome.premises_satisfiable is True)
-            and (replayed is None or replayed[0] == replayed[1] > 0)
-            # Both are None where no worlds are counted.
-            and (outcome.checked == outcome.total)
-            and (certificate is None or certificate.checked)
-        )
+        return outcome.verdict == self.expected != "UNKNOWN" and not self._doubt(outcome)
+
+    def reported(self, outcome: TheoremResult) -> TheoremResult:
+        """The result as it is reported: UNKNOWN with the reason if the expected verdict fails."""
+        if outcome.verdict != self.expected or not (doubt := self._doubt(outcome)):
+            return outcome
+        note = "; ".join(filter(None, (outcome.note, doubt)))
+        return replace(outcome, verdict="UNKNOWN", note=note)
+
+    def _doubt(self, outcome: TheoremResult) -> str:
+        """Why the expected verdict would not stand; "" if it does."""
+        replayed, certificate = outcome.replayed, outcome.certificate
+        # What refutes a theorem is itself a model of the premises.
+        if self.expected != "REFUTED" and outcome.premises_satisfiable is not True:
+            if outcome.premises_satisfiable is None:
+                return "its premises are not shown satisfiable"
+            return "its premises cannot hold at once: vacuous"
+        if replayed is not None and not replayed[0] == replayed[1] > 0:
+            return f"the simulator replayed {replayed[0]} of {plural(replayed[1], 'model')}"
+        # Both are None where no worlds are counted.
+        if outcome.checked != outcome.total:
+            return f"{outcome.checked} of {outcome.total} worlds were checked"
+        if certificate is not None and not certificate.checked:
+            return f"the checker refused the certificate: {certificate.why}"
+        return ""
 
     def status(self, outcome: TheoremResult) -> ResultStatus:
         """Whether the result is `ok`; if not, whether it is a definite one (see `ResultStatus`)."""

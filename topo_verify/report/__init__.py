@@ -4,12 +4,11 @@ style.py      one style for all: the tone and mark of each verdict, the palette
 blocks.py     what a command has to say: paragraphs, tables, commands to copy; of no form
 terminal.py   blocks on a terminal, down to 50 columns
 markdown.py   blocks as Markdown, for summaries of continuous integration
-html.py       blocks as HTML
+html.py       blocks as HTML, text in XML
 account.py    what was judged, how much of it, and the counterexamples to look at
 page.py       an account as one self-contained page; its style and script lie in page/
 junit.py      an account as a JUnit file
 badge.py      an account as a badge
-escape.py     text in XML and HTML
-league/       the tables and plots of the arena
+league.py     the tables and plots of the arena
 figures/      the paper's figures as pictures, and the paragraph under each; imported late
 """

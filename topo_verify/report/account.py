@@ -155,9 +155,16 @@ def claim_cases(judgements: Iterable[Judgement]) -> Iterator[JudgedCase]:
             verdict=one.status,
             outcome=_OUTCOMES[one.status],
             judged=f"{one.judged:,} of {one.of:,}",
-            message=_REASONS.get(one.status, "") if first is None else first.message,
+            message=_reason(one) if first is None else first.message,
             again="" if first is None else first.replay,
         )
+
+
+def _reason(one: Judgement) -> str:
+    """Why a claim without a finding was not fully judged; "" if it was."""
+    if one.claim == "map-entailed" and one.status in ("partial", "not-declared"):
+        return "the mapper delivers no map" + " in some worlds" * (one.status == "partial")
+    return _REASONS.get(one.status, "")
 
 
 def outcome_of(verdict: str) -> Outcome:
@@ -181,3 +188,18 @@ _WEAKEST: tuple[Verdict, ...] = ("REFUTED", "UNKNOWN", "SAMPLED", "EXHAUSTED", "
 def counted(number: int, total: int, things: str) -> str:
     """How many of how many: `8,954 of 8,954 worlds`."""
     return f"{number:,} of {total:,} {things}"
+
+
+def worlds(number: int) -> str:
+    """The noun behind a number of worlds."""
+    return "world" if number == 1 else "worlds"
+
+
+def extent(
+    verdict: Verdict, checked: int, total: int, failing: int, things: str = ""
+) -> JudgedExtent:
+    """The extent of a search or of trials, by its verdict."""
+    if verdict == "REFUTED":
+        things = things or worlds(checked)
+        return JudgedExtent(verdict, counted(failing, checked, f"{things} fail"))
+    return JudgedExtent(verdict, counted(checked, total, things or worlds(total)))

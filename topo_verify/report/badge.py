@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from topo_verify.report.account import Account
-from topo_verify.report.escape import xml_text
+from topo_verify.report.html import xml_text
 from topo_verify.report.style import OF_TONE, PALETTE, TONES
 
 LONGEST = 60

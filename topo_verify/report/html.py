@@ -1,35 +1,36 @@
-"""Blocks as HTML: escaped text, tables that scroll where they are too wide, commands to copy."""
+"""Blocks as HTML: escaped text, tables that scroll where they are too wide, commands to copy.
+
+`xml_text` is for XML as well: escaped, and without the characters that XML 1.0 forbids.
+"""
 
 from __future__ import annotations
 
 import re
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping
+from html import escape
 
-from topo_verify.report.blocks import (
-    WIDTH,
-    Block,
-    Bullets,
-    Cell,
-    Command,
-    PictureBlock,
-    Raw,
-    Text,
-    TextTable,
-    View,
-    cell_text,
-    cell_tone,
-    clean,
-    opening_verdict,
-)
-from topo_verify.report.escape import xml_text
+from topo_verify.report import blocks as bl
 from topo_verify.report.style import TONES, Tone, marked
+from topo_verify.text import LINE, shown
+
+
+def xml_text(text: str, *, limit: int = LINE) -> str:
+    r"""The text as content or attribute value, on one line; control characters are spelled out.
+
+    >>> print(xml_text('a<b & "\x1b"'))
+    a&lt;b &amp; &quot;\x1b&quot;
+    """
+    return escape(shown(text, limit=limit))
+
+
+# ---------------------------------------------------------------- blocks
 
 LONG_CELL = 40
 """A cell with more characters than these is prose, and gets room."""
 
 
-def blocks_as_html(blocks: Iterable[Block]) -> Iterator[str]:
+def blocks_as_html(blocks: Iterable[bl.Block]) -> Iterator[str]:
     """The blocks as HTML, one after the other; empty paragraphs are left out."""
     yield from filter(None, map(_html, blocks))
 
@@ -56,27 +57,29 @@ def toned(word: str, tone: Tone | None) -> str:
     return f'<td class="{tone}">{text}</td>' if tone else f"<td>{text}</td>"
 
 
-def _html(block: Block) -> str:  # noqa: PLR0911  one for each kind of block
+def _html(block: bl.Block) -> str:  # noqa: PLR0911  one for each kind of block
     match block:
-        case Text(text):
+        case bl.Text(text):
             return _paragraph(text)
-        case Command(line, label):
+        case bl.Command(line, label):
             return f'<p class="again">{xml_text(label)}{code(line)}</p>'
-        case Bullets(items):
-            return "<ul>" + "".join(f"<li>{xml_text(clean(item))}</li>" for item in items) + "</ul>"
-        case Raw(text):
+        case bl.Bullets(items):
+            return (
+                "<ul>" + "".join(f"<li>{xml_text(bl.clean(item))}</li>" for item in items) + "</ul>"
+            )
+        case bl.Raw(text):
             return _lines(text.split("\n"))
-        case View():
-            return _lines(block.lines(WIDTH))
-        case PictureBlock(svg, alt):
+        case bl.View():
+            return _lines(block.lines(bl.WIDTH))
+        case bl.PictureBlock(svg, alt):
             return f"<figure>{picture(svg, alt)}</figure>"
-        case TextTable():
+        case bl.TextTable():
             return _table(block)
 
 
 def _paragraph(text: str) -> str:
-    line = clean(text)
-    if verdict := opening_verdict(text):
+    line = bl.clean(text)
+    if verdict := bl.opening_verdict(text):
         rest = xml_text(line.removeprefix(verdict))
         return f'<p><strong class="{TONES[verdict]}">{verdict}</strong>{rest}</p>'
     return f"<p>{xml_text(line)}</p>" if line else ""
@@ -86,15 +89,15 @@ def _lines(lines: Iterable[str]) -> str:
     return "<pre>" + "\n".join(map(xml_text, lines)) + "</pre>"
 
 
-def _table(table: TextTable) -> str:
-    titles = [xml_text(clean(column.removeprefix(">"))) for column in table.columns]
+def _table(table: bl.TextTable) -> str:
+    titles = [xml_text(bl.clean(column.removeprefix(">"))) for column in table.columns]
     right = [column.startswith(">") for column in table.columns]
     head = "".join(
         f'<th class="number">{title}</th>' if number else f"<th>{title}</th>"
         for title, number in zip(titles, right, strict=True)
     )
     rows = "\n".join(f"<tr>{''.join(map(_cell, row, titles, right))}</tr>" for row in table.rows)
-    caption = f"<caption>{xml_text(clean(table.title))}</caption>" if table.title else ""
+    caption = f"<caption>{xml_text(bl.clean(table.title))}</caption>" if table.title else ""
     prose = ' class="prose"' if 'class="say"' in rows else ""
     return (
         f'<div class="wide" tabindex="0"><table{prose}>{caption}<thead><tr>{head}</tr></thead>\n'
@@ -102,8 +105,8 @@ def _table(table: TextTable) -> str:
     )
 
 
-def _cell(cell: str | Cell, title: str, right: bool) -> str:  # noqa: FBT001  given by map
-    tone, text = cell_tone(cell), xml_text(cell_text(cell))
+def _cell(cell: str | bl.Cell, title: str, right: bool) -> str:  # noqa: FBT001  given by map
+    tone, text = bl.cell_tone(cell), xml_text(bl.cell_text(cell))
     if tone:
         return f'<td class="{tone}">{text}</td>'
     if right:

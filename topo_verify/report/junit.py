@@ -20,7 +20,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from topo_verify.report.account import Account, JudgedCase, JudgedSuite, Outcome
-from topo_verify.report.escape import xml_text
+from topo_verify.report.html import xml_text
 
 _CHILD: dict[Outcome, str] = {"failed": "failure", "undecided": "error", "not-judged": "skipped"}
 

@@ -5,49 +5,35 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from topo_verify.report.blocks import (
-    WIDTH,
-    Block,
-    Bullets,
-    Cell,
-    Command,
-    PictureBlock,
-    Raw,
-    Text,
-    TextTable,
-    View,
-    cell_text,
-    clean,
-    opening_verdict,
-)
+from topo_verify.report import blocks as bl
 from topo_verify.text import LINE, shown
 
 
-def markdown(blocks: Iterable[Block]) -> str:
+def markdown(blocks: Iterable[bl.Block]) -> str:
     """The blocks as Markdown (with the tables of GitHub)."""
     return "\n\n".join(filter(None, map(_markdown, blocks))) + "\n"
 
 
-def _markdown(block: Block) -> str:  # noqa: PLR0911  one for each kind of block
+def _markdown(block: bl.Block) -> str:  # noqa: PLR0911  one for each kind of block
     match block:
-        case Text(text):
-            verdict = opening_verdict(text)
+        case bl.Text(text):
+            verdict = bl.opening_verdict(text)
             return (
                 f"**{verdict}**{_inline(text.removeprefix(verdict))}"
                 if verdict
                 else _paragraph(text)
             )
-        case Command(line, label):
+        case bl.Command(line, label):
             return _inline(label) + _code(line)
-        case Bullets(items):
+        case bl.Bullets(items):
             return "\n".join(f"- {_paragraph(item)}" for item in items)
-        case Raw(text):
+        case bl.Raw(text):
             return _fenced(text)
-        case PictureBlock():
+        case bl.PictureBlock():
             return ""
-        case View():
-            return _fenced("\n".join(block.lines(WIDTH)))
-        case TextTable(columns, rows, title):
+        case bl.View():
+            return _fenced("\n".join(block.lines(bl.WIDTH)))
+        case bl.TextTable(columns, rows, title):
             head = f"**{_inline(title)}**\n\n" if title else ""
             titles = [column.removeprefix(">") for column in columns]
             rule = ["---:" if column.startswith(">") else "---" for column in columns]
@@ -71,14 +57,14 @@ def _paragraph(text: str) -> str:
     return _OPENING.sub(r"\1\\\2", line, count=1) if _OPENING.match(line) else line
 
 
-def _cell(cell: str | Cell) -> str:
+def _cell(cell: str | bl.Cell) -> str:
     """A cell of a table, where a `|` counts even within code."""
-    return re.sub(r"(?<!\\)\|", r"\\|", _escaped(cell_text(cell)))
+    return re.sub(r"(?<!\\)\|", r"\\|", _escaped(bl.cell_text(cell)))
 
 
 def _inline(text: str) -> str:
     """The text so that it appears as it is; a word that would be a link is set as code."""
-    return _escaped(clean(text))
+    return _escaped(bl.clean(text))
 
 
 def _escaped(line: str) -> str:

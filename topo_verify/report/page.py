@@ -21,8 +21,7 @@ from topo_verify.player.page import PageShell, json_in_page, page_shell, source_
 from topo_verify.player.recording import recording
 from topo_verify.report.account import Account, Exhibit, JudgedCase, JudgedSuite
 from topo_verify.report.blocks import clean
-from topo_verify.report.escape import xml_text
-from topo_verify.report.html import blocks_as_html, code, mark_up, picture, toned
+from topo_verify.report.html import blocks_as_html, code, mark_up, picture, toned, xml_text
 from topo_verify.report.junit import UNFINISHED
 from topo_verify.report.style import PALETTE, TONES
 from topo_verify.text import plural

@@ -11,22 +11,7 @@ import os
 from collections.abc import Iterable, Sequence
 from typing import IO, TYPE_CHECKING
 
-from topo_verify.report.blocks import (
-    WIDTH,
-    Block,
-    Bullets,
-    Cell,
-    Command,
-    PictureBlock,
-    Raw,
-    Text,
-    TextTable,
-    View,
-    cell_text,
-    cell_tone,
-    clean,
-    opening_verdict,
-)
+from topo_verify.report import blocks as bl
 from topo_verify.report.style import ON_TERMINAL, TONES, VERDICTS
 from topo_verify.text import LINE, shown
 
@@ -44,17 +29,17 @@ LEAST_REST = 20
 """A column that takes the rest of the line takes at least so many columns."""
 
 
-def pretty(blocks: Iterable[Block], out: IO[str]) -> None:
+def pretty(blocks: Iterable[bl.Block], out: IO[str]) -> None:
     """Print the blocks, as wide as the terminal; elsewhere as wide as COLUMNS says, or 80."""
     console = None
     for block in blocks:
-        if isinstance(block, PictureBlock):
+        if isinstance(block, bl.PictureBlock):
             continue
-        if isinstance(block, Raw):
+        if isinstance(block, bl.Raw):
             out.write(block.text + "\n")  # not by Rich, which would wrap it and takes its time
             continue
         console = console or _console(out)
-        if isinstance(block, View):
+        if isinstance(block, bl.View):
             out.writelines(f"{line}\n" for line in block.lines(console.width))
             continue
         with console.capture() as printed:
@@ -73,29 +58,29 @@ def _console(out: IO[str]) -> Console:
 def _columns() -> int:
     """What COLUMNS says, if that is a width one can print in; else 80."""
     text = os.environ.get("COLUMNS", "")
-    return int(text) if text.isascii() and text.isdigit() and 20 <= int(text) <= 1000 else WIDTH
+    return int(text) if text.isascii() and text.isdigit() and 20 <= int(text) <= 1000 else bl.WIDTH
 
 
-def _print(block: Text | Command | Bullets | TextTable, console: Console) -> None:
+def _print(block: bl.Text | bl.Command | bl.Bullets | bl.TextTable, console: Console) -> None:
     from rich.padding import Padding
     from rich.text import Text as Line
 
     match block:
-        case Text(text):
-            line = Line(clean(text))
-            if verdict := opening_verdict(text):
+        case bl.Text(text):
+            line = Line(bl.clean(text))
+            if verdict := bl.opening_verdict(text):
                 line.stylize(ON_TERMINAL[TONES[verdict]], 0, len(verdict))
             console.print(line)
-        case Command(line, label):
+        case bl.Command(line, label):
             # Not `clean`: a long id stays whole, for copying.
             console.print(Line(f"  {label}{shown(line, limit=LINE)}"), soft_wrap=True)
-        case Bullets(items):
+        case bl.Bullets(items):
             for item in items:
-                console.print(Padding(Line(clean(item)), (0, 0, 0, 2)))
-        case TextTable():
+                console.print(Padding(Line(bl.clean(item)), (0, 0, 0, 2)))
+        case bl.TextTable():
             widths = column_widths(block, console.width)
             if block.title:
-                console.print(Line(clean(block.title), style="bold"))
+                console.print(Line(bl.clean(block.title), style="bold"))
             if widths is not None:
                 console.print(_grid(block, widths))
             else:
@@ -106,7 +91,7 @@ def _print(block: Text | Command | Bullets | TextTable, console: Console) -> Non
 # ---------------------------------------------------------------- tables
 
 
-def column_widths(table: TextTable, width: int) -> list[int] | None:
+def column_widths(table: bl.TextTable, width: int) -> list[int] | None:
     """The width of each column in a line of so many columns; None if there is no room for all."""
     room = width - GAP * (len(table.columns) - 1)
     least = [_least(table, place) for place in range(len(table.columns))]
@@ -126,17 +111,17 @@ def column_widths(table: TextTable, width: int) -> list[int] | None:
     return widths
 
 
-def _most(table: TextTable, place: int) -> int:
+def _most(table: bl.TextTable, place: int) -> int:
     title = _title(table.columns[place]) if table.headed else ""
-    return max(_length(title), *(_length(cell_text(row[place])) for row in table.rows), 1)
+    return max(_length(title), *(_length(bl.cell_text(row[place])) for row in table.rows), 1)
 
 
-def _least(table: TextTable, place: int) -> int:
+def _least(table: bl.TextTable, place: int) -> int:
     """The longest thing in a column that is not broken: a number, a verdict, a word."""
     whole = table.columns[place].startswith(">")
     longest = [_word(_title(table.columns[place])) if table.headed else 0]
     for row in table.rows:
-        text = cell_text(row[place])
+        text = bl.cell_text(row[place])
         longest.append(_length(text) if whole or _is_verdict(row[place]) else _word(text))
     return max(*longest, 1)
 
@@ -151,15 +136,15 @@ def _length(text: str) -> int:
     return cell_len(text)
 
 
-def _is_verdict(cell: str | Cell) -> bool:
+def _is_verdict(cell: str | bl.Cell) -> bool:
     return (cell if isinstance(cell, str) else cell.text) in VERDICTS
 
 
 def _title(column: str) -> str:
-    return clean(column.removeprefix(">"))
+    return bl.clean(column.removeprefix(">"))
 
 
-def _grid(table: TextTable, widths: Sequence[int]) -> RenderableType:
+def _grid(table: bl.TextTable, widths: Sequence[int]) -> RenderableType:
     from rich.table import Table as RichTable
 
     padding = (0, GAP, 0, 0)
@@ -174,14 +159,14 @@ def _grid(table: TextTable, widths: Sequence[int]) -> RenderableType:
     return grid
 
 
-def _line(cell: str | Cell) -> Line:
+def _line(cell: str | bl.Cell) -> Line:
     from rich.text import Text as Line
 
-    tone = cell_tone(cell)
-    return Line(cell_text(cell), style=ON_TERMINAL[tone] if tone else "")
+    tone = bl.cell_tone(cell)
+    return Line(bl.cell_text(cell), style=ON_TERMINAL[tone] if tone else "")
 
 
-def _print_list(table: TextTable, row: Sequence[str | Cell], console: Console) -> None:
+def _print_list(table: bl.TextTable, row: Sequence[str | bl.Cell], console: Console) -> None:
     """A row as a list: its first cell, and below it the others behind their titles."""
     from rich.padding import Padding
     from rich.table import Table as RichTable
@@ -190,7 +175,7 @@ def _print_list(table: TextTable, row: Sequence[str | Cell], console: Console) -
     # A number alone says nothing.
     title = f"{_title(table.columns[0])} " if table.columns[0].startswith(">") else ""
     console.print(Line(title).append_text(_line(row[0])))
-    told = [(t, c) for t, c in zip(table.columns[1:], row[1:], strict=True) if cell_text(c)]
+    told = [(t, c) for t, c in zip(table.columns[1:], row[1:], strict=True) if bl.cell_text(c)]
     grid = RichTable(box=None, show_header=False, pad_edge=False, padding=(0, GAP, 0, 0))
     grid.add_column(width=max((_length(_title(title)) for title, _ in told), default=0))
     grid.add_column(overflow="fold")

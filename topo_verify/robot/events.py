@@ -13,6 +13,7 @@ Source: docs/semantics.md, sections 3 and 13.
 from __future__ import annotations
 
 import json
+from codecs import BOM_UTF8
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from io import BytesIO
@@ -201,7 +202,7 @@ def read_trace(text: bytes, *, name: str = "trace") -> Trace:
 
 
 def read_events(lines: Iterable[bytes], *, name: str = "trace") -> Iterator[Event]:
-    """The events in these lines of JSON, one after the other; empty lines are passed over.
+    """The events in these lines of JSON; empty lines and a byte order mark are passed over.
 
     Equal lines with a move give one and the same object: a robot on patrol repeats itself, and so
     a long log takes eight bytes a move.
@@ -215,7 +216,8 @@ def read_events(lines: Iterable[bytes], *, name: str = "trace") -> Iterator[Even
     moves: dict[bytes, Move] = {}
     begun = False
     pieces = (piece for line in lines for piece in line.splitlines())
-    for number, line in enumerate(pieces, 1):
+    for number, piece in enumerate(pieces, 1):
+        line = piece.removeprefix(BOM_UTF8) if number == 1 else piece  # editors on Windows put it
         event: Event | None = moves.get(line)
         if event is None:
             if not line.strip():

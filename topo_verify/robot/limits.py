@@ -8,7 +8,7 @@ never returns, cannot be stopped from inside its own process.
 
 Seconds are those of a stopwatch (robot/stopwatch.py): the wall clock's, without those in which the
 mapper waited for a processor that others had. A mapper that sleeps is stopped, one that computes is
-stopped, and a correct one is never convicted because the machine is busy.
+stopped, and a correct one is never convicted because the machine is busy, or was frozen.
 
 How: a clock ticks while the mapper runs and asks the robot for its cost. In the main thread the
 tick is SIGALRM, which also interrupts a sleep, and it raises in the mapper and in what that called,
@@ -122,8 +122,8 @@ def within(limits: Limits, cost: Callable[[], int], work: Callable[[], T]) -> T:
         TimeLimitExceeded: a time limit was passed before `work` was done, even if it swallowed
             the exception that was to stop it.
     """
-    watch = _Watch(limits, cost)
     tick = max(TICK, min(limits.move_timeout, limits.world_timeout) / 4)
+    watch = _Watch(limits, cost, tick)
     outer: Stopwatch | None = getattr(_running, "watch", None)
     _running.watch = watch.clock
     try:
@@ -157,9 +157,9 @@ def helped_by(process: int, heard: Heard | None = None) -> Generator[None]:
 class _Watch:
     """Remembers when the mapper last moved, and if it was stopped. Lives as long as one run."""
 
-    def __init__(self, limits: Limits, cost: Callable[[], int]) -> None:
+    def __init__(self, limits: Limits, cost: Callable[[], int], tick: float) -> None:
         self.limits, self.cost = limits, cost
-        self.clock = Stopwatch()
+        self.clock = Stopwatch(tick=tick)
         self.moved = 0.0
         self.seen = 0
         self.struck: TimeLimitExceeded | None = None

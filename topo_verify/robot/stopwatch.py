@@ -11,6 +11,10 @@ A thread that waits for an answer wakes up now and then to look for it, and wait
 each time. Only the last of these waits keeps the answer from it: the others are used, for in them
 it was the turn of the mapper, which may have slept.
 
+A machine may be frozen: it is suspended, a container is paused, all processes get SIGSTOP. Those
+who look at a stopwatch look at it again and again, a tick apart. If a look is missing, they did not
+run, and nor did the mapper: of that time one tick is used, and whatever a processor was at work.
+
 What this does not show: what a hypervisor takes away from the whole machine, and waiting for a disk
 or for memory; they count as used. Where the kernel keeps no such account (on systems other than
 Linux), the stopwatch is the wall clock.
@@ -24,6 +28,7 @@ import os
 import threading
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
+from math import inf
 from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
@@ -41,9 +46,13 @@ class Stopwatch:
     Args:
         helper: lists the tasks that work for that thread while it waits for them.
         heard: counts their answers; without it each wait of the thread is excused.
+        tick: seconds between two looks, at most, while those who look at it run.
     """
 
-    def __init__(self, helper: Tasks | None = None, heard: Heard | None = None) -> None:
+    def __init__(
+        self, helper: Tasks | None = None, heard: Heard | None = None, *, tick: float = inf
+    ) -> None:
+        self._tick = tick
         self._own = f"self/task/{threading.get_native_id()}"
         self._used, self._ran = 0.0, 0.0
         self._looked, self._account = monotonic(), _account(self._own)
@@ -54,11 +63,15 @@ class Stopwatch:
         now, account = monotonic(), _account(self._own)
         ran, waited = account.since(self._account)
         # The thread and its helper take turns (one writes, the other reads): their waits add up.
+        in_vain = 0.0
         if (helper := self._helper) is not None:
             helper_ran, helper_waited = helper.since()
             in_vain = helper.in_vain(waited)
-            ran, waited = max(ran, helper_ran), waited + helper_waited - in_vain
+            ran, waited = max(ran, helper_ran), waited + helper_waited
         passed = now - self._looked
+        if passed - waited > 2 * self._tick:  # a look is missing
+            passed = min(passed, waited + self._tick + ran)
+        waited -= in_vain
         # The kernel books a wait when it ends: the difference may be negative, the sum is right,
         # unless both waited at the same time. What ran was used, however long the two waited.
         self._ran += min(ran, passed)

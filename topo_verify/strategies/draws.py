@@ -7,19 +7,53 @@ length is possible: it can shrink to that while nothing else changes.
 
 No two choices come from the same strategy, such as two of `integers` or two of `binary`. Hypothesis
 likes to copy a value to another choice of the same strategy; here that would make no new worlds.
+
+A strategy prints as the call that made it, `worlds(max_edges=6)`: Hypothesis prints strategies in
+its errors, and a prompt prints them, too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import inspect
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import wraps
+from typing import ParamSpec, TypeVar
 
 from hypothesis import reject
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.growth import BALANCED, ONE_STRING, EdgeKinds, grow, nth
-from topo_verify.strategies.shapes import MarkerPlace, Shape, edge_bounds
+from topo_verify.strategies.shapes import MANY, MarkerPlace, Shape, edge_bounds, grown_shape
 from topo_verify.world.rooted_map import Dart, World
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def shown_as_called(make: Callable[P, SearchStrategy[T]]) -> Callable[P, SearchStrategy[T]]:
+    """The same function, whose strategies print as its calls, defaults left out."""
+    signature = inspect.signature(make)
+    draw = inspect.Parameter("draw", inspect.Parameter.POSITIONAL_ONLY)
+    shown = inspect.Signature([draw, *signature.parameters.values()])
+
+    @wraps(make)
+    def made(*args: P.args, **kwargs: P.kwargs) -> SearchStrategy[T]:
+        strategy = make(*args, **kwargs)  # here, so that wrong arguments are refused at once
+
+        def call(draw: st.DrawFn, /, *_: P.args, **__: P.kwargs) -> T:
+            return draw(strategy)
+
+        # Hypothesis prints a composite by its function's name, and by the arguments of the call.
+        call.__name__ = make.__name__
+        vars(call)["__signature__"] = shown
+        return st.composite(call)(*args, **kwargs)
+
+    return made
+
+
+# ---------------------------------------------------------------- drawing worlds
 
 _AT_LEAST = (0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16)
 """By how much the least number of edges is raised; one of these is drawn."""
@@ -33,20 +67,26 @@ AT_MOST = (0, 6, 8, 8, 10, 10, 12, 12, 14, 16, 16, 20, 20, 24, 30, 40)
 
 def worlds_of(
     strategy: str,
-    shape: Shape,
     *,
     min_edges: object,
     max_edges: object,
     marker: MarkerPlace,
+    max_cycles: int = MANY,
+    dense: bool = False,
     kinds: EdgeKinds = BALANCED,
+    **bounds: object,
 ) -> SearchStrategy[World]:
-    """Worlds of this shape, for the strategy of this name.
+    """Worlds within these bounds, for the strategy of this name.
 
+    Args:
+        bounds: further ones, as for `grown_shape`.
     Raises:
-        InputError: the bounds are not numbers of edges, or no world of the shape has so many.
+        InputError: an argument is out of range, two contradict each other, or no world keeps all.
     """
-    bounds = edge_bounds(strategy, min_edges, max_edges)
-    return _grown(shape, kinds, *shape.edges_between(strategy, *bounds), marker)
+    shape = grown_shape(strategy, marker=marker, **bounds)
+    shape = replace(shape, max_cycles=max_cycles, dense=dense)
+    edges = shape.edges_between(strategy, *edge_bounds(strategy, min_edges, max_edges))
+    return _grown(shape, kinds, *edges, marker)
 
 
 @st.composite

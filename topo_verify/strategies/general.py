@@ -1,21 +1,38 @@
-"""Worlds of every kind: all rooted maps, or those of given genus, degree, simplicity.
+"""Worlds of every kind: all rooted maps, or those of given genus, degree, simplicity, density.
 
-    strategy           draws                               its simplest world
-    worlds             every world within the bounds       m1/0: a single edge
-    planar_worlds      those of genus 0                    m1/0
-    nonplanar_worlds   those of genus 1 or more            m2/8: two loops that cross
+    strategy           draws                                      its simplest world
+    worlds             every world within the bounds              m1/0: a single edge
+    planar_worlds      those of genus 0                           m1/0
+    nonplanar_worlds   those of genus 1 or more                   m2/8: two loops that cross
+    tree_worlds        every plane tree within the bounds         m1/0
+    dense_worlds       every world with at least half as many     m1/0
+                       edges as there are pairs of vertices:
+                       2m >= n(n-1)/2
+    uniform_worlds     all worlds with so many edges, evenly      m<edges>/0: a path, the marker at
+                                                                  its end
 
-Every world within the bounds can be drawn: `growth.py` says why.
+Every world within the bounds can be drawn: `growth.py` says why. Dense worlds have many edges on
+few vertices, so that many hypotheses are posed for each edge. In a tree no hypothesis is ever true:
+whatever a mapper confirms there is false.
+
+**Uniform worlds.** Hypothesis does not draw large integers evenly: it prefers small ones, and those
+near the bounds. It does draw bytes evenly. So a rank is drawn as bytes, 8 more than its own length,
+and scaled down: rank = ⌊bytes · number of worlds / 256^length⌋. The bytes of two ranks differ in
+number by one at most, so no world is more likely than another by more than one part in 2^64. (What
+Hypothesis does besides is its own: it begins with the simplest, varies what it has seen, and
+repeats nothing.)
 """
 
 from __future__ import annotations
 
+from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.errors import InputError
-from topo_verify.strategies.draws import worlds_of
-from topo_verify.strategies.naming import shown_as_called
-from topo_verify.strategies.shapes import WIDEST, MarkerPlace, grown_shape, integer
+from topo_verify.strategies.draws import scaled, shown_as_called, worlds_of
+from topo_verify.strategies.growth import CROWDED
+from topo_verify.strategies.shapes import WIDEST, MarkerPlace, integer
+from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 
@@ -41,16 +58,17 @@ def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
         >>> find(worlds(simple=True), lambda world: len(world.vertices) == 3)
         tv.World.from_id('m2/2')
     """
-    shape = grown_shape(
+    return worlds_of(
         "worlds",
+        min_edges=min_edges,
+        max_edges=max_edges,
+        marker=marker,
         min_genus=min_genus,
         max_genus=max_genus,
         simple=simple,
         loopless=loopless,
         max_degree=max_degree,
-        marker=marker,
     )
-    return worlds_of("worlds", shape, min_edges=min_edges, max_edges=max_edges, marker=marker)
 
 
 @shown_as_called
@@ -67,16 +85,15 @@ def planar_worlds(
 
     Args, Raises: as for `worlds`.
     """
-    shape = grown_shape(
+    return worlds_of(
         "planar_worlds",
+        min_edges=min_edges,
+        max_edges=max_edges,
+        marker=marker,
         max_genus=0,
         simple=simple,
         loopless=loopless,
         max_degree=max_degree,
-        marker=marker,
-    )
-    return worlds_of(
-        "planar_worlds", shape, min_edges=min_edges, max_edges=max_edges, marker=marker
     )
 
 
@@ -104,15 +121,105 @@ def nonplanar_worlds(
         raise InputError(
             "nonplanar_worlds: expected genus 1 or more, got 0: planar_worlds draws that"
         )
-    shape = grown_shape(
+    return worlds_of(
         "nonplanar_worlds",
+        min_edges=min_edges,
+        max_edges=max_edges,
+        marker=marker,
         min_genus=1 if genus is None else genus,
         max_genus=genus,
         simple=simple,
         loopless=loopless,
         max_degree=max_degree,
-        marker=marker,
     )
+
+
+# ---------------------------------------------------------------- trees
+
+
+@shown_as_called
+def tree_worlds(
+    *,
+    min_edges: int = 1,
+    max_edges: int = WIDEST,
+    max_degree: int | None = None,
+    marker: MarkerPlace = "any",
+) -> SearchStrategy[World]:
+    """Every plane tree within the bounds. Shrinks to few edges, and stars.
+
+    Args: see `topo_verify.strategies.shapes`.
+    Raises:
+        InputError: no tree keeps all the bounds.
+    """
     return worlds_of(
-        "nonplanar_worlds", shape, min_edges=min_edges, max_edges=max_edges, marker=marker
+        "tree_worlds",
+        min_edges=min_edges,
+        max_edges=max_edges,
+        marker=marker,
+        max_degree=max_degree,
+        max_cycles=0,
     )
+
+
+# ---------------------------------------------------------------- dense worlds
+
+
+@shown_as_called
+def dense_worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
+    *,
+    min_edges: int = 1,
+    max_edges: int = WIDEST,
+    min_genus: int = 0,
+    max_genus: int | None = None,
+    simple: bool = False,
+    loopless: bool = False,
+    max_degree: int | None = None,
+    marker: MarkerPlace = "any",
+) -> SearchStrategy[World]:
+    """Every world within the bounds with 2m >= n(n-1)/2. Shrinks to few edges, then few handles.
+
+    With `simple` these are the graphs in which every other pair of vertices, or more, is joined.
+
+    Args, Raises: as for `worlds`.
+    """
+    return worlds_of(
+        "dense_worlds",
+        min_edges=min_edges,
+        max_edges=max_edges,
+        marker=marker,
+        kinds=CROWDED,
+        min_genus=min_genus,
+        max_genus=max_genus,
+        simple=simple,
+        loopless=loopless,
+        max_degree=max_degree,
+        dense=True,
+    )
+
+
+# ---------------------------------------------------------------- uniform worlds
+
+_SPARE = 8
+"""How many more bytes are drawn than the rank needs."""
+
+
+@shown_as_called
+def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
+    """Every world with this many edges, each as likely as any other. Shrinks towards rank 0.
+
+    Args:
+        edges: how many; 200 at most, as for ids.
+    Raises:
+        InputError: `edges` is not an integer from 0 to 200.
+    """
+    edges = integer("uniform_worlds", "edges", edges)
+    if edges > WIDEST:
+        raise InputError(f"uniform_worlds: expected at most {WIDEST} edges, got {edges}")
+    total = rank_order.count(edges)
+    # Bytes of a fixed length: Hypothesis draws these evenly, and 0 bytes are rank 0.
+    length = (total.bit_length() + 7) // 8 + _SPARE
+
+    def world(drawn: bytes) -> World:
+        return World.from_code(rank_order.unrank(edges, scaled(total, *drawn)))
+
+    return st.binary(min_size=length, max_size=length).map(world)

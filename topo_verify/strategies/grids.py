@@ -19,8 +19,15 @@ from typing import Literal, get_args
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from topo_verify.strategies.draws import AT_MOST, at_most, draw_dart, marked_darts, one_of, scaled
-from topo_verify.strategies.naming import shown_as_called
+from topo_verify.strategies.draws import (
+    AT_MOST,
+    at_most,
+    draw_dart,
+    marked_darts,
+    one_of,
+    scaled,
+    shown_as_called,
+)
 from topo_verify.strategies.shapes import WIDEST, edge_bounds, require_marker
 from topo_verify.world.rooted_map import Dart, World
 

@@ -159,7 +159,7 @@ class _Sapling:
                 self._join(near, far, across=kind == "cross")
             if before is None or any(True for _ in self._moves("cross", 0)):
                 return True
-            self._restore(before)
+            vars(self).update(before)
         return False
 
     def _can_finish(self, vertices: int, faces: int, genus: int, room: int) -> bool:
@@ -288,9 +288,6 @@ class _Sapling:
         """A copy of everything that changes."""
         # Shallow copies are enough, because the lists and the dict hold nothing that changes.
         return {name: copy(value) for name, value in vars(self).items() if name != "_shape"}
-
-    def _restore(self, state: dict[str, Any]) -> None:
-        vars(self).update(state)
 
 
 def _from_place(corners: list[Dart], place: int) -> list[Dart]:

@@ -14,32 +14,25 @@ from __future__ import annotations
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
+# The package, not its names: it may be the one whose import of Hypothesis brought us here.
+from topo_verify import strategies
 from topo_verify.algorithms import Algorithm
 from topo_verify.robot.events import Policies
-from topo_verify.strategies.general import worlds
-from topo_verify.strategies.mappers import mappers, policies
 from topo_verify.world.rooted_map import World
 
 
 def register() -> None:
     """Register the types and the profiles. A second call changes nothing."""
-    st.register_type_strategy(World, lambda _: worlds())
-    st.register_type_strategy(Algorithm, lambda _: mappers())
-    st.register_type_strategy(Policies, lambda _: policies())
-    settings.register_profile(
-        "topo-ci",
-        max_examples=100,
-        derandomize=True,
-        deadline=None,
-        print_blob=True,
-        # How fast examples are drawn depends on the load of the machine, not on the code.
-        suppress_health_check=[HealthCheck.too_slow],
-    )
-    settings.register_profile(
-        "topo-nightly",
-        max_examples=5_000,
-        derandomize=False,
-        deadline=None,
-        print_blob=True,
-        suppress_health_check=[HealthCheck.too_slow],
-    )
+    st.register_type_strategy(World, lambda _: strategies.worlds())
+    st.register_type_strategy(Algorithm, lambda _: strategies.mappers())
+    st.register_type_strategy(Policies, lambda _: strategies.policies())
+    for name, examples in (("topo-ci", 100), ("topo-nightly", 5_000)):
+        settings.register_profile(
+            name,
+            max_examples=examples,
+            derandomize=name == "topo-ci",
+            deadline=None,
+            print_blob=True,
+            # How fast examples are drawn depends on the load of the machine, not on the code.
+            suppress_health_check=[HealthCheck.too_slow],
+        )

@@ -6,12 +6,17 @@ yields too few, another follows under the next seed, and worlds occur twice.
 What this does not show: the worlds are not evenly spread. Hypothesis draws simple ones first and
 then variants of those it has drawn; draw `uniform_worlds` for an even spread. Another version of
 Hypothesis may draw other worlds.
+
+A strategy on a command line is named by a call, as `planar_worlds(max_edges=20, simple=True)`. A
+name alone is the strategy with its widest arguments; only `uniform_worlds` needs an argument, the
+number of edges. `topo_verify.world.resolve` parses the text; it is never run as Python.
 """
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
+from types import MappingProxyType
 from typing import Any
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
@@ -20,7 +25,53 @@ from hypothesis.internal.conjecture import providers
 from hypothesis.internal.constants_ast import Constants
 from hypothesis.strategies import SearchStrategy
 
+from topo_verify.strategies.general import (
+    dense_worlds,
+    nonplanar_worlds,
+    planar_worlds,
+    tree_worlds,
+    uniform_worlds,
+    worlds,
+)
+from topo_verify.strategies.grids import lattices
+from topo_verify.strategies.symmetric import symmetric_worlds
+from topo_verify.world import resolve
 from topo_verify.world.rooted_map import World
+
+WORLDS: MappingProxyType[str, Callable[..., SearchStrategy[World]]] = MappingProxyType(
+    {
+        make.__name__: make
+        for make in (
+            worlds,
+            planar_worlds,
+            nonplanar_worlds,
+            tree_worlds,
+            lattices,
+            dense_worlds,
+            symmetric_worlds,
+            uniform_worlds,
+        )
+    }
+)
+"""Every strategy that draws worlds, by its name."""
+
+_KIND = resolve.CallSyntax("strategy", "", "'planar_worlds(max_edges=20)'", words=True)
+
+
+def resolve_strategy(text: str) -> SearchStrategy[World]:
+    """The strategy that the text names.
+
+    Raises:
+        InputError: no strategy has that name, or its arguments do not fit or admit no world.
+    Example:
+        >>> from hypothesis import find
+        >>> find(resolve_strategy("nonplanar_worlds(genus=2)"), lambda world: True).genus
+        2
+    """
+    return resolve.call(text, WORLDS, _KIND, bare=True)
+
+
+# ---------------------------------------------------------------- worlds outside of any test
 
 
 def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> list[World]:

@@ -34,9 +34,15 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from topo_verify.errors import InputError
-from topo_verify.strategies.draws import AT_MOST, at_most, draw_dart, marked_darts, one_of
+from topo_verify.strategies.draws import (
+    AT_MOST,
+    at_most,
+    draw_dart,
+    marked_darts,
+    one_of,
+    shown_as_called,
+)
 from topo_verify.strategies.growth import BALANCED, Grown, grow
-from topo_verify.strategies.naming import shown_as_called
 from topo_verify.strategies.shapes import (
     MANY,
     WIDEST,

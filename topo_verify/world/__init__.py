@@ -11,15 +11,13 @@ from topo_verify.world.rooted_map import World
 # rooted_map.py         World: rotations and a marker; faces, genus, canonical code, ids
 # permutations.py       the cycles of a permutation
 # validation.py         refuses rotations, edges and markers that do not make a world
-# least_cost.py         the least cost of proving a world's map
-# proof_tour.py         the walk that proves it at that cost
+# least_cost.py         the least cost of proving a world's map, and a walk of that cost
 # enumeration/          every world of a size or a class: counted, listed in order, ranked, sampled
 # families/             lattices, tori, solids, shapes, random graphs and maps
 # formats/              world JSON, planar_code, NetworkX, GraphML, SUMO: one file a format
 # drawing/              pictures with the true cyclic order; imported late, loads numpy
 # io.py                 reads and writes files; their names say the format
-# resolve.py            WORLD on a command line: a path, an id, family:…, nyc, -
-# calls.py              parses family:lattice(3,4) and the like
+# resolve.py            WORLD on a command line: a path, an id, family:…, nyc, -; calls
 # data/                 the street network that comes with the package
 
 World.formats = io

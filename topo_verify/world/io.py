@@ -27,6 +27,21 @@ from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
 
+_ENDINGS = {
+    ".pc": "planar_code",
+    ".plc": "planar_code",
+    ".graphml": "graphml",
+    ".net.xml": "sumo",
+    ".nx.json": "nx-json",
+}
+"""The format of a file whose name ends so; of any other it is `json`."""
+
+
+def format_of_name(path: str | PathLike[str]) -> str:
+    """The format in which a file of this name is read."""
+    name = os.fspath(path).lower()
+    return next((kind for ending, kind in _ENDINGS.items() if name.endswith(ending)), "json")
+
 
 def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W:
     """The world in the file.
@@ -38,21 +53,16 @@ def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -
     """
     from topo_verify.world.formats import graphml, node_link, planar_code, sumo, world_json
 
-    name = os.fspath(path).lower()
-    if name.endswith((".pc", ".plc")):
+    kind = format_of_name(path)
+    if kind == "planar_code":
         return planar_code.load(cls, path, graph=graph)
     if graph is not None:
         raise InputError(
             f"{shown(path)}: graph={graph} is for planar_code (.pc, .plc); the other formats"
             " hold one world a file: leave it out"
         )
-    if name.endswith(".graphml"):
-        return graphml.load(cls, path)
-    if name.endswith(".net.xml"):
-        return sumo.load(cls, path)
-    if name.endswith(".nx.json"):
-        return node_link.load(cls, path)
-    return world_json.load(cls, path)
+    loaders = {"graphml": graphml.load, "sumo": sumo.load, "nx-json": node_link.load}
+    return loaders.get(kind, world_json.load)(cls, path)
 
 
 def decode(cls: type[W], text: str | bytes) -> W:
@@ -77,10 +87,15 @@ def save(world: World, path: str | PathLike[str]) -> None:
     """Write world JSON to the file: all of it or, if anything fails, nothing.
 
     Raises:
-        InputError: the file cannot be written.
+        InputError: the file cannot be written, or would be read in another format by its name.
     """
     from topo_verify.world.formats import world_json
 
+    if (kind := format_of_name(path)) != "json":
+        raise InputError(
+            f"{shown(path)}: expected a name for world JSON, as w.json, got one that is read as"
+            f" {kind}: name another file, or use topo-verify world convert"
+        )
     world_json.save(world, path)
 
 

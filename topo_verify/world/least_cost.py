@@ -1,4 +1,4 @@
-"""The least cost of a proof: a lower bound for every mapper that is right in all worlds.
+"""The least cost of a proof, a lower bound for every mapper that is right, and a walk of that cost.
 
 A mapper has proved its map only if its closed trips from v0 generate the fundamental group (else
 the fold of its history has an open dart). That holds even for a mapper that was given the map.
@@ -12,50 +12,196 @@ Write d for the distance from v0.
 - The last trip need not come back: ended at v in a pendant tree attached at a, it saves the depth
   of v below a, and costs d(a) to get there: s, if that is worth it.
 
-LB = Σ (d(u) + 1 + d(v)) + 2·P - s. The loops attain it (proof_tour.py makes the walk), so it is the
+LB = Σ (d(u) + 1 + d(v)) + 2·P - s. The loops attain it (`proof_tour` makes the walk), so it is the
 optimum with the map in hand; cost / LB is the price of not knowing the map. It does not hold for
 mappers that may assume planarity, n or m.
+
+**The walk.** With the map in hand one walks the loops, down the tree, over an edge outside of it,
+and home. Pendant trees are walked when the walk first passes the vertex where they are attached.
+The walk ends in the one that saves most. It is made in the numbering of the canonical code; doors
+count from the dart of arrival, so they are the same in every numbering.
+
+    tree        the breadth-first tree of the code: each vertex was entered by its first dart
+    core        the vertices that the walk passes anyway
+    branch      a vertex outside the core whose tree edge must be walked, or one on the way there
 
 Source: docs/semantics.md, section 11.
 """
 
 from __future__ import annotations
 
-from itertools import accumulate
+from collections.abc import Container, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import accumulate, chain
+from typing import TYPE_CHECKING
 
-from topo_verify.world.enumeration.rank_order import Table
+if TYPE_CHECKING:
+    from topo_verify.world.enumeration.rank_order import Table
+
+
+@dataclass(frozen=True)  # no slots: cached_property needs `__dict__`
+class BreadthFirstTree:
+    """The breadth-first tree of a world from v0, in the numbering of the canonical code.
+
+    The code numbers vertices breadth-first and the darts of each from the one that it was entered
+    by. So the first dart of a vertex leads to its parent, and parents stand before their children.
+
+    Args:
+        table: degrees and alpha, a canonical code.
+    """
+
+    table: Table
+
+    @cached_property
+    def vertex(self) -> tuple[int, ...]:
+        """The vertex of each dart."""
+        degrees = self.table[0]
+        return tuple(v for v, degree in enumerate(degrees) for _ in range(degree))
+
+    @cached_property
+    def first(self) -> tuple[int, ...]:
+        """The first dart of each vertex; it leads to the parent, but for v0."""
+        return tuple(accumulate(self.table[0], initial=0))[:-1]
+
+    @cached_property
+    def parent(self) -> tuple[int, ...]:
+        """The parent of each vertex; v0 is its own."""
+        alpha = self.table[1]
+        return tuple(self.vertex[alpha[dart]] if dart else 0 for dart in self.first)
+
+    @cached_property
+    def depth(self) -> tuple[int, ...]:
+        """The distance of each vertex from v0, in edges."""
+        depth = [0] * len(self.first)
+        for v in range(1, len(depth)):
+            depth[v] = depth[self.parent[v]] + 1
+        return tuple(depth)
+
+    @cached_property
+    def chords(self) -> tuple[int, ...]:
+        """The lesser dart of each edge outside the tree, ascending."""
+        entries = set(self.first[1:])  # an edge of the tree is its child's first dart, the greater
+        alpha = self.table[1]
+        return tuple(d for d, other in enumerate(alpha) if d < other and other not in entries)
+
+    def climb(self, vertex: int, goals: Container[int] = (0,)) -> Iterator[int]:
+        """The vertices from this one up to the first of the goals, which is left out."""
+        while vertex not in goals:
+            yield vertex
+            vertex = self.parent[vertex]
+
+    def home(self, vertex: int) -> list[int]:
+        """The darts to leave by on the tree path from this vertex to v0."""
+        return [self.first[v] for v in self.climb(vertex)]
+
+    def down(self, vertex: int) -> list[int]:
+        """The darts to leave by on the tree path from v0 to this vertex."""
+        return [self.table[1][dart] for dart in reversed(self.home(vertex))]
+
+    def loop(self, chord: int) -> list[int]:
+        """The darts to leave by: from v0 down the tree, over this edge, and home."""
+        end = self.vertex[self.table[1][chord]]
+        return [*self.down(self.vertex[chord]), chord, *self.home(end)]
+
+    def weight(self, chord: int) -> int:
+        """The length of that loop, in edge traversals."""
+        return self.depth[self.vertex[chord]] + 1 + self.depth[self.vertex[self.table[1][chord]]]
+
+    def doors(self, darts: Iterable[int], reference: int = 0) -> tuple[int, ...]:
+        """The doors of a walk that leaves by these darts, begun with this reference dart."""
+        degrees, alpha = self.table
+        doors: list[int] = []
+        for dart in darts:
+            doors.append((dart - reference) % degrees[self.vertex[dart]])
+            reference = alpha[dart]
+        return tuple(doors)
 
 
 def least_cost(table: Table) -> int:
     """The least cost LB, in edge traversals, of the world with this canonical code. O(m)."""
-    degrees, alpha = table
-    vertex = [v for v, degree in enumerate(degrees) for _ in range(degree)]
-    # The code numbers vertices breadth-first and the darts of each from the one it was entered by.
-    # So the first darts lead to the parents, and every parent stands before its children.
-    entry = list(accumulate(degrees, initial=0))[:-1]
-    parent = [vertex[alpha[dart]] if dart else 0 for dart in entry]
-    depth = [0] * len(degrees)
-    for v in range(1, len(degrees)):
-        depth[v] = depth[parent[v]] + 1
-    in_tree = set(
-        entry[1:]
-    )  # an edge of the tree is its child's first dart, the greater of its two
-    loops = [
-        (vertex[dart], vertex[other])
-        for dart, other in enumerate(alpha)
-        if dart < other and other not in in_tree
-    ]
+    tree = BreadthFirstTree(table)
     core = {0}  # the vertices on tree paths from v0 to the ends of loops
-    # The order of this set does not show, because `core` is the union of the ways.
-    for v in {end for loop in loops for end in loop}:
-        while v not in core:
-            core.add(v)
-            v = parent[v]  # noqa: PLW2901  climbs towards v0
-    attached = depth.copy()  # per vertex: the depth of the core vertex above it
-    for v in range(len(degrees)):
-        if v not in core:
-            attached[v] = attached[parent[v]]
-    pendant = [v for v in range(len(degrees)) if v not in core]
-    # (depth of v below a) - d(a), where attached[v] = d(a).
-    saved = max((depth[v] - 2 * attached[v] for v in pendant), default=0)
-    return sum(depth[u] + 1 + depth[v] for u, v in loops) + 2 * len(pendant) - max(0, saved)
+    for chord in tree.chords:
+        for dart in (chord, table[1][chord]):
+            core.update([*tree.climb(tree.vertex[dart], core)])
+    pendant = [v for v in range(len(tree.first)) if v not in core]
+    _, saved = _last(tree, core, pendant)
+    return sum(map(tree.weight, tree.chords)) + 2 * len(pendant) - saved
+
+
+def proof_tour(table: Table) -> tuple[int, ...]:
+    """The doors of a walk of least cost that proves the world with this canonical code.
+
+    Complexity: O(cost).
+    """
+    tree = BreadthFirstTree(table)
+    trips = [tree.loop(chord) for chord in tree.chords]
+    return tree.doors(covering_walk(tree, trips, range(len(tree.first))))
+
+
+def covering_walk(
+    tree: BreadthFirstTree, trips: Sequence[Sequence[int]], needed: Iterable[int]
+) -> list[int]:
+    """A walk that makes these trips and walks the tree edges above these vertices.
+
+    Args:
+        trips: the darts to leave by; each trip ends at v0, and all but the first begin there.
+        needed: the vertices whose tree edge must be walked; those on the trips are passed anyway.
+    Returns: the darts to leave by, from where the first trip begins (v0 if there is none). Tree
+    edges off the trips are walked there and back; the last way is not walked back.
+    """
+    core = {0, *(tree.vertex[dart] for trip in trips for dart in trip)}
+    branches = _branches(tree, core, needed)
+    last, _ = _last(tree, core, branches)
+    onward = {*tree.climb(last, core)}  # the way to the last vertex, which is walked at the end
+    children: dict[int, list[int]] = {}
+    for v in branches:
+        if v not in onward:
+            children.setdefault(tree.parent[v], []).append(v)
+    start = tree.vertex[trips[0][0]] if trips and trips[0] else 0
+    walk = _there_and_back(tree, children, start)
+    for dart in [*chain(*trips), *tree.down(last)]:
+        walk.append(dart)
+        walk += _there_and_back(tree, children, tree.vertex[tree.table[1][dart]])
+    return walk
+
+
+def _branches(tree: BreadthFirstTree, core: set[int], needed: Iterable[int]) -> list[int]:
+    """The vertices outside the core on the tree paths to the needed ones, ascending."""
+    reached = {*core}
+    for goal in needed:
+        reached.update([*tree.climb(goal, reached)])
+    return sorted(reached - core)
+
+
+def _last(tree: BreadthFirstTree, core: set[int], branches: Iterable[int]) -> tuple[int, int]:
+    """The vertex at which a walk ends best, and the moves saved: a branch, or v0 and 0.
+
+    Ended at a vertex v whose branch is attached at a, the walk saves the way from v back to a, and
+    costs the way from v0 to a.
+    """
+    attached: dict[int, int] = {}  # of each branch: the depth of the core vertex above it
+    best, saved = 0, 0
+    for v in branches:  # parents stand before their children
+        above = tree.parent[v]
+        attached[v] = tree.depth[above] if above in core else attached[above]
+        if tree.depth[v] - 2 * attached[v] > saved:
+            best, saved = v, tree.depth[v] - 2 * attached[v]
+    return best, saved
+
+
+def _there_and_back(
+    tree: BreadthFirstTree, children: dict[int, list[int]], vertex: int
+) -> list[int]:
+    """The walk around all branches at this vertex; they are then done, and leave `children`."""
+    walk: list[int] = []
+    todo = [(child, False) for child in reversed(children.pop(vertex, ()))]
+    while todo:
+        child, is_done = todo.pop()
+        up = tree.first[child]
+        walk.append(up if is_done else tree.table[1][up])
+        if not is_done:
+            todo.append((child, True))
+            todo += [(below, False) for below in reversed(children.pop(child, ()))]
+    return walk

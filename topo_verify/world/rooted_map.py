@@ -26,9 +26,8 @@ from typing import Any, ClassVar, Protocol, Self, TypeVar
 from topo_verify.errors import InputError
 from topo_verify.world import validation
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.least_cost import least_cost
+from topo_verify.world.least_cost import least_cost, proof_tour
 from topo_verify.world.permutations import cycles
-from topo_verify.world.proof_tour import proof_tour
 
 W = TypeVar("W", bound="World")
 
@@ -275,7 +274,7 @@ class World:
         return least_cost(self.code)
 
     def proof_tour(self) -> tuple[int, ...]:
-        """The doors of a cheapest walk from the marker that proves this map: `proof_tour.py`."""
+        """The doors of a cheapest walk from the marker that proves this map: `least_cost.py`."""
         return proof_tour(self.code)
 
     # ------------------------------------------------------------ identity

@@ -6,9 +6,8 @@ from itertools import product
 
 import pytest
 
-from topo_verify.proofs.bounded import door_steps
-from topo_verify.proofs.bounded.cnf import REFUTED, Formula
-from topo_verify.proofs.bounded.solve import first_model, models, solve
+from topo_verify.proofs.bounded import statements
+from topo_verify.proofs.bounded.cnf import REFUTED, Formula, first_model, models, solve
 from topo_verify.proofs.theorem import Budget
 
 BUDGET = Budget()
@@ -56,7 +55,7 @@ def test_equal_is_equal() -> None:
 
 
 def test_the_premises_are_all_but_the_negated_conclusion() -> None:
-    formula = door_steps.closed(2)
+    formula = statements.closed(2)
     alone = formula.premises()
     assert REFUTED in formula.groups
     assert REFUTED not in alone.groups

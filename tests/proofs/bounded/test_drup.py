@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from topo_verify.errors import InputError
-from topo_verify.proofs.bounded import door_steps, drup, word_rules
+from topo_verify.proofs.bounded import drup, statements
 from topo_verify.proofs.bounded.cnf import Formula
 from topo_verify.proofs.bounded.drup import DrupRefutation, certify, objection, refute, together
 from topo_verify.proofs.bounded.statements import (
@@ -50,7 +50,7 @@ def test_without_being_asked_for_there_is_none() -> None:
     assert theorem(named("bounded-closed"), range(1, 3)).prove(Budget()).certificate is None
 
 
-@pytest.mark.parametrize("build", [door_steps.confirm_back, door_steps.record])
+@pytest.mark.parametrize("build", [statements.confirm_back, statements.record])
 def test_a_tampered_proof_is_refused(build: type) -> None:
     formula = build(2)
     refutation = refuted(formula)
@@ -64,7 +64,7 @@ def test_a_tampered_proof_is_refused(build: type) -> None:
 
 
 def test_a_proof_that_does_not_end_in_the_empty_clause_is_refused() -> None:
-    formula = door_steps.confirm_back(2)
+    formula = statements.confirm_back(2)
     refutation = refuted(formula)
     short = replace(refutation, steps=refutation.steps[:-1])
     assert objection(formula, short) == "its last step is not the empty clause"
@@ -72,13 +72,13 @@ def test_a_proof_that_does_not_end_in_the_empty_clause_is_refused() -> None:
 
 
 def test_a_refutation_of_other_clauses_is_refused() -> None:
-    formula = door_steps.closed(2)
+    formula = statements.closed(2)
     other = DrupRefutation(((1,), (-1,)), ((),))
     assert "not those of the formula" in objection(formula, other)
 
 
 def test_no_proof_makes_satisfiable_clauses_contradict() -> None:
-    premises = door_steps.closed(2).premises()
+    premises = statements.closed(2).premises()
     bogus = DrupRefutation(tuple(premises.clauses), ((1,), (-1,), ()))
     assert "refuses" in objection(premises, bogus)
     assert certify(premises) == "the SAT solver finds that the clauses can all hold"
@@ -99,7 +99,7 @@ def test_a_refused_certificate_is_no_pass(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_what_is_too_long_for_the_checker_has_no_certificate_and_says_so() -> None:
-    formula = word_rules.confirm(3, 3).world
+    formula = statements.confirm(3, 3).world
     told = certify(formula, seconds=0.1)
     assert isinstance(told, str)
     assert "--timeout" in told

@@ -9,10 +9,9 @@ import pytest
 
 from tests.helpers import worlds
 from topo_verify import World
-from topo_verify.proofs.bounded.decode import decode_world
-from topo_verify.proofs.bounded.encoding import MarkerDetail, Worlds
-from topo_verify.proofs.bounded.solve import models, solve
-from topo_verify.proofs.bounded.walks import doors, walk
+from topo_verify.proofs.bounded.cnf import models, solve
+from topo_verify.proofs.bounded.encoding import MarkerDetail, Worlds, doors, walk
+from topo_verify.proofs.bounded.replay import decode_world
 from topo_verify.proofs.theorem import Budget
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import exit_dart, percepts

@@ -12,15 +12,19 @@ import pytest
 from examples.undirected import undirected, unmarked
 from tests.helpers import failing, worlds
 from topo_verify import World
-from topo_verify.harness.run import explore
-from topo_verify.proofs.bounded import negatives, word_rules
-from topo_verify.proofs.bounded.decode import BoundedCounterexample, decode, decoded_booleans
-from topo_verify.proofs.bounded.mutants import mutant_theorems, negative_theorems
-from topo_verify.proofs.bounded.negatives import SMALLEST, Negative, false_confirmation
-from topo_verify.proofs.bounded.replay import Disagreement, replay_confirmation, replay_rejection
-from topo_verify.proofs.bounded.solve import first_model, models, solve
-from topo_verify.proofs.bounded.walks import RuleFault
-from topo_verify.proofs.bounded.word_rules import EncodedCounterexample
+from topo_verify.campaign.run import explore
+from topo_verify.proofs.bounded import mutants, statements
+from topo_verify.proofs.bounded.cnf import first_model, models, solve
+from topo_verify.proofs.bounded.encoding import RuleFault
+from topo_verify.proofs.bounded.replay import (
+    BoundedCounterexample,
+    Disagreement,
+    decode,
+    decoded_booleans,
+    replay_confirmation,
+    replay_rejection,
+)
+from topo_verify.proofs.bounded.statements import EncodedCounterexample
 from topo_verify.proofs.theorem import Budget, Theorem
 from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.enumeration.classes import WorldClass
@@ -29,7 +33,7 @@ BUDGET = Budget()
 
 
 @pytest.mark.parametrize(
-    "one", [*negative_theorems(), *mutant_theorems()], ids=lambda one: one.name
+    "one", [*mutants.negative_theorems(), *mutants.mutant_theorems()], ids=lambda one: one.name
 )
 def test_it_is_refuted_by_a_world_that_replays(one: Theorem) -> None:
     outcome = one.prove(BUDGET)
@@ -42,23 +46,25 @@ def test_it_is_refuted_by_a_world_that_replays(one: Theorem) -> None:
         robot.move(door)  # raises if there is no such door
 
 
-@pytest.mark.parametrize("case", SMALLEST, ids=lambda case: case.name)
-def test_below_its_size_there_is_no_such_world(case: Negative) -> None:
+@pytest.mark.parametrize("case", mutants.SMALLEST, ids=lambda case: case.name)
+def test_below_its_size_there_is_no_such_world(case: mutants.Negative) -> None:
     for edges in range(1, case.edges):
-        encoded = false_confirmation(edges, case.world_class, case.marker)
+        encoded = mutants.false_confirmation(edges, case.world_class, case.marker)
         assert solve(encoded.world, BUDGET).answer == "unsat"
-        assert solve(negatives.premises(edges, case.world_class), BUDGET).answer == "sat"
+        assert solve(mutants.premises(edges, case.world_class), BUDGET).answer == "sat"
 
 
 @pytest.mark.parametrize("world_class", ["any", "loopless", "simple"])
 def test_with_the_direction_there_is_no_such_world_at_any_of_these_sizes(world_class: str) -> None:
     for edges in (1, 2, 3):
-        encoded = false_confirmation(edges, world_class, "directed")
+        encoded = mutants.false_confirmation(edges, world_class, "directed")
         assert solve(encoded.world, BUDGET).answer == "unsat"
 
 
-@pytest.mark.parametrize("case", SMALLEST, ids=lambda case: case.name)
-def test_the_sizes_are_those_at_which_a_mapper_confirms_what_is_false(case: Negative) -> None:
+@pytest.mark.parametrize("case", mutants.SMALLEST, ids=lambda case: case.name)
+def test_the_sizes_are_those_at_which_a_mapper_confirms_what_is_false(
+    case: mutants.Negative,
+) -> None:
     mapper = {"undirected": undirected, "none": unmarked}
     kind = WorldClass.parse(case.world_class)
     found = next(
@@ -70,9 +76,9 @@ def test_the_sizes_are_those_at_which_a_mapper_confirms_what_is_false(case: Nega
     assert found == case.edges
 
 
-@pytest.mark.parametrize("case", [case for case in SMALLEST if case.edges < 4], ids=repr)
-def test_every_model_of_a_negative_replays(case: Negative) -> None:
-    encoded = false_confirmation(case.edges, case.world_class, case.marker)
+@pytest.mark.parametrize("case", [case for case in mutants.SMALLEST if case.edges < 4], ids=repr)
+def test_every_model_of_a_negative_replays(case: mutants.Negative) -> None:
+    encoded = mutants.false_confirmation(case.edges, case.world_class, case.marker)
     replayed = [
         replay_confirmation(decode(encoded, model), case.marker)
         for model in islice(models(encoded.world, decoded_booleans(encoded), BUDGET), 40)
@@ -82,12 +88,12 @@ def test_every_model_of_a_negative_replays(case: Negative) -> None:
 
 
 FAULTS: list[tuple[str, Callable[[int, int], EncodedCounterexample], RuleFault]] = [
-    ("trace", partial(word_rules.trace_way, fault="turned"), "turned"),
-    ("prefix", partial(word_rules.prefix, fault="one-more"), "one-more"),
-    ("history", partial(word_rules.history, fault="absolute-doors"), "absolute-doors"),
-    ("history", partial(word_rules.history, fault="through-unexplored"), "through-unexplored"),
-    ("records", partial(word_rules.records, levels=1, fault="first-dart"), "first-dart"),
-    ("records", partial(word_rules.records, levels=None, fault="first-dart"), "first-dart"),
+    ("trace", partial(statements.trace_way, fault="turned"), "turned"),
+    ("prefix", partial(statements.prefix, fault="one-more"), "one-more"),
+    ("history", partial(statements.history, fault="absolute-doors"), "absolute-doors"),
+    ("history", partial(statements.history, fault="through-unexplored"), "through-unexplored"),
+    ("records", partial(statements.records, levels=1, fault="first-dart"), "first-dart"),
+    ("records", partial(statements.records, levels=None, fault="first-dart"), "first-dart"),
 ]
 
 
@@ -101,15 +107,15 @@ def test_many_models_of_a_faulty_rule_replay(
         assert replay.claim == "true-hypothesis-kept"
 
 
-def _story(case: Negative) -> BoundedCounterexample:
-    encoded = false_confirmation(case.edges, case.world_class, case.marker)
+def _story(case: mutants.Negative) -> BoundedCounterexample:
+    encoded = mutants.false_confirmation(case.edges, case.world_class, case.marker)
     model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
     assert model is not None
     return decode(encoded, model)
 
 
 def test_a_story_that_is_not_true_does_not_replay() -> None:
-    counterexample = _story(Negative("undirected", "loopless", 3))
+    counterexample = _story(mutants.Negative("undirected", "loopless", 3))
     assert replay_confirmation(counterexample, "undirected").world.id == "m3/27"
     true = counterexample.world.alpha[counterexample.e]
     with pytest.raises(Disagreement, match="no-false-confirm does not fail"):
@@ -119,7 +125,7 @@ def test_a_story_that_is_not_true_does_not_replay() -> None:
 
 
 def test_a_rule_without_its_fault_rejects_nothing() -> None:
-    encoded = word_rules.history(2, 2, fault="absolute-doors")
+    encoded = statements.history(2, 2, fault="absolute-doors")
     model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
     assert model is not None
     with pytest.raises(Disagreement, match="rejects nothing"):
@@ -127,13 +133,13 @@ def test_a_rule_without_its_fault_rejects_nothing() -> None:
 
 
 def test_the_counterexample_is_the_same_in_every_run() -> None:
-    (theorem,) = (one for one in negative_theorems() if one.name == "undirected-simple")
+    (theorem,) = (one for one in mutants.negative_theorems() if one.name == "undirected-simple")
     first, again = theorem.prove(BUDGET), theorem.prove(Budget(seed=7))
     assert (first.counterexample, first.history) == (again.counterexample, again.history)
 
 
 def test_where_nothing_is_found_the_negative_is_not_refuted() -> None:
-    (theorem,) = (one for one in negative_theorems() if one.name == "undirected-simple")
+    (theorem,) = (one for one in mutants.negative_theorems() if one.name == "undirected-simple")
     outcome = theorem.prove(Budget(rlimit=1000))
     assert outcome.verdict == "UNKNOWN"
     assert "--timeout" in outcome.note

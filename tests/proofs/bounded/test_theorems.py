@@ -1,4 +1,7 @@
-"""Bounded theorems: they hold, each premise is needed, and nothing but unsat is a pass."""
+"""Bounded theorems: they hold, each premise is needed, and nothing but unsat is a pass.
+
+The worlds of their encoding are the rooted maps, each exactly once.
+"""
 
 from __future__ import annotations
 
@@ -8,17 +11,22 @@ from functools import partial
 import pytest
 
 from topo_verify.errors import InputError
-from topo_verify.proofs.bounded import door_steps, word_rules
-from topo_verify.proofs.bounded import theorems as room
-from topo_verify.proofs.bounded.cnf import REFUTED
+from topo_verify.proofs.bounded import statements, theorems
+from topo_verify.proofs.bounded.cnf import REFUTED, SolverGaveUp, solve
 from topo_verify.proofs.bounded.encoding import Worlds
-from topo_verify.proofs.bounded.solve import solve
 from topo_verify.proofs.bounded.statements import (
     ONE_DOOR_STATEMENTS,
     WHOLE_WORD_STATEMENTS,
     BoundedStatement,
 )
-from topo_verify.proofs.bounded.theorems import bounded, theorem
+from topo_verify.proofs.bounded.theorems import (
+    bounded,
+    codes,
+    every_world,
+    missing_and_spurious,
+    theorem,
+    worlds_theorem,
+)
 from topo_verify.proofs.theorem import Budget, Theorem
 from topo_verify.world.enumeration import rank_order
 
@@ -51,32 +59,32 @@ def test_the_deep_ones_hold_too(one: Theorem) -> None:
 
 
 NEEDED = [
-    (door_steps.pose, "S.reachable"),
-    (door_steps.pose, "edges"),
-    (door_steps.door, "corresponding"),
-    (door_steps.door, "edges"),
-    (door_steps.confirm_back, "corresponding"),
-    (door_steps.confirm_back, "edges"),
-    (door_steps.confirm_final, "home"),
-    (door_steps.confirm_final, "seen"),
-    (door_steps.record, "crossed"),
-    (door_steps.new_vertex, "end-unknown"),
-    (door_steps.new_vertex, "S.reachable"),
-    (door_steps.closed, "connected"),
-    (door_steps.closed, "nothing-open"),
-    (partial(word_rules.confirm, steps=3), "home"),
-    (partial(word_rules.confirm, steps=3), "matching"),
-    (partial(word_rules.trace_way, steps=3), "h"),
-    (partial(word_rules.prefix, steps=3), "prefix"),
-    (partial(word_rules.history, steps=3), "h"),
-    (partial(word_rules.records, steps=2, levels=1), "retraced"),
-    (partial(word_rules.records, steps=2, levels=None), "records"),
+    (statements.pose, "S.reachable"),
+    (statements.pose, "edges"),
+    (statements.door, "corresponding"),
+    (statements.door, "edges"),
+    (statements.confirm_back, "corresponding"),
+    (statements.confirm_back, "edges"),
+    (statements.confirm_final, "home"),
+    (statements.confirm_final, "seen"),
+    (statements.record, "crossed"),
+    (statements.new_vertex, "end-unknown"),
+    (statements.new_vertex, "S.reachable"),
+    (statements.closed, "connected"),
+    (statements.closed, "nothing-open"),
+    (partial(statements.confirm, steps=3), "home"),
+    (partial(statements.confirm, steps=3), "matching"),
+    (partial(statements.trace_way, steps=3), "h"),
+    (partial(statements.prefix, steps=3), "prefix"),
+    (partial(statements.history, steps=3), "h"),
+    (partial(statements.records, steps=2, levels=1), "retraced"),
+    (partial(statements.records, steps=2, levels=None), "records"),
 ]
 
 
 @pytest.mark.parametrize(("build", "premise"), NEEDED)
 def test_without_this_premise_it_is_false(
-    build: Callable[[int], Worlds | word_rules.EncodedCounterexample], premise: str
+    build: Callable[[int], Worlds | statements.EncodedCounterexample], premise: str
 ) -> None:
     built = build(3)
     formula = built if isinstance(built, Worlds) else built.world
@@ -86,11 +94,11 @@ def test_without_this_premise_it_is_false(
 
 
 def _false(edges: int) -> Worlds:
-    return door_steps.confirm_final(edges, marker="undirected")
+    return statements.confirm_final(edges, marker="undirected")
 
 
 def _vacuous(edges: int) -> Worlds:
-    world = door_steps.closed(edges)
+    world = statements.closed(edges)
     world.add("fault", -world.first[0])
     return world
 
@@ -114,9 +122,9 @@ def test_a_vacuous_theorem_is_no_pass() -> None:
 
 
 def test_a_theorem_on_words_is_vacuous_where_no_word_is_compared() -> None:
-    assert solve(word_rules.history(1, 1).world, BUDGET).answer == "unsat"
-    assert solve(word_rules.history(1, 1).world.premises(), BUDGET).answer == "unsat"
-    assert solve(word_rules.history(2, 2).world.premises(), BUDGET).answer == "sat"
+    assert solve(statements.history(1, 1).world, BUDGET).answer == "unsat"
+    assert solve(statements.history(1, 1).world.premises(), BUDGET).answer == "unsat"
+    assert solve(statements.history(2, 2).world.premises(), BUDGET).answer == "sat"
 
 
 def test_unknown_is_no_pass_and_tells_the_mend() -> None:
@@ -133,8 +141,8 @@ def test_worlds_that_are_missing_in_the_encoding_are_no_pass(
     def one_less(edges: int, _world_class: str) -> int:
         return rank_order.count(edges) - 1
 
-    monkeypatch.setattr(room, "worlds_encoded", one_less)
-    planted = theorem(_statement(door_steps.closed), range(1, 3))
+    monkeypatch.setattr(theorems, "worlds_encoded", one_less)
+    planted = theorem(_statement(statements.closed), range(1, 3))
     outcome = planted.prove(BUDGET)
     assert (outcome.checked, outcome.total) == (10, 12)
     assert not planted.ok(outcome)
@@ -154,3 +162,71 @@ def test_each_question_is_a_script_of_its_own() -> None:
     assert query.smt2.endswith("(check-sat)\n")
     assert f":named {REFUTED})" in query.smt2
     assert query.expected == "unsat"
+
+
+@pytest.mark.parametrize(("edges", "worlds"), [(1, 2), (2, 10), (3, 74), (4, 706)])
+def test_the_models_are_exactly_the_canonical_codes(edges: int, worlds: int) -> None:
+    found = list(codes(edges))
+    assert len(found) == worlds
+    assert set(found) == set(rank_order.tables(edges))
+
+
+def test_that_there_is_no_other_world_is_certified() -> None:
+    pytest.importorskip("drup", reason="drup is not installed: topo-verify[proofs]")
+    pytest.importorskip("pysat", reason="python-sat is not installed: topo-verify[proofs]")
+    theorem = worlds_theorem("bounded-worlds", range(1, 4))
+    outcome = theorem.prove(Budget(certify=True))
+    assert outcome.certificate is not None
+    assert outcome.certificate.checked
+    assert theorem.ok(outcome)
+
+
+@pytest.mark.slow
+def test_with_five_edges_too() -> None:
+    assert missing_and_spurious(5) == (8162, [], [])
+
+
+@pytest.mark.parametrize(
+    ("world_class", "worlds"), [("loopless", [1, 3, 14, 87]), ("simple", [1, 2, 6, 23])]
+)
+def test_a_class_is_the_class_of_the_enumeration(world_class: str, worlds: list[int]) -> None:
+    for edges, total in enumerate(worlds, 1):
+        assert missing_and_spurious(edges, world_class) == (total, [], [])
+
+
+def _without(group: str) -> Callable[[int, str], Worlds]:
+    def build(edges: int, world_class: str = "any") -> Worlds:
+        world = every_world(edges, world_class)
+        del world.groups[group]
+        return world
+
+    return build
+
+
+def _one_world_less(edges: int, world_class: str = "any") -> Worlds:
+    world = every_world(edges, world_class)
+    world.add("fault", -world.edge(0, 1))
+    return world
+
+
+@pytest.mark.parametrize("group", ["numbering", "connected"])
+def test_an_encoding_that_forgets_a_premise_has_spurious_models(
+    group: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(theorems, "every_world", _without(group))
+    found, missing, spurious = missing_and_spurious(3)
+    assert (found > 74, missing, bool(spurious)) == (True, [], True)
+
+
+def test_an_encoding_that_loses_a_world_is_refuted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(theorems, "every_world", _one_world_less)
+    theorem = worlds_theorem("bounded-worlds", range(1, 4))
+    outcome = theorem.prove(Budget())
+    assert outcome.verdict == "REFUTED"
+    assert not theorem.ok(outcome)
+    assert outcome.checked != outcome.total
+
+
+def test_a_solver_that_gives_up_has_not_listed_all() -> None:
+    with pytest.raises(SolverGaveUp):
+        list(codes(4, budget=Budget(rlimit=1)))

@@ -19,8 +19,8 @@ from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.exploration import hypotheses as exploration_hypotheses
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
 from topo_verify.proofs.first_order.conformance import DescribedRule, compare
-from topo_verify.proofs.first_order.rules import RULES
 from topo_verify.proofs.first_order.terms import conj, neg
+from topo_verify.proofs.first_order.theory import RULES
 from topo_verify.robot.events import Reject, Trace
 from topo_verify.world.enumeration import rank_order
 

@@ -8,11 +8,10 @@ from hypothesis import strategies as st
 from tests.helpers import any_world, trace_of, worlds
 from topo_verify import World
 from topo_verify.checkers import Fold
-from topo_verify.proofs.first_order.axioms import AXIOMS
-from topo_verify.proofs.first_order.obligations.folds import CLOSED, FITS, PI_ROT, pi, same
-from topo_verify.proofs.first_order.run_structure import binary, nullary, unary
-from topo_verify.proofs.first_order.structures import Function, Structure
-from topo_verify.proofs.first_order.terms import Var, eq, forall, implies
+from topo_verify.proofs.first_order.conformance import binary, nullary, unary
+from topo_verify.proofs.first_order.obligations.growth import CLOSED, FITS, PI_ROT, pi, same
+from topo_verify.proofs.first_order.terms import Function, Structure, Var, eq, forall, implies
+from topo_verify.proofs.first_order.theory import AXIOMS
 from topo_verify.robot.events import Move
 from topo_verify.robot.simulator import SimulatedRobot, exit_dart, first_percept
 

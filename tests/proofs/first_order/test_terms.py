@@ -6,58 +6,39 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from topo_verify.proofs.first_order import finite_models
-from topo_verify.proofs.first_order.structures import of_tables
-from topo_verify.proofs.first_order.terms import (
-    BOOL,
-    Symbol,
-    Term,
-    Var,
-    conj,
-    constant,
-    differ,
-    disj,
-    eq,
-    forall,
-    implies,
-    neg,
-    script,
-    shown,
-    substitute,
-    text,
-)
+from topo_verify.proofs.first_order import finite_models, terms
 from topo_verify.proofs.first_order.theorems import refute
 from topo_verify.proofs.theorem import Budget
 
-f = Symbol("f", ("W",), "W")
-p = Symbol("p", ("W",), BOOL)
-a, b = Var("a", "W"), Var("b", "W")
-c = constant("c", "W")
+f = terms.Symbol("f", ("W",), "W")
+p = terms.Symbol("p", ("W",), terms.BOOL)
+a, b = terms.Var("a", "W"), terms.Var("b", "W")
+c = terms.constant("c", "W")
 BUDGET = Budget(timeout=10)
 
 
 def test_a_wrong_sort_is_refused() -> None:
     with pytest.raises(TypeError, match="f takes"):
-        f(constant("k", "K"))
+        f(terms.constant("k", "K"))
     with pytest.raises(TypeError, match="= between"):
-        eq(c, constant("k", "K"))
+        terms.eq(c, terms.constant("k", "K"))
 
 
 def test_a_formula_is_written_as_smt_lib_and_for_people() -> None:
-    term = forall((a, b), eq(f(a), f(b)), eq(a, b))
-    assert text(term) == "(forall ((a W) (b W)) (=> (= (f a) (f b)) (= a b)))"
-    assert shown(term) == "∀a,b: (f(a) = f(b)) → (a = b)"
-    assert shown(neg(eq(a, b))) == "a ≠ b"
+    term = terms.forall((a, b), terms.eq(f(a), f(b)), terms.eq(a, b))
+    assert terms.text(term) == "(forall ((a W) (b W)) (=> (= (f a) (f b)) (= a b)))"
+    assert terms.shown(term) == "∀a,b: (f(a) = f(b)) → (a = b)"
+    assert terms.shown(terms.neg(terms.eq(a, b))) == "a ≠ b"
 
 
 def test_a_pattern_means_nothing_and_is_written() -> None:
-    term = forall(a, p(a), tried_at=((f(a),),))
-    assert text(term) == "(forall ((a W)) (! (p a) :pattern ((f a))))"
-    assert shown(term) == shown(forall(a, p(a)))
+    term = terms.forall(a, p(a), tried_at=((f(a),),))
+    assert terms.text(term) == "(forall ((a W)) (! (p a) :pattern ((f a))))"
+    assert terms.shown(term) == terms.shown(terms.forall(a, p(a)))
 
 
 def test_a_script_declares_what_it_uses() -> None:
-    lines = script({"one": p(f(c))}).splitlines()
+    lines = terms.script({"one": p(f(c))}).splitlines()
     assert lines == [
         "(set-logic UF)",
         "(declare-sort W 0)",
@@ -71,35 +52,39 @@ def test_a_script_declares_what_it_uses() -> None:
 
 def test_an_assertion_may_not_be_called_like_a_symbol() -> None:
     with pytest.raises(TypeError, match="p: an assertion is called like a symbol"):
-        script({"p": p(c)})
+        terms.script({"p": p(c)})
 
 
 def test_one_name_means_one_symbol() -> None:
     with pytest.raises(TypeError, match="two symbols are called f"):
-        script({"one": eq(f(c), c), "two": Symbol("f", ("W",), BOOL)(c)})
+        terms.script({"one": terms.eq(f(c), c), "two": terms.Symbol("f", ("W",), terms.BOOL)(c)})
 
 
 def test_bound_variables_are_not_replaced() -> None:
-    term = conj(p(a), forall(a, p(a)))
-    assert substitute(term, {a: c}) == conj(p(c), forall(a, p(a)))
+    term = terms.conj(p(a), terms.forall(a, p(a)))
+    assert terms.substitute(term, {a: c}) == terms.conj(p(c), terms.forall(a, p(a)))
 
 
-def formulas() -> st.SearchStrategy[Term]:
+def formulas() -> st.SearchStrategy[terms.Term]:
     """Formulas about one constant, f and p."""
     places = st.sampled_from([c, f(c), f(f(c))])
-    atoms = st.one_of(places.map(p), st.tuples(places, places).map(lambda row: eq(*row)))
+    atoms = st.one_of(places.map(p), st.tuples(places, places).map(lambda row: terms.eq(*row)))
     quantified = st.sampled_from(
-        [forall(a, p(a)), forall(a, differ(f(a), a)), forall((a, b), eq(f(a), f(b)), eq(a, b))]
+        [
+            terms.forall(a, p(a)),
+            terms.forall(a, terms.differ(f(a), a)),
+            terms.forall((a, b), terms.eq(f(a), f(b)), terms.eq(a, b)),
+        ]
     )
 
-    def larger(inner: st.SearchStrategy[Term]) -> st.SearchStrategy[Term]:
+    def larger(inner: st.SearchStrategy[terms.Term]) -> st.SearchStrategy[terms.Term]:
         two = st.tuples(inner, inner)
         return st.one_of(
-            inner.map(neg),
-            two.map(lambda row: conj(*row)),
-            two.map(lambda row: disj(*row)),
-            two.map(lambda row: implies(*row)),
-            two.map(lambda row: eq(*row)),
+            inner.map(terms.neg),
+            two.map(lambda row: terms.conj(*row)),
+            two.map(lambda row: terms.disj(*row)),
+            two.map(lambda row: terms.implies(*row)),
+            two.map(lambda row: terms.eq(*row)),
         )
 
     return st.recursive(st.one_of(atoms, quantified), larger, max_leaves=6)
@@ -111,15 +96,15 @@ def formulas() -> st.SearchStrategy[Term]:
     of_p=st.tuples(st.booleans(), st.booleans()),
 )
 def test_evaluation_and_solver_agree(
-    formula: Term, of_f: tuple[int, int], of_p: tuple[bool, bool]
+    formula: terms.Term, of_f: tuple[int, int], of_p: tuple[bool, bool]
 ) -> None:
     """In a structure that is spelt out, a formula holds iff Z3 finds it possible there."""
     element = [finite_models.element("W", number) for number in range(2)]
-    spelt = [eq(c, element[0])]
+    spelt = [terms.eq(c, element[0])]
     for place in range(2):
-        spelt.append(eq(f(element[place]), element[of_f[place]]))
-        spelt.append(p(element[place]) if of_p[place] else neg(p(element[place])))
-    structure = of_tables(
+        spelt.append(terms.eq(f(element[place]), element[of_f[place]]))
+        spelt.append(p(element[place]) if of_p[place] else terms.neg(p(element[place])))
+    structure = terms.of_tables(
         {"W": 2},
         {"c": {(): 0}, "f": dict(enumerate_rows(of_f)), "p": dict(enumerate_rows(of_p))},
     )
@@ -132,11 +117,13 @@ def enumerate_rows(values: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]
 
 
 def test_what_cannot_hold_together_is_named() -> None:
-    reply = refute({"all": forall(a, p(a)), "none": neg(p(c)), "idle": eq(f(c), c)}, BUDGET)
+    reply = refute(
+        {"all": terms.forall(a, p(a)), "none": terms.neg(p(c)), "idle": terms.eq(f(c), c)}, BUDGET
+    )
     assert (reply.answer, reply.core) == ("unsat", ("all", "none"))
 
 
 def test_what_z3_cannot_decide_is_unknown_with_a_reason() -> None:
-    reply = refute({"possible": forall(a, p(f(a)))}, BUDGET)
+    reply = refute({"possible": terms.forall(a, p(f(a)))}, BUDGET)
     assert reply.answer != "unsat"
     assert reply.answer == "sat" or reply.why

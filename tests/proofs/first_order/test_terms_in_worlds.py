@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 
 from tests.helpers import any_world, path, worlds
 from topo_verify import World
-from topo_verify.proofs.first_order import axioms as t
-from topo_verify.proofs.first_order.obligations import OBLIGATIONS, Obligation
-from topo_verify.proofs.first_order.rules import TRUE_RECORDS
-from topo_verify.proofs.first_order.run_structure import binary, nullary, unary
-from topo_verify.proofs.first_order.structures import Function, Structure
-from topo_verify.proofs.first_order.terms import implies, neg, symbols
+from topo_verify.proofs.first_order import theory as t
+from topo_verify.proofs.first_order.conformance import binary, nullary, unary
+from topo_verify.proofs.first_order.obligations import Obligation
+from topo_verify.proofs.first_order.terms import Function, Structure, implies, neg, symbols
+from topo_verify.proofs.first_order.theorems import OBLIGATIONS
+from topo_verify.proofs.first_order.theory import TRUE_RECORDS
 
 THEMES = {
     "world": (*t.WORLD, *t.DOORS, "doors-wrap", "rot-injective", "rot-degree", "rot-marker"),

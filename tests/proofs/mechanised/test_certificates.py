@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
+import operator
 import random
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import msgspec
 import pytest
 
-from tests.helpers import edited, of_type, trace_of, worlds
+from tests.helpers import edited, of_type, trace_of, with_darts, worlds
 from tests.proofs.mechanised.conftest import LIMIT, nowhere
 from topo_verify import World, families
 from topo_verify.errors import InputError
-from topo_verify.harness.log_report import certify
-from topo_verify.proofs.mechanised import certificates, toolchain
+from topo_verify.proofs.mechanised import certificate_format, certificates, toolchain
 from topo_verify.proofs.mechanised.certificate_format import (
     CertifiedStatement,
     CoqCertificate,
@@ -26,6 +26,7 @@ from topo_verify.proofs.mechanised.certificate_format import (
 from topo_verify.proofs.mechanised.evidence import Alone, Arrive, Illegal, MapRow, Marked
 from topo_verify.robot.events import Event, Finish, MapData, Move, Start
 from topo_verify.robot.percept import Percept
+from topo_verify.studies.log_report import certify
 
 needs_ocaml = pytest.mark.skipif(
     shutil.which("ocamlfind") is None,
@@ -262,13 +263,32 @@ def test_a_wrong_numbering_of_the_right_map_is_refused(place: Path) -> None:
     assert by_program(place, nothing).accepted is False
 
 
+@pytest.mark.parametrize("name", [operator.neg, (2**61).__add__])
+def test_a_delivered_map_is_judged_whatever_its_numbers(
+    place: Path, name: Callable[[int], int]
+) -> None:
+    right = delivering(with_darts(right_map(), name))
+    assert by_coqc(place, certificates.certificate_of(right)).delivered
+    assert certificate_format.left_out(right) == ""
+    for kind, wrong in wrong_maps().items():
+        certificate = certificates.certificate_of(delivering(with_darts(wrong, name)))
+        assert isinstance(certificate.log[-1], Finish)
+        assert certificate.numbering is None, kind
+
+
+def test_a_number_that_is_changed_in_one_place_is_another_dart() -> None:
+    """-5 and 5 are two darts, also once they are numbered anew."""
+    first, *vertices = right_map().vertices
+    wrong = msgspec.structs.replace(right_map(), vertices=((*first[:-1], -first[-1]), *vertices))
+    assert first[-1] > 0
+    assert certificates.certificate_of(delivering(wrong)).numbering is None
+
+
 def test_a_delivered_value_that_is_no_map_is_left_out() -> None:
-    for value in (
-        MapData(((0, -1),), ((0, -1),), 0),
-        MapData(((0, 1),), ((0, 1, 2),), 0),
-        MapData(((0, 1),), ((0, 1),), None),
-    ):
-        assert not of_type(Finish, certificates.certificate_of(delivering(value)).log)
+    for value in (MapData(((0, 1),), ((0, 1, 2),), 0), MapData(((0, 1),), ((0, 1),), None)):
+        log = delivering(value)
+        assert not of_type(Finish, certificates.certificate_of(log).log)
+        assert "the delivered value cannot be stated" in certificate_format.left_out(log)
 
 
 # ---------------------------------------------------------------- by the extracted program

@@ -19,18 +19,11 @@ from tests.proofs.mechanised.test_certificates import (
     needs_ocaml,
     numbers_of,
 )
-from tests.proofs.mechanised.test_decision_evidence import BACKWARDS
+from tests.proofs.mechanised.test_evidence import BACKWARDS
 from topo_verify import World, families
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.proofs.mechanised import certificates, toolchain
-from topo_verify.proofs.mechanised import decision_evidence as evidence
+from topo_verify.proofs.mechanised import certificates, evidence, toolchain
 from topo_verify.proofs.mechanised.certificate_format import CoqCertificate, data_file
-from topo_verify.proofs.mechanised.decision_evidence import (
-    DeclaredDecision,
-    EdgeRefutation,
-    Fact,
-)
-from topo_verify.proofs.mechanised.evidence import Alone, Arc
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Reject
 from topo_verify.world.enumeration.rank_order import count
 
@@ -116,48 +109,48 @@ def test_coqc_accepts_the_decisions_of_larger_worlds(place: Path, world: str, ma
 
 # ---------------------------------------------------------------- forged
 
-Forgery = Callable[[Fact], Fact | None]
+Forgery = Callable[[evidence.Fact], evidence.Fact | None]
 
 
-def another_reason(fact: Fact) -> Fact | None:
+def another_reason(fact: evidence.Fact) -> evidence.Fact | None:
     """The arc back, which does not leave by the dart."""
     reason = fact.reason
     return (
-        replace(fact, reason=Arc(not reason.forwards, reason.visit))
-        if isinstance(reason, Arc)
+        replace(fact, reason=evidence.Arc(not reason.forwards, reason.visit))
+        if isinstance(reason, evidence.Arc)
         else None
     )
 
 
-def confirmed_instead(fact: Fact) -> Fact | None:
+def confirmed_instead(fact: evidence.Fact) -> evidence.Fact | None:
     """The reason for a rejection becomes one for a confirmation: an arc that leaves by the dart."""
     visit, door = fact.one
     moves = of_type(Move, lattice().log)
-    if isinstance(fact.reason, Arc) or visit > len(moves) or moves[visit - 1].door != door:
+    if isinstance(fact.reason, evidence.Arc) or visit > len(moves) or moves[visit - 1].door != door:
         return None
-    return replace(fact, reason=Arc(forwards=True, visit=visit))
+    return replace(fact, reason=evidence.Arc(forwards=True, visit=visit))
 
 
-def rejected_instead(fact: Fact) -> Fact | None:
+def rejected_instead(fact: evidence.Fact) -> evidence.Fact | None:
     """The reason for a confirmation becomes one for a rejection."""
-    why = EdgeRefutation((), Alone(fact.visit))
-    return replace(fact, reason=why) if isinstance(fact.reason, Arc) else None
+    why = evidence.EdgeRefutation((), evidence.Alone(fact.visit))
+    return replace(fact, reason=why) if isinstance(fact.reason, evidence.Arc) else None
 
 
-def evidence_cut(fact: Fact) -> Fact | None:
+def evidence_cut(fact: evidence.Fact) -> evidence.Fact | None:
     """The last merge under the assumption is left out."""
     reason = fact.reason
-    if isinstance(reason, Arc) or not reason.meetings:
+    if isinstance(reason, evidence.Arc) or not reason.meetings:
         return None
     return replace(fact, reason=replace(reason, meetings=reason.meetings[:-1]))
 
 
-def of_a_later_move(fact: Fact) -> Fact | None:
+def of_a_later_move(fact: evidence.Fact) -> evidence.Fact | None:
     """The arc is a move that was not made yet."""
     later = len(of_type(Move, lattice().log))
     return (
-        replace(fact, reason=Arc(forwards=True, visit=later))
-        if isinstance(fact.reason, Arc)
+        replace(fact, reason=evidence.Arc(forwards=True, visit=later))
+        if isinstance(fact.reason, evidence.Arc)
         else None
     )
 
@@ -172,7 +165,7 @@ FORGERIES: tuple[Forgery, ...] = (
 
 
 def with_decision(
-    certificate: CoqCertificate, number: int, facts: Sequence[Fact]
+    certificate: CoqCertificate, number: int, facts: Sequence[evidence.Fact]
 ) -> CoqCertificate:
     """The certificate with these facts for one of its decisions."""
     stated = list(certificate.decisions.stated)
@@ -280,7 +273,9 @@ def mistranslated(monkeypatch: pytest.MonkeyPatch) -> CoqCertificate:
     monkeypatch.setattr(evidence, "following", following)
     facts = evidence.LogSoFar.facts
 
-    def mistaken(log: evidence.LogSoFar, event: DeclaredDecision) -> tuple[Fact, ...]:
+    def mistaken(
+        log: evidence.LogSoFar, event: evidence.DeclaredDecision
+    ) -> tuple[evidence.Fact, ...]:
         return facts(log, rejected if event is lie else event)
 
     monkeypatch.setattr(evidence.LogSoFar, "facts", mistaken)

@@ -11,14 +11,8 @@ import pytest
 
 from tests.helpers import EMPTY, edited, trace_of
 from tests.proofs.mechanised.test_certificates import LATTICE, by_coqc, by_program, needs_ocaml
-from topo_verify.proofs.mechanised import certificates
+from topo_verify.proofs.mechanised import certificates, evidence
 from topo_verify.proofs.mechanised.certificate_format import CoqCertificate
-from topo_verify.proofs.mechanised.decision_evidence import (
-    EdgeRefutation,
-    EntailedDecision,
-    Fact,
-)
-from topo_verify.proofs.mechanised.evidence import Alone, FoldedLog, Illegal
 from topo_verify.robot.events import Finish, Reject
 
 POINT = trace_of(EMPTY)
@@ -54,7 +48,7 @@ def test_false_claims_about_the_world_without_an_edge_are_refused(place: Path) -
     right, leaf = of_point(), certificates.certificate_of(trace_of("m1/0"))
     rejection = next(event for event in trace_of("m3/5") if isinstance(event, Reject))
     decided = (POINT[0], rejection, POINT[1])
-    reason = EntailedDecision(1, (reason_for_nothing(),))
+    reason = evidence.EntailedDecision(1, (reason_for_nothing(),))
     forged = {
         "no world shows it": replace(right, statement="impossible", fold=conflicting(right)),
         "two worlds show it": replace(right, statement="undetermined"),
@@ -78,11 +72,11 @@ def test_false_claims_about_the_world_without_an_edge_are_refused(place: Path) -
         assert by_program(place, one).accepted is False, kind
 
 
-def conflicting(certificate: CoqCertificate) -> FoldedLog:
+def conflicting(certificate: CoqCertificate) -> evidence.FoldedLog:
     """The fold of an impossible log, without evidence."""
-    return replace(certificate.fold, conflict=Illegal())
+    return replace(certificate.fold, conflict=evidence.Illegal())
 
 
-def reason_for_nothing() -> Fact:
+def reason_for_nothing() -> evidence.Fact:
     """A reason why two places are not the ends of an edge, where there is no place."""
-    return Fact(1, (1, 0), (1, 0), EdgeRefutation((), Alone(1)))
+    return evidence.Fact(1, (1, 0), (1, 0), evidence.EdgeRefutation((), evidence.Alone(1)))

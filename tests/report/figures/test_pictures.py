@@ -7,11 +7,11 @@ from itertools import pairwise
 
 import pytest
 
-from topo_verify.harness.reproduce.figures import FIGURES, PAIRS, FigureExtent
-from topo_verify.harness.reproduce.measuring import MeasuredRun, planned_runs
-from topo_verify.harness.reproduce.points import FigurePoint, figure_points
-from topo_verify.report.figures.names import SHORT
+from tests.studies.reproduce.rows import made_up, rows_of
 from topo_verify.report.figures.pictures import LINES, picture, spread
+from topo_verify.report.figures.words import SHORT
+from topo_verify.studies.reproduce.figures import FIGURES, PAIRS, FigureExtent
+from topo_verify.studies.reproduce.points import FigurePoint, figure_points
 
 FIGURE = FIGURES["6d"]
 
@@ -19,10 +19,7 @@ FIGURE = FIGURES["6d"]
 def points(extent: FigureExtent | None = None) -> list[FigurePoint]:
     """Made-up points: each line costs a little more than the one before it."""
     extent = extent or FigureExtent(graphs=2, quick=True)
-    runs = {
-        run: MeasuredRun(run, 5, 10 + k % 9, 20, 100 + k, 10, 10)
-        for k, run in enumerate(planned_runs([FIGURE], extent))
-    }
+    runs = rows_of(FIGURE, extent, lambda run, k: made_up(run, 100 + k, 10 + k % 9))
     return figure_points(FIGURE, extent, runs)
 
 

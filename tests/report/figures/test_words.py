@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import msgspec
 
-from topo_verify.harness.reproduce.figures import FIGURES, PAIRS, FigureExtent, PolicyPair
-from topo_verify.harness.reproduce.measuring import MeasuredRun, PlannedRun, planned_runs
-from topo_verify.harness.reproduce.points import FigurePoint, figure_points
-from topo_verify.report.figures.page import judged_sentence, page
-from topo_verify.report.figures.words import paragraph
+from tests.studies.reproduce.rows import made_up, rows_of
+from topo_verify.campaign.row import Row
+from topo_verify.report.figures.words import judged_sentence, page, paragraph
+from topo_verify.studies.reproduce.figures import FIGURES, PAIRS, FigureExtent, PolicyPair
+from topo_verify.studies.reproduce.measuring import PlannedRun
+from topo_verify.studies.reproduce.points import FigurePoint, figure_points
 
 
 def points(
@@ -17,12 +18,12 @@ def points(
     """Points whose mean is the cost of their algorithm, times their size."""
     figure, extent = FIGURES[name], FigureExtent(graphs=2, quick=True, policies=policies)
 
-    def made(run: PlannedRun) -> MeasuredRun:
+    def made(run: PlannedRun, _number: int) -> Row:
         size = int(run.world.partition("(")[2].partition(",")[0])
         cost = size * costs.get(run.algorithm, 50) + (run.pick == "last")
-        return MeasuredRun(run, 5, size * size, size, cost, 10, 10)
+        return made_up(run, cost, size * size, size)
 
-    return figure_points(figure, extent, {run: made(run) for run in planned_runs([figure], extent)})
+    return figure_points(figure, extent, rows_of(figure, extent, made))
 
 
 def said(name: str, costs: dict[str, int]) -> str:

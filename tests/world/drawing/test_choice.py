@@ -12,9 +12,8 @@ import pytest
 from tests.world.drawing.pictures import drawn
 from topo_verify.world import families
 from topo_verify.world.drawing import choice, lay_out, read_back, to_svg
-from topo_verify.world.drawing.fit import Sketch, fitted
-from topo_verify.world.drawing.given import given
-from topo_verify.world.drawing.layout import Layout
+from topo_verify.world.drawing.layout import Layout, Sketch, fitted
+from topo_verify.world.drawing.straight import given
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 

@@ -7,7 +7,7 @@ import pytest
 
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats
-from topo_verify.world.drawing.crossings import crossings
+from topo_verify.world.drawing.curves import crossings
 
 pytestmark = pytest.mark.no_cover  # drawing is not trusted: it is left out of the measure
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from topo_verify.world import families
-from topo_verify.world.drawing import mesh, packing, polish
+from topo_verify.world.drawing import planar
+from topo_verify.world.drawing import plane_map as meshes
 from topo_verify.world.drawing.arrays import Floats
 from topo_verify.world.drawing.planar import outer_faces
 from topo_verify.world.drawing.plane_map import MOST_CROSSINGS, PlaneMap, best_plane_map, planarise
@@ -61,14 +62,14 @@ def test_a_map_with_too_many_crossings_is_given_up() -> None:
 @pytest.mark.parametrize("world", [SMALL[20], OTHERS[1], families.dodecahedron()])
 def test_no_triangle_flips_in_packing_or_polish(world: World) -> None:
     plane = plane_map(world)
-    made = mesh.over(plane, plane.faces()[0][0], points=2)
+    made = meshes.over(plane, plane.faces()[0][0], points=2)
     pairs = np.concatenate([made.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
     edges = {frozenset(pair) for pair in pairs.tolist()}
     # A disc: V - E + F = 1.
     assert made.size - len(edges) + len(made.triangles) == 1
-    packed = packing.packed(made)
+    packed = planar.packed(made)
     assert packed is not None
-    polished = polish.polished(made, packed, bend=0.4, steps=60)
+    polished = planar.polished(made, packed, bend=0.4, steps=60)
     for places in (packed, polished):
         a, b, c = (places[made.triangles[:, k]] for k in range(3))
         u, v = b - a, c - a
@@ -77,6 +78,6 @@ def test_no_triangle_flips_in_packing_or_polish(world: World) -> None:
     assert np.ptp(np.log(areas(made, polished))) < np.ptp(np.log(areas(made, packed)))
 
 
-def areas(made: mesh.Mesh, places: Floats) -> Floats:
+def areas(made: meshes.Mesh, places: Floats) -> Floats:
     a, b, c = (places[made.triangles[:, k]] for k in range(3))
     return np.asarray((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])

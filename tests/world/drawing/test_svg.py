@@ -1,11 +1,15 @@
-"""The marker in a picture: an arrow that can be seen."""
+"""A picture as SVG: the marker can be seen, and numbers of darts stand on their own edges."""
 
 from __future__ import annotations
 
 import re
 
+import numpy as np
 import pytest
 
+from topo_verify.world import families
+from topo_verify.world.drawing import curves, lay_out
+from topo_verify.world.drawing.svg import leaving, places
 from topo_verify.world.rooted_map import World
 
 pytestmark = pytest.mark.no_cover  # drawing is not trusted: it is left out of the measure
@@ -23,3 +27,35 @@ def test_the_arrow_is_half_as_long_as_a_vertex_is_wide_or_longer(name: str) -> N
     x, y, radius = map(float, place.groups())
     across = ((float(tip[1]) - x) ** 2 + (float(tip[2]) - y) ** 2) ** 0.5
     assert across - radius >= radius
+
+
+# ---------------------------------------------------------------- the numbers of darts
+
+
+CROWDED = families.regular(10, 7, seed=1)
+
+
+@pytest.mark.parametrize("world", [World.from_id("m4/300"), families.lattice(4, 4), CROWDED])
+def test_a_number_stands_on_its_own_edge_and_on_no_other_number(world: World) -> None:
+    layout = lay_out(world)
+    words = {dart: str(dart) for rotation in world.vertices for dart in rotation}
+    found, lines = places(world, layout, words), leaving(world, layout)
+    assert list(found) == [dart for rotation in world.vertices for dart in rotation]
+    for dart, place in found.items():
+        steps = np.arange(0.0, curves.length(lines[dart]), 0.1 * layout.radius)
+        on_line = np.array([curves.place(lines[dart], step) for step in steps])
+        off = np.hypot(*(on_line - place).T).min() / layout.radius
+        assert off < (0.9 if dart == world.root else 0.1)  # beside the arrow
+    spots = np.array(list(found.values()))
+    apart = np.abs(spots[:, None] - spots[None, :]).max(axis=2) + np.eye(len(spots)) * 1e9
+    assert apart.min() > 0.4 * layout.radius  # an edge may be hardly longer than its two numbers
+
+
+def test_a_number_goes_out_along_its_edge_where_edges_leave_side_by_side() -> None:
+    layout = lay_out(CROWDED)
+    words = {dart: str(dart) for rotation in CROWDED.vertices for dart in rotation}
+    away = {
+        np.hypot(*(np.array(place) - layout.centres[CROWDED.vertex_of[dart]]))
+        for dart, place in places(CROWDED, layout, words).items()
+    }
+    assert max(away) > 2 * min(away)

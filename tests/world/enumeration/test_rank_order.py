@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from topo_verify.errors import InputError
 from topo_verify.world import World
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.enumeration.genus_counts import count_genus
+from topo_verify.world.enumeration.counts import count_genus
 
 ALL_GENERA = (1, 2, 10, 74, 706, 8162, 110410, 1708394, 29752066, 576037442)
 PLANAR = (1, 2, 9, 54, 378, 2916, 24057, 208494, 1876446)

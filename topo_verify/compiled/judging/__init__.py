@@ -1,7 +1,7 @@
 """The ten claims inside the kernel: what `checkers/` would say of a run, without its sentences.
 
-    layout.py       the array J: what is asked, the verdict, what the judge remembers
-    words.py        the world and the words of a trace, read with every range checked
+    layout.py       the array J: what is asked, the verdict, what the judge remembers;
+                    the world and the words of a trace, read with every range checked
     truth.py        claims 1 to 7: the trace replayed in its world    checkers/replayed_trace.py
     justified.py    claim 8: the evidence, recomputed                 checkers/excursions.py
     fold.py         the fold of a history, with rollback              checkers/folding.py

@@ -10,29 +10,7 @@ from __future__ import annotations
 
 from topo_verify.compiled.events import OWN_OTHER_END, TURNED_ITSELF, TWO_OF_S, UNLIKE
 from topo_verify.compiled.judging.fold import find_dart, find_node
-from topo_verify.compiled.judging.layout import (
-    C_END,
-    C_ENTRIES,
-    C_FIRST,
-    C_MET,
-    C_NEXT,
-    C_SAME,
-    C_WAITING,
-    F_BASE,
-    F_DEGREE,
-    F_DOORS,
-    F_END_DART,
-    F_END_NODE,
-    F_MARKED,
-    F_OWNER,
-    F_WORK,
-    J_FULL,
-    JUDGE_DOORS,
-    S_DART,
-    S_ENTRY,
-    S_NODE,
-    S_VERTICES,
-)
+from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.kernel import Words, inlined, kernel
 
 

@@ -32,33 +32,8 @@ from topo_verify.compiled.judging.fold import (
     roll_back,
     start_judge_fold,
 )
-from topo_verify.compiled.judging.layout import (
-    F_BASE,
-    F_DEGREE,
-    F_END_DART,
-    F_END_NODE,
-    F_MET,
-    F_UNDOS,
-    J_CITED,
-    J_FULL,
-    J_LEVEL,
-    J_SAW_PLANAR,
-    JUDGE_DARTS,
-    JUDGE_STEPS,
-    S_AFTER,
-    S_DART,
-    S_DARTS,
-    S_ENTRY,
-    S_MET,
-    S_NODE,
-    S_OPEN,
-    S_REFUTED,
-    S_REJECTION,
-    S_STANDS,
-    S_UNPROVED,
-    S_VERTICES,
-)
-from topo_verify.compiled.judging.words import end_of_trace, event_size, shown
+from topo_verify.compiled.judging.layout import *
+from topo_verify.compiled.judging.layout import end_of_trace, event_size, shown
 from topo_verify.compiled.kernel import Words, inlined, kernel
 from topo_verify.compiled.workspace import TR
 

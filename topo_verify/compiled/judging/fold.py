@@ -11,34 +11,7 @@ each dart of each node, as it was put; node -1: the dart is open.
 from __future__ import annotations
 
 from topo_verify.compiled.events import OWN_OTHER_END, TURNED_ITSELF, UNLIKE
-from topo_verify.compiled.judging.layout import (
-    F_ALPHA,
-    F_AT,
-    F_BASE,
-    F_DART,
-    F_DEGREE,
-    F_DOORS,
-    F_END_DART,
-    F_END_NODE,
-    F_FIRST,
-    F_MARKED,
-    F_MET,
-    F_NODES,
-    F_NUMBER,
-    F_OFFSET,
-    F_OWNER,
-    F_PARENT,
-    F_SIZE,
-    F_UNDO,
-    F_UNDOS,
-    F_VERTEX,
-    F_WEIGHT,
-    F_WORK,
-    J_FULL,
-    JUDGE_DARTS,
-    JUDGE_DOORS,
-    JUDGE_NODES,
-)
+from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.kernel import Words, inlined, kernel
 from topo_verify.compiled.workspace import MASK, SHIFT
 

@@ -8,38 +8,8 @@ true in the world, so of several records that reach as far any one will do.
 from __future__ import annotations
 
 from topo_verify.compiled.events import ABSENT, BY_FOLDING, BY_MOTION, BY_PLANAR
-from topo_verify.compiled.judging.layout import (
-    J_ALPHA,
-    J_ARENA,
-    J_ARENA_DOOR,
-    J_ARENA_PERCEPT,
-    J_CITED,
-    J_CITED_BY,
-    J_FIRST_SEQUENCE,
-    J_FULL,
-    J_NUMBER,
-    J_PHI,
-    J_POSE_AT,
-    J_POSE_EDGE,
-    J_RECORD_AT,
-    J_RECORD_BEFORE,
-    J_RECORD_OF,
-    J_RECORD_REST,
-    J_RECORDS,
-    J_REJECTIONS,
-    J_SEQUENCE_AT,
-    J_SEQUENCE_SIZE,
-    J_SEQUENCES,
-    J_SIZE,
-    J_WORD_DOOR,
-    J_WORD_PERCEPT,
-    J_WORD_SIZE,
-    JUDGE_ARENA,
-    JUDGE_SEQUENCES,
-    JUDGE_STEPS,
-    S_MET,
-)
-from topo_verify.compiled.judging.words import exit_of, shown
+from topo_verify.compiled.judging.layout import *
+from topo_verify.compiled.judging.layout import exit_of, shown
 from topo_verify.compiled.kernel import Words, inlined, kernel
 from topo_verify.compiled.workspace import AL
 

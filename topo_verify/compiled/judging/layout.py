@@ -1,10 +1,15 @@
-"""The layout of the judge's array J: fields at constant places, of 64-bit integers.
+"""The judge's array J, fields at constant places, and how the judge reads the world and the trace.
 
-`J_FULL` is set wherever a field has no room for what comes; then the verdict is open. Sizes are for
-worlds of up to 12 edges, whose budget is 6,780 moves.
+`J_FULL` is set wherever a field has no room for what comes, and where a word of the trace is out of
+range; then the verdict is open. Sizes are for worlds of up to 12 edges, whose budget is 6,780
+moves.
 """
 
 from __future__ import annotations
+
+from topo_verify.compiled.events import AUGMENT, CONFIRM, MOVE, POSE, REJECT, REJECT_WORDS
+from topo_verify.compiled.kernel import Words, inlined
+from topo_verify.compiled.workspace import *
 
 _used = 0
 
@@ -197,3 +202,56 @@ S_MET = _field(JUDGE_STEPS)
 """Of each rejection: 1 if the contradiction that it cites follows."""
 
 JUDGE_SIZE = _used
+
+
+# ---------------------------------------------------------------- the world and the trace, read
+
+
+@inlined
+def shown(W: Words, dart: int) -> int:
+    """What the world shows to a robot with this reference dart."""
+    v = W[VT + dart]
+    percept = W[DG + v] << SHIFT
+    if v == 0:
+        percept += 1
+        if dart > 0:
+            percept += W[DG] - dart
+    return percept
+
+
+@inlined
+def exit_of(W: Words, dart: int, door: int) -> int:
+    """The dart of the world that a door means to a robot with this reference dart."""
+    v = W[VT + dart]
+    end = W[ST + v] + W[DG + v]
+    dart += door
+    while dart >= end:
+        dart -= W[DG + v]
+    return dart
+
+
+@inlined
+def end_of_trace(W: Words) -> int:
+    """Where the trace ends in the workspace."""
+    return TR + W[NTR]
+
+
+@inlined
+def event_size(W: Words, J: Words, i: int, end: int) -> int:
+    """How many words the event at i has; 0, and the verdict is open, if it is no event."""
+    kind = W[i]
+    size = 0
+    if kind in (MOVE, CONFIRM):
+        size = 4
+    elif kind == AUGMENT:
+        size = 5
+    elif i + 3 <= end and kind == POSE and W[i + 2] >= 0:
+        size = 3 + W[i + 2]
+    elif i + REJECT_WORDS <= end and kind == REJECT:
+        size = W[i + 3]
+        if size != REJECT_WORDS + W[i + 12]:
+            size = 0
+    if size <= 0 or i + size > end:
+        J[J_FULL] = 1
+        return 0
+    return size

@@ -21,52 +21,10 @@ from topo_verify.compiled.events import (
     REJECT,
 )
 from topo_verify.compiled.judging.justified import keep_sequence, record_sequences, unjustified
-from topo_verify.compiled.judging.layout import (
-    FATE_LOOP,
-    FATE_NEW,
-    FATE_POSED,
-    J_ALPHA,
-    J_ARENA,
-    J_AT,
-    J_AUGMENTATIONS,
-    J_CONFIRMATIONS,
-    J_COST,
-    J_CROSSED,
-    J_DARTS,
-    J_DOORS_HASH,
-    J_FATE,
-    J_FIRST_SEQUENCE,
-    J_FOLLOWED,
-    J_FULL,
-    J_GROWN,
-    J_IS_LATE,
-    J_LEFT,
-    J_LEGAL,
-    J_NUMBER,
-    J_PHI,
-    J_POSE_AT,
-    J_POSE_EDGE,
-    J_POSED,
-    J_RECORD_OF,
-    J_RECORDS,
-    J_REJECTIONS,
-    J_SAW_PLANAR,
-    J_SAW_POSE,
-    J_SEQUENCES,
-    J_SIZE,
-    J_SPOILED,
-    J_TRUE,
-    J_TURNED,
-    J_WORD_DOOR,
-    J_WORD_PERCEPT,
-    J_WORD_SIZE,
-    J_WRONG,
-    JUDGE_DARTS,
-    JUDGE_STEPS,
-)
-from topo_verify.compiled.judging.words import end_of_trace, event_size, exit_of, shown
+from topo_verify.compiled.judging.layout import *
+from topo_verify.compiled.judging.layout import end_of_trace, event_size, exit_of, shown
 from topo_verify.compiled.kernel import Words, inlined, kernel
-from topo_verify.compiled.workspace import AL, DG, ST, TR, VT
+from topo_verify.compiled.workspace import *
 
 HASH_PRIME = 1099511628211
 

@@ -9,56 +9,11 @@ from __future__ import annotations
 from topo_verify.compiled.judging.entailed import fold_history
 from topo_verify.compiled.judging.fold import find_dart, find_node, lay_out
 from topo_verify.compiled.judging.justified import cites_in_vain
-from topo_verify.compiled.judging.layout import (
-    F_ALPHA,
-    F_DEGREE,
-    F_NUMBER,
-    F_SIZE,
-    F_VERTEX,
-    FAILED,
-    FATE_LOOP,
-    FATE_NEW,
-    J_ALPHA,
-    J_AUGMENTATIONS,
-    J_BOUND,
-    J_CITED,
-    J_CONFIRMATIONS,
-    J_COST,
-    J_CROSSED,
-    J_DARTS,
-    J_DELIVERED,
-    J_FATE,
-    J_FOLLOWED,
-    J_FULL,
-    J_GROWN,
-    J_IMAGE,
-    J_JUDGED,
-    J_LEFT,
-    J_LEGAL,
-    J_LEVEL,
-    J_OF,
-    J_POSED,
-    J_REJECTIONS,
-    J_REPORTED,
-    J_SAW_AUGMENT,
-    J_SAW_CONFIRM,
-    J_SAW_POSE,
-    J_SAW_REJECT,
-    J_SIZE,
-    J_SPOILED,
-    J_STATUS,
-    J_TRUE,
-    J_VERTICES,
-    J_WRONG,
-    NOT_DECLARED,
-    OK,
-    PARTIAL,
-    S_UNPROVED,
-)
+from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.truth import replay
 from topo_verify.compiled.kernel import Words, entry, inlined, kernel
 from topo_verify.compiled.pruning import bit_count
-from topo_verify.compiled.workspace import AL, CA, CD, CF, CV, DG, NDARTS, NV, ST, VT
+from topo_verify.compiled.workspace import *
 
 
 @entry

@@ -22,10 +22,11 @@ from textwrap import wrap
 from typing import TypeVar
 
 from topo_verify.errors import InputError
-from topo_verify.player.animation.captions import Caption, captions, glyph
 from topo_verify.player.animation.tracks import Leg, Tracks, timed
+from topo_verify.player.narrator import Narrator, Saying
 from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
+from topo_verify.robot.percept import Percept
 from topo_verify.text import plural, shown
 from topo_verify.world.drawing import lay_out
 from topo_verify.world.drawing.curves import number
@@ -36,8 +37,14 @@ T = TypeVar("T")
 MOST_EVENTS = 500
 """A longer run is for the player: nobody watches ten minutes of an animation."""
 
+MOST_SPOKES = 12
+"""A glyph of more exits is their number."""
+
 WIDTH, MARGIN, FOOT = 560, 14, 84
 """Of the picture; the words stand below the world."""
+
+COLUMNS, BESIDE = 78, 55
+"""Of a line of words, alone and beside two glyphs; there are two lines."""
 
 SECONDS = {
     ev.Start: 2.0,
@@ -283,9 +290,9 @@ def _turned(tracks: Tracks, stage: Stage) -> Iterator[Keyframe]:
 
 def _words(playback: Playback, stage: Stage, top: float) -> Iterator[str]:
     """What happens, in a sentence; more about it below; what is seen; and the moves so far."""
-    told = captions(playback)
-    for first, last, caption in _spans(told):
-        yield f"<g{stage.during((first, last))}>{_caption(caption, top)}</g>"
+    captioned = [_caption(saying, top) for saying in captions(playback)]
+    for first, last, caption in _spans(captioned):
+        yield f"<g{stage.during((first, last))}>{caption}</g>"
     costs = [moment.spent.cost for moment in playback.moments]
     x, y = number(WIDTH - MARGIN - 6), number(MARGIN + 8)
     yield '<g font-size="13" text-anchor="end">'
@@ -296,21 +303,25 @@ def _words(playback: Playback, stage: Stage, top: float) -> Iterator[str]:
     yield "</g>"
 
 
-def _caption(caption: Caption, top: float) -> str:
-    x, kind = MARGIN + 8, f' class="{caption.kind}"' if caption.kind else ""
+def _caption(said: Saying, top: float) -> str:
+    """A saying below the world; the percepts that differ stand beside what is wrong."""
+    x, kind = MARGIN + 8, f' class="{said.kind}"' if said.kind else ""
+    compared = said.seen, said.expected if said.kind == "bad" else None
+    columns = COLUMNS if None in compared else BESIDE
     words = (
         f'<text{kind} x="{x}" y="{number(top + 34)}" font-size="17" font-weight="700">'
-        f"{text(caption.words, limit=64)}</text>"
+        f"{text(said.title, limit=64)}</text>"
     )
-    for row, line in enumerate(wrap(caption.detail, 78, max_lines=2, placeholder=" …")):
+    for row, line in enumerate(wrap(said.text, columns, max_lines=2, placeholder=" …")):
         words += f'<text class="soft" x="{x}" y="{number(top + 56 + 18 * row)}" font-size="14">'
         words += f"{text(line)}</text>"
-    if caption.seen is None or caption.expected is None:
+    seen, expected = compared
+    if seen is None or expected is None:
         return words
     right = WIDTH - MARGIN
     unequal = f'<text class="bad" x="{right - 90}" y="{number(top + 34)}" font-size="22">≠</text>'
-    seen = glyph(caption.seen, right - 124, top + 26, "it sees")
-    return words + seen + unequal + glyph(caption.expected, right - 42, top + 26, "it should")
+    seen_here = glyph(seen, right - 124, top + 26, said.labels[0])
+    return words + seen_here + unequal + glyph(expected, right - 42, top + 26, said.labels[1])
 
 
 def _spans(values: Sequence[T]) -> Iterator[tuple[int, int, T]]:
@@ -320,3 +331,45 @@ def _spans(values: Sequence[T]) -> Iterator[tuple[int, int, T]]:
         if place == len(values) or values[place] != values[first]:
             yield first, place, values[first]
             first = place
+
+
+def captions(playback: Playback) -> Sequence[Saying]:
+    """What is said of each moment; of one with findings, the first of them."""
+    said = [
+        _wrong(moment.findings[0].message) if moment.findings else saying
+        for moment, saying in zip(playback.moments, Narrator(playback).sayings, strict=True)
+    ]
+    last = playback.moments[-1]
+    if playback.about_the_run and not last.findings:
+        said[-1] = _wrong(playback.about_the_run[0].message)
+    elif playback.stopped is not None and not last.findings:
+        said[-1] = Saying("bad", "The run ends without a map", (shown(playback.stopped),))
+    return said
+
+
+def _wrong(message: str) -> Saying:
+    return Saying("bad", "Here the mapper goes wrong", (shown(message),))
+
+
+def glyph(percept: Percept, x: float, y: float, label: str) -> str:
+    """A place as the robot sees it: its exits as spokes, the way it came downwards, in blue."""
+    degree = percept.degree
+    parts = [f'<g transform="translate({number(x)} {number(y)})" stroke-linecap="round">']
+    parts.append(f'<text class="soft" y="44" font-size="12" text-anchor="middle">{label}</text>')
+    if degree > MOST_SPOKES:
+        parts.append(f'<text y="5" font-size="15" text-anchor="middle">{degree}</text></g>')
+        return "".join(parts)
+    for door in range(degree):
+        turn = math.tau * door / degree + math.tau / 4
+        if door == percept.marker:
+            tip = "M26 0l-9 -5v10z"
+            parts.append(
+                f'<g transform="rotate({number(math.degrees(turn))})"><path class="tv-mark"'
+                f' stroke-width="3.5" d="M9 0H18"/><path class="tv-tip" d="{tip}"/></g>'
+            )
+        else:
+            ends = [f"{number(r * math.cos(turn))} {number(r * math.sin(turn))}" for r in (9, 23)]
+            kind = "e" if door == 0 else "road spoke"
+            parts.append(f'<path class="{kind}" stroke-width="3.5" d="M{ends[0]}L{ends[1]}"/>')
+    parts.append('<circle class="place spoke" stroke-width="2" r="8"/></g>')
+    return "".join(parts)

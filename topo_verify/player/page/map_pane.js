@@ -44,7 +44,7 @@ class MapPane extends Pane {
       shown(g, born);
     }
     if (run.silent) this.visited(shown);
-    if (run.recorded.records) this.records(shown);
+    this.records(shown);
     this.marker(this.marks);
     this.recent = this.path('', 'recent', this.under);
     this.moment = draw('g', {}, this.over);
@@ -69,7 +69,8 @@ class MapPane extends Pane {
 
   /** A diamond behind each unexplored dart of which a record is kept. */
   records(shown) {
-    for (const { when, dart } of this.run.learned) {
+    const kept = this.run.events.flatMap(({ records = [] }, when) => records.map((dart) => [when, dart]));
+    for (const [when, dart] of kept) {
       const [x, y] = this.end(dart);
       const s = 7 * this.u;
       const data = `M${x} ${y - s}L${x + s} ${y}L${x} ${y + s}L${x - s} ${y}Z`;
@@ -111,7 +112,7 @@ class MapPane extends Pane {
     this.timeline.seek(when);
     this.moment.replaceChildren();
     this.ways.replaceChildren();
-    const round = run.round(when);
+    const round = run.rounds[when];
     const asking = (round && run.map.darts[round.edge] && when < round.to ? round : null) ?? this.leaving(when);
     this.robot.classList.toggle('off', Boolean(asking));
     const one = run.events[when];
@@ -130,7 +131,7 @@ class MapPane extends Pane {
   /** Show a round's question. It stays as long as the round does: to make it anew is dear. */
   ask(round, when) {
     const { run } = this;
-    const same = round !== null && this.asked?.round.edge === round.edge && this.asked.round.from === round.from;
+    const same = round && this.asked?.round.edge === round.edge && this.asked.round.from === round.from;
     if (!same) {
       this.asked?.remove();
       this.asked = round && run.map.darts[round.edge].image >= 0 ? new Question(this, round) : null;
@@ -140,7 +141,7 @@ class MapPane extends Pane {
     this.asked.show(when, tested);
     const one = run.events[when];
     if (one.type === 'reject') this.evidence(when, tested, this.asked.at);
-    else if (tested) this.walk(run.word(when), tested, one.type === 'confirm' ? 'good' : '');
+    else if (tested) this.walk(run.word(when), tested, one.type !== 'confirm' ? '' : run.isWrong(when) ? 'bad' : 'good');
   }
 
   /** A question without guesses: a move leaves S by an unexplored dart, and nothing is said yet. */
@@ -171,11 +172,11 @@ class MapPane extends Pane {
     const one = run.events[when];
     const found = run.evidence(when);
     if (!found || !tested) return;
-    const { believed, told } = found;
+    const { believed } = found;
     if (one.rule === 'folding' || one.rule === 'planar') {
       this.path(this.arc(at, this.end(tested.dart)), 'guess bad', this.moment);
       if (one.rule === 'planar') for (const dart of run.map.face(one.edge, when)) this.band(dart, 'face');
-      for (const dart of told ?? []) {
+      for (const dart of run.told(when) ?? []) {
         if (run.map.vertices.some((v) => v.born <= when && this.centre(v.entry) === this.centre(dart))) {
           this.ring(this.centre(dart), 'ring', this.moment);
         }

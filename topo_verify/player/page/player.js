@@ -135,8 +135,8 @@ class Player {
 
   /** The same walk in the witness of a finding, up to the finding. */
   inWitness(run, finding) {
-    const events = run.recorded.events.slice(0, (finding.event ?? run.length - 1) + 1);
-    return new Run(this.pictures[finding.witness], { ...run.recorded, events, lies: {}, places: {}, findings: [] });
+    const end = (finding.event ?? run.length - 1) + 1; // what follows names darts of this world
+    return new Run(this.pictures[finding.witness], { ...run.recorded, end, identified: {}, findings: [] });
   }
 
   /** Ring the vertices of a pane at which the walks in world and witness part. */
@@ -182,8 +182,8 @@ class Player {
     for (const chart of this.charts) chart.show(this.tick);
     const slider = byId('slider');
     slider.value = this.tick;
-    const run = this.runs[this.chosen[0]];
-    if (!this.timer) slider.setAttribute('aria-valuetext', `Step ${this.tick} of ${this.clock.last}: ${summary(run, this.at(0))}`);
+    const said = this.runs[this.chosen[0]].said(this.at(0));
+    if (!this.timer) slider.setAttribute('aria-valuetext', `Step ${this.tick} of ${this.clock.last}: ${said.title}. ${said.text}`);
     this.counts();
     if (!this.timer) this.address();
   }
@@ -444,13 +444,15 @@ class Saying {
   }
 
   show(run, when, since) {
-    const said = words(run, when);
+    const said = run.said(when);
     this.section.className = `card say ${said.kind}`;
     this.title.textContent = said.title;
     this.text.textContent = said.text;
     const found = run.findingsBetween(since, when);
     this.wrong.hidden = !found.length;
-    this.wrong.replaceChildren(...found.slice(0, 20).map((one) => html('li', '', null, `${one.claim}: ${one.message}`)));
+    const remarks = found.flatMap((one) => one.remarks.map((remark) => `(${remark})`));
+    const lines = [...found.map((one) => `${one.claim}: ${one.message}`), ...remarks];
+    this.wrong.replaceChildren(...lines.slice(0, 20).map((line) => html('li', '', null, line)));
     this.section.classList.toggle('found', found.length > 0);
     const { sees, should } = said;
     this.compared.classList.toggle('none', !sees);

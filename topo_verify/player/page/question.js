@@ -52,7 +52,7 @@ class Question {
   /** Show what is left of the guesses at an event. */
   show(when, tested) {
     for (const { h, arc, badge } of this.guesses) {
-      const state = h.out > when ? '' : h.kept ? ' kept' : h.out === when ? ' hot' : ' out';
+      const state = h.out > when ? '' : h.kept && !this.pane.run.isWrong(h.out) ? ' kept' : h.kept || h.out === when ? ' hot' : ' out';
       const kind = h.out < when && !h.kept ? 'off' : h === tested ? 'guess tested' : 'guess';
       if (badge.getAttribute('class') !== `badge${state}`) badge.setAttribute('class', `badge${state}`);
       if (arc.getAttribute('class') !== kind) arc.setAttribute('class', kind);

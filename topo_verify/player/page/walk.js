@@ -296,7 +296,7 @@ class WalkMode {
 
   cost() {
     const { walk } = this, least = walk.world.leastCost();
-    const runs = walk.world !== this.page.world ? [] : this.recording.runs.map((run) => `${run.name} takes ${run.events.filter((event) => typeof event === 'string' && event !== 's').length}`);
+    const runs = walk.world !== this.page.world ? [] : this.recording.runs.map((run) => `${run.name} takes ${run.events.replace(/[^wcvtm]/g, '').length}`);
     const proof = this.ended.proved ? 'The history proves the world.' : `The history does not prove the world: ${this.ended.open} exit${this.ended.open === 1 ? '' : 's'} of it may lead anywhere.`;
     return `You made ${walk.moves} move${walk.moves === 1 ? '' : 's'}. With the map in hand, a proof of this world takes ${least}${runs.length ? `; ${runs.join(', ')}` : ''}. ${proof}`;
   }

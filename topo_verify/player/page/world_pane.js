@@ -54,7 +54,7 @@ class WorldPane extends Pane {
     }
     this.recent.setAttribute('d', trails.join(''));
     const one = run.events[when];
-    const round = run.round(when);
+    const round = run.rounds[when];
     const image = round ? run.map.darts[round.edge]?.image ?? -1 : -1;
     const crossed = one.type === 'move' && one.purpose === 1 ? run.left[when] : -1;
     const e = image >= 0 ? image : crossed;
@@ -75,22 +75,21 @@ class WorldPane extends Pane {
 
   evidence(when) {
     const { run, picture } = this;
-    const found = run.evidence(when);
+    const found = run.evidence(when), told = run.told(when);
     if (!found) return;
-    const { real, believed, told } = found;
+    const { real, believed } = found;
     if (told) return told.forEach((dart) => this.ring(this.centre(dart), 'ring', this.over));
     const one = run.events[when];
     if (one.rule === 'planar' || one.rule === 'folding') return this.face(one, when);
     for (const dart of real.left) this.path(picture.trail(dart).data, 'way bad', this.over);
-    this.ring(this.centre(real.end), 'ring', this.over);
+    this.ring(this.centre(real.at), 'ring', this.over);
     const would = believed.rest.length ? this.recorded(believed) : run.map.darts[believed.at].image;
     if (would >= 0) this.ring(this.centre(would), 'ring would', this.over, 13);
   }
 
   /** Where a record was made: the end of the doors behind an unexplored dart. */
   recorded({ at, rest }) {
-    const beyond = this.picture.other[this.run.map.darts[at].image];
-    return this.run.follow(beyond, rest.slice(1)).end;
+    return this.run.follow(this.run.map.beyond(at), rest.slice(1)).at;
   }
 
   face(one, when) {

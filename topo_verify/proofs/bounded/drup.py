@@ -10,7 +10,7 @@ uses, several times over. The checker follows a refutation of these, and `object
 they are clauses of the formula: if some of its clauses contradict each other, all of them do.
 
 What this does not show: that the clauses say what they should. The encoding is compared with the
-enumeration (`model_count.py`), and its rules with the simulator (`replay.py`).
+enumeration (`theorems.py`), and its rules with the simulator (`replay.py`).
 
 Source: M. Heule, W. Hunt, N. Wetzler, "Trimming while checking clausal proofs", FMCAD 2013.
 """

@@ -1,14 +1,30 @@
 """Theorems that must be refuted by a world: the negatives, and rules with one mistake.
 
     negative   a mapper that ignores the direction, or the whole, of the marker confirms a false
-               hypothesis: in the smallest worlds of their class (`negatives`)
-    mutant     a rule with a fault (`walks.RuleFault`) confirms a false hypothesis, or rejects the
+               hypothesis: in the smallest worlds of their class (`SMALLEST`)
+    mutant     a rule with a fault (`RuleFault`) confirms a false hypothesis, or rejects the
                true one
 
 The solver finds a world, a map and doors. Then the simulator repeats them, and the checkers must
 find that the claim fails (`replay.py`). A model that does not replay is a bug, and raises.
 
-Source: docs/semantics.md, sections 7 and 10.
+**Negatives.** Without the marker's direction, mappers confirm false hypotheses. A mapper stands
+behind e and walks the way home of a hypothesis h, a shortest way on S from h to v0. It compares the
+percepts at each door and at both ends, but of the marker it compares only the presence
+(`undirected`), or nothing (`none`). Then there are worlds in which every percept is as expected
+although e does not end in h. The smallest have this many edges:
+
+    class       undirected   none
+    any         2            2
+    loopless    3            2
+    simple      4            3
+
+The way is any shortest one, whichever a breadth-first search would take: so there is no smaller
+world for any policy. Depths on S are one-hot:
+
+    depth[x][t]   the vertex of x is t edges from v0 on S       down[x]   x leads one nearer to v0
+
+Source: docs/semantics.md, sections 6, 7 and 10.
 """
 
 from __future__ import annotations
@@ -16,21 +32,136 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from time import perf_counter
 
-from topo_verify.proofs.bounded import negatives, word_rules
-from topo_verify.proofs.bounded.decode import BoundedCounterexample, decode, decoded_booleans
-from topo_verify.proofs.bounded.encoding import MarkerDetail
+from topo_verify.proofs.bounded import encoding as enc
+from topo_verify.proofs.bounded import statements
+from topo_verify.proofs.bounded.cnf import REFUTED, CnfRow, Formula, first_model
 from topo_verify.proofs.bounded.replay import (
+    BoundedCounterexample,
     ReplayedCounterexample,
+    decode,
+    decoded_booleans,
     replay_confirmation,
     replay_rejection,
 )
-from topo_verify.proofs.bounded.solve import first_model
-from topo_verify.proofs.bounded.walks import RuleFault
-from topo_verify.proofs.bounded.word_rules import EncodedCounterexample
-from topo_verify.proofs.solvers.z3_solver import name as solver_name
-from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult
+from topo_verify.proofs.bounded.statements import EncodedCounterexample
+from topo_verify.proofs.solvers.z3_solver import z3_result
+from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult, timed
+from topo_verify.text import plural
+
+
+@dataclass(frozen=True, slots=True)
+class Negative:
+    """A false claim about a class of worlds, and the edges of the smallest that refutes it."""
+
+    marker: enc.MarkerDetail
+    world_class: str
+    edges: int
+
+    @property
+    def name(self) -> str:
+        """The name of the theorem, such as `undirected-simple`."""
+        return f"{self.marker}-{self.world_class}"
+
+    @property
+    def statement(self) -> str:
+        """The false claim, in words."""
+        what = {
+            "directed": "compares all of the marker",
+            "undirected": "looks only at the presence of the marker",
+            "none": "does not look at the marker",
+        }
+        kind = "a" if self.world_class == "any" else f"a {self.world_class}"
+        return f"A mapper that {what[self.marker]} confirms a false hypothesis in {kind} world."
+
+
+SMALLEST = (
+    Negative("undirected", "any", 2),
+    Negative("none", "any", 2),
+    Negative("undirected", "loopless", 3),
+    Negative("none", "loopless", 2),
+    Negative("undirected", "simple", 4),
+    Negative("none", "simple", 3),
+)
+
+
+def premises(edges: int, world_class: str) -> Formula:
+    """Any unexplored dart of any map of any world of the class, without a hypothesis."""
+    # Without h: in the loopless world with one edge there is none, and the theorem counts it.
+    return enc.behind_an_edge(edges, world_class=world_class).world
+
+
+def false_confirmation(
+    edges: int, world_class: str, marker: enc.MarkerDetail
+) -> EncodedCounterexample:
+    """Every percept on a shortest way home from h is as expected, and e does not end in h."""
+    scene = enc.behind_an_edge(edges, world_class=world_class)
+    world, h = scene.world, enc.hypothesis(scene)
+    word = enc.doors(world, "door", edges)
+    go = world.booleans("way.go", edges)
+    here = enc.walk(world, "here", h, word, go)
+    there = enc.walk(world, "there", scene.vu, word, go)
+    enc.stay_explored(world, scene.chart, here, go)
+    # A step is made exactly if v0 is not reached yet, and after all steps it is.
+    for i, on in enumerate(go):
+        world.equate("way", (), (on,), (-here.senses[i].here,))
+    world.add("way", here.senses[-1].here)
+    depth = depths(world, scene.chart)
+    for i, on in enumerate(go):
+        _one_nearer(world, depth, here.leave[i], here.at[i + 1], on)
+    for i, (one, other) in enumerate(zip(here.senses, there.senses, strict=True)):
+        world.add("matching", world.alike("percepts", one, other, f"compare.{i}", marker))
+    for a, b in zip(h, scene.vu, strict=True):
+        world.add(REFUTED, -a, -b)
+    return EncodedCounterexample(
+        world=world, chart=scene.chart, e=scene.e, h=h, executed=word, made=go
+    )
+
+
+def depths(world: enc.Worlds, chart: enc.EncodedMap) -> tuple[CnfRow, ...]:
+    """Per dart, a one-hot row: the distance of its vertex from v0 on the map."""
+    group, levels = "depths", range(world.edges + 1)
+    depth = tuple(world.booleans(f"depth.{d}", len(levels)) for d in world.darts)
+    down = world.booleans("down", len(world.darts))
+    for d in world.darts:
+        # Depth 0 is v0 alone. A dart has one depth if S knows it, and none otherwise.
+        world.equate(group, (), (world.in_v0[d],), depth[d][:1])
+        world.imply(group, [chart.known[d]], *depth[d])
+        for t in levels:
+            world.imply(group, [depth[d][t]], chart.known[d])
+            for u in range(t):
+                world.add(group, -depth[d][t], -depth[d][u])
+        world.imply(group, [down[d]], chart.explored[d])
+    # All darts of a vertex have one depth, and each vertex but v0 has a dart that leads nearer.
+    for (f, degree), vertex in world.vertex.items():
+        for x in range(f + 1, f + degree):
+            world.equate(group, (vertex,), depth[x], depth[f])
+        if f:
+            nearer = down[f : f + degree]
+            world.imply(group, [vertex, chart.known[f]], *nearer)
+    for a, b in world.joined:
+        for x, y in ((a, b), (b, a)):
+            for t in levels[1:]:
+                joined = (world.edge(a, b), depth[x][t])
+                world.imply(group, (*joined, down[x]), depth[y][t - 1])
+                # An explored edge changes the depth by at most one: so depths are distances.
+                farther = depth[y][t - 1 : t + 2]
+                world.imply(group, (*joined, chart.explored[x]), *farther)
+    return depth
+
+
+def _one_nearer(
+    world: enc.Worlds, depth: tuple[CnfRow, ...], leave: CnfRow, arrive: CnfRow, on: int
+) -> None:
+    """Require that a step that is made leads from depth t to depth t - 1."""
+    for x in world.darts:
+        for y in world.darts:
+            for t in range(1, world.edges + 1):
+                made = (on, leave[x], arrive[y], depth[x][t])
+                world.imply("shortest", made, depth[y][t - 1])
+
+
+# ---------------------------------------------------------------- theorems that must be refuted
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,15 +169,14 @@ class _FaultyRule:
     """A rule with one mistake: its name, the fault, the edges of its smallest counterexample."""
 
     rule: str
-    fault: RuleFault | MarkerDetail
+    fault: enc.RuleFault | enc.MarkerDetail
     edges: int
-    build: Callable[[int, int], EncodedCounterexample]
     mistake: str
 
 
 def negative_theorems() -> tuple[Theorem, ...]:
     """Every negative as a theorem about its smallest size."""
-    return tuple(map(_negative, negatives.SMALLEST))
+    return tuple(map(_negative, SMALLEST))
 
 
 def mutant_theorems() -> tuple[Theorem, ...]:
@@ -54,8 +184,8 @@ def mutant_theorems() -> tuple[Theorem, ...]:
     return tuple(map(_mutant, _MUTANTS))
 
 
-def _negative(case: negatives.Negative) -> Theorem:
-    build = partial(negatives.false_confirmation, case.edges, case.world_class, case.marker)
+def _negative(case: Negative) -> Theorem:
+    build = partial(false_confirmation, case.edges, case.world_class, case.marker)
     return Theorem(
         name=case.name,
         kind="negative",
@@ -64,83 +194,44 @@ def _negative(case: negatives.Negative) -> Theorem:
         symbols="every percept on a shortest way home as expected ∧ h ≠ alpha(e)",
         solver_part=f"finds a world with {case.edges} edges, a map and a hypothesis",
         expected="REFUTED",
-        prove=partial(_refute, build, partial(replay_confirmation, marker=case.marker)),
+        prove=timed(partial(_refute, build, partial(replay_confirmation, marker=case.marker))),
         queries=partial(_queries, case.name, build),
         edges=case.edges,
     )
 
 
+_RULES: dict[str, Callable[..., EncodedCounterexample]] = {
+    "confirm": statements.confirm,
+    "trace": statements.trace_way,
+    "prefix": statements.prefix,
+    "history": statements.history,
+    "records-one": partial(statements.records, levels=1),
+    "records-all": partial(statements.records, levels=None),
+}
+
+_LATER = "each percept is compared with the one behind the next door"
+_FIRST_DART = "sequences are traced again from the vertex's first dart"
+
 _MUTANTS = (
     _FaultyRule(
-        "confirm",
-        "undirected",
-        2,
-        partial(word_rules.confirm, marker="undirected"),
-        "the last percept is compared without the marker's direction",
+        "confirm", "undirected", 2, "the last percept is compared without the marker's direction"
     ),
+    _FaultyRule("confirm", "none", 2, "the last percept is compared without the marker"),
     _FaultyRule(
-        "confirm",
-        "none",
-        2,
-        partial(word_rules.confirm, marker="none"),
-        "the last percept is compared without the marker",
+        "trace", "turned", 2, "after an excursion it is forgotten that the reference dart is turned"
     ),
-    _FaultyRule(
-        "trace",
-        "turned",
-        2,
-        partial(word_rules.trace_way, fault="turned"),
-        "after an excursion it is forgotten that the reference dart is turned",
-    ),
-    _FaultyRule(
-        "trace",
-        "shifted",
-        2,
-        partial(word_rules.trace_way, fault="shifted"),
-        "each percept is compared with the one behind the next door",
-    ),
-    _FaultyRule(
-        "prefix",
-        "one-more",
-        2,
-        partial(word_rules.prefix, fault="one-more"),
-        "the door behind the common prefix is compared too",
-    ),
+    _FaultyRule("trace", "shifted", 2, _LATER),
+    _FaultyRule("prefix", "one-more", 2, "the door behind the common prefix is compared too"),
     _FaultyRule(
         "history",
         "through-unexplored",
         1,
-        partial(word_rules.history, fault="through-unexplored"),
         "an unexplored dart is traced as if it led back to itself",
     ),
-    _FaultyRule(
-        "history",
-        "absolute-doors",
-        2,
-        partial(word_rules.history, fault="absolute-doors"),
-        "doors are counted from the vertex's first dart",
-    ),
-    _FaultyRule(
-        "history",
-        "shifted",
-        2,
-        partial(word_rules.history, fault="shifted"),
-        "each percept is compared with the one behind the next door",
-    ),
-    _FaultyRule(
-        "records-one",
-        "first-dart",
-        2,
-        partial(word_rules.records, levels=1, fault="first-dart"),
-        "sequences are traced again from the vertex's first dart",
-    ),
-    _FaultyRule(
-        "records-all",
-        "first-dart",
-        2,
-        partial(word_rules.records, levels=None, fault="first-dart"),
-        "sequences are traced again from the vertex's first dart",
-    ),
+    _FaultyRule("history", "absolute-doors", 2, "doors are counted from the vertex's first dart"),
+    _FaultyRule("history", "shifted", 2, _LATER),
+    _FaultyRule("records-one", "first-dart", 2, _FIRST_DART),
+    _FaultyRule("records-all", "first-dart", 2, _FIRST_DART),
 )
 
 
@@ -148,16 +239,17 @@ def _mutant(case: _FaultyRule) -> Theorem:
     confirms = case.rule == "confirm"
     name = f"words-{case.rule}-{case.fault}"
     # Words of as many doors as there are edges, as in the theorem that is changed.
-    build = partial(case.build, case.edges, case.edges)
+    mistake = {"marker" if confirms else "fault": case.fault}
+    build = partial(_RULES[case.rule], case.edges, case.edges, **mistake)
     return Theorem(
         name=name,
         kind="mutant",
         claims=("no-false-confirm" if confirms else "true-hypothesis-kept",),
         words=f"Rule {case.rule} with a fault goes wrong: {case.mistake}.",
         symbols="h ≠ alpha(e) is confirmed" if confirms else "h = alpha(e) is rejected",
-        solver_part=f"finds a world with {_edges(case.edges)}, a map and doors",
+        solver_part=f"finds a world with {plural(case.edges, 'edge')}, a map and doors",
         expected="REFUTED",
-        prove=partial(_refute, build, _replay_of(case)),
+        prove=timed(partial(_refute, build, _replay_of(case))),
         queries=partial(_queries, name, build),
         edges=case.edges,
         of=f"words-{case.rule}",
@@ -179,23 +271,18 @@ def _refute(
     budget: Budget,
 ) -> TheoremResult:
     """The result of looking for a model; one that is found is decoded and replayed."""
-    began = perf_counter()
     encoded = build()
     result = first_model(encoded.world, decoded_booleans(encoded), budget)
     if result.model is None:
         # No model: the mutant was not refuted, and EXHAUSTED is not what is expected of it.
         exhausted = result.answer == "unsat"
-        return TheoremResult(
+        return z3_result(
             verdict="EXHAUSTED" if exhausted else "UNKNOWN",
-            solver=solver_name(),
-            seconds=perf_counter() - began,
             note="there is no such world" if exhausted else f"{result.why}; more time: --timeout",
         )
     replayed = replay(decode(encoded, result.model))
-    return TheoremResult(
+    return z3_result(
         verdict="REFUTED",
-        solver=solver_name(),
-        seconds=perf_counter() - began,
         replayed=(1, 1),
         counterexample=replayed.world.id,
         history=replayed.doors,
@@ -205,7 +292,3 @@ def _refute(
 
 def _queries(name: str, build: Callable[[], EncodedCounterexample]) -> Iterator[Query]:
     yield Query(name, build().world.smt2() + "(check-sat)\n", "sat")
-
-
-def _edges(edges: int) -> str:
-    return f"{edges} edge{'s' * (edges > 1)}"

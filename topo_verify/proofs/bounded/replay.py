@@ -1,7 +1,8 @@
-"""Replay: a decoded counterexample is repeated in the simulator, without a solver.
+"""Counterexamples: an assignment is decoded, and repeated in the simulator without a solver.
 
-The simulated robot draws the map of the counterexample edge by edge, crosses e and takes the doors;
-then the checkers judge the trace.
+`decode` turns an assignment into a world, a map and doors, and judges nothing. The simulated robot
+draws the map of the counterexample edge by edge, crosses e and takes the doors; then the checkers
+judge the trace.
 
     false confirmation   all percepts that the mapper compares are as expected; it confirms h, and
                          claim `no-false-confirm` must fail at this very event
@@ -12,6 +13,7 @@ then the checkers judge the trace.
 A model that does not replay is a bug of the encoding and raises `Disagreement`.
 
 Source: docs/semantics.md, sections 4, 6, 7 and 9.
+
 """
 
 from __future__ import annotations
@@ -23,23 +25,119 @@ from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.motion import Pilot, common_prefix
 from topo_verify.checkers import check
 from topo_verify.errors import InternalError
-from topo_verify.proofs.bounded.decode import BoundedCounterexample, DoorWord, EarlierExcursion
-from topo_verify.proofs.bounded.encoding import MarkerDetail
-from topo_verify.proofs.bounded.walks import RuleFault
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Decision,
-    Evidence,
-    MapDart,
-    Move,
-    Pose,
-    Reject,
-    Start,
-)
-from topo_verify.robot.percept import Percept
+from topo_verify.proofs.bounded.cnf import Assignment, CnfRow
+from topo_verify.proofs.bounded.encoding import EncodedMap, MarkerDetail, RuleFault, Worlds
+from topo_verify.proofs.bounded.statements import EncodedCounterexample
+from topo_verify.robot import events as ev
+from topo_verify.robot.percept import Door, Percept
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
+from topo_verify.world.enumeration.rank_order import Table
 from topo_verify.world.rooted_map import World
+
+DoorWord = tuple[Door, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class EarlierExcursion:
+    """An earlier excursion: the explored edges before it, the dart crossed, the doors behind it."""
+
+    explored: frozenset[tuple[ev.MapDart, ev.MapDart]]
+    e: ev.MapDart
+    word: DoorWord
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoundedCounterexample:
+    """A decoded counterexample. The darts of S and of the world have one numbering.
+
+    Attributes:
+        explored: the edges of S, smaller dart first; S knows v0 besides.
+        e, h: the dart that was crossed, and the hypothesis for its other end.
+        word: the doors executed behind e.
+        own: the doors of the hypothesis' own way home.
+        turned: the door of a first excursion behind e, or None.
+        earlier: for records, the excursion behind another edge that was recorded before.
+        levels: for records, the depth to which they are compared; None: any depth.
+    """
+
+    world: World
+    explored: frozenset[tuple[ev.MapDart, ev.MapDart]]
+    e: ev.MapDart
+    h: ev.MapDart
+    word: DoorWord
+    own: DoorWord
+    turned: Door | None = None
+    earlier: EarlierExcursion | None = None
+    levels: int | None = None
+
+
+def decode_table(world: Worlds, model: Assignment) -> Table:
+    """The degrees and alpha of an assignment, with its numbers of darts."""
+    # (first dart, degree) of each vertex: sorted, they stand in the order of their darts.
+    held = sorted(place for place, vertex in world.vertex.items() if model.holds(vertex))
+    alpha = [0] * len(world.darts)
+    for (a, b), joined in world.joined.items():
+        if model.holds(joined):
+            alpha[a], alpha[b] = b, a
+    return tuple(degree for _, degree in held), tuple(alpha)
+
+
+def decode_world(world: Worlds, model: Assignment) -> World:
+    """The world of an assignment, with its numbers of darts."""
+    return World.from_code(decode_table(world, model))
+
+
+def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
+    """The Booleans that `decode` reads; the others follow from them, or do not matter."""
+    # Their order decides which counterexample comes first, so a new one belongs at the end.
+    maps = [encoded.chart] if encoded.earlier is None else [encoded.earlier.chart, encoded.chart]
+    rows = [encoded.world.first, tuple(encoded.world.joined.values())]
+    rows += [row for chart in maps for row in (chart.known, chart.explored)]
+    rows += [encoded.e, encoded.h, encoded.made or (), *encoded.executed, *encoded.own]
+    rows += [] if encoded.turned is None else [encoded.turned]
+    rows += [] if encoded.earlier is None else [encoded.earlier.e, *encoded.earlier.executed]
+    return tuple(literal for row in rows for literal in row)
+
+
+def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCounterexample:
+    """The counterexample that an assignment encodes."""
+    world = decode_world(encoded.world, model)
+    # The steps that are made are a prefix of the word, so their number says which they are.
+    made = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
+    # Only `prefix` tells the two apart. There `made` speaks of the own way, and the executed word
+    # is taken whole.
+    own = encoded.own or encoded.executed
+    behind = encoded.earlier
+    return BoundedCounterexample(
+        world=world,
+        explored=_edges(world, encoded.chart, model),
+        e=model.index(encoded.e),
+        h=model.index(encoded.h),
+        word=_word(encoded.executed if encoded.own else encoded.executed[:made], model),
+        own=_word(own[:made], model),
+        turned=None if encoded.turned is None else model.index(encoded.turned),
+        earlier=None
+        if behind is None
+        else EarlierExcursion(
+            _edges(world, behind.chart, model),
+            model.index(behind.e),
+            _word(behind.executed, model),
+        ),
+        levels=encoded.levels,
+    )
+
+
+def _word(rows: tuple[CnfRow, ...], model: Assignment) -> DoorWord:
+    return tuple(model.index(row) for row in rows)
+
+
+def _edges(
+    world: World, chart: EncodedMap, model: Assignment
+) -> frozenset[tuple[ev.MapDart, ev.MapDart]]:
+    return frozenset(edge for edge in world.edges if model.holds(chart.explored[edge[0]]))
+
+
+# ---------------------------------------------------------------- replay
 
 PerceptPairs = Iterator[tuple[int, Percept, Percept]]
 """(step, the percept that the rule expects, the percept that it compares with it)."""
@@ -83,7 +181,7 @@ def replay_confirmation(
         raise Disagreement(f"{found}: the robot sees {run.pilot.percepts}, expected {expected}")
     if vertices[-1] != 0 or (whole and run.chart.tree(0).depth[vertices[0]] != len(found.word)):
         raise Disagreement(f"{found}: the doors are not a shortest way home")
-    return run.judge(Confirm(found.e, found.h, "motion"), "no-false-confirm")
+    return run.judge(ev.Confirm(found.e, found.h, "motion"), "no-false-confirm")
 
 
 def replay_rejection(
@@ -104,9 +202,9 @@ def replay_rejection(
     run.out(found.word)
     for step, expected, observed in _compared(run, found, rule, fault):
         if expected != observed:
-            evidence = Evidence(step, expected, observed)
+            evidence = ev.Evidence(step, expected, observed)
             return run.judge(
-                Reject(found.e, found.h, "motion", evidence),
+                ev.Reject(found.e, found.h, "motion", evidence),
                 "true-hypothesis-kept",
             )
     raise Disagreement(f"{found}: the rule {rule} with the fault {fault!r} rejects nothing")
@@ -127,7 +225,7 @@ def _compared(
     return _along(run, way or _way(run.chart, found.h, found.word), fault)
 
 
-def _along(run: _Replayer, way: list[MapDart], fault: RuleFault) -> PerceptPairs:
+def _along(run: _Replayer, way: list[ev.MapDart], fault: RuleFault) -> PerceptPairs:
     """The percepts along a way, one for one; with the fault `shifted` one later."""
     later = int(fault == "shifted")
     for step, (at, seen) in enumerate(zip(way, run.pilot.percepts[later:], strict=False)):
@@ -159,7 +257,7 @@ def _records(run: _Replayer, found: BoundedCounterexample) -> PerceptPairs:
         yield step + level, run.recorded_percepts[place + level], run.pilot.percepts[step + level]
 
 
-def _way(chart: Chart, at: MapDart, word: DoorWord) -> list[MapDart]:
+def _way(chart: Chart, at: ev.MapDart, word: DoorWord) -> list[ev.MapDart]:
     """The reference darts on a way over explored darts, the first included."""
     way = [at]
     for door in word:
@@ -167,7 +265,9 @@ def _way(chart: Chart, at: MapDart, word: DoorWord) -> list[MapDart]:
     return way
 
 
-def _traced(chart: Chart, at: MapDart, word: DoorWord, fault: RuleFault = "") -> list[MapDart]:
+def _traced(
+    chart: Chart, at: ev.MapDart, word: DoorWord, fault: RuleFault = ""
+) -> list[ev.MapDart]:
     """The reference darts while a word is traced, until it crosses an unexplored dart."""
     way = [at]
     for door in word:
@@ -202,15 +302,15 @@ class _Replayer:
         self.robot = SimulatedRobot(found.world, 10_000)
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
-        self.at: MapDart = 0
+        self.at: ev.MapDart = 0
         # The dart under which records are kept, and the index of its first percept.
-        self.recorded: tuple[MapDart, int] | None = None
+        self.recorded: tuple[ev.MapDart, int] | None = None
         self.recorded_percepts: tuple[Percept, ...] = ()
         if found.earlier is not None:
             self._learn(found.earlier, fault)
         self._draw(found.explored)
 
-    def cross(self, e: MapDart, marker: MarkerDetail = "undirected") -> None:
+    def cross(self, e: ev.MapDart, marker: MarkerDetail = "undirected") -> None:
         """Walk to e, cross it, and pose the hypotheses that look like the vertex behind it."""
         del self.chart.unexplored[e]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
@@ -219,7 +319,7 @@ class _Replayer:
         seen = _seen(self.pilot.cross(self.chart, self.at, e), signature)
         percepts = self.chart.percepts
         alike = [h for h in self.chart.unexplored if _seen(percepts[h], signature) == seen]
-        self.robot.declare(Pose(e, tuple(alike)))
+        self.robot.declare(ev.Pose(e, tuple(alike)))
 
     def out(self, word: DoorWord) -> None:
         """Take these doors in the simulator."""
@@ -232,19 +332,19 @@ class _Replayer:
         self.pilot.back(0)
         self.pilot.turned = 0
 
-    def judge(self, decision: Decision, claim: str) -> ReplayedCounterexample:
+    def judge(self, decision: ev.Decision, claim: str) -> ReplayedCounterexample:
         """Declare a decision; the checkers must find that the claim fails at this very event."""
         self.robot.declare(decision)
         # The verdict of the trusted checkers counts, not that of the encoding.
-        trace = (Start(percept=first_percept(self.world)), *self.robot.events)
+        trace = (ev.Start(percept=first_percept(self.world)), *self.robot.events)
         event = len(trace) - 1
         findings = [found for judged in check(self.world, trace) for found in judged.findings]
         if (claim, event) not in [(found.claim, found.event) for found in findings]:
             raise Disagreement(f"in {self.world.text}, {claim} does not fail at {decision}")
-        moves = tuple(move.door for move in trace if isinstance(move, Move))
+        moves = tuple(move.door for move in trace if isinstance(move, ev.Move))
         return ReplayedCounterexample(self.world, moves, event, claim)
 
-    def _draw(self, explored: frozenset[tuple[MapDart, MapDart]]) -> None:
+    def _draw(self, explored: frozenset[tuple[ev.MapDart, ev.MapDart]]) -> None:
         """Explore these edges: first those that find vertices, in their order, then the others."""
         # First the edges by which vertices are found, or others would find them with other numbers.
         firsts = {rotation[0] for rotation in self.world.vertices[1:]}
@@ -253,7 +353,7 @@ class _Replayer:
                 self.cross(e)
                 self._augment(e, end)
 
-    def _augment(self, e: MapDart, end: MapDart) -> None:
+    def _augment(self, e: ev.MapDart, end: ev.MapDart) -> None:
         """Go back behind e and join it with its end, a new vertex if S does not know it."""
         self.pilot.back(0)
         percept = self.robot.percept
@@ -261,7 +361,7 @@ class _Replayer:
         if new and self.chart.add_vertex(self.pilot.percepts[0]) != end:
             raise Disagreement(f"{self.world.text}: dart {end} is not the next to be numbered")
         self.chart.join(e, end)
-        self.robot.declare(Augment(e, "new" if new else "loop", end, percept.degree))
+        self.robot.declare(ev.Augment(e, "new" if new else "loop", end, percept.degree))
         self.at = self.chart.turn(end, self.pilot.turned)
 
     def _learn(self, behind: EarlierExcursion, fault: RuleFault) -> None:

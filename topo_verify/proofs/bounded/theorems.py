@@ -2,43 +2,117 @@
 
     one-door   one arbitrary door at an arbitrary place, m = 1 … 6; words of any length by induction
     words      whole words of up to m doors, m = 1 … 3; with --deep m = 4, where that is feasible
-    below      no false confirmation without the marker's direction, below the sizes of `negatives`
+    below      no false confirmation without the marker's direction, below the sizes of `mutants.py`
     worlds     the worlds of the encoding are the canonical codes, each of them once
 
 A theorem is EXHAUSTED if its clauses are unsatisfiable for each m; the worlds are counted in the
-encoding (`model_count.py`) and by the formulas. Its premises alone must be satisfiable for each m.
+encoding and by the formulas. Its premises alone must be satisfiable for each m.
 If the clauses are satisfiable, the model is decoded to a world that makes the theorem REFUTED.
 
-Source: docs/semantics.md, sections 4 to 10.
+**The worlds of the encoding.** The solver lists them, and they are compared with the enumeration.
+With S = v0 alone a model of the encoding is a world in its breadth-first numbering. So the list of
+all models (each one found is forbidden before the next is asked for) must contain each rooted map
+once: the pairs (degrees, alpha) must be exactly the canonical codes of `world.enumeration`. There
+are 2, 10, 74, 706, 8162 of them with 1 … 5 edges. Hence "every world" in the bounded theorems means
+every world.
+
+Source: docs/semantics.md, sections 4 to 10 and 12.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from functools import partial
-from time import perf_counter
+from functools import cache, partial
+from itertools import accumulate
 
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError
-from topo_verify.proofs.bounded import drup, negatives
-from topo_verify.proofs.bounded.cnf import Formula
-from topo_verify.proofs.bounded.decode import decode_world
+from topo_verify.proofs import theorem as th
+from topo_verify.proofs.bounded import drup, mutants
+from topo_verify.proofs.bounded.cnf import REFUTED, Formula, SatResult, SolverGaveUp, models, solve
 from topo_verify.proofs.bounded.encoding import Worlds
-from topo_verify.proofs.bounded.model_count import (
-    another_world,
-    missing_and_spurious,
-    worlds_encoded,
-)
-from topo_verify.proofs.bounded.solve import SatResult, SolverGaveUp, solve
+from topo_verify.proofs.bounded.replay import decode_table, decode_world
 from topo_verify.proofs.bounded.statements import (
     ONE_DOOR_STATEMENTS,
     WHOLE_WORD_STATEMENTS,
     BoundedStatement,
 )
-from topo_verify.proofs.solvers.z3_solver import name as solver_name
-from topo_verify.proofs.theorem import Budget, Query, RefutationCertificate, Theorem, TheoremResult
+from topo_verify.proofs.solvers.z3_solver import z3_result
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.enumeration.rank_order import Table
+
+LISTED_EDGES = 4
+"""Up to this size the worlds of a theorem are counted in its encoding; beyond, by formulas."""
+
+
+def every_world(edges: int, world_class: str = "any") -> Worlds:
+    """The encoding of the worlds of a class, each in its breadth-first numbering."""
+    world = Worlds(edges)
+    world.restrict(world_class)
+    world.number_the_rest()
+    return world
+
+
+def codes(edges: int, world_class: str = "any", budget: th.Budget | None = None) -> Iterator[Table]:
+    """The pair (degrees, alpha) of each model, in the order in which the solver finds them.
+
+    Raises:
+        SolverGaveUp: the solver gave up before it had excluded further models.
+    """
+    world = every_world(edges, world_class)
+    # These determine the world; every other Boolean is defined by them.
+    over = (*world.first, *world.joined.values())
+    for model in models(world, over, budget or th.Budget()):
+        yield decode_table(world, model)
+
+
+def missing_and_spurious(
+    edges: int, world_class: str = "any", budget: th.Budget | None = None
+) -> tuple[int, list[Table], list[Table]]:
+    """The number of models; the codes without a model; the models that are no code, or repeated."""
+    kind = WorldClass.parse(world_class)
+    wanted = {table for table in rank_order.tables(edges) if kind.admits(table)}
+    spurious: list[Table] = []
+    found = 0
+    for code in codes(edges, world_class, budget):
+        found += 1
+        if code in wanted:
+            wanted.remove(code)  # so that a second model with this code counts as spurious
+        else:
+            spurious.append(code)
+    return found, sorted(wanted), spurious
+
+
+def another_world(edges: int) -> Worlds:
+    """The clauses of a world that is none of the canonical codes: they must contradict."""
+    world = every_world(edges)
+    for degrees, alpha in rank_order.tables(edges):
+        # One clause for each code: the world has other vertices, or lacks one of its edges.
+        firsts = {0, *accumulate(degrees[:-1])}
+        numbers = [-world.first[d] if d in firsts else world.first[d] for d in world.darts]
+        joined = [-world.edge(d, other) for d, other in enumerate(alpha) if d < other]
+        world.add(REFUTED, *numbers, *joined)
+    return world
+
+
+@cache
+def worlds_encoded(edges: int, world_class: str = "any") -> int | None:
+    """The number of worlds of the class in the encoding; None if the solver gave up.
+
+    Up to `LISTED_EDGES` the models that the enumeration confirms are counted; beyond, the formulas
+    or the enumeration give the number.
+    """
+    if edges > LISTED_EDGES:
+        return WorldClass.parse(world_class).count(edges)
+    try:
+        found, _, spurious = missing_and_spurious(edges, world_class)
+    except SolverGaveUp:
+        return None
+    return found - len(spurious)
+
+
+# ---------------------------------------------------------------- the theorems
 
 MOST_EDGES = 6
 """The largest size of the one-door theorems: a few seconds in all."""
@@ -47,7 +121,7 @@ WORD_EDGES, DEEP_WORD_EDGES = 3, 4
 """The largest sizes of whole words: 4 edges take a minute each, and records longer."""
 
 
-def bounded(edges: int = MOST_EDGES) -> tuple[Theorem, ...]:
+def bounded(edges: int = MOST_EDGES) -> tuple[th.Theorem, ...]:
     """All bounded theorems; the one-door ones speak of worlds up to this size.
 
     Raises:
@@ -73,7 +147,7 @@ def bounded(edges: int = MOST_EDGES) -> tuple[Theorem, ...]:
             for statement in WHOLE_WORD_STATEMENTS
             if not statement.name.startswith("words-records")
         ),
-        *(_below(negative) for negative in negatives.SMALLEST),
+        *(_below(negative) for negative in mutants.SMALLEST),
         worlds_theorem("bounded-worlds", range(1, 5)),
         worlds_theorem("bounded-worlds-deep", range(1, 6), deep=True),
     )
@@ -81,11 +155,11 @@ def bounded(edges: int = MOST_EDGES) -> tuple[Theorem, ...]:
 
 def theorem(
     statement: BoundedStatement, sizes: range, *, name: str | None = None, deep: bool = False
-) -> Theorem:
+) -> th.Theorem:
     """The statement as a theorem about worlds with these numbers of edges."""
     name = name or statement.name
     sizes = range(max(sizes[0], statement.least), sizes[-1] + 1)
-    return Theorem(
+    return th.Theorem(
         name=name,
         kind="bounded",
         claims=statement.claims,
@@ -95,19 +169,19 @@ def theorem(
         argued=statement.argued,
         assumed=("the encoding",),
         expected="EXHAUSTED",
-        prove=partial(_prove, name, statement, sizes),
+        prove=th.timed(partial(_prove, name, statement, sizes)),
         queries=partial(_questions, name, statement.refuted, sizes),
         edges=sizes[-1],
         deep=deep,
     )
 
 
-def _below(negative: negatives.Negative) -> Theorem:
+def _below(negative: mutants.Negative) -> th.Theorem:
     """The theorem that a negative has no counterexample below its smallest size."""
 
     def refuted(edges: int) -> Worlds:
         kind, marker = negative.world_class, negative.marker
-        return negatives.false_confirmation(edges, kind, marker).world
+        return mutants.false_confirmation(edges, kind, marker).world
 
     statement = BoundedStatement(
         name=f"{negative.name}-below",
@@ -115,7 +189,7 @@ def _below(negative: negatives.Negative) -> Theorem:
         words=f"{negative.statement} With fewer edges there is no such world.",
         symbols="every percept on a shortest way home as expected ⇒ h = alpha(e)",
         refuted=refuted,
-        premises=partial(negatives.premises, world_class=negative.world_class),
+        premises=partial(mutants.premises, world_class=negative.world_class),
         world_class=negative.world_class,
     )
     return theorem(statement, range(1, negative.edges))
@@ -124,26 +198,25 @@ def _below(negative: negatives.Negative) -> Theorem:
 # ------------------------------------------------------------------ proving them
 
 
-def _prove(name: str, statement: BoundedStatement, sizes: range, budget: Budget) -> TheoremResult:
+def _prove(
+    name: str, statement: BoundedStatement, sizes: range, budget: th.Budget
+) -> th.TheoremResult:
     """The result over all sizes; the first size with an unexpected answer decides it."""
     if budget.certify:
         drup.require_tools()
-    began = perf_counter()
     cores: set[str] = set()
     premises: list[bool | None] = []
-    attempts: list[RefutationCertificate | str] = []
+    attempts: list[th.RefutationCertificate | str] = []
     checked = 0
     total = sum(WorldClass.parse(statement.world_class).count(m) for m in sizes)
 
     def outcome(
         verdict: Verdict, note: str = "", counterexample: str | None = None
-    ) -> TheoremResult:
+    ) -> th.TheoremResult:
         known = None if None in premises else all(premises)
         certificate, without = _one_certificate(attempts, sizes)
-        return TheoremResult(
+        return z3_result(
             verdict=verdict,
-            solver=solver_name(),
-            seconds=perf_counter() - began,
             premises_satisfiable=False if False in premises else known,
             core=tuple(sorted(cores)),
             checked=checked,
@@ -183,10 +256,10 @@ def _not_proved(formula: Worlds, result: SatResult, m: int) -> tuple[Verdict, st
 
 
 def _one_certificate(
-    attempts: list[RefutationCertificate | str], sizes: range
-) -> tuple[RefutationCertificate | None, str]:
+    attempts: list[th.RefutationCertificate | str], sizes: range
+) -> tuple[th.RefutationCertificate | None, str]:
     """The certificates of all sizes as one; or, if a size has none, a note that says why."""
-    made = [attempt for attempt in attempts if isinstance(attempt, RefutationCertificate)]
+    made = [attempt for attempt in attempts if isinstance(attempt, th.RefutationCertificate)]
     # A certificate that the checker refused is a bug, so it is shown whatever the others are.
     if not attempts or any(not attempt.checked for attempt in made):
         return (drup.together(made) if made else None), ""
@@ -203,24 +276,23 @@ def _one_certificate(
 
 def _questions(
     name: str, refuted: Callable[[int], Formula], sizes: Iterable[int]
-) -> Iterator[Query]:
+) -> Iterator[th.Query]:
     for m in sizes:
-        yield Query(f"{name}-m{m}", refuted(m).smt2() + "(check-sat)\n", "unsat")
+        yield th.Query(f"{name}-m{m}", refuted(m).smt2() + "(check-sat)\n", "unsat")
 
 
-def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> Theorem:
+def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> th.Theorem:
     """The models of the encoding are the canonical codes, each once.
 
     The exported and certified question is that there is no other model; the list shows that there
     is one for each code.
     """
 
-    def prove(budget: Budget) -> TheoremResult:
+    def prove(budget: th.Budget) -> th.TheoremResult:
         if budget.certify:
             drup.require_tools()
-        began = perf_counter()
         found, wrong = 0, ""
-        attempts: list[RefutationCertificate | str] = []
+        attempts: list[th.RefutationCertificate | str] = []
         verdict: Verdict = "EXHAUSTED"
         try:
             for done, m in enumerate(sizes):
@@ -234,10 +306,8 @@ def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> Theorem:
         except SolverGaveUp as gave_up:
             verdict, wrong = "UNKNOWN", str(gave_up)
         certificate, without = _one_certificate(attempts, sizes)
-        return TheoremResult(
+        return z3_result(
             verdict=verdict,
-            solver=solver_name(),
-            seconds=perf_counter() - began,
             premises_satisfiable=found > 0,
             checked=found,
             total=sum(map(rank_order.count, sizes)),
@@ -246,7 +316,7 @@ def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> Theorem:
             note=wrong or without,
         )
 
-    return Theorem(
+    return th.Theorem(
         name=name,
         kind="bounded",
         claims=(),
@@ -255,7 +325,7 @@ def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> Theorem:
         solver_part=f"lists all models with {_span(sizes)}; they are compared with the enumeration",
         assumed=("the encoding",),
         expected="EXHAUSTED",
-        prove=prove,
+        prove=th.timed(prove),
         queries=partial(_questions, name, another_world, sizes),
         edges=sizes[-1],
         deep=deep,

@@ -16,23 +16,7 @@ from dataclasses import dataclass
 from itertools import combinations, product
 
 from topo_verify.errors import InternalError
-from topo_verify.proofs.first_order.structures import Structure, Value, of_tables
-from topo_verify.proofs.first_order.terms import (
-    BOOL,
-    App,
-    Forall,
-    Symbol,
-    Term,
-    Var,
-    conj,
-    differ,
-    disj,
-    eq,
-    script,
-    sorts_of,
-    substitute,
-    symbols,
-)
+from topo_verify.proofs.first_order import terms
 from topo_verify.proofs.solvers import z3_solver
 from topo_verify.proofs.theorem import Budget, SolverAnswer
 
@@ -45,15 +29,15 @@ class FiniteModel:
     """The answer to a search for a model, with the structure and its tables if it is `sat`."""
 
     answer: SolverAnswer
-    structure: Structure | None = None
-    tables: Mapping[str, Mapping[tuple[int, ...], Value]] | None = None
+    structure: terms.Structure | None = None
+    tables: Mapping[str, Mapping[tuple[int, ...], terms.Value]] | None = None
     why: str = ""
 
 
-def smallest(assertions: Mapping[str, Term], budget: Budget) -> FiniteModel:
+def smallest(assertions: Mapping[str, terms.Term], budget: Budget) -> FiniteModel:
     """A model of the first of `SIZES` that has one."""
     formulas = list(assertions.values())
-    sorts = sorted(set[str]().union(*map(sorts_of, formulas)) - {BOOL})
+    sorts = sorted(set[str]().union(*map(terms.sorts_of, formulas)) - {terms.BOOL})
     last = FiniteModel("unknown", why="no size was tried")
     for darts, others in SIZES:
         sizes = {sort: darts if sort == "W" else others for sort in sorts}
@@ -64,7 +48,7 @@ def smallest(assertions: Mapping[str, Term], budget: Budget) -> FiniteModel:
     return last
 
 
-def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) -> FiniteModel:
+def model(formulas: Sequence[terms.Term], sizes: Mapping[str, int], budget: Budget) -> FiniteModel:
     """A model with these numbers of elements, if there is one.
 
     Raises:
@@ -81,15 +65,15 @@ def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) ->
         sort: {reply.values[element(sort, n).symbol.name]: n for n in range(size)}
         for sort, size in sizes.items()
     }
-    rows: dict[str, dict[tuple[int, ...], Value]] = {}
+    rows: dict[str, dict[tuple[int, ...], terms.Value]] = {}
     for alias, symbol, row, _ in entries:
         value = reply.values[alias.symbol.name]
-        known = value == "True" if symbol.result == BOOL else number[symbol.result][value]
+        known = value == "True" if symbol.result == terms.BOOL else number[symbol.result][value]
         rows.setdefault(symbol.name, {})[row] = known
-    named: dict[str, dict[tuple[int, ...], Value]] = {
+    named: dict[str, dict[tuple[int, ...], terms.Value]] = {
         element(sort, n).symbol.name: {(): n} for sort, size in sizes.items() for n in range(size)
     }
-    structure = of_tables(sizes, {**rows, **named})
+    structure = terms.of_tables(sizes, {**rows, **named})
     # Z3's model of the expanded formulas must be one of the formulas themselves.
     for formula in formulas:
         if not structure.holds(formula):
@@ -97,75 +81,75 @@ def model(formulas: Sequence[Term], sizes: Mapping[str, int], budget: Budget) ->
     return FiniteModel("sat", structure, rows)
 
 
-def element(sort: str, number: int) -> App:
+def element(sort: str, number: int) -> terms.App:
     """The constant that names an element."""
-    return Symbol(f"{sort}!{number}", (), sort)()
+    return terms.Symbol(f"{sort}!{number}", (), sort)()
 
 
-def ground(term: Term, sizes: Mapping[str, int]) -> Term:
+def ground(term: terms.Term, sizes: Mapping[str, int]) -> terms.Term:
     """The formula with its quantifiers written out."""
     match term:
-        case Var():
+        case terms.Var():
             return term
-        case App(symbol, arguments):
-            return App(symbol, tuple(ground(part, sizes) for part in arguments))
-        case Forall(variables, body):
-            cases: list[dict[Term, Term]] = [
+        case terms.App(symbol, arguments):
+            return terms.App(symbol, tuple(ground(part, sizes) for part in arguments))
+        case terms.Forall(variables, body):
+            cases: list[dict[terms.Term, terms.Term]] = [
                 {v: element(v.sort, n) for v, n in zip(variables, row, strict=True)}
                 for row in product(*(range(sizes[v.sort]) for v in variables))
             ]
-            return conj(*(ground(substitute(body, case), sizes) for case in cases))
+            return terms.conj(*(ground(terms.substitute(body, case), sizes) for case in cases))
 
 
-def _elements(sizes: Mapping[str, int]) -> Iterator[App]:
+def _elements(sizes: Mapping[str, int]) -> Iterator[terms.App]:
     for sort, size in sizes.items():
         yield from (element(sort, number) for number in range(size))
 
 
-FunctionValue = tuple[App, Symbol, tuple[int, ...], App]
+FunctionValue = tuple[terms.App, terms.Symbol, tuple[int, ...], terms.App]
 """One value of one function: a constant that names it, the symbol, the arguments, the term."""
 
 
-def _entries(formulas: Sequence[Term], sizes: Mapping[str, int]) -> Iterator[FunctionValue]:
+def _entries(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> Iterator[FunctionValue]:
     """Every value of every function that occurs in the formulas, in a fixed order."""
-    found = {symbol.name: symbol for formula in formulas for symbol in symbols(formula)}
+    found = {symbol.name: symbol for formula in formulas for symbol in terms.symbols(formula)}
     named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
     # The elements occur in formulas as constants, and name themselves.
     for name in sorted(found.keys() - named):
         symbol = found[name]
         for row in product(*(range(sizes[sort]) for sort in symbol.arguments)):
-            alias = Symbol(f"{name}!{'!'.join(map(str, row))}", (), symbol.result)()
+            alias = terms.Symbol(f"{name}!{'!'.join(map(str, row))}", (), symbol.result)()
             pairs = zip(symbol.arguments, row, strict=True)
             yield alias, symbol, row, symbol(*(element(sort, number) for sort, number in pairs))
 
 
-def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iterator[Term]:
+def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iterator[terms.Term]:
     """The formulas that elements are different and that every value is one of them."""
     for sort, size in sizes.items():
         for one, other in combinations(range(size), 2):
-            yield differ(element(sort, one), element(sort, other))
+            yield terms.differ(element(sort, one), element(sort, other))
     # The alias makes Z3 name the value in its model; `disj` keeps it among the elements.
     for alias, symbol, _, applied in entries:
-        yield eq(alias, applied)
-        if symbol.result != BOOL:
+        yield terms.eq(alias, applied)
+        if symbol.result != terms.BOOL:
             values = (element(symbol.result, n) for n in range(sizes[symbol.result]))
-            yield disj(*(eq(alias, value) for value in values))
+            yield terms.disj(*(terms.eq(alias, value) for value in values))
 
 
-def question(assertions: Mapping[str, Term]) -> str:
+def question(assertions: Mapping[str, terms.Term]) -> str:
     """The SMT-LIB script that asks for a structure of the last of `SIZES`."""
     formulas = list(assertions.values())
-    sorts = sorted(set[str]().union(*map(sorts_of, formulas)) - {BOOL})
+    sorts = sorted(set[str]().union(*map(terms.sorts_of, formulas)) - {terms.BOOL})
     darts, others = SIZES[-1]
     return grounded(formulas, {sort: darts if sort == "W" else others for sort in sorts})
 
 
-def grounded(formulas: Sequence[Term], sizes: Mapping[str, int]) -> str:
+def grounded(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> str:
     """The SMT-LIB script that asks for a structure with these numbers of elements."""
     entries = list(_entries(formulas, sizes))
     rows = [*(ground(formula, sizes) for formula in formulas), *_domains(entries, sizes)]
     # A script names its assertions, and no name may be that of a symbol: c0, c1, ... are free.
-    return script({f"c{number}": term for number, term in enumerate(rows)}, logic="QF_UF")
+    return terms.script({f"c{number}": term for number, term in enumerate(rows)}, logic="QF_UF")
 
 
 def described(found: FiniteModel) -> str:

@@ -10,103 +10,101 @@ then a world with a map that an exploration can have drawn, and is decoded as su
     mfirst(x)   the first dart of x's vertex in S: the one by which it was entered
 
 Source: docs/semantics.md, sections 1 to 3.
+
+`SceneReplay` repeats a scene in the simulator, without a solver, to test a faulty rule. The robot
+of the trusted core starts at the marker of the scene's world. It crosses the edges that S of the
+scene has explored, in an order in which each vertex is entered by its first dart. Then it makes the
+moves of the mutant. The percepts on the way must be those that S shows; the rule is evaluated on S
+and on the percepts sensed behind e.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
+from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.motion import Hypothesis, Pilot
 from topo_verify.errors import InternalError
-from topo_verify.proofs.first_order import axioms as t
-from topo_verify.proofs.first_order import finite_models
+from topo_verify.proofs.first_order import finite_models, terms
+from topo_verify.proofs.first_order import theory as t
+from topo_verify.proofs.first_order.conformance import RecordTrie, structure
 from topo_verify.proofs.first_order.finite_models import element
-from topo_verify.proofs.first_order.structures import Structure
-from topo_verify.proofs.first_order.terms import (
-    BOOL,
-    App,
-    Symbol,
-    Term,
-    conj,
-    differ,
-    disj,
-    eq,
-    forall,
-    neg,
-    symbols,
-)
 from topo_verify.proofs.theorem import Budget, SolverAnswer
+from topo_verify.robot.events import MapDart, Move
+from topo_verify.robot.percept import Door, Percept
+from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.rooted_map import World
 
 # 12 is the least common multiple of 1, 2, 3, 4: every turn comes round after so many doors.
 DOORS, MOST_DEGREE = 12, 4
 
-mfirst = Symbol("mfirst", ("M",), "M")
-mtofirst = Symbol("mtofirst", ("M",), "K")
+mfirst = terms.Symbol("mfirst", ("M",), "M")
+mtofirst = terms.Symbol("mtofirst", ("M",), "K")
 
 AXIOMS = tuple(name for name in t.CORRESPONDENCE if name not in t.LEMMAS)
 """The axioms without the lemmas on doors, which follow and would only slow Z3 down."""
 
 
-def door(number: int) -> App:
+def door(number: int) -> terms.App:
     """The constant for a door."""
     return element("K", number % DOORS)
 
 
-def exact(darts: int, known: int) -> dict[str, Term]:
+def exact(darts: int, known: int) -> dict[str, terms.Term]:
     """The formulas that make a structure with these numbers of darts, in world and S, exact."""
+    doors = [terms.eq(t.succ(door(n)), door(n + 1)) for n in range(DOORS)]
     return {
         **{name: t.AXIOMS[name] for name in AXIOMS},
-        **_doors(),
+        "door-0": terms.eq(t.k0, door(0)),
+        "doors": terms.conj(*doors),
         **_degrees(),
         **_connected(darts),
         **_discovered(known),
     }
 
 
-def _doors() -> dict[str, Term]:
-    rows = [eq(t.succ(door(n)), door(n + 1)) for n in range(DOORS)]
-    return {"door-0": eq(t.k0, door(0)), "doors": conj(*rows)}
-
-
-def _degrees() -> dict[str, Term]:
-    def is_degree(n: int) -> Term:
-        sooner = [differ(t.rot(t.a, door(k)), t.a) for k in range(1, n)]
-        return conj(eq(t.rot(t.a, door(n)), t.a), *sooner)
+def _degrees() -> dict[str, terms.Term]:
+    def is_degree(n: int) -> terms.Term:
+        sooner = [terms.differ(t.rot(t.a, door(k)), t.a) for k in range(1, n)]
+        return terms.conj(terms.eq(t.rot(t.a, door(n)), t.a), *sooner)
 
     rows = [
-        forall(t.a, eq(eq(t.deg(t.a), element("G", n - 1)), is_degree(n)))
+        terms.forall(t.a, terms.eq(terms.eq(t.deg(t.a), element("G", n - 1)), is_degree(n)))
         for n in range(1, MOST_DEGREE + 1)
     ]
-    return {"degrees": conj(*rows)}
+    return {"degrees": terms.conj(*rows)}
 
 
-def _connected(darts: int) -> dict[str, Term]:
+def _connected(darts: int) -> dict[str, terms.Term]:
     """Every dart is reached from the root in fewer turns and crossings than there are darts."""
-    reached = [Symbol(f"reached{n}", ("W",), BOOL) for n in range(darts)]
+    reached = [terms.Symbol(f"reached{n}", ("W",), terms.BOOL) for n in range(darts)]
     a = t.a
-    rows = [forall(a, eq(reached[0](a), eq(a, t.root)))]
+    rows = [terms.forall(a, terms.eq(reached[0](a), terms.eq(a, t.root)))]
     for before, after in pairwise(reached):
-        ways = disj(before(a), before(t.alpha(a)), before(t.sigma(a)))
-        rows.append(forall(a, eq(after(a), ways)))
-    return {"connected": conj(*rows, forall(a, reached[-1](a)))}
+        ways = terms.disj(before(a), before(t.alpha(a)), before(t.sigma(a)))
+        rows.append(terms.forall(a, terms.eq(after(a), ways)))
+    return {"connected": terms.conj(*rows, terms.forall(a, reached[-1](a)))}
 
 
-def _discovered(known: int) -> dict[str, Term]:
+def _discovered(known: int) -> dict[str, terms.Term]:
     """S consists of v0 and of vertices entered by their first dart from one found before."""
-    found = [Symbol(f"found{n}", ("M",), BOOL) for n in range(known)]
+    found = [terms.Symbol(f"found{n}", ("M",), terms.BOOL) for n in range(known)]
     x = t.x
-    entered = [forall(x, eq(found[0](x), t.minv0(x)))]
+    entered = [terms.forall(x, terms.eq(found[0](x), t.minv0(x)))]
     for before, after in pairwise(found):
-        ways = disj(before(x), conj(t.explored(mfirst(x)), before(t.malpha(mfirst(x)))))
-        entered.append(forall(x, eq(after(x), ways)))
+        ways = terms.disj(before(x), terms.conj(t.explored(mfirst(x)), before(t.malpha(mfirst(x)))))
+        entered.append(terms.forall(x, terms.eq(after(x), ways)))
     return {
-        "unexplored-ends-itself": forall(x, neg(t.explored(x)), eq(t.malpha(x), x)),
-        "first-of-vertex": forall(x, eq(mfirst(t.msigma(x)), mfirst(x))),
-        "first-is-there": forall(x, eq(t.mrot(x, mtofirst(x)), mfirst(x))),
-        "first-of-v0": eq(mfirst(t.mroot), t.mroot),
-        "discovered": conj(*entered, forall(x, found[-1](x))),
+        "unexplored-ends-itself": terms.forall(
+            x, terms.neg(t.explored(x)), terms.eq(t.malpha(x), x)
+        ),
+        "first-of-vertex": terms.forall(x, terms.eq(mfirst(t.msigma(x)), mfirst(x))),
+        "first-is-there": terms.forall(x, terms.eq(t.mrot(x, mtofirst(x)), mfirst(x))),
+        "first-of-v0": terms.eq(mfirst(t.mroot), t.mroot),
+        "discovered": terms.conj(*entered, terms.forall(x, found[-1](x))),
     }
 
 
@@ -133,7 +131,7 @@ class Scene:
 
 
 def find(
-    given: Mapping[str, Term], budget: Budget, *, edges: int, known: int
+    given: Mapping[str, terms.Term], budget: Budget, *, edges: int, known: int
 ) -> tuple[Scene | None, SolverAnswer, str]:
     """A scene of this size in which these formulas hold.
 
@@ -150,15 +148,22 @@ def find(
     return _decoded(found.structure, 2 * edges, known, given), "sat", ""
 
 
-def question(given: Mapping[str, Term], *, edges: int, known: int) -> str:
+def question(given: Mapping[str, terms.Term], *, edges: int, known: int) -> str:
     """The SMT-LIB script that asks for such a scene."""
     sizes = {"W": 2 * edges, "M": known, "K": DOORS, "G": MOST_DEGREE}
     return finite_models.grounded([*exact(2 * edges, known).values(), *given.values()], sizes)
 
 
-def _decoded(structure: Structure, darts: int, known: int, given: Mapping[str, Term]) -> Scene:
+def _decoded(
+    structure: terms.Structure, darts: int, known: int, given: Mapping[str, terms.Term]
+) -> Scene:
     of = structure.functions
-    names = {s.name for term in given.values() for s in _constants(term)}
+    names = {
+        symbol.name
+        for term in given.values()
+        for symbol in terms.symbols(term)
+        if not symbol.arguments and "!" not in symbol.name
+    }
     world = World(
         tuple(int(of["alpha"](d)) for d in range(darts)),
         tuple(int(of["sigma"](d)) for d in range(darts)),
@@ -177,5 +182,140 @@ def _decoded(structure: Structure, darts: int, known: int, given: Mapping[str, T
     )
 
 
-def _constants(term: Term) -> Iterator[Symbol]:
-    return (symbol for symbol in symbols(term) if not symbol.arguments and "!" not in symbol.name)
+# ----------------------------------------- the replay of a scene in the simulator, without a solver
+
+MOVES = 10_000
+
+
+class SceneReplay:
+    """A robot in the world of a scene. It lives for one replay; its map grows as it moves.
+
+    Attributes:
+        chart: S as it was drawn; its darts are numbered in the order of discovery.
+        without: constants of the scene: the edges of these darts are left for the mutant to cross.
+    """
+
+    def __init__(self, scene: Scene, *, without: Collection[str] = ()) -> None:
+        self.scene = scene
+        self.robot = SimulatedRobot(scene.world, MOVES)
+        self.chart = Chart(self.robot.percept)
+        self.pilot = Pilot(self.robot)
+        self.at: MapDart = 0
+        self.trie = RecordTrie()
+        left_out = {scene.constants[name] for name in without}
+        # Both darts of an edge are left out, whichever of them is named.
+        left_out |= {self._other(x) for x in left_out}
+        self.number: dict[int, MapDart] = {}
+        """For each dart of the scene's S, its number on the chart."""
+        self._enter(self._at_place(scene.world.root), 0)
+        self._draw(left_out)
+
+    # ------------------------------------------------------------ drawing S
+
+    def _at_place(self, dart: int | None) -> int:
+        """The dart of the scene's S at this dart of the world."""
+        return self.scene.place.index(dart if dart is not None else -1)
+
+    def _other(self, x: int) -> int:
+        return self._at_place(self.scene.world.alpha[self.scene.place[x]])
+
+    def _enter(self, x: int, first: MapDart) -> None:
+        """Number the vertex of x, a dart of the scene's S, from dart `first` of the chart on."""
+        world, degree = self.scene.world, self.chart.degree[self.chart.vertex[first]]
+        dart = self.scene.place[x]
+        for door in range(degree):
+            self.number[self._at_place(dart)] = first + door
+            dart = world.sigma[dart]
+
+    def _draw(self, left_out: Collection[int]) -> None:
+        edges = [x for x in sorted(self.scene.explored) if x not in left_out]
+        while len(self.number) < len(self.scene.place):
+            # An edge into a vertex that is not drawn yet, by its first dart. It exists, since the
+            # scene requires that S was discovered in this way.
+            x = next(
+                x
+                for x in edges
+                if x in self.number
+                and (y := self._other(x)) not in self.number
+                and self.scene.first[y] == y
+            )
+            percept = self._cross(x)
+            entry = self.chart.add_vertex(percept)
+            self._join(x, entry)
+            self._enter(self._other(x), entry)
+        for x in edges:
+            if self.chart.alpha[self.number[x]] is None:
+                self._cross(x)
+                self._join(x, self.number[self._other(x)])
+
+    def _cross(self, x: int) -> Percept:
+        """Walk to a dart of the scene's S, cross it, and return the percept behind it."""
+        e = self.number[x]
+        self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
+        if self.robot.percept != self.chart.percepts[self.at]:
+            raise InternalError(f"S of {self.scene.world.id} differs from what the robot senses")
+        return self.pilot.cross(self.chart, self.at, e)
+
+    def _join(self, x: int, other: MapDart) -> None:
+        self.chart.join(self.number[x], other)
+        # The robot came in by `other`, so that is its reference dart.
+        self.at = other
+
+    # ------------------------------------------------------------ the moves of the mutant
+
+    def dart(self, name: str) -> MapDart:
+        """The number on the chart of a constant that is a dart of S."""
+        return self.number[self.scene.constants[name]]
+
+    def first(self, dart: MapDart) -> MapDart:
+        """The first dart of a vertex."""
+        return self.chart.first[self.chart.vertex[dart]]
+
+    def door(self, name: str, degree: int) -> Door:
+        """The door that a constant means at a vertex of this degree."""
+        return self.scene.constants[name] % degree
+
+    def behind(self, name: str) -> Percept:
+        """Cross a dart of S, and return the percept behind it."""
+        return self._cross(self.scene.constants[name])
+
+    def forward(self, name: str) -> Percept:
+        """Take a door of the excursion as a mapper does that knows how it is turned."""
+        return self.pilot.forward(self.door(name, self.robot.percept.degree))
+
+    def take(self, name: str) -> Percept:
+        """Take a door without regard to how the robot is turned."""
+        return self.robot.move(self.door(name, self.robot.percept.degree))
+
+    def close(self, e: str, h: str) -> None:
+        """Go back behind e and join it with h, its true end."""
+        self.pilot.back(0)
+        entry = self.dart(h)
+        self._join(self.scene.constants[e], entry)
+        self.at = self.chart.turn(entry, self.pilot.turned)
+
+    def hypothesis(self, name: str) -> Hypothesis:
+        """The dart as a hypothesis, with its way home."""
+        return Hypothesis(self.dart(name), self.chart, self.chart.tree(0))
+
+    # ------------------------------------------------------------ judging
+
+    def says(self, rule: terms.Term, *seen: Percept, **values: int) -> bool:
+        """Whether a term is true of S and of these percepts, which b = 0, 1, ... stand for."""
+        return structure(self.chart, seen, self.trie).holds(rule, **values)
+
+    def truth(self, e: str, h: str) -> bool:
+        """Whether e ends in h in the world."""
+        place, constants = self.scene.place, self.scene.constants
+        return self.scene.world.alpha[place[constants[e]]] == place[constants[h]]
+
+    @cached_property
+    def root(self) -> int:
+        """The marked dart of the world."""
+        assert self.scene.world.root is not None
+        return self.scene.world.root
+
+    @property
+    def history(self) -> tuple[Door, ...]:
+        """The doors of all moves so far."""
+        return tuple(event.door for event in self.robot.events if isinstance(event, Move))

@@ -6,19 +6,25 @@ vacuous, and not `ok`.
 
 **Mutant**: without one premise, which the obligation names, there is a structure in which all other
 premises hold and the goal fails. It is evaluated without a solver before it counts.
+
+**Mutant of a rule**: a scene refutes it (`mutants/`), which the simulator replays.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from time import perf_counter
+from collections.abc import Iterator
+from typing import Literal
 
-from topo_verify.proofs.first_order import finite_models
-from topo_verify.proofs.first_order.axioms import INVARIANT, LEMMAS
-from topo_verify.proofs.first_order.obligations import OBLIGATIONS, Obligation
+from topo_verify.errors import InternalError
+from topo_verify.proofs.first_order import finite_models, scenes
+from topo_verify.proofs.first_order.mutants import RuleMutant
+from topo_verify.proofs.first_order.mutants import growth as faulty_growth
+from topo_verify.proofs.first_order.mutants import hypotheses as faulty_hypotheses
+from topo_verify.proofs.first_order.obligations import Obligation, growth, hypotheses
 from topo_verify.proofs.first_order.terms import Term, conj, implies, neg, script, shown
+from topo_verify.proofs.first_order.theory import INVARIANT, LEMMAS
 from topo_verify.proofs.solvers import z3_solver
-from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult
+from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult, timed
 
 
 def theorem(obligation: Obligation) -> Theorem:
@@ -39,7 +45,7 @@ def theorem(obligation: Obligation) -> Theorem:
         argued=obligation.argued,
         assumed=tuple(n for n in obligation.theory if n not in {*LEMMAS, *INVARIANT}),
         expected="PROVED",
-        prove=_prover(obligation),
+        prove=timed(lambda budget: _prove(obligation, budget)),
         queries=queries,
     )
 
@@ -52,31 +58,22 @@ def _solver_part(obligation: Obligation) -> str:
     return words + (f", given {', '.join(lemmas)}" if lemmas else "")
 
 
-def _prover(obligation: Obligation) -> Callable[[Budget], TheoremResult]:
-    def prove(budget: Budget) -> TheoremResult:
-        begin = perf_counter()
-        reply = refute(obligation.negation(), budget)
-        # Only `unsat` is a proof. No model with quantifiers is evaluated, so `sat` refutes nothing.
-        if reply.answer != "unsat":
-            return TheoremResult(
-                verdict="UNKNOWN",
-                solver=z3_solver.name(),
-                seconds=perf_counter() - begin,
-                note=f"{z3_solver.name()} answers {reply.answer}: {reply.why or 'no reason given'}",
-            )
-        # Z3 cannot find models of quantified formulas, so a tiny one is sought for the premises.
-        premises = finite_models.smallest(obligation.premises(), budget).answer
-        satisfiable = {"sat": True, "unsat": False, "unknown": None}[premises]
-        return TheoremResult(
-            verdict="PROVED",
-            solver=z3_solver.name(),
-            seconds=perf_counter() - begin,
-            premises_satisfiable=satisfiable,
-            core=tuple(name for name in reply.core if name != "goal-fails"),
-            note="" if satisfiable else "no structure was found where its premises hold: vacuous",
+def _prove(obligation: Obligation, budget: Budget) -> TheoremResult:
+    reply = refute(obligation.negation(), budget)
+    # Only `unsat` is a proof. No model with quantifiers is evaluated, so `sat` refutes nothing.
+    if reply.answer != "unsat":
+        why = reply.why or "no reason given"
+        return z3_solver.z3_result(
+            verdict="UNKNOWN", note=f"{z3_solver.name()} answers {reply.answer}: {why}"
         )
-
-    return prove
+    # Z3 cannot find models of quantified formulas, so a tiny one is sought for the premises.
+    premises = finite_models.smallest(obligation.premises(), budget).answer
+    satisfiable = {"sat": True, "unsat": False, "unknown": None}[premises]
+    return z3_solver.z3_result(
+        verdict="PROVED",
+        premises_satisfiable=satisfiable,
+        core=tuple(name for name in reply.core if name != "goal-fails"),
+    )
 
 
 def refute(assertions: dict[str, Term], budget: Budget) -> z3_solver.Z3Reply:
@@ -92,22 +89,16 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
     formulas |= {"premise-fails": neg(dropped), "goal-fails": neg(obligation.goal)}
 
     def prove(budget: Budget) -> TheoremResult:
-        begin = perf_counter()
         found = finite_models.smallest(formulas, budget)
         if found.structure is None:
             # No model of these sizes: the mutant was not refuted, and EXHAUSTED is unexpected.
-            exhausted = found.answer == "unsat"
-            return TheoremResult(
-                verdict="EXHAUSTED" if exhausted else "UNKNOWN",
-                solver=z3_solver.name(),
-                seconds=perf_counter() - begin,
-                note=found.why
-                or f"no structure of up to {finite_models.SIZES[-1][0]} darts breaks it",
+            largest = finite_models.SIZES[-1][0]
+            return z3_solver.z3_result(
+                verdict="EXHAUSTED" if found.answer == "unsat" else "UNKNOWN",
+                note=found.why or f"no structure of up to {largest} darts breaks it",
             )
-        return TheoremResult(
+        return z3_solver.z3_result(
             verdict="REFUTED",
-            solver=z3_solver.name(),
-            seconds=perf_counter() - begin,
             counterexample=finite_models.described(found),
             note=f"{lost} is false there, the other premises are true, the goal is false",
         )
@@ -123,7 +114,7 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
         symbols=f"not assumed: {shown(dropped)}",
         solver_part="a structure of a few elements in which it fails, evaluated without a solver",
         expected="REFUTED",
-        prove=prove,
+        prove=timed(prove),
         queries=queries,
         of=obligation.name,
     )
@@ -134,6 +125,68 @@ def _telling(obligation: Obligation) -> str:
     return next((n for n in obligation.needs if n in obligation.theory), obligation.needs[0])
 
 
+def rule_mutant(faulty: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") -> Theorem:
+    """The statement that the faulty rule is right, as a theorem that must be refuted."""
+    edges, known = faulty.size
+
+    def queries() -> Iterator[Query]:
+        asked = scenes.question(faulty.scene, edges=edges, known=known)
+        yield Query(faulty.name, asked, "sat")
+
+    return Theorem(
+        name=faulty.name,
+        kind=kind,
+        claims=faulty.claims,
+        words=faulty.words,
+        symbols=shown(faulty.rule),
+        solver_part="a world, a map and a history in which it fails; replayed in the simulator",
+        expected="REFUTED",
+        prove=timed(lambda budget: _refute(faulty, budget)),
+        queries=queries,
+        edges=edges,
+        of=faulty.of if kind == "mutant" else None,
+    )
+
+
+def _refute(faulty: RuleMutant, budget: Budget) -> TheoremResult:
+    edges, known = faulty.size
+    scene, answer, why = scenes.find(faulty.scene, budget, edges=edges, known=known)
+    if scene is None:
+        note = f"{z3_solver.name()} answers {answer} with {edges} edges"
+        note += f": {why}" if why else ""
+        return z3_solver.z3_result(
+            verdict="EXHAUSTED" if answer == "unsat" else "UNKNOWN", note=note
+        )
+    replay = scenes.SceneReplay(scene, without=faulty.without)
+    if not faulty.plays(replay, faulty.rule):
+        raise InternalError(
+            f"the model of {faulty.name} does not replay: the doors {list(replay.history)} in world"
+            f" {scene.world.id} show no failure"
+        )
+    return z3_solver.z3_result(
+        verdict="REFUTED",
+        replayed=(1, 1),
+        counterexample=scene.world.id,
+        history=replay.history,
+    )
+
+
+OBLIGATIONS = hypotheses.OBLIGATIONS + growth.OBLIGATIONS
+"""All obligations; a lemma comes before those that use it."""
+
+RULE_MUTANTS = (
+    faulty_hypotheses.REJECTIONS
+    + faulty_hypotheses.RECORDS
+    + faulty_hypotheses.CONFIRMATIONS
+    + faulty_growth.GROWTH
+    + faulty_growth.FOLD_STEPS
+)
+
 INDUCTIVE: tuple[Theorem, ...] = tuple(map(theorem, OBLIGATIONS))
 
 AXIOM_MUTANTS: tuple[Theorem, ...] = tuple(mutant(one, _telling(one)) for one in OBLIGATIONS)
+
+FAULTY_RULES: tuple[Theorem, ...] = tuple(map(rule_mutant, RULE_MUTANTS))
+
+PLANAR: Theorem = rule_mutant(faulty_growth.PLANAR, "negative")
+"""The planar prior is not sound in all worlds: a torus with two edges refutes it."""

@@ -18,29 +18,13 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Literal
 
+import msgspec
+
 from topo_verify.errors import InputError
-from topo_verify.proofs.mechanised.decision_evidence import EntailedDecisions, Fact
-from topo_verify.proofs.mechanised.evidence import (
-    Alone,
-    Arc,
-    Arrive,
-    Conflict,
-    FoldedLog,
-    Illegal,
-    Marked,
-    Meeting,
-)
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Finish,
-    MapData,
-    Move,
-    Reject,
-    Start,
-)
+from topo_verify.proofs.mechanised import evidence
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
+from topo_verify.text import plural
 
 HEADER = "topo-verify/certificate 1"
 """The first line of a certificate: the format and its version."""
@@ -74,10 +58,10 @@ class CoqCertificate:
     """
 
     statement: CertifiedStatement
-    log: tuple[Event, ...]
-    fold: FoldedLog
+    log: tuple[ev.Event, ...]
+    fold: evidence.FoldedLog
     numbering: tuple[tuple[int, int], ...] | None
-    decisions: EntailedDecisions
+    decisions: evidence.EntailedDecisions
 
 
 # ---------------------------------------------------------------- reading
@@ -177,35 +161,63 @@ def lines_of(certificate: CoqCertificate) -> Iterator[Line]:
         yield (len(facts), *chain.from_iterable(map(_reason, facts)))
 
 
-_DECISIONS = (Reject, Confirm, Augment)
+_DECISIONS = (ev.Reject, ev.Confirm, ev.Augment)
 
 
-def stated_log(trace: Sequence[Event]) -> tuple[Event, ...]:
+def stated_log(trace: Sequence[ev.Event]) -> tuple[ev.Event, ...]:
     """The events of a trace that a certificate is about.
 
     A decision about a number that no dart has follows from nothing, and so does no decision after
-    it: they are left out, and so is a delivered value that is no map at all. Poses are left out as
-    well, since they claim nothing of the world.
+    it: they are left out, and so is a delivered value that is no map at all; `left_out` says so.
+    Poses are left out as well, since they claim nothing of the world. The darts of a delivered map
+    are numbered anew if one of them is no natural number up to `LARGEST`.
     """
     end = next((i for i, event in enumerate(trace) if not _is_natural(event)), len(trace))
-    kept = [
-        event
-        for i, event in enumerate(trace)
-        if isinstance(event, Start | Move)
-        or (isinstance(event, _DECISIONS) and i < end)
-        or (isinstance(event, Finish) and _is_map(event.map))
-    ]
+    kept: list[ev.Event] = []
+    for i, event in enumerate(trace):
+        match event:
+            case ev.Finish(map=delivered) if _is_map(delivered):
+                kept.append(msgspec.structs.replace(event, map=_with_natural_darts(delivered)))
+            case ev.Start() | ev.Move():
+                kept.append(event)
+            case ev.Reject() | ev.Confirm() | ev.Augment() if i < end:
+                kept.append(event)
+            case _:
+                pass
     return tuple(kept)
 
 
-def log_lines(log: Sequence[Event]) -> Iterator[Line]:
+def left_out(trace: Sequence[ev.Event]) -> str:
+    """The decisions and the map that no certificate about this trace states, and why, or ""."""
+    log = stated_log(trace)
+    decisions = decisions_in(trace) - decisions_in(log)
+    reasons: list[str] = []
+    if decisions:
+        reasons.append(
+            f"{plural(decisions, 'decision')} of the log cannot be stated nor proved: from"
+            f" the first on that names a number below 0 or above {WIDEST:,}, which no dart has"
+        )
+    if isinstance(trace[-1], ev.Finish) and not isinstance(log[-1], ev.Finish):
+        reasons.append(
+            "the delivered value cannot be stated nor proved: expected edges of two darts,"
+            " and a marker unless there is no dart"
+        )
+    return "; ".join(reasons)
+
+
+def decisions_in(log: Sequence[ev.Event]) -> int:
+    """The number of declared decisions."""
+    return sum(isinstance(event, _DECISIONS) for event in log)
+
+
+def log_lines(log: Sequence[ev.Event]) -> Iterator[Line]:
     """The numbers at the head of each certificate about a log of `stated_log`, line by line."""
     begin = log[0]
-    assert isinstance(begin, Start)
+    assert isinstance(begin, ev.Start)
     yield _percept(begin.percept)
     yield from _counted(filter(None, map(_event, log)))
     end = log[-1]
-    if not isinstance(end, Finish):
+    if not isinstance(end, ev.Finish):
         yield (0,)
         return
     yield (1,)
@@ -214,40 +226,54 @@ def log_lines(log: Sequence[Event]) -> Iterator[Line]:
     yield (end.map.marker or 0,)
 
 
-def _is_natural(event: Event) -> bool:
+def _is_natural(event: ev.Event) -> bool:
     """Whether the numbers of a decision are natural ones that Coq can count to."""
     match event:
-        case Reject(edge, other) | Confirm(edge, other):
+        case ev.Reject(edge, other) | ev.Confirm(edge, other):
             return 0 <= edge <= WIDEST and 0 <= other <= WIDEST
-        case Augment(edge, _, dart, degree):
+        case ev.Augment(edge, _, dart, degree):
             return all(0 <= number <= WIDEST for number in (edge, dart, degree))
         case _:
             return True
 
 
-def _is_map(delivered: MapData) -> bool:
-    """Whether a delivered value has darts that are natural numbers, edges of two, and a marker.
+def _is_map(delivered: ev.MapData) -> bool:
+    """Whether a delivered value has edges of two darts, and a marker.
 
     The map of the world without an edge has no marker.
     """
-    darts = [*chain.from_iterable(delivered.vertices), *chain.from_iterable(delivered.edges)]
-    return (
-        (delivered.marker is None) == (delivered.vertices == ((),))
-        and all(len(edge) == 2 for edge in delivered.edges)
-        and all(0 <= dart <= LARGEST for dart in (*darts, delivered.marker or 0))
+    return (delivered.marker is None) == (delivered.vertices == ((),)) and all(
+        len(edge) == 2 for edge in delivered.edges
     )
 
 
-def _event(event: Event) -> Line | None:
+def _with_natural_darts(delivered: ev.MapData) -> ev.MapData:
+    """The map; numbered anew from 0, in the order of its darts, if a dart is out of range.
+
+    Different darts keep different numbers, so the map is right just if the delivered one is.
+    """
+    marker = () if delivered.marker is None else (delivered.marker,)
+    darts = [*chain.from_iterable((*delivered.vertices, *delivered.edges)), *marker]
+    if all(0 <= dart <= LARGEST for dart in darts):
+        return delivered
+    number = {dart: i for i, dart in enumerate(dict.fromkeys(darts))}
+    return ev.MapData(
+        tuple(tuple(number[dart] for dart in vertex) for vertex in delivered.vertices),
+        tuple((number[one], number[two]) for one, two in delivered.edges),
+        None if delivered.marker is None else number[delivered.marker],
+    )
+
+
+def _event(event: ev.Event) -> Line | None:
     """The numbers of an event; None of one that stands elsewhere, or nowhere."""
     match event:
-        case Move(door, percept):
+        case ev.Move(door, percept):
             return (0, door, *_percept(percept))
-        case Reject(edge, hypothesis):
+        case ev.Reject(edge, hypothesis):
             return (1, edge, hypothesis)
-        case Confirm(edge, hypothesis):
+        case ev.Confirm(edge, hypothesis):
             return (2, edge, hypothesis)
-        case Augment(edge, kind, dart, degree):
+        case ev.Augment(edge, kind, dart, degree):
             return (3 if kind == "loop" else 4, edge, dart, degree)
         case _:
             return None
@@ -263,7 +289,7 @@ def _claim(certificate: CoqCertificate) -> Iterator[Line]:
     if certificate.statement != "undetermined":
         yield from _counted(map(_meeting, fold.meetings))
     if certificate.statement == "impossible":
-        yield _conflict(fold.conflict or Illegal())
+        yield _conflict(fold.conflict or evidence.Illegal())
     if certificate.statement == "map":
         yield (0,) if numbering is None else (1,)
         if numbering is not None:
@@ -285,29 +311,29 @@ def _percept(percept: Percept) -> Line:
     return (percept.degree, _optional(percept.marker))
 
 
-def _arc(arc: Arc) -> Line:
+def _arc(arc: evidence.Arc) -> Line:
     return (int(arc.forwards), arc.visit)
 
 
-def _meeting(meeting: Meeting) -> Line:
+def _meeting(meeting: evidence.Meeting) -> Line:
     return (*_arc(meeting[0]), *_arc(meeting[1]))
 
 
-def _conflict(conflict: Conflict) -> Line:
+def _conflict(conflict: evidence.Conflict) -> Line:
     match conflict:
-        case Arrive(meeting):
+        case evidence.Arrive(meeting):
             return (0, *_meeting(meeting))
-        case Marked(visit):
+        case evidence.Marked(visit):
             return (1, visit)
-        case Alone(visit):
+        case evidence.Alone(visit):
             return (2, visit)
-        case Illegal():
+        case evidence.Illegal():
             return (1, 1)  # a filler: the log is illegal, which needs no conflict
 
 
-def _reason(fact: Fact) -> Line:
+def _reason(fact: evidence.Fact) -> Line:
     match fact.reason:
-        case Arc() as arc:
+        case evidence.Arc() as arc:
             return (0, *_arc(arc))
         case why:
             merges = chain.from_iterable(map(_meeting, why.meetings))

@@ -45,8 +45,12 @@ from topo_verify.proofs.mechanised.certificate_format import (
     CertifiedStatement,
     CoqCertificate,
 )
-from topo_verify.proofs.mechanised.decision_evidence import evidence_for_decisions
-from topo_verify.proofs.mechanised.evidence import FoldedLog, MapRow, fold_log
+from topo_verify.proofs.mechanised.evidence import (
+    FoldedLog,
+    MapRow,
+    evidence_for_decisions,
+    fold_log,
+)
 from topo_verify.robot.events import Event, Finish, MapData, Move, Start
 from topo_verify.robot.percept import Percept
 
@@ -217,7 +221,7 @@ class _Checker:
             if len(numbers) > LONG and shutil.which("ocamlfind") is not None:
                 return extracted(self.folder, numbers, timeout=self.timeout)
             return by_kernel(self.folder, numbers, timeout=self.timeout)
-        except toolchain.TimeOut as error:
+        except toolchain.Unfinished as error:
             return CertificateCheck(accepted=None, by=toolchain.version(), why=str(error))
 
 
@@ -226,7 +230,7 @@ def build(folder: Path, *, timeout: float) -> None:
 
     Raises:
         InputError: the installed Coq refuses a file.
-        toolchain.TimeOut: a file takes too long.
+        toolchain.Unfinished: a file takes too long, or coqc is killed or lacks memory.
     """
     names = toolchain.required(LIBRARY)
     toolchain.copy_library(folder, names)

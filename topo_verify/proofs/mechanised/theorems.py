@@ -242,7 +242,7 @@ def library(timeout: float) -> LibraryCheck:
     with TemporaryDirectory() as name:
         try:
             found = examine(Path(name), timeout=timeout)
-        except toolchain.TimeOut as error:
+        except toolchain.Unfinished as error:
             found = LibraryCheck(why=str(error))
     seconds = perf_counter() - begin
     return LibraryCheck(found.why, found.summary, seconds)
@@ -252,7 +252,7 @@ def examine(folder: Path, *, timeout: float) -> LibraryCheck:
     """The result of checking the library in an empty folder.
 
     Raises:
-        toolchain.TimeOut: a call takes too long.
+        toolchain.Unfinished: a call takes too long, is killed, or lacks memory.
     """
     names = toolchain.files()
     toolchain.copy_library(folder, names)

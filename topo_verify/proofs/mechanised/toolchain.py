@@ -2,7 +2,8 @@
 
 The library is the folder proofs/coq/; its `_CoqProject` lists the files in an order in which they
 can be compiled. Nothing is written there: it is compiled in a folder of the caller's. Every call
-has a time limit. A call that reaches it raises `TimeOut`, which is no refusal and no pass.
+has a time limit. A call that reaches it, is killed, or runs out of memory or stack raises
+`Unfinished`, which is neither a refusal nor a pass.
 
 What this does not show: that the installed coqc is the one that its authors released.
 """
@@ -35,8 +36,15 @@ FORBIDDEN = re.compile(
 """Words with which a source could claim what it does not prove."""
 
 
-class TimeOut(Exception):
-    """A call of coqc or coqchk reached its time limit."""
+class Unfinished(Exception):
+    """A program reached its time limit, was killed, or lacked memory: it decided nothing."""
+
+
+_LACKS = re.compile(r"(?i)out[ _]of[ _]memory|not enough memory|stack[ _]overflow|system error.*")
+"""In what Coq and programs in OCaml say when they lack memory, stack or room on the disk."""
+
+_SHELL_SIGNALS = range(129, 160)
+"""Exit codes of a shell script around a program that a signal ended: 128 + its number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,12 +63,12 @@ def missing() -> str:
 
 @cache
 def version() -> str:
-    """Name and version of the compiler."""
+    """Name and version of the compiler; its name alone if it does not tell the version."""
     output = subprocess.run(
         ["coqc", "-print-version"],  # noqa: S607  the one on PATH is meant
-        capture_output=True, text=True, check=True,
+        capture_output=True, text=True, check=False,
     ).stdout  # fmt: skip
-    return f"coqc {output.split()[0]}"
+    return " ".join(["coqc", *output.split()[:1]])
 
 
 def files() -> tuple[str, ...]:
@@ -104,7 +112,7 @@ def compile_all(
     """The result of compiling these sources of the folder in order, up to the first refused one.
 
     Raises:
-        TimeOut: one takes longer than `timeout` seconds.
+        Unfinished: one takes longer than `timeout` seconds, is killed, or lacks memory.
     """
     ran = ProgramRun(accepted=True, output="")
     for name in names:
@@ -133,7 +141,7 @@ def run(command: Sequence[str], folder: Path, *, timeout: float, stdin: str = ""
     """Run a program in the folder.
 
     Raises:
-        TimeOut: it took longer than `timeout` seconds, and was killed.
+        Unfinished: it took longer than `timeout` seconds, was killed, or lacked memory or stack.
     """
     try:
         done = subprocess.run(  # noqa: S603  programs of Coq and OCaml, on files of our own
@@ -141,5 +149,11 @@ def run(command: Sequence[str], folder: Path, *, timeout: float, stdin: str = ""
             timeout=timeout,
         )  # fmt: skip
     except subprocess.TimeoutExpired as error:
-        raise TimeOut(f"{command[0]} took longer than {timeout:g} seconds") from error
-    return ProgramRun(done.returncode == 0, f"{done.stdout}{done.stderr}".strip())
+        raise Unfinished(f"{command[0]} took longer than {timeout:g} seconds") from error
+    code, output = done.returncode, f"{done.stdout}{done.stderr}".strip()
+    if code < 0 or code in _SHELL_SIGNALS:
+        number = -code if code < 0 else code - 128
+        raise Unfinished(f"{command[0]} was ended by signal {number}, perhaps for lack of memory")
+    if code and (lack := _LACKS.search(output)):
+        raise Unfinished(f"{command[0]} ended without a result: {lack[0]}")
+    return ProgramRun(code == 0, output)

@@ -82,7 +82,8 @@ def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
     if answer == "unknown" and "forall" in query.smt2:
         answer, why = _check(query, timeout, {"full-saturate-quant": "true"})
         why = why or "full-saturate-quant"
-    return SecondAnswer(query.name, _name(), answer, query.expected, perf_counter() - began, why)
+    solver = f"cvc5 {import_module('cvc5').__version__}"
+    return SecondAnswer(query.name, solver, answer, query.expected, perf_counter() - began, why)
 
 
 def export(query: Query, folder: Path) -> Path:
@@ -98,10 +99,6 @@ def export(query: Query, folder: Path) -> Path:
     except OSError as error:
         raise InputError(f"{path} cannot be written: {error}; name another --smt2 DIR") from error
     return path
-
-
-def _name() -> str:
-    return f"cvc5 {import_module('cvc5').__version__}"
 
 
 def _check(query: Query, timeout: float, options: dict[str, str]) -> tuple[SolverAnswer, str]:

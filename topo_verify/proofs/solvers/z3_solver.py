@@ -19,10 +19,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from importlib import import_module
 from typing import Any, Literal
 
-from topo_verify.proofs.theorem import Budget, SolverAnswer
+from topo_verify.proofs.theorem import Budget, SolverAnswer, TheoremResult
 
 # The z3 package has no types. It is loaded here, as `Any`, and in no other file.
 _z3: Any = import_module("z3")
@@ -35,6 +36,10 @@ _LOGIC = {"ground": "QF_UF", "clauses": "QF_FD"}
 def name() -> str:
     """The solver and its version."""
     return f"z3 {'.'.join(map(str, _z3.get_version()[:3]))}"
+
+
+z3_result = partial(TheoremResult, solver=name())
+"""A `TheoremResult` that names Z3 as its solver."""
 
 
 @dataclass(frozen=True, slots=True)

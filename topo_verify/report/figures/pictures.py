@@ -12,9 +12,9 @@ from io import BytesIO
 from math import exp, log
 from typing import Any, Literal, NamedTuple
 
-from topo_verify.harness.reproduce.figures import YARDSTICKS, Figure
-from topo_verify.harness.reproduce.points import FigurePoint
-from topo_verify.report.figures.names import SHORT
+from topo_verify.report.figures.words import SHORT
+from topo_verify.studies.reproduce.figures import YARDSTICKS, Figure
+from topo_verify.studies.reproduce.points import FigurePoint
 
 CARD, INK, SOFT, GRID = "#fdfcf9", "#22282e", "#5c656e", "#dcdcd6"
 

@@ -2,6 +2,7 @@
 
 Every sentence is computed from the points, so it changes with them. The paper's statements are
 those of its text (sections I, III and IV); its pictures are not read off.
+`page` puts all pictures and paragraphs into one Markdown file.
 """
 
 from __future__ import annotations
@@ -9,9 +10,26 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from topo_verify.harness.reproduce.figures import FIGURES, LATTICE, Figure
-from topo_verify.harness.reproduce.points import FigurePoint
-from topo_verify.report.figures.names import SHORT
+from topo_verify.studies.reproduce.figures import FIGURES, LATTICE, Figure
+from topo_verify.studies.reproduce.points import FigurePoint
+
+SHORT = {
+    "basic": "basic",
+    "enhancement-i": "I",
+    "enhancement-ii": "II",
+    "enhancement-ii+i": "II+I",
+    "enhancement-iii-one": "III one",
+    "enhancement-iii-one+i": "III one+I",
+    "enhancement-iii-all": "III all",
+    "enhancement-iii-all+i": "III all+I",
+    "folding": "folding",
+    "edges": "edges m",
+    "least-cost": "least cost",
+}
+"""By the name in results. `+I` walks as Enhancement I does: on from where a percept differed."""
+
+
+# ---------------------------------------------------------------- paragraphs
 
 _Line = dict[int, FigurePoint]
 """The points of a line under the reference policies, by size."""
@@ -90,7 +108,8 @@ def _order(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
             continue
         both = [size for size in lines[dearer] if size in lines[cheaper]]
         differ = {s: lines[dearer][s].mean - lines[cheaper][s].mean for s in both}
-        equal, wrong = ([s for s in both if test(differ[s])] for test in (_zero, _negative))
+        equal = [s for s in both if differ[s] == 0]
+        wrong = [s for s in both if differ[s] < 0]
         claim = f"{SHORT[cheaper]} costs less than {SHORT[dearer]}"
         ties = f" (the same at {_sizes(equal)})" if equal else ""
         if wrong:
@@ -100,14 +119,6 @@ def _order(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
             )
         elif both:
             yield f"Agrees: {claim} in the mean at every size{ties}."
-
-
-def _zero(number: float) -> bool:
-    return number == 0
-
-
-def _negative(number: float) -> bool:
-    return number < 0
 
 
 def _sizes(sizes: Sequence[int]) -> str:
@@ -167,15 +178,11 @@ def _policies(figure: Figure, points: Sequence[FigurePoint]) -> Iterator[str]:
         if name.endswith("+i"):
             continue
         here = [p for p in points if p.algorithm == name and p.size == size and p.mean]
-        low, high = min(here, key=_mean), max(here, key=_mean)
+        low, high = (pick(here, key=lambda p: p.mean) for pick in (min, max))
         yield (
             f"Over {len(pairs)} pairs of policies {SHORT[name]} costs {low.mean:,.0f}"
             f" ({low.pair}) to {high.mean:,.0f} ({high.pair}) at size {size}."
         )
-
-
-def _mean(point: FigurePoint) -> float:
-    return point.mean
 
 
 def _open(figure: Figure) -> str:
@@ -198,3 +205,65 @@ def _cost(point: FigurePoint) -> str:
 
 def _percent(share: float) -> str:
     return f"{share * 100:.0f} %"
+
+
+# ---------------------------------------------------------------- the page
+
+PAGE = "figures.md"
+"""The name of the file."""
+
+
+def stem(figure: Figure) -> str:
+    """The name of the files of a figure, without an ending."""
+    return f"figure-{figure.name}"
+
+
+def page(
+    found: Sequence[tuple[Figure, Sequence[FigurePoint]]],
+    *,
+    command: str,
+    judged: str,
+    pictures: bool,
+) -> str:
+    """All figures with their paragraphs, as one Markdown file.
+
+    Args:
+        command: the command line that makes it again.
+        judged: a sentence on what was judged.
+        pictures: whether there are pictures to show.
+    """
+    lines = ["# The paper's figures", "", "Made by", "", f"    {command}", "", judged, ""]
+    every = [point for _, points in found for point in points]
+    for figure, points in found:
+        lines += [f"## Figure {figure.name}: {figure.title}", ""]
+        if pictures:
+            lines += [f"![Figure {figure.name}: {figure.title}]({stem(figure)}.svg)", ""]
+        lines += [paragraph(figure, points, every), ""]
+    return "\n".join(lines)
+
+
+def judged_sentence(points: Sequence[FigurePoint]) -> str:
+    """How many runs stand behind these points, and how many claims held in each."""
+    # A point of two figures, as basic at 10×10 of 3 and 6a, is one.
+    asked = {
+        (FIGURES[p.figure].setting.name, p.algorithm, p.size, p.pair): p
+        for p in points
+        if p.pair is not None
+    }.values()
+    runs = sum(point.graphs for point in asked)
+    failed = len({finding.replay for point in asked for finding in point.findings})
+    undecided = sum(point.undecided for point in asked)
+    text = f"{runs:,} runs were judged"
+    if failed:
+        text += f": a claim fails in {failed} of them."
+    else:
+        held: dict[tuple[int, int], int] = {}
+        for point in asked:
+            held[point.held, point.of] = held.get((point.held, point.of), 0) + point.graphs
+        if len(held) <= 1:
+            (some, of), *_ = held or [(0, 0)]
+            text += f": {some} of {of} claims held in each."
+        else:
+            parts = [f"{some} of {of} claims in {n:,}" for (some, of), n in sorted(held.items())]
+            text += f": of those asked held {', '.join(reversed(parts))}."
+    return text + (f" {undecided} more were not decided." if undecided else "")

@@ -1,6 +1,12 @@
-"""Names for the arrays of this room."""
+"""Names for the arrays of this room, and sparse linear equations.
+
+The equations are solved by SuperLU as SciPy ships it, or dense while they are few. Loading SciPy
+takes longer than drawing a small world does, so that is left to large ones.
+"""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,3 +14,32 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
+
+
+# ---------------------------------------------------------------- sparse linear equations
+
+# SciPy has no types.
+# pyright: reportMissingTypeStubs=false
+
+
+FEW = 100
+"""So many equations are solved faster by NumPy, whose library takes one thread for them."""
+
+
+def solve(rows: Ints, columns: Ints, values: Floats, right: Floats) -> Floats:
+    """The solution of the symmetric positive definite equations; entries given twice are added."""
+    size = len(right)
+    if size <= FEW:
+        dense = np.bincount(rows * size + columns, values, size * size).reshape(size, size)
+        return np.asarray(np.linalg.solve(dense, right), np.float64)
+    from scipy.sparse import csc_matrix, linalg  # type: ignore[import-untyped]
+
+    library: Any = linalg
+    matrix: Any = csc_matrix((values, (rows, columns)), shape=(size, size))
+    factors: Any = library.splu(
+        matrix,
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
+    return np.asarray(factors.solve(right), np.float64)

@@ -81,7 +81,9 @@ def _page(world: World, layout: Layout, svg: str) -> str:
         f"svg{{width:min(96vw,{3 * layout.width:.0f}px);height:auto;max-height:96vh}}"
         "@media(prefers-color-scheme:dark){body{background:#14181c;color:#e8eaec}}"
     )
-    hashes = " ".join(f"'sha256-{_digest(style)}'" for style in (own, STYLE))
+    hashes = " ".join(
+        f"'sha256-{b64encode(sha256(style.encode()).digest()).decode()}'" for style in (own, STYLE)
+    )
     policy = f"default-src 'none'; style-src {hashes}; base-uri 'none'; form-action 'none'"
     # The policy forbids style attributes; the page has a rule in their place.
     inside = svg.replace(' style="max-width:100%;height:auto"', "", 1)
@@ -92,7 +94,3 @@ def _page(world: World, layout: Layout, svg: str) -> str:
         f"<title>{text(caption(world, layout))}</title><style>{own}</style></head>"
         f"<body><main>{inside}</main></body></html>\n"
     )
-
-
-def _digest(style: str) -> str:
-    return b64encode(sha256(style.encode()).digest()).decode()

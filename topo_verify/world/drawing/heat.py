@@ -23,9 +23,8 @@ from topo_verify.errors import InternalError
 from topo_verify.world.drawing import curves, read_back
 from topo_verify.world.drawing.choice import lay_out
 from topo_verify.world.drawing.curves import number
-from topo_verify.world.drawing.labels import leaving
 from topo_verify.world.drawing.layout import Layout
-from topo_verify.world.drawing.svg import FONT, text, to_svg
+from topo_verify.world.drawing.svg import FONT, leaving, text, to_svg
 from topo_verify.world.rooted_map import Dart, World
 
 SCALE = (

@@ -1,14 +1,21 @@
 """Layout: where the vertices, edges and bridges of a drawn world lie.
 
+A sketch, which is places in a plane, is fitted: scaled, trimmed at the circles, with bridges.
 Coordinates are those of the picture: y grows downwards, so clockwise on the screen is clockwise in
 the world.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
+from topo_verify.world.drawing import curves
+from topo_verify.world.drawing.arrays import Floats
+from topo_verify.world.drawing.curves import crossings
 from topo_verify.world.formats.embedding import Point
 from topo_verify.world.rooted_map import Dart
 
@@ -60,3 +67,158 @@ class Layout:
     stubs: tuple[tuple[Dart, str], ...] = ()
     hidden: frozenset[int] = frozenset()
     cell: tuple[Point, Point, Point] | None = None
+
+
+# ---------------------------------------------------------------- places in a plane as a layout
+
+RADIUS = 11.0
+"""Of a vertex' circle, unless the picture would get too large."""
+
+LONGEST_SIDE = 2400.0
+
+MARGIN = 2.4
+"""Around the picture, in radii of a vertex."""
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """Where vertices and edges lie in a plane whose y axis points upwards.
+
+    Attributes:
+        centres: of the vertices, an (n, 2) array.
+        chains: the control points of each edge, from the centre of the lesser dart's vertex to the
+            centre of the other's.
+        bridges: how many crossings there are; None: as many as there happen to be.
+        turn: whether the picture may be turned so that it lies wide.
+    """
+
+    kind: Kind
+    centres: Floats
+    chains: tuple[Floats, ...]
+    bridges: int | None = None
+    turn: bool = True
+
+
+def fitted(sketch: Sketch, rounding: float) -> Layout:
+    """The layout of the sketch: the radius is the largest that keeps circles clear of all else.
+
+    Args:
+        rounding: of the corners of the chains; `curves.smooth`.
+    """
+    centres, chains = _upright(sketch)
+    radius = _radius(centres, chains, rounding)
+    corner, size = _box(centres, chains)
+    scale = min(RADIUS / radius, LONGEST_SIDE / max(float(size.max()), radius))
+    radius *= scale
+    margin = MARGIN * radius
+    centres = (centres - corner) * scale + margin
+    chains = [(chain - corner) * scale + margin for chain in chains]
+    width, height = (size * scale + 2 * margin).tolist()
+    paths = [path(chain, radius, rounding) for chain in chains]
+    return Layout(
+        kind=sketch.kind,
+        width=round(width, 2),
+        height=round(height, 2),
+        radius=round(radius, 2),
+        centres=tuple((round(x, 2), round(y, 2)) for x, y in centres.tolist()),
+        paths=tuple((data,) for data in paths),
+        bridges=bridges(paths, radius),
+    )
+
+
+def path(chain: Floats, radius: float, rounding: float) -> str:
+    """Path data of an edge, from circle to circle.
+
+    Args:
+        chain: its control points, from centre to centre.
+    """
+    points = chain.copy()
+    points[0] += radius * _towards(chain[1] - chain[0])
+    points[-1] += radius * _towards(chain[-2] - chain[-1])
+    return curves.smooth([(x, y) for x, y in points.tolist()], rounding)
+
+
+def bridges(paths: Sequence[str], radius: float) -> tuple[Bridge, ...]:
+    """A bridge wherever two of the paths cross; of two edges the later one passes over."""
+    flat = [curves.flatten(data) for data in paths]
+    found = crossings(flat)
+    half = 0.9 * radius
+    # Neighbouring bridges on one edge must not cover each other's halos.
+    along: dict[int, list[float]] = {}
+    for crossing in found:
+        along.setdefault(crossing.first, []).append(crossing.along_first)
+        along.setdefault(crossing.second, []).append(crossing.along_second)
+    made: list[Bridge] = []
+    for crossing in found:
+        over = max(crossing.first, crossing.second)
+        under = min(crossing.first, crossing.second)
+        place = crossing.along_first if crossing.first == over else crossing.along_second
+        near = [abs(place - other) for other in along[over] if other != place]
+        reach = min([half, *(0.45 * gap for gap in near)])
+        made.append(Bridge(over, under, curves.piece(flat[over], place, max(reach, 0.02))))
+    return tuple(made)
+
+
+def _towards(step: Floats) -> Floats:
+    unit: Floats = step / max(float(np.hypot(*step)), 1e-12)
+    return unit
+
+
+def _upright(sketch: Sketch) -> tuple[Floats, list[Floats]]:
+    """Centres and chains with y downwards, turned so that the picture lies wide if it may."""
+    turn = np.array([[1.0, 0.0], [0.0, -1.0]])
+    if sketch.turn and len(sketch.centres) > 1:
+        points = np.concatenate([sketch.centres, *sketch.chains])
+        points = points - points.mean(0)
+        spread = points.T @ points
+        # The angle of the main axis; in closed form, so that no library decides on its sign.
+        angle = 0.5 * np.arctan2(2 * spread[0, 1], spread[0, 0] - spread[1, 1])
+        c, s = np.cos(angle), np.sin(angle)
+        turn = np.array([[c, s], [-s, c]]).T @ turn
+    return sketch.centres @ turn, [chain @ turn for chain in sketch.chains]
+
+
+def _box(centres: Floats, chains: Sequence[Floats]) -> tuple[Floats, Floats]:
+    """The least corner of everything, and its size."""
+    points = np.concatenate([centres, *chains])
+    return points.min(0), points.max(0) - points.min(0)
+
+
+def _radius(centres: Floats, chains: Sequence[Floats], rounding: float) -> float:
+    """The radius of the vertices: a fraction of what is usual, and clear of all else."""
+    usual = [curves.length(chain) for chain in chains]
+    limits = [0.18 * float(np.median(usual)) if usual else 1.0]
+    if len(centres) > 1:
+        apart = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
+        limits.append(0.36 * float((apart + np.diag([np.inf] * len(centres))).min()))
+    for chain in chains:
+        ends = (chain[1] - chain[0], chain[-2] - chain[-1])
+        share = 0.7 if len(chain) > 2 else 0.3
+        limits += [share * float(np.hypot(*leg)) for leg in ends]
+        if np.abs(chain[0] - chain[-1]).max() == 0:
+            limits.append(0.13 * curves.length(chain))
+        flat = _flat(chain, rounding)
+        apart = distances(centres, flat)
+        own = (np.abs(centres - chain[0]).max(1) == 0) | (np.abs(centres - chain[-1]).max(1) == 0)
+        if not own.all():
+            limits.append(0.62 * float(apart[~own].min()))
+    # Where vertices coincide no radius is small enough: the picture will be found untrue.
+    return max(min(limits), 2e-4 * float(_box(centres, chains)[1].max()), 1e-9)
+
+
+def _flat(chain: Floats, rounding: float) -> Floats:
+    """The points of the curve; not through path data, whose two decimals are for the screen."""
+    scale = 1e4 / max(float(np.abs(chain).max()), 1e-12)
+    data = curves.smooth([(x, y) for x, y in (chain * scale).tolist()], rounding)
+    return curves.flatten(data) / scale
+
+
+def distances(points: Floats, line: Floats) -> Floats:
+    """The distance of each point from the polyline."""
+    start, step = line[:-1], np.diff(line, axis=0)
+    square = np.maximum((step**2).sum(1), 1e-24)
+    offset = points[:, None] - start[None]
+    t = np.clip((offset * step[None]).sum(2) / square, 0, 1)
+    gap = offset - t[:, :, None] * step[None]
+    apart: Floats = np.sqrt((gap**2).sum(2)).min(1)
+    return apart

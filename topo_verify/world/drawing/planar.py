@@ -1,17 +1,42 @@
-"""Sketches of any world as a plane map with bridges, one after the other until one is true."""
+"""Sketches of any world as a plane map with bridges, one after the other until one is true.
+
+**A circle packing** of the mesh is a first injective map of it into the plane. Every point becomes
+a circle that touches the circles of its neighbours. The radii follow from the angles (2 pi around
+inner points, those of a regular polygon on the rim) by Newton's method on their logarithms, a
+convex problem (C. Collins and K. Stephenson, "A circle packing algorithm", 2003; Y. Colin de
+Verdière, "Un principe variationnel pour les empilements de cercles", 1991).
+
+**Polishing** that map gives wished triangles and smooth edges, and no flip, ever. The energy of a
+triangle is the symmetric Dirichlet energy of the linear map J from its wished shape: |J|² + |J⁻¹|².
+It is infinite where a triangle would flip; so a map of a disc that begins injective on a fixed
+convex rim stays injective. Bends along edges of the world cost their squares.
+
+Newton's method with the Hessian of every triangle made positive by its eigenvalues in closed form
+(B. Smith, F. de Goes and T. Kim, "Analytic Eigensystems for Isotropic Distortion Energies", ACM TOG
+2019). A triangle far from its wished shape is given a nearer wish first (L. Liu et al.,
+"Progressive Parameterizations", ACM TOG 2018): tiny triangles grow fast.
+"""
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Iterator
+from dataclasses import dataclass
+from math import pi, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
-from topo_verify.world.drawing import mesh as meshes
-from topo_verify.world.drawing.fit import Sketch
-from topo_verify.world.drawing.layout import Kind
-from topo_verify.world.drawing.packing import packed
-from topo_verify.world.drawing.plane_map import PlaneMap, best_plane_map
-from topo_verify.world.drawing.polish import polished
+from topo_verify.world.drawing.arrays import Floats, Ints, solve
+from topo_verify.world.drawing.layout import Kind, Sketch
+from topo_verify.world.drawing.plane_map import (
+    RING,
+    Mesh,
+    PlaneMap,
+    best_plane_map,
+    over,
+    points_of,
+)
 from topo_verify.world.rooted_map import World
 
 BEND = 0.4
@@ -43,14 +68,13 @@ def planar(world: World) -> Iterator[Sketch]:
             continue
         tried.add((attempt // 2, outer))
         points = 2 if len(plane.other) < 600 else 1
-        mesh = meshes.over(plane, outer, points=points)
+        mesh = over(plane, outer, points=points)
         places = packed(mesh)
         if places is None:
             continue
         places = polished(mesh, places, bend=BEND, steps=STEPS)
         chains = [
-            places[meshes.points_of(plane, mesh.between, number)]
-            for number in range(len(world.edges))
+            places[points_of(plane, mesh.between, number)] for number in range(len(world.edges))
         ]
         kind: Kind = "bridges" if plane.crossings else "planar"
         yield Sketch(kind, places[: plane.vertices], tuple(chains), bridges=plane.crossings)
@@ -94,3 +118,321 @@ def _depth(plane: PlaneMap, face: list[int]) -> tuple[int, float]:
                     seen.add(plane.face[half])
                     ring.append(plane.cycle(half))
     return depth, total / len(nodes)
+
+
+# ---------------------------------------------------------------- packing
+
+
+def packed(mesh: Mesh) -> Floats | None:
+    """The centres of the circles; None if rounding errors have spoilt a triangle."""
+    try:
+        places = _laid(mesh, _radii(mesh))
+    except ZeroDivisionError:  # two circles of no size
+        return None
+    corners = places[mesh.triangles]
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    sound = np.isfinite(places).all() and bool(
+        (area > 1e-7 * np.hypot(*u.T) * np.hypot(*v.T)).all()
+    )
+    return places if sound else None
+
+
+def _radii(mesh: Mesh) -> Floats:
+    a, b, c = mesh.triangles.T
+    size = mesh.size
+    goal = np.full(size, 2 * pi)
+    goal[mesh.rim] = pi - 2 * pi / len(mesh.rim)
+    rows, columns = np.concatenate([a, b, b, c, c, a]), np.concatenate([b, a, c, b, a, c])
+    # One radius is free: that of the first point stays.
+    kept = (rows > 0) & (columns > 0)
+    diagonal = np.arange(1, size)
+
+    def angles(log_radii: Floats) -> tuple[Floats, Floats]:
+        """The angle sums less the goal, and half the heights over which angles change."""
+        ra, rb, rc = (np.exp(log_radii)[corner] for corner in (a, b, c))
+        h = np.sqrt(ra * rb * rc / (ra + rb + rc))
+        total = np.zeros(size)
+        for corner, r in ((a, ra), (b, rb), (c, rc)):
+            total += np.bincount(corner, 2 * np.arctan2(h, r), size)
+        weights = [h / (ra + rb), h / (rb + rc), h / (rc + ra)]
+        return goal - total, np.concatenate([w for w in weights for _ in (0, 1)])
+
+    log_radii = np.zeros(size)
+    residual, weights = angles(log_radii)
+    for _ in range(60):
+        if np.abs(residual).max() < 1e-9:
+            break
+        sums = np.asarray(np.bincount(rows, weights, size), np.float64)
+        change = np.zeros(size)
+        change[1:] = solve(
+            np.concatenate([rows[kept] - 1, diagonal - 1]),
+            np.concatenate([columns[kept] - 1, diagonal - 1]),
+            np.concatenate([-weights[kept], sums[1:]]),
+            -residual[1:],
+        )
+        step = min(1.0, 2 / float(np.abs(change).max()))
+        trial, trial_weights = angles(log_radii + step * change)
+        while not (trial**2).sum() < (residual**2).sum() and step > 1e-6:
+            step /= 2
+            trial, trial_weights = angles(log_radii + step * change)
+        if step <= 1e-6:
+            break
+        log_radii, residual, weights = log_radii + step * change, trial, trial_weights
+    radii: Floats = np.exp(log_radii - log_radii.max())
+    return radii
+
+
+def _laid(mesh: Mesh, radii: Floats) -> Floats:
+    """The centres, from the largest circles to the smallest, which keeps errors small."""
+    r = radii.tolist()
+    apex: dict[tuple[int, int], int] = {}
+    for x, y, z in mesh.triangles.tolist():
+        apex[x, y], apex[y, z], apex[z, x] = z, x, y
+    first = max(range(mesh.size), key=lambda p: r[p])
+    second = max((q for p, q in apex if p == first), key=lambda q: r[q])
+    at: dict[int, complex] = {first: 0j, second: complex(r[first] + r[second])}
+    heap: list[tuple[float, int, int]] = []
+
+    def push(x: int, y: int) -> None:
+        if (x, y) in apex:
+            heapq.heappush(heap, (-min(r[x], r[y]), x, y))
+
+    push(first, second)
+    push(second, first)
+    done: set[tuple[int, int]] = set()
+    while heap:
+        _, x, y = heapq.heappop(heap)
+        z = apex[x, y]
+        if (x, y) in done:
+            continue
+        done |= {(x, y), (y, z), (z, x)}
+        if z not in at:
+            near, far, third = r[x] + r[y], r[x] + r[z], r[y] + r[z]
+            cosine = (near * near + far * far - third * third) / (2 * near * far)
+            cosine = max(-1.0, min(1.0, cosine))
+            along = (at[y] - at[x]) / abs(at[y] - at[x])
+            at[z] = at[x] + far * along * complex(cosine, sqrt(1 - cosine * cosine))
+        push(z, y)
+        push(x, z)
+    return np.array([(at[p].real, at[p].imag) for p in range(mesh.size)])
+
+
+# ---------------------------------------------------------------- polishing
+
+NEAR = 60.0
+"""The energy of a triangle beyond which its wish is brought nearer (at best it is 4)."""
+
+ENOUGH = 1e-3
+"""The polish ends when a step gains no more than this share of the energy."""
+
+
+@dataclass(frozen=True)
+class _Energy:
+    """The energy and its derivatives, for one mesh.
+
+    Attributes:
+        inverse: of the wished shape of each triangle: its edges from the first corner as columns.
+        free: the coordinates that may move, among 2·size in the order x0 y0 x1 y1 …
+    """
+
+    triangles: Ints
+    weights: Floats
+    inverse: Floats
+    lines: Ints
+    bend: float
+    size: int
+    free: NDArray[np.bool_]
+
+    def jacobians(self, places: Floats, inverse: Floats) -> Floats:
+        a, b, c = (places[self.triangles[:, k]] for k in range(3))
+        found: Floats = np.stack([b - a, c - a], 2) @ inverse
+        return found
+
+    def bends(self, places: Floats) -> Floats:
+        a, b, c = (places[self.lines[:, k]] for k in range(3))
+        found: Floats = a - 2 * b + c
+        return found
+
+    def value(self, places: Floats, inverse: Floats) -> float:
+        j = self.jacobians(places, inverse)
+        det = j[:, 0, 0] * j[:, 1, 1] - j[:, 0, 1] * j[:, 1, 0]
+        if not det.min() > 0:
+            return float("inf")
+        shape = (self.weights * (j**2).sum((1, 2)) * (1 + 1 / det**2)).sum()
+        return float(shape + self.bend * (self.bends(places) ** 2).sum())
+
+    def step(self, places: Floats, *, near: bool) -> tuple[Floats, Floats, Floats, float]:
+        """The step, the gradient, the wishes that they serve, and the worst triangle's energy.
+
+        Args:
+            near: whether wishes are brought nearer, and steps are those of a bolder method.
+        """
+        u, s, v = np.linalg.svd(self.jacobians(places, self.inverse))
+        worst = float((s**2 + s**-2).sum(1).max())
+        exponent = _nearer(s) if near else np.ones(len(s))
+        # J becomes U S^t V: the wish is stretched by V' S^(t-1) V.
+        stretch = s ** (exponent - 1)[:, None]
+        inverse = self.inverse @ (v.transpose(0, 2, 1) * stretch[:, None, :]) @ v
+        s = s ** exponent[:, None]
+        slope = 2 * s - 2 * s**-3
+        force = (u * (self.weights[:, None] * slope)[:, None, :]) @ v @ inverse.transpose(0, 2, 1)
+        gradient = np.zeros((self.size, 2))
+        for k in (0, 1):
+            np.add.at(gradient, self.triangles[:, k + 1], force[:, :, k])
+            np.add.at(gradient, self.triangles[:, 0], -force[:, :, k])
+        bends = 2 * self.bend * self.bends(places)
+        for k, share in enumerate((1, -2, 1)):
+            np.add.at(gradient, self.lines[:, k], share * bends)
+        rows, columns, values = self._hessian(u, s, v, inverse, bold=near)
+        kept = self.free[rows] & self.free[columns]
+        number = np.cumsum(self.free) - 1
+        flat = gradient.ravel()
+        move = np.zeros(2 * self.size)
+        move[self.free] = solve(
+            number[rows[kept]], number[columns[kept]], values[kept], -flat[self.free]
+        )
+        return move.reshape(-1, 2), np.where(self.free, flat, 0).reshape(-1, 2), inverse, worst
+
+    def _hessian(
+        self, u: Floats, s: Floats, v: Floats, inverse: Floats, *, bold: bool
+    ) -> tuple[Ints, Ints, Floats]:
+        """Rows, columns and values of the Hessian, each triangle's part made positive.
+
+        Args:
+            bold: for stretches below 1 take the secant of the slope to 1, where it is 0, in place
+                of its derivative: Newton's step multiplies a small stretch by 4/3 at most.
+        """
+        a, b = s[:, 0], s[:, 1]
+        cube = (a * b) ** 3
+        eigenvalues = np.stack(
+            [
+                _stiffness(a, bold=bold),
+                _stiffness(b, bold=bold),
+                2 - 2 * (a * a - a * b + b * b) / cube,
+                2 + 2 * (a * a + a * b + b * b) / cube,
+            ],
+            1,
+        )
+        eigenvalues = np.maximum(eigenvalues, 1e-6) * self.weights[:, None]
+        u0, u1, v0, v1 = u[:, :, 0], u[:, :, 1], v[:, 0, :], v[:, 1, :]
+
+        def outer(x: Floats, y: Floats) -> Floats:
+            product: Floats = x[:, :, None] * y[:, None, :]
+            return product
+
+        twist, flip = outer(u1, v0) - outer(u0, v1), outer(u1, v0) + outer(u0, v1)
+        modes = np.stack([outer(u0, v0), outer(u1, v1), twist / np.sqrt(2), flip / np.sqrt(2)], 1)
+        # How J changes with the corners: row k of `grow` belongs to corner k.
+        grow = np.concatenate([-inverse.sum(1, keepdims=True), inverse], 1)
+        # (triangle, mode, coordinate, corner) -> (triangle, mode, 6)
+        parts = modes @ grow.transpose(0, 2, 1)[:, None]
+        parts = parts.transpose(0, 1, 3, 2).reshape(len(a), 4, 6)
+        blocks = parts.transpose(0, 2, 1) @ (parts * eigenvalues[:, :, None])
+        index = (2 * self.triangles[:, :, None] + np.array([0, 1])).reshape(-1, 6)
+        rows = np.repeat(index, 6, 1).ravel()
+        columns = np.tile(index, (1, 6)).ravel()
+        share = np.array([1, -2, 1])
+        pairs = 2 * self.bend * np.outer(share, share).ravel()
+        line_rows, line_columns = np.repeat(self.lines, 3, 1).ravel(), np.tile(self.lines, (1, 3))
+        bent = np.tile(pairs, len(self.lines))
+        more = [(2 * line_rows + k, 2 * line_columns.ravel() + k, bent) for k in (0, 1)]
+        return (
+            np.concatenate([rows, *(m[0] for m in more)]),
+            np.concatenate([columns, *(m[1] for m in more)]),
+            np.concatenate([blocks.ravel(), *(m[2] for m in more)]),
+        )
+
+
+def _stiffness(s: Floats, *, bold: bool) -> Floats:
+    newton: Floats = 2 + 6 * s**-4
+    if not bold:
+        return newton
+    found: Floats = np.where(s < 1, 2 * (1 + s) * (1 + s * s) * s**-3, newton)
+    return found
+
+
+def _nearer(s: Floats) -> Floats:
+    """The exponents t for which the energies of s^t are at most `NEAR`; 1 where those of s are."""
+
+    def energy(t: Floats) -> Floats:
+        power = s ** (2 * t)[:, None]
+        total: Floats = (power + 1 / power).sum(1)
+        return total
+
+    whole = np.ones(len(s))
+    far = energy(whole) > NEAR
+    low, high = np.zeros(len(s)), whole.copy()
+    for _ in range(18):
+        middle = (low + high) / 2
+        fits = energy(middle) <= NEAR
+        low, high = np.where(fits, middle, low), np.where(fits, high, middle)
+    return np.where(far, low, whole)
+
+
+def polished(mesh: Mesh, places: Floats, *, bend: float, steps: int) -> Floats:
+    """The mesh's points after at most so many steps; injective if `places` are."""
+    free = np.ones(2 * mesh.size, bool)
+    free[2 * mesh.rim] = free[2 * mesh.rim + 1] = False
+    energy = _Energy(mesh.triangles, mesh.weights, _wishes(mesh), mesh.lines, bend, mesh.size, free)
+    places = _scaled(mesh, places)
+    near, worsts = True, list[float]()
+    for _ in range(steps):
+        move, gradient, inverse, worst = energy.step(places, near=near)
+        now = energy.value(places, inverse)
+        slope = float((gradient * move).sum())
+        step = min(1.0, 0.9 * _first_flip(mesh.triangles, places, move))
+        then = energy.value(places + step * move, inverse)
+        while then > now + 1e-4 * step * slope and step > 1e-10:
+            step *= 0.5
+            then = energy.value(places + step * move, inverse)
+        if then < now:
+            places = places + step * move
+        if near:
+            # Near wishes may change for ever: they have done their work when the worst triangle
+            # gets no better.
+            worsts.append(worst)
+            near = worst > NEAR and not worst > 0.5 * min([np.inf, *worsts[-4:-3]])
+        elif now - then < ENOUGH * now:
+            break
+    return places
+
+
+def _wishes(mesh: Mesh) -> Floats:
+    """The inverse of each triangle's wished shape."""
+    ra, rb, rc = (mesh.radii[mesh.triangles[:, k]] for k in range(3))
+    ab, ac, bc = ra + rb, ra + rc, rb + rc
+    shape = np.zeros((len(ab), 2, 2))
+    shape[:, 0, 0] = ab
+    shape[:, 0, 1] = x = (ab**2 + ac**2 - bc**2) / (2 * ab)
+    shape[:, 1, 1] = np.sqrt(np.maximum(ac**2 - x**2, 1e-12))
+    return np.asarray(np.linalg.inv(shape), np.float64)
+
+
+def _scaled(mesh: Mesh, places: Floats) -> Floats:
+    """The points with the rim on a circle that has room for all wished triangles."""
+    areas = 0.5 / np.linalg.det(_wishes(mesh))
+    room = float(areas[mesh.weights >= RING].sum())
+    centre = places[mesh.rim].mean(0)
+    reach = float(np.hypot(*(places[mesh.rim] - centre).T).max())
+    scaled: Floats = (places - centre) * (2.0 * np.sqrt(room / np.pi) / reach)
+    return scaled
+
+
+def _first_flip(triangles: Ints, places: Floats, move: Floats) -> float:
+    """How many moves it takes until the first triangle has no area."""
+    a, da = places[triangles[:, 0]], move[triangles[:, 0]]
+    u, v = places[triangles[:, 1]] - a, places[triangles[:, 2]] - a
+    du, dv = move[triangles[:, 1]] - da, move[triangles[:, 2]] - da
+
+    def cross(p: Floats, q: Floats) -> Floats:
+        product: Floats = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+        return product
+
+    two, one, none = cross(du, dv), cross(u, dv) + cross(du, v), cross(u, v)
+    square = one**2 - 4 * two * none
+    root = np.sqrt(np.maximum(square, 0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        times = np.stack([2 * none / (-one + root), 2 * none / (-one - root)])
+    times = np.where((times > 0) & (square >= 0), times, np.inf)
+    return float(np.nanmin(times, initial=np.inf))

@@ -18,8 +18,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from topo_verify.world.drawing.arrays import Floats
-from topo_verify.world.drawing.crossings import crossings
-from topo_verify.world.drawing.curves import flatten
+from topo_verify.world.drawing.curves import crossings, flatten
 from topo_verify.world.rooted_map import Dart, World
 
 TOLERANCE = 0.03

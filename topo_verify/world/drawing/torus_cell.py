@@ -16,10 +16,8 @@ from itertools import pairwise, product
 import numpy as np
 
 from topo_verify.world.drawing import curves
-from topo_verify.world.drawing.arrays import Floats, Ints
-from topo_verify.world.drawing.fit import MARGIN, RADIUS
-from topo_verify.world.drawing.layout import Layout
-from topo_verify.world.drawing.sparse import solve
+from topo_verify.world.drawing.arrays import Floats, Ints, solve
+from topo_verify.world.drawing.layout import MARGIN, RADIUS, Layout
 from topo_verify.world.formats.embedding import Point
 from topo_verify.world.rooted_map import Dart, World
 

@@ -27,8 +27,7 @@ from random import Random
 from topo_verify.errors import InputError
 from topo_verify.text import shown
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.enumeration.degree_counts import count_graphs
-from topo_verify.world.enumeration.genus_counts import count_genus
+from topo_verify.world.enumeration.counts import count_genus, count_graphs
 from topo_verify.world.rooted_map import World
 
 MAX_LISTED_EDGES = 7

@@ -32,21 +32,24 @@ from topo_verify.world.families.lattices import (
 )
 from topo_verify.world.families.random_graphs import complete, complete_bipartite, dense, regular
 from topo_verify.world.families.random_maps import random_genus, random_planar, random_tree
-from topo_verify.world.families.shapes import cycle, path, prism, star, wheel
-from topo_verify.world.families.solids import (
+from topo_verify.world.families.shapes import (
     cube,
+    cycle,
     dodecahedron,
     icosahedron,
     octahedron,
+    path,
+    prism,
+    star,
     tetrahedron,
+    wheel,
 )
 from topo_verify.world.rooted_map import World
 
 # lattices.py       lattice, king, king_torus, torus, triangular_torus, hexagonal_torus
 # random_graphs.py  regular, dense, complete, complete_bipartite
 # random_maps.py    random_tree, random_planar, random_genus
-# shapes.py         path, cycle, star, wheel, prism
-# solids.py         tetrahedron, cube, octahedron, dodecahedron, icosahedron
+# shapes.py         path, cycle, star, wheel, prism; the five Platonic solids
 # _rotated_graph.py graphs with exits in clockwise order, and their worlds
 # _arguments.py     checks and limits of arguments, names of worlds
 
@@ -63,29 +66,8 @@ FAMILIES: Mapping[str, Callable[..., World]] = {
 """All families by name, as it may follow `family:`."""
 
 __all__ = [
-    "FAMILIES",
-    "MAX_DARTS",
-    "complete",
-    "complete_bipartite",
-    "cube",
-    "cycle",
-    "dense",
-    "dodecahedron",
-    "hexagonal_torus",
-    "icosahedron",
-    "king",
-    "king_torus",
-    "lattice",
-    "octahedron",
-    "path",
-    "prism",
-    "random_genus",
-    "random_planar",
-    "random_tree",
-    "regular",
-    "star",
-    "tetrahedron",
-    "torus",
-    "triangular_torus",
-    "wheel",
-]
+    "FAMILIES", "MAX_DARTS", "complete", "complete_bipartite", "cube", "cycle", "dense",
+    "dodecahedron", "hexagonal_torus", "icosahedron", "king", "king_torus", "lattice",
+    "octahedron", "path", "prism", "random_genus", "random_planar", "random_tree", "regular",
+    "star", "tetrahedron", "torus", "triangular_torus", "wheel",
+]  # fmt: skip

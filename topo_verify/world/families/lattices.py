@@ -124,10 +124,8 @@ def _drawn(
     wrapped: bool = False,
 ) -> World:
     rows, columns = arguments.size(family, size, darts_each=2 * len(steps))
-    holes, seed = (
-        arguments.share(family, "holes", holes, whole=False),
-        arguments.integer(family, "seed", seed, 0),
-    )
+    holes = arguments.share(family, "holes", holes, whole=False)
+    seed = arguments.integer(family, "seed", seed, 0)
     marker = arguments.marker(family, marker)
     name = arguments.name(family, rows, columns, holes=holes, seed=seed, marker=marker)
     random = Random(seed)

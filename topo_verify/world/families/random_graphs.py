@@ -8,13 +8,7 @@ from random import Random
 
 from topo_verify.errors import InputError
 from topo_verify.world.families import _arguments as arguments
-from topo_verify.world.families._rotated_graph import (
-    EdgeEnd,
-    Graph,
-    as_world,
-    largest_component,
-    with_holes,
-)
+from topo_verify.world.families import _rotated_graph as graphs
 from topo_verify.world.rooted_map import Dart, World
 
 
@@ -35,10 +29,8 @@ def regular(
     family = "regular"
     degree = arguments.integer(family, "degree", degree, 1)
     nodes = arguments.integer(family, "nodes", nodes, degree + 1)
-    holes, seed = (
-        arguments.share(family, "holes", holes, whole=False),
-        arguments.integer(family, "seed", seed, 0),
-    )
+    holes = arguments.share(family, "holes", holes, whole=False)
+    seed = arguments.integer(family, "seed", seed, 0)
     arguments.require_darts(family, nodes * degree)
     if nodes * degree % 2:
         raise InputError(
@@ -51,7 +43,7 @@ def regular(
     # The order of the draws is a promise, because the name makes the world again: edges, holes,
     # rotations, marker.
     graph = _graph(nodes, _regular_edges(nodes, degree, random))
-    return _rotated(name, with_holes(name, graph, holes, random), marker, random)
+    return _rotated(name, graphs.with_holes(name, graph, holes, random), marker, random)
 
 
 def dense(nodes: int, probability: float, *, seed: int = 0, marker: Dart | None = None) -> World:
@@ -65,10 +57,8 @@ def dense(nodes: int, probability: float, *, seed: int = 0, marker: Dart | None 
         InputError: an argument is out of range, or more than `MAX_DARTS` darts are possible.
     """
     family = "dense"
-    nodes, seed = (
-        arguments.integer(family, "nodes", nodes, 1),
-        arguments.integer(family, "seed", seed, 0),
-    )
+    nodes = arguments.integer(family, "nodes", nodes, 1)
+    seed = arguments.integer(family, "seed", seed, 0)
     probability = arguments.share(family, "probability", probability, whole=True)
     arguments.require_darts(family, nodes * (nodes - 1))
     marker = arguments.marker(family, marker)
@@ -81,10 +71,8 @@ def dense(nodes: int, probability: float, *, seed: int = 0, marker: Dart | None 
 def complete(nodes: int, *, seed: int = 0, marker: Dart | None = None) -> World:
     """Every two nodes joined; random rotations. Arguments and errors as for `dense`."""
     family = "complete"
-    nodes, seed = (
-        arguments.integer(family, "nodes", nodes, 1),
-        arguments.integer(family, "seed", seed, 0),
-    )
+    nodes = arguments.integer(family, "nodes", nodes, 1)
+    seed = arguments.integer(family, "seed", seed, 0)
     arguments.require_darts(family, nodes * (nodes - 1))
     marker = arguments.marker(family, marker)
     name = arguments.name(family, nodes, seed=seed, marker=marker)
@@ -103,10 +91,8 @@ def complete_bipartite(
         InputError: an argument is out of range, or more than `MAX_DARTS` darts.
     """
     family = "complete_bipartite"
-    left, right = (
-        arguments.integer(family, "left", left, 1),
-        arguments.integer(family, "right", right, 1),
-    )
+    left = arguments.integer(family, "left", left, 1)
+    right = arguments.integer(family, "right", right, 1)
     seed = arguments.integer(family, "seed", seed, 0)
     arguments.require_darts(family, 2 * left * right)
     marker = arguments.marker(family, marker)
@@ -144,16 +130,16 @@ def _some_fit(ends: Sequence[int], edges: Mapping[tuple[int, int], None]) -> boo
     return any(pair not in edges for pair in combinations(sorted(set(ends)), 2))
 
 
-def _graph(nodes: int, edges: Iterable[tuple[int, int]]) -> Graph:
-    graph: Graph = {node: [] for node in range(nodes)}
+def _graph(nodes: int, edges: Iterable[tuple[int, int]]) -> graphs.Graph:
+    graph: graphs.Graph = {node: [] for node in range(nodes)}
     for a, b in edges:
-        graph[a].append(EdgeEnd(b, (a, b), 0))
-        graph[b].append(EdgeEnd(a, (a, b), 1))
+        graph[a].append(graphs.EdgeEnd(b, (a, b), 0))
+        graph[b].append(graphs.EdgeEnd(a, (a, b), 1))
     return graph
 
 
-def _rotated(name: str, graph: Graph, marker: Dart | None, random: Random) -> World:
-    graph = largest_component(graph)
+def _rotated(name: str, graph: graphs.Graph, marker: Dart | None, random: Random) -> World:
+    graph = graphs.largest_component(graph)
     for exits in graph.values():
         random.shuffle(exits)
-    return as_world(name, graph, marker, random)
+    return graphs.as_world(name, graph, marker, random)

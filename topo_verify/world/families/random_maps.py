@@ -228,10 +228,8 @@ def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dar
         # Arcs do not cross, so the arc from the nearest corner before this one comes first.
         rotations[vertex] += [*sorted(darts, key=_distance_to(corner, corners)), 2 * corner]
     around = [0] * (2 * corners)
-    for rotation in [
-        *rotations,
-        at_new,
-    ]:  # the new vertex lies outside: the order is reversed
+    # The new vertex lies outside: the order is reversed.
+    for rotation in (*rotations, at_new):
         for place, dart in enumerate(rotation):
             around[rotation[place - 1]] = dart
     return around

@@ -177,9 +177,4 @@ def encode(world: World) -> str:
             for number, (a, b) in enumerate(world.edges)
         ),
     )
-    try:
-        return msgspec.json.encode(data).decode()
-    except UnicodeEncodeError as error:
-        raise InputError(
-            f"expected Unicode in the world's name and texts: {error}; replace that character"
-        ) from error
+    return world_json.encoded(data)

@@ -257,8 +257,17 @@ def encode(world: World) -> str:
     Raises:
         InputError: a name, the source or the licence holds half of a surrogate pair.
     """
+    return encoded(to_data(world))
+
+
+def encoded(data: msgspec.Struct) -> str:
+    """The struct as JSON on one line.
+
+    Raises:
+        InputError: a text in it holds half of a surrogate pair.
+    """
     try:
-        return msgspec.json.encode(to_data(world)).decode()
+        return msgspec.json.encode(data).decode()
     except UnicodeEncodeError as error:
         raise InputError(
             f"expected Unicode in the world's name and texts: {error}; replace that character"

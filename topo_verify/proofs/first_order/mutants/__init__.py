@@ -8,99 +8,74 @@ A scene that does not replay is a bug of ours, and raises.
 What this does not show: that a mapper with the reference policies would make these moves. Claims
 hold for every history, so any history that breaks one will do.
 
-    rejection.py      a true hypothesis is rejected      records.py      records are misplaced
-    confirmation.py   a false one is confirmed           fold_steps.py   what differs is identified
-    growth.py         S grows in the wrong place
+    hypotheses.py   true hypotheses are rejected, records misplaced, false hypotheses confirmed
+    growth.py       S grows in the wrong place, what differs is identified
 
 Source: docs/semantics.md, sections 4, 6, 7 and 8.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from time import perf_counter
-from typing import Literal
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
-from topo_verify.errors import InternalError
-from topo_verify.proofs.first_order import scenes
-from topo_verify.proofs.first_order.mutants import (
-    confirmation,
-    fold_steps,
-    growth,
-    records,
-    rejection,
-)
-from topo_verify.proofs.first_order.mutants.mutant import RuleMutant
-from topo_verify.proofs.first_order.scene_replay import SceneReplay
-from topo_verify.proofs.first_order.terms import shown
-from topo_verify.proofs.solvers import z3_solver
-from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult
+from topo_verify.proofs.first_order import theory as t
+from topo_verify.proofs.first_order.obligations import OWN, E, H
+from topo_verify.proofs.first_order.scenes import SceneReplay
+from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, forall, neg, substitute
 
-RULE_MUTANTS: tuple[RuleMutant, ...] = (
-    *rejection.REJECTIONS,
-    *records.RECORDS,
-    *confirmation.CONFIRMATIONS,
-    *growth.GROWTH,
-    *fold_steps.FOLD_STEPS,
-)
-
-__all__ = ["MUTANTS", "PLANAR", "RULE_MUTANTS", "RuleMutant", "theorem"]
+x, k, b, own, i = t.x, t.k, t.b, t.own, t.i
 
 
-def theorem(mutant: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") -> Theorem:
-    """The statement that the faulty rule is right, as a theorem that must be refuted."""
-    edges, known = mutant.size
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RuleMutant:
+    """A rule with one mistake, and a scene in which it fails.
 
-    def queries() -> Iterator[Query]:
-        asked = scenes.question(mutant.scene, edges=edges, known=known)
-        yield Query(mutant.name, asked, "sat")
+    Attributes:
+        name: of the theorem.
+        of: the obligation that the right rule meets.
+        words: the mistake.
+        claims: the claims that it breaks.
+        rule: the faulty rule, as in `theory.py`; for a fold step, its wrong conclusion.
+        scene: formulas of a scene in which it fails; with the right rule they contradict.
+        plays: makes the moves in a replay, and tells whether the rule fails there.
+        size: edges of the world and darts of S in the smallest scene.
+        without: darts of S whose edges are left for `plays` to cross.
+    """
 
-    return Theorem(
-        name=mutant.name,
-        kind=kind,
-        claims=mutant.claims,
-        words=mutant.words,
-        symbols=shown(mutant.rule),
-        solver_part="a world, a map and a history in which it fails; replayed in the simulator",
-        expected="REFUTED",
-        prove=lambda budget: _refute(mutant, budget),
-        queries=queries,
-        edges=edges,
-        of=mutant.of if kind == "mutant" else None,
-    )
-
-
-def _refute(mutant: RuleMutant, budget: Budget) -> TheoremResult:
-    begin = perf_counter()
-    edges, known = mutant.size
-    scene, answer, why = scenes.find(mutant.scene, budget, edges=edges, known=known)
-    if scene is None:
-        note = f"{z3_solver.name()} answers {answer} with {edges} edges" + (
-            f": {why}" if why else ""
-        )
-        return TheoremResult(
-            verdict="EXHAUSTED" if answer == "unsat" else "UNKNOWN",
-            solver=z3_solver.name(),
-            seconds=perf_counter() - begin,
-            note=note,
-        )
-    replay = SceneReplay(scene, without=mutant.without)
-    if not mutant.plays(replay, mutant.rule):
-        raise InternalError(
-            f"the model of {mutant.name} does not replay: the doors {list(replay.history)} in world"
-            f" {scene.world.id} show no failure"
-        )
-    return TheoremResult(
-        verdict="REFUTED",
-        solver=z3_solver.name(),
-        seconds=perf_counter() - begin,
-        replayed=(1, 1),
-        counterexample=scene.world.id,
-        history=replay.history,
-    )
+    name: str
+    of: str
+    words: str
+    claims: tuple[str, ...]
+    rule: Term
+    scene: Mapping[str, Term]
+    plays: Callable[[SceneReplay, Term], bool]
+    size: tuple[int, int]
+    without: tuple[str, ...] = ()
 
 
-MUTANTS: tuple[Theorem, ...] = tuple(map(theorem, RULE_MUTANTS))
+BEHIND = t.alpha(t.phi(E))
+"""The robot's reference dart behind e."""
 
-PLANAR: Theorem = theorem(fold_steps.PLANAR, "negative")
-"""The planar prior is not sound in all worlds: a torus with two edges refutes it."""
+TRUE: dict[str, Term] = {"e-open": neg(t.explored(E)), "e-ends-in-h": eq(BEHIND, t.phi(H))}
+AWAY: dict[str, Term] = {"not-at-v0": neg(t.minv0(H))}
+FALSE: dict[str, Term] = {
+    "e-open": neg(t.explored(E)),
+    "h-posed": conj(neg(t.explored(H)), differ(H, E), t.signature_alike(H, BEHIND)),
+    "h-is-false": differ(BEHIND, t.phi(H)),
+}
+HOMEWARD: dict[str, Term] = {
+    "way-home": conj(t.explored(t.mrot(H, OWN)), t.minv0(t.arrival(H, OWN))),
+    "only-way": forall(
+        i,
+        t.explored(t.mrot(H, i)),
+        t.minv0(t.arrival(H, i)),
+        eq(t.mrot(H, i), t.mrot(H, OWN)),
+    ),
+}
+"""The way home of h is the one door `own`, and no other edge leads from h's vertex to v0."""
+
+
+def at_h(rule: Term, door: Term, sensed: Term) -> Term:
+    """A rule at h, for this door, about what is sensed there."""
+    return substitute(rule, {x: H, k: door, own: OWN, b: sensed})

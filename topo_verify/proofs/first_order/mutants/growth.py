@@ -1,14 +1,24 @@
-"""Faulty growth: hypotheses that are not posed, augmentations that join the wrong darts."""
+"""Faulty growth and folding: S grows in the wrong place, or what is not one dart is identified."""
 
 from __future__ import annotations
 
-from topo_verify.proofs.first_order import axioms as t
-from topo_verify.proofs.first_order import rules as r
-from topo_verify.proofs.first_order.mutants.mutant import AWAY, BEHIND, TRUE, RuleMutant, x
-from topo_verify.proofs.first_order.obligations.obligation import MAPPED, POSED, E, H
-from topo_verify.proofs.first_order.scene_replay import SceneReplay
-from topo_verify.proofs.first_order.scenes import mfirst
-from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, forall, neg, substitute
+from topo_verify.algorithms import planar
+from topo_verify.algorithms.folding import NodeDart, PartialFold
+from topo_verify.proofs.first_order import theory as t
+from topo_verify.proofs.first_order.mutants import AWAY, BEHIND, TRUE, RuleMutant, x
+from topo_verify.proofs.first_order.obligations import ENTAILED, KEPT, MAPPED, POSED, D, E, H
+from topo_verify.proofs.first_order.scenes import SceneReplay, mfirst
+from topo_verify.proofs.first_order.terms import (
+    BOOL,
+    Symbol,
+    Term,
+    conj,
+    differ,
+    eq,
+    forall,
+    neg,
+    substitute,
+)
 
 
 def _plays_not_posed(replay: SceneReplay, rule: Term) -> bool:
@@ -31,8 +41,8 @@ def _plays_entered_late(replay: SceneReplay, _rule: Term) -> bool:
     return world.sigma[behind] != behind
 
 
-_NOT_AT_VK = conj(r.POSED, differ(mfirst(r.h), mfirst(r.e)))
-_WHOLE_PERCEPT = conj(r.POSED, substitute(r.ALIKE, {x: mfirst(r.h)}))
+_NOT_AT_VK = conj(t.POSED, differ(mfirst(t.h), mfirst(t.e)))
+_WHOLE_PERCEPT = conj(t.POSED, substitute(t.ALIKE, {x: mfirst(t.h)}))
 
 GROWTH: tuple[RuleMutant, ...] = (
     RuleMutant(
@@ -52,7 +62,7 @@ GROWTH: tuple[RuleMutant, ...] = (
         words="a hypothesis must look like the place behind e from its vertex's first dart",
         claims=(*POSED, *MAPPED),
         rule=_WHOLE_PERCEPT,
-        scene={**TRUE, "not-alike": neg(r.alike(mfirst(H), t.phi(H)))},
+        scene={**TRUE, "not-alike": neg(t.alike(mfirst(H), t.phi(H)))},
         plays=_plays_not_posed,
     ),
     RuleMutant(
@@ -62,7 +72,7 @@ GROWTH: tuple[RuleMutant, ...] = (
         words="one hypothesis is skipped before a new vertex is added",
         claims=MAPPED,
         # Never true: the hypothesis is skipped wherever it would be posed.
-        rule=conj(r.POSED, neg(r.POSED)),
+        rule=conj(t.POSED, neg(t.POSED)),
         scene={**TRUE, **AWAY},
         plays=_plays_not_posed,
     ),
@@ -72,7 +82,7 @@ GROWTH: tuple[RuleMutant, ...] = (
         of="new-entry",
         words="a new vertex is numbered from the dart after that by which the robot came in",
         claims=MAPPED,
-        rule=eq(r.b, t.sigma(r.b)),
+        rule=eq(t.b, t.sigma(t.b)),
         scene={
             "e-open": neg(t.explored(E)),
             "is-new": forall(x, differ(t.phi(x), BEHIND)),
@@ -91,3 +101,114 @@ GROWTH: tuple[RuleMutant, ...] = (
         plays=_plays_first_dart,
     ),
 )
+
+
+# ---------------------------------- fold steps that identify what is not one dart; the planar prior
+
+
+def _plays_fold(replay: SceneReplay, doors: tuple[str | int, ...], one: int, other: int) -> bool:
+    """Whether two places of a walk from the start, which the rule identifies, are two darts."""
+    world, at = replay.scene.world, replay.root
+    arrivals = [at]
+    for door in doors:
+        percept = replay.robot.percept
+        # A text names a constant of the scene, a number is a door.
+        taken = door if isinstance(door, int) else replay.door(door, percept.degree)
+        for _ in range(taken % percept.degree):
+            at = world.sigma[at]
+        at = world.alpha[at]
+        arrivals.append(at)
+        replay.robot.move(taken % percept.degree)
+        if replay.robot.percept.degree != world.degrees[world.vertex_of[at]]:
+            return False
+    return arrivals[one] != arrivals[other]
+
+
+def _plays_ghost(replay: SceneReplay, _rule: Term) -> bool:
+    vu = replay.behind("e")
+    partial = PartialFold()
+    nodes = [partial.add(replay.chart.percepts[first], known=True) for first in replay.chart.first]
+    ghost = partial.add(vu, known=True)  # the fault: it is not known to be a vertex of S
+
+    def place(dart: int) -> NodeDart:
+        v = replay.chart.vertex[dart]
+        return partial.turn(nodes[v], dart - replay.chart.first[v])
+
+    partial.join(place(replay.dart("e")), ghost)
+    refuted = partial.join(place(replay.dart("e")), place(replay.dart("h")))
+    return bool(refuted) and replay.truth("e", "h")
+
+
+_LOOPED = t.beyond(t.root, D)
+
+FOLD_STEPS: tuple[RuleMutant, ...] = (
+    RuleMutant(
+        name="fold-marker-undirected",
+        size=(1, 2),
+        of="fold-marker",
+        words="visits that saw the marker are identified without turning them",
+        claims=ENTAILED,
+        rule=eq(_LOOPED, t.root),
+        scene={"back-at-v0": conj(t.inv0(_LOOPED), differ(_LOOPED, t.root))},
+        plays=lambda replay, _: _plays_fold(replay, ("d1",), 0, 1),
+    ),
+    RuleMutant(
+        name="fold-without-offset",
+        size=(1, 2),
+        of="fold-offset",
+        words="two visits of one vertex are identified door by door, without an offset",
+        claims=ENTAILED,
+        rule=eq(t.rot(t.root, D), t.root),
+        scene={"turned": differ(t.rot(t.root, D), t.root)},
+        plays=lambda replay, _: _plays_fold(replay, ("d1", 0), 0, 2),
+    ),
+    RuleMutant(
+        name="fold-next-partner",
+        size=(1, 2),
+        of="fold-cross",
+        words="with a place, the partner of the next place is identified",
+        claims=ENTAILED,
+        rule=eq(_LOOPED, t.beyond(t.root, t.succ(D))),
+        scene={"next": differ(_LOOPED, t.beyond(t.root, t.succ(D)))},
+        plays=lambda replay, _: _plays_fold(replay, ("d1", 0, 1), 1, 3),
+    ),
+    RuleMutant(
+        name="fold-ghost-known",
+        size=(2, 4),
+        of="fold-two-known",
+        words="the place behind e counts as a vertex of S before it is known to be one",
+        claims=KEPT,
+        rule=differ(t.alpha(t.phi(E)), t.phi(H)),
+        scene={**TRUE, **AWAY},
+        plays=_plays_ghost,
+    ),
+)
+
+
+# ---------------------------------------------------------------- the planar prior
+
+face = Symbol("face", ("M",), BOOL)
+
+
+def _plays_planar(replay: SceneReplay, _rule: Term) -> bool:
+    replay.behind("e")
+    on_face = planar.face(replay.chart, replay.dart("e"))
+    return replay.dart("h") not in on_face and replay.truth("e", "h")
+
+
+PLANAR = RuleMutant(
+    name="planar-keeps",
+    size=(2, 4),
+    of="history-keeps",
+    words="the prior `planar` rejects no true hypothesis, in any world",
+    claims=KEPT,
+    rule=face(H),
+    scene={
+        **TRUE,
+        "e-on-its-face": face(E),
+        "faces-go-on": forall(x, face(x), face(t.msigma(t.malpha(x)))),
+        "rejects": neg(face(H)),
+    },
+    plays=_plays_planar,
+)
+"""Not a mistake in a rule but a rule that is not sound, so it must not be provable."""

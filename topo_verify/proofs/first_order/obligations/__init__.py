@@ -1,33 +1,70 @@
-"""The obligations by theme; each holds in worlds of any size.
+"""An obligation: premises, a goal that follows from them, and the premises that it needs.
 
-doors.py         turning by doors, and the way back
-traces.py        rules reject no true hypothesis
-confirmation.py  a full match confirms no false hypothesis
-records.py       records are true when they are written, and stay true
-growth.py        hypotheses are complete, augmentations are right, and S ends as the world
-folds.py         folding is sound, and complete when no place is open
+hypotheses.py  rules reject no true hypothesis and confirm no false one; records stay true
+growth.py      hypotheses are complete, augmentations are right, S ends as the world; folding
 """
 
 from __future__ import annotations
 
-from topo_verify.proofs.first_order.obligations import (
-    confirmation,
-    doors,
-    folds,
-    growth,
-    records,
-    traces,
-)
-from topo_verify.proofs.first_order.obligations.obligation import Obligation
+from dataclasses import dataclass, field
 
-OBLIGATIONS: tuple[Obligation, ...] = (
-    *doors.OBLIGATIONS,
-    *traces.OBLIGATIONS,
-    *confirmation.OBLIGATIONS,
-    *records.OBLIGATIONS,
-    *growth.OBLIGATIONS,
-    *folds.OBLIGATIONS,
-)
-"""All obligations; a lemma comes before those that use it."""
+from topo_verify.proofs.first_order.terms import BOOL, Symbol, Term, constant, neg
+from topo_verify.proofs.first_order.theory import AXIOMS, TRUE_RECORDS
 
-__all__ = ["OBLIGATIONS", "Obligation"]
+KEPT = ("true-hypothesis-kept",)
+CONFIRMED = ("no-false-confirm",)
+MAPPED = ("map-isomorphic",)
+POSED = ("true-hypothesis-posed",)
+ENTAILED = ("map-entailed", "decisions-entailed")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Obligation:
+    """A statement for Z3 to prove, about constants of which only the premises are known.
+
+    Attributes:
+        name: of the theorem; an induction is two obligations, `…-base` and `…-step`.
+        words: the statement in words.
+        claims: the claims that rest on it.
+        theory: the names of its axioms, and of lemmas that earlier obligations prove.
+        given: further premises by name.
+        goal: the conclusion.
+        argued: the steps in words that use it, by their names in docs/proofs.md.
+        needs: premises without each of which some structure refutes the goal. The most telling
+            one gives a mutant; a slow test asks for all of them.
+    """
+
+    name: str
+    words: str
+    claims: tuple[str, ...]
+    theory: tuple[str, ...] = ()
+    given: dict[str, Term] = field(default_factory=dict[str, Term])
+    goal: Term
+    argued: tuple[str, ...] = ()
+    needs: tuple[str, ...]
+
+    def premises(self, *, without: str | None = None) -> dict[str, Term]:
+        """The premises by name, without the one that is left out."""
+        known = {**AXIOMS, **TRUE_RECORDS}
+        row = {name: known[name] for name in self.theory} | self.given
+        if without is not None:
+            del row[without]
+        return row
+
+    def negation(self) -> dict[str, Term]:
+        """The premises and the negated goal, which must have no model."""
+        return self.premises() | {"goal-fails": neg(self.goal)}
+
+
+# The constants that obligations speak of.
+A, B = constant("a1", "W"), constant("b1", "W")
+X, Y = constant("x1", "M"), constant("y1", "M")
+E, H = constant("e", "M"), constant("h", "M")
+D, J, K = constant("d1", "K"), constant("j1", "K"), constant("k1", "K")
+OWN = constant("own1", "K")
+WORD = constant("w1", "L")
+R = constant("r1", "R")
+
+# The map after an augmentation: a 2 means afterwards, `old` are the darts that S had before it.
+phi2 = Symbol("phi2", ("M",), "W")
+old = Symbol("old", ("M",), BOOL)

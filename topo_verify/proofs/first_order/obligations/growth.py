@@ -1,4 +1,4 @@
-"""Growth of S: the hypotheses, both augmentations, and the end of the exploration.
+"""S grows into the world: hypotheses are complete, augmentations right, and folding is sound.
 
 A loop joins e and a confirmed h. A new vertex is added when every hypothesis was rejected; since no
 rejection is false, the place behind e is then no vertex of S. Its darts are numbered from the entry
@@ -7,30 +7,37 @@ place. At the start S is v0 alone: such a new vertex, with the root as its entry
 
 When no dart is unexplored, the image of phi is closed under sigma and alpha. Since the world is
 connected, S is the world, and phi is an isomorphism that maps root to root.
+
+**Folding** identifies only what is one dart, and a closed fold is the whole world. A place (sort P)
+is a dart of the fold: a visit of the robot and a door there. In a world that shows the same
+history, every place is a dart, `pi`: the visit's reference dart turned by the door. `same` is what
+folding has identified, `joined` what it knows to be the two ends of an edge.
+
+    symbol               what it is
+    pturn(p), prot(p,k)  the next place clockwise, the k-th next
+    pdeg, pinv0          degree of the visit; did it see the marker?
+    ppoints(p)           the marker that was seen there points at p
+    ptoroot(p)           the door from p to that place
+    pacross(p)           where all is joined: what p is joined with
+
+Sound: after each step, and under each assumption that is true in the world, places that are `same`
+are one dart. So a contradiction refutes the assumption in every world that fits. Complete: when no
+place is open, places that are one dart are `same`. (Walk from each of the two to the marker by the
+same turns and crossings; there they are identified, and so, step by step backward, are the two.)
+So the fold is the world, and the history proves it.
+
+Source: docs/semantics.md, sections 8 and 11; J. R. Stallings, Invent. Math. 71 (1983).
 """
 
 from __future__ import annotations
 
-from topo_verify.proofs.first_order.axioms import (
-    CORRESPONDENCE,
-    alpha,
-    deg,
-    explored,
-    inv0,
-    k,
-    k0,
-    malpha,
-    mdeg,
-    minv0,
-    mrot,
-    msigma,
-    phi,
-    rot,
-    sigma,
-    succ,
-)
-from topo_verify.proofs.first_order.obligations.obligation import (
+from functools import partial
+
+from topo_verify.proofs.first_order import theory as t
+from topo_verify.proofs.first_order.obligations import (
     CONFIRMED,
+    ENTAILED,
+    KEPT,
     MAPPED,
     POSED,
     A,
@@ -42,13 +49,15 @@ from topo_verify.proofs.first_order.obligations.obligation import (
     K,
     Obligation,
     X,
+    Y,
+    old,
+    phi2,
 )
-from topo_verify.proofs.first_order.rules import POSED as IS_POSED
-from topo_verify.proofs.first_order.rules import b, e, h, x
 from topo_verify.proofs.first_order.terms import (
     BOOL,
     Symbol,
     Term,
+    Var,
     conj,
     constant,
     differ,
@@ -59,54 +68,58 @@ from topo_verify.proofs.first_order.terms import (
     substitute,
 )
 
-# A 2 means after the augmentation; `old` are the darts that S had before it.
-phi2 = Symbol("phi2", ("M",), "W")
 malpha2 = Symbol("malpha2", ("M",), "M")
 explored2 = Symbol("explored2", ("M",), BOOL)
-old = Symbol("old", ("M",), BOOL)
 ENTRY = constant("entry", "M")
 
-BEHIND_E: dict[str, Term] = {"e-unexplored": neg(explored(E)), "behind-e": eq(B, alpha(phi(E)))}
-TRUE_LOOP = {"e-ends-in-h": eq(alpha(phi(E)), phi(H))}
+BEHIND_E: dict[str, Term] = {
+    "e-unexplored": neg(t.explored(E)),
+    "behind-e": eq(B, t.alpha(t.phi(E))),
+}
+TRUE_LOOP = {"e-ends-in-h": eq(t.alpha(t.phi(E)), t.phi(H))}
 
 
 def is_posed(dart: Term) -> Term:
     """The dart is among the hypotheses for e, behind which b was sensed."""
-    return substitute(IS_POSED, {e: E, h: dart, b: B})
+    return substitute(t.POSED, {t.e: E, t.h: dart, t.b: B})
 
 
 def _joined(one: Term, other: Term) -> dict[str, Term]:
     """The edges of S after these two darts were joined."""
-    rest = conj(differ(x, one), differ(x, other))
+    rest = conj(differ(t.x, one), differ(t.x, other))
     return {
-        "explored-then": forall(x, eq(explored2(x), disj(explored(x), eq(x, one), eq(x, other)))),
+        "explored-then": forall(
+            t.x, eq(explored2(t.x), disj(t.explored(t.x), eq(t.x, one), eq(t.x, other)))
+        ),
         "one-end": eq(malpha2(one), other),
         "other-end": eq(malpha2(other), one),
-        "others-as-before": forall(x, rest, eq(malpha2(x), malpha(x))),
+        "others-as-before": forall(t.x, rest, eq(malpha2(t.x), t.malpha(t.x))),
     }
 
 
 NEW_VERTEX: dict[str, Term] = {
-    "numbered-from-entry": forall(k, eq(phi2(mrot(ENTRY, k)), rot(B, k))),
-    "entry-degree": eq(mdeg(ENTRY), deg(B)),
-    "entry-marker": eq(minv0(ENTRY), inv0(B)),
+    "numbered-from-entry": forall(t.k, eq(phi2(t.mrot(ENTRY, t.k)), t.rot(B, t.k))),
+    "entry-degree": eq(t.mdeg(ENTRY), t.deg(B)),
+    "entry-marker": eq(t.minv0(ENTRY), t.inv0(B)),
 }
 
-ENTRY_THERE = eq(phi2(mrot(ENTRY, k0)), B)
+ENTRY_THERE = eq(phi2(t.mrot(ENTRY, t.k0)), B)
 """Door 0 of the new vertex, which is its first dart, is the dart behind e."""
 
 
 def _apart(door: Term) -> Term:
-    return forall(x, differ(phi(x), rot(B, door)))
+    return forall(t.x, differ(t.phi(t.x), t.rot(B, door)))
 
 
-OBLIGATIONS: tuple[Obligation, ...] = (
+_maps = partial(Obligation, claims=MAPPED)
+
+GROWTH_OBLIGATIONS: tuple[Obligation, ...] = (
     Obligation(
         name="posed",
         words="if e ends in a dart of S, that dart is among the hypotheses",
         claims=POSED,
-        theory=CORRESPONDENCE,
-        given=BEHIND_E | {"ends-in-S": eq(B, phi(X))},
+        theory=t.CORRESPONDENCE,
+        given=BEHIND_E | {"ends-in-S": eq(B, t.phi(X))},
         goal=is_posed(X),
         needs=("e-unexplored", "phi-degree", "phi-marker", "phi-alpha", "alpha-no-fixed-point"),
     ),
@@ -114,90 +127,83 @@ OBLIGATIONS: tuple[Obligation, ...] = (
         name="new-is-new",
         words="if all hypotheses are false, the place behind e is no dart of S",
         claims=(*POSED, *MAPPED),
-        theory=CORRESPONDENCE,
-        given=BEHIND_E | {"all-false": forall(x, is_posed(x), differ(phi(x), B))},
-        goal=differ(phi(X), B),
+        theory=t.CORRESPONDENCE,
+        given=BEHIND_E | {"all-false": forall(t.x, is_posed(t.x), differ(t.phi(t.x), B))},
+        goal=differ(t.phi(X), B),
         needs=("e-unexplored", "all-false", "alpha-no-fixed-point", "phi-injective"),
     ),
-    Obligation(
+    _maps(
         name="new-apart-base",
         words="no door of a new vertex is a dart of S: door 0",
-        claims=MAPPED,
         theory=("rot-zero",),
-        given={"is-new": forall(x, differ(phi(x), B))},
-        goal=_apart(k0),
+        given={"is-new": forall(t.x, differ(t.phi(t.x), B))},
+        goal=_apart(t.k0),
         argued=("induction over doors",),
         needs=("is-new", "rot-zero"),
     ),
-    Obligation(
+    _maps(
         name="new-apart-step",
         words="no door of a new vertex is a dart of S: door k+1, if door k",
-        claims=MAPPED,
         theory=("sigma-injective", "rot-next", "map-sigma-onto", "phi-sigma"),
         given={"for-the-door-before": _apart(D)},
-        goal=_apart(succ(D)),
+        goal=_apart(t.succ(D)),
         argued=("induction over doors",),
         # Without `map-sigma-onto` no finite structure breaks it: that axiom stands for finiteness.
         needs=("for-the-door-before", "sigma-injective", "phi-sigma", "rot-next"),
     ),
-    Obligation(
+    _maps(
         name="new-injective",
         words="two doors of a new vertex are one dart of S only if they are one dart of the world",
-        claims=MAPPED,
         theory=("doors-wrap", "map-doors-wrap"),
-        given=NEW_VERTEX | {"one-dart": eq(phi2(mrot(ENTRY, K)), phi2(mrot(ENTRY, J)))},
-        goal=eq(mrot(ENTRY, K), mrot(ENTRY, J)),
+        given=NEW_VERTEX | {"one-dart": eq(phi2(t.mrot(ENTRY, K)), phi2(t.mrot(ENTRY, J)))},
+        goal=eq(t.mrot(ENTRY, K), t.mrot(ENTRY, J)),
         needs=("numbered-from-entry", "entry-degree", "one-dart", "doors-wrap", "map-doors-wrap"),
     ),
-    Obligation(
+    _maps(
         name="new-entry",
         words="door 0 of a new vertex, whose first dart is joined with e, is the dart behind e",
-        claims=MAPPED,
         theory=("rot-zero",),
         given=NEW_VERTEX,
         goal=ENTRY_THERE,
         needs=("numbered-from-entry", "rot-zero"),
     ),
-    Obligation(
+    _maps(
         name="new-turns",
         words="doors of the new vertex follow each other as they do at its place in the world",
-        claims=MAPPED,
         theory=("rot-next", "map-rot-next"),
         given=NEW_VERTEX,
-        goal=eq(phi2(msigma(mrot(ENTRY, D))), sigma(phi2(mrot(ENTRY, D)))),
+        goal=eq(phi2(t.msigma(t.mrot(ENTRY, D))), t.sigma(phi2(t.mrot(ENTRY, D)))),
         needs=("numbered-from-entry", "rot-next", "map-rot-next"),
     ),
-    Obligation(
+    _maps(
         name="new-percept",
         words="the new vertex has the degree and the marker of its place",
-        claims=MAPPED,
         theory=("rot-degree", "rot-marker"),
         given=NEW_VERTEX
         | {
-            "one-degree": eq(mdeg(mrot(ENTRY, D)), mdeg(ENTRY)),
-            "one-marker": eq(minv0(mrot(ENTRY, D)), minv0(ENTRY)),
+            "one-degree": eq(t.mdeg(t.mrot(ENTRY, D)), t.mdeg(ENTRY)),
+            "one-marker": eq(t.minv0(t.mrot(ENTRY, D)), t.minv0(ENTRY)),
         },
         goal=conj(
-            eq(mdeg(mrot(ENTRY, D)), deg(phi2(mrot(ENTRY, D)))),
-            eq(minv0(mrot(ENTRY, D)), inv0(phi2(mrot(ENTRY, D)))),
+            eq(t.mdeg(t.mrot(ENTRY, D)), t.deg(phi2(t.mrot(ENTRY, D)))),
+            eq(t.minv0(t.mrot(ENTRY, D)), t.inv0(phi2(t.mrot(ENTRY, D)))),
         ),
         needs=("entry-degree", "entry-marker", "rot-degree", "rot-marker", "numbered-from-entry"),
     ),
-    Obligation(
+    _maps(
         name="new-edges",
         words="after a new vertex, explored edges of S are edges of the world",
-        claims=MAPPED,
         theory=("alpha-involution", "phi-alpha", "explored-both-ends", "map-rot-zero"),
         given=BEHIND_E
         | _joined(E, ENTRY)
         | {
-            "explored-are-old": forall(x, explored(x), old(x)),
+            "explored-are-old": forall(t.x, t.explored(t.x), old(t.x)),
             "e-is-old": old(E),
-            "nothing-moves": forall(x, old(x), eq(phi2(x), phi(x))),
+            "nothing-moves": forall(t.x, old(t.x), eq(phi2(t.x), t.phi(t.x))),
             "entry-is-there": ENTRY_THERE,  # by `new-entry`
             "is-explored": explored2(X),
         },
-        goal=conj(eq(phi2(malpha2(X)), alpha(phi2(X))), explored2(malpha2(X))),
+        goal=conj(eq(phi2(malpha2(X)), t.alpha(phi2(X))), explored2(malpha2(X))),
         needs=(
             "alpha-involution",
             "phi-alpha",
@@ -213,27 +219,238 @@ OBLIGATIONS: tuple[Obligation, ...] = (
         claims=(*CONFIRMED, *MAPPED),
         theory=("alpha-involution", "phi-alpha", "explored-both-ends"),
         given=TRUE_LOOP | _joined(E, H) | {"is-explored": explored2(X)},
-        goal=conj(eq(phi(malpha2(X)), alpha(phi(X))), explored2(malpha2(X))),
+        goal=conj(eq(t.phi(malpha2(X)), t.alpha(t.phi(X))), explored2(malpha2(X))),
         needs=("e-ends-in-h", "alpha-involution", "phi-alpha", "explored-both-ends", "other-end"),
     ),
-    Obligation(
+    _maps(
         name="closed-turns",
         words="what S knows of a vertex of the world is the whole vertex",
-        claims=MAPPED,
         theory=("phi-sigma",),
-        given={"known": eq(phi(X), A)},
-        goal=eq(phi(msigma(X)), sigma(A)),
+        given={"known": eq(t.phi(X), A)},
+        goal=eq(t.phi(t.msigma(X)), t.sigma(A)),
         argued=("a connected world is reached",),
         needs=("known", "phi-sigma"),
     ),
-    Obligation(
+    _maps(
         name="closed-crosses",
         words="when nothing is unexplored, S knows what lies behind every dart it knows",
-        claims=MAPPED,
         theory=("phi-alpha",),
-        given={"all-explored": forall(x, explored(x)), "known": eq(phi(X), A)},
-        goal=eq(phi(malpha(X)), alpha(A)),
+        given={"all-explored": forall(t.x, t.explored(t.x)), "known": eq(t.phi(X), A)},
+        goal=eq(t.phi(t.malpha(X)), t.alpha(A)),
         argued=("a connected world is reached", "every round explores two darts"),
         needs=("all-explored", "known", "phi-alpha"),
     ),
 )
+
+
+# ---------------------------------------------------------------- folding
+
+pturn = Symbol("pturn", ("P",), "P")
+prot = Symbol("prot", ("P", "K"), "P")
+pdeg = Symbol("pdeg", ("P",), "G")
+pinv0 = Symbol("pinv0", ("P",), BOOL)
+ppoints = Symbol("ppoints", ("P",), BOOL)
+ptoroot = Symbol("ptoroot", ("P",), "K")
+pacross = Symbol("pacross", ("P",), "P")
+joined = Symbol("joined", ("P", "P"), BOOL)
+same = Symbol("same", ("P", "P"), BOOL)
+pi = Symbol("pi", ("P",), "W")
+
+p, q, p2, q2 = (Var(name, "P") for name in ("p", "q", "p2", "q2"))
+P, Q, P2, Q2 = (constant(name, "P") for name in ("p1", "q1", "p3", "q3"))
+
+FITS: dict[str, Term] = {
+    "pi-turn": forall(p, eq(pi(pturn(p)), t.sigma(pi(p)))),
+    # Tried: without `tried_at`, fold-closed-home comes back `unknown`.
+    "place-rot-zero": forall(p, eq(prot(p, t.k0), p), tried_at=((prot(p, t.k0),), (ptoroot(p),))),
+    "place-rot-next": forall((p, t.k), eq(prot(p, t.succ(t.k)), pturn(prot(p, t.k)))),
+    "pi-joined": forall((p, q), joined(p, q), eq(t.alpha(pi(p)), pi(q))),
+    "pi-degree": forall(p, eq(pdeg(p), t.deg(pi(p))), tried_at=((pi(p),),)),
+    "pi-marker": forall(p, eq(pinv0(p), t.inv0(pi(p))), tried_at=((pi(p),),)),
+    "pi-points": forall(p, ppoints(p), eq(pi(p), t.root)),
+}
+"""The world fits the history: it shows the percepts seen at the doors walked."""
+
+PI_ROT: dict[str, Term] = {"pi-rot": forall((p, t.k), eq(pi(prot(p, t.k)), t.rot(pi(p), t.k)))}
+"""A lemma, proved by `fold-turn-base` and `fold-turn-step`."""
+
+SAME: dict[str, Term] = {"identified": eq(pi(P), pi(Q))}
+
+CLOSED: dict[str, Term] = {
+    "marker-folded": forall((p, q), ppoints(p), ppoints(q), same(p, q)),
+    "turns-folded": forall((p, q), eq(same(pturn(p), pturn(q)), same(p, q))),
+    "edges-folded": forall((p, q, p2, q2), same(p, q), joined(p, p2), joined(q, q2), same(p2, q2)),
+    "no-place-open": forall(p, joined(p, pacross(p))),
+    "joined-both-ways": forall((p, q), joined(p, q), joined(q, p)),
+    "marker-is-seen": forall(
+        p, pinv0(p), ppoints(prot(p, ptoroot(p))), tried_at=((ptoroot(p),), (pinv0(p),))
+    ),
+    "place-doors-wrap": forall(
+        (p, t.i, t.j),
+        t.wraps(pdeg(p), t.i, t.j),
+        eq(prot(p, t.i), prot(p, t.j)),
+        tried_at=((prot(p, t.i), prot(p, t.j)),),
+    ),
+}
+"""Nothing is left to fold, and no place is open."""
+
+AT_MARKER = {name: CLOSED[name] for name in ("marker-folded", "marker-is-seen", "place-doors-wrap")}
+"""The part of `CLOSED` that is needed at the marker; the rest would only slow Z3 down."""
+
+FOLDS = KEPT + ENTAILED
+BY_STEPS = ("induction over fold steps",)
+BY_WAYS = ("induction over ways home", "a connected world is reached")
+
+_folds = partial(Obligation, claims=FOLDS, argued=BY_STEPS)
+_closes = partial(Obligation, claims=ENTAILED, argued=BY_WAYS)
+
+
+def _turned(door: Term) -> Term:
+    return forall(p, eq(pi(prot(p, door)), t.rot(pi(p), door)))
+
+
+TURN = ("rot-zero", "rot-next")
+TURN_FITS = {name: FITS[name] for name in ("pi-turn", "place-rot-zero", "place-rot-next")}
+
+SOUND: tuple[Obligation, ...] = (
+    Obligation(
+        name="fold-turn-base",
+        words="a door of a visit is that door in the world: door 0",
+        claims=FOLDS,
+        theory=TURN,
+        given=TURN_FITS,
+        goal=_turned(t.k0),
+        argued=("induction over doors",),
+        needs=("rot-zero", "place-rot-zero"),
+    ),
+    Obligation(
+        name="fold-turn-step",
+        words="a door of a visit is that door in the world: door k+1, if door k",
+        claims=FOLDS,
+        theory=TURN,
+        given=TURN_FITS | {"for-the-door-before": _turned(D)},
+        goal=_turned(t.succ(D)),
+        argued=("induction over doors",),
+        needs=("rot-next", "place-rot-next", "pi-turn", "for-the-door-before"),
+    ),
+    _folds(
+        name="fold-move",
+        words="a move joins the two ends of one edge",
+        given=PI_ROT | {"moved": eq(pi(Q), t.alpha(t.rot(pi(P), D)))},
+        goal=eq(t.alpha(pi(prot(P, D))), pi(Q)),
+        needs=("pi-rot", "moved"),
+    ),
+    _folds(
+        name="fold-marker",
+        words="all visits that saw the marker are v0, turned by its direction",
+        given=FITS | {"seen-at-p": ppoints(P), "seen-at-q": ppoints(Q)},
+        goal=eq(pi(P), pi(Q)),
+        needs=("pi-points", "seen-at-p", "seen-at-q"),
+    ),
+    _folds(
+        name="fold-offset",
+        words="if two places are one dart, their vertices are one, turned by an offset",
+        given=PI_ROT | SAME,
+        goal=eq(pi(prot(P, D)), pi(prot(Q, D))),
+        needs=("pi-rot", "identified"),
+    ),
+    _folds(
+        name="fold-cross",
+        words="a dart has one partner: if two places are one dart, so are their partners",
+        given=FITS | SAME | {"p-joined": joined(P, P2), "q-joined": joined(Q, Q2)},
+        goal=eq(pi(P2), pi(Q2)),
+        needs=("pi-joined", "identified", "p-joined", "q-joined"),
+    ),
+    _folds(
+        name="fold-signature",
+        words="contradiction: one dart would have two degrees, or see the marker and not see it",
+        given=FITS | SAME,
+        goal=conj(eq(pdeg(P), pdeg(Q)), eq(pinv0(P), pinv0(Q))),
+        needs=("pi-degree", "pi-marker", "identified"),
+    ),
+    _folds(
+        name="fold-own-partner",
+        words="contradiction: a dart would be its own partner",
+        theory=("alpha-no-fixed-point",),
+        given=FITS | SAME,
+        goal=neg(joined(P, Q)),
+        needs=("alpha-no-fixed-point", "pi-joined", "identified"),
+    ),
+    _folds(
+        name="fold-turned-vertex",
+        words="contradiction: a vertex would be identified with itself, turned",
+        theory=("doors-wrap",),
+        given=FITS | PI_ROT | {"turned": eq(pi(prot(P, K)), pi(prot(P, J)))},
+        goal=t.wraps(pdeg(P), K, J),
+        needs=("doors-wrap", "pi-degree", "pi-rot", "turned"),
+    ),
+    _folds(
+        name="fold-two-known",
+        words="contradiction: two darts of S would be one",
+        theory=("phi-injective",),
+        given=SAME | {"p-is-x": eq(pi(P), t.phi(X)), "q-is-y": eq(pi(Q), t.phi(Y))},
+        goal=eq(X, Y),
+        needs=("phi-injective", "identified", "p-is-x", "q-is-y"),
+    ),
+    _folds(
+        name="fold-hypothesis",
+        words="joining e with its true end is a true step, so folding never refutes it",
+        given={
+            "e-ends-in-h": eq(t.alpha(t.phi(E)), t.phi(H)),
+            "p-is-e": eq(pi(P), t.phi(E)),
+            "q-is-h": eq(pi(Q), t.phi(H)),
+        },
+        goal=eq(t.alpha(pi(P)), pi(Q)),
+        needs=("e-ends-in-h", "p-is-e", "q-is-h"),
+    ),
+    Obligation(
+        name="fold-conclude",
+        words="if the place behind e is in S and all hypotheses but one are false, that is true",
+        claims=CONFIRMED + ENTAILED,
+        theory=t.CORRESPONDENCE,
+        given=BEHIND_E
+        | {
+            "place-is-known": eq(B, t.phi(Y)),
+            "others-false": forall(t.x, is_posed(t.x), differ(t.x, H), differ(t.phi(t.x), B)),
+        },
+        goal=eq(t.phi(H), B),
+        needs=("e-unexplored", "place-is-known", "others-false", "alpha-no-fixed-point"),
+    ),
+)
+
+COMPLETE: tuple[Obligation, ...] = (
+    _closes(
+        name="fold-closed-home",
+        words="two places of a closed fold that are both the marked dart are identified",
+        theory=("doors-wrap", "root-at-v0"),
+        given=FITS
+        | PI_ROT
+        | AT_MARKER
+        | {"p-home": eq(pi(P), t.root), "q-home": eq(pi(Q), t.root)},
+        goal=same(P, Q),
+        needs=("p-home", "q-home", "marker-folded", "marker-is-seen", "place-doors-wrap"),
+    ),
+    _closes(
+        name="fold-closed-turn",
+        words="backward over a turn: what is identified next to them identifies them",
+        given=CLOSED | {"next-identified": same(pturn(P), pturn(Q))},
+        goal=same(P, Q),
+        needs=("next-identified", "turns-folded"),
+    ),
+    _closes(
+        name="fold-closed-cross",
+        words="backward over an edge: what is identified beyond them identifies them",
+        given=CLOSED | {"beyond-identified": same(pacross(P), pacross(Q))},
+        goal=same(P, Q),
+        needs=("beyond-identified", "edges-folded", "no-place-open", "joined-both-ways"),
+    ),
+    _closes(
+        name="fold-closed-onto",
+        words="a closed fold is closed under turning and crossing in the world: it is onto",
+        given=FITS | CLOSED | {"met": eq(pi(P), A)},
+        goal=conj(eq(pi(pturn(P)), t.sigma(A)), eq(pi(pacross(P)), t.alpha(A))),
+        needs=("met", "pi-turn", "pi-joined", "no-place-open"),
+    ),
+)
+
+OBLIGATIONS = GROWTH_OBLIGATIONS + SOUND + COMPLETE

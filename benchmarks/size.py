@@ -1,0 +1,113 @@
+"""How large the house is: files, lines of code, words of docstrings and comments, imports, by room.
+
+    .venv/bin/python benchmarks/size.py
+
+A line of code is one that holds a token and no docstring, comment or blank. A chain of imports is
+counted at load time, circles excluded; the longest one is printed with its modules.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import tokenize
+from collections import defaultdict
+from pathlib import Path
+
+import networkx as nx
+
+ROOT = Path(__file__).resolve().parent.parent
+SILENT = {
+    tokenize.COMMENT,
+    tokenize.NL,
+    tokenize.NEWLINE,
+    tokenize.INDENT,
+    tokenize.DEDENT,
+    tokenize.ENDMARKER,
+}
+
+
+def docstrings(source: str) -> list[ast.Constant]:
+    """The strings that stand alone as a statement."""
+    return [
+        node.value
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.Expr)
+        and isinstance(node.value, ast.Constant)
+        and isinstance(node.value.value, str)
+    ]
+
+
+def code_lines(source: str) -> int:
+    """The number of lines of code."""
+    lines: set[int] = set()
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type not in SILENT:
+            lines |= set(range(token.start[0], token.end[0] + 1))
+    for text in docstrings(source):
+        lines -= set(range(text.lineno, (text.end_lineno or text.lineno) + 1))
+    return len(lines)
+
+
+def import_lines(source: str) -> int:
+    """The number of lines that import."""
+    return sum(
+        (node.end_lineno or node.lineno) - node.lineno + 1
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.Import | ast.ImportFrom)
+    )
+
+
+def words(source: str) -> int:
+    """The number of words in docstrings and comments."""
+    tokens = tokenize.generate_tokens(io.StringIO(source).readline)
+    comments = sum(len(t.string.split()) - 1 for t in tokens if t.type == tokenize.COMMENT)
+    return comments + sum(len(str(text.value).split()) for text in docstrings(source))
+
+
+def longest_chain() -> list[str]:
+    """The longest chain of modules of the package that import each other when they are loaded."""
+    files = {
+        ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): path
+        for path in (ROOT / "topo_verify").rglob("*.py")
+    }
+    arrows: dict[str, set[str]] = {}
+    for module, path in files.items():
+        names: set[str] = set()
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.ImportFrom) and node.module:
+                names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+            elif isinstance(node, ast.Import):
+                names |= {alias.name for alias in node.names}
+        arrows[module] = (names & files.keys()) - {module}
+
+    graph = nx.DiGraph((module, other) for module in arrows for other in arrows[module])
+    whole = nx.condensation(graph)  # modules that import each other count as one
+    path = nx.dag_longest_path(whole)
+    return [min(whole.nodes[node]["members"]) for node in path]
+
+
+def main() -> None:
+    """Print the tables."""
+    print(f"{'room':<30}{'files':>7}{'code':>9}{'imports':>9}{'words':>9}")
+    for top in ("topo_verify", "tests", "benchmarks"):
+        rooms: dict[str, list[int]] = defaultdict(lambda: [0] * 4)
+        for path in sorted((ROOT / top).rglob("*.py")):
+            parts = path.relative_to(ROOT).parts
+            source = path.read_text()
+            numbers = (1, code_lines(source), import_lines(source), words(source))
+            for room in (top, "/".join(parts[:2]) if len(parts) > 2 else f"{top}/*.py"):
+                rooms[room] = [a + b for a, b in zip(rooms[room], numbers, strict=True)]
+        for room in sorted(rooms, key=lambda room: (room != top, room)):
+            print(
+                f"{room:<30}"
+                + "".join(f"{number:>9,}"[2 * (not k) :] for k, number in enumerate(rooms[room]))
+            )
+        print()
+    chain = longest_chain()
+    print(f"longest chain of imports: {len(chain)} modules")
+    print("  " + " > ".join(module.removeprefix("topo_verify.") for module in chain))
+
+
+if __name__ == "__main__":
+    main()

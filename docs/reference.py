@@ -1,0 +1,348 @@
+"""Writes docs/reference/commands.md, the page of all commands: python docs/reference.py.
+
+Options are those of click, fields those of msgspec. The sentence of a field stands in the docstring
+of its class, under Attributes, or here in COMMON. tests/docs/test_reference.py compares the stored
+page with what this file makes.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import click
+from msgspec import inspect as types
+
+from topo_verify.cli import main
+from topo_verify.cli.options import aliases
+
+PAGE = Path(__file__).parent / "reference" / "commands.md"
+
+HEAD = """\
+# Commands
+
+Every command with its arguments, its options, and the fields of one entry of `results` in
+`--format json`. `python docs/reference.py` makes this page. [Promises](promises.md) says what
+scripts may rely on; [Results for scripts](../commands.md) explains what needs more than a line.
+"""
+
+ENTRIES = {
+    "verify": "verify.Part",
+    "explore": "explored.ExploreEntry",
+    "world show": "world.ShowEntry",
+    "world list": "world.ListEntry",
+    "world count": "world.CountEntry",
+    "world convert": "world.ConvertEntry",
+    "world sample": "world.SampleEntry",
+    "world draw": "world.DrawEntry",
+    "search": "searched.SearchEntry",
+    "prove": "prove.ProveEntry prove.ProveListEntry",
+    "faults": "faults.Caught",
+    "conform": "conform.LevelResult",
+    "record": "record.RecordEntry",
+    "compare": "compare.CompareEntry",
+    "replay": "replay.ReplayEntry",
+    "play": "play.PlayEntry",
+    "certify": "certify.CertifyEntry certify.CertificateEntry",
+    "tour": "tour.TourEntry",
+    "arena": "arena.LeagueEntry arena_game.ValueEntry arena_game.MapperEntry",
+    "reproduce": "reproduce.FigurePoint",
+}
+"""The records that each command prints, by their modules in topo_verify/cli/."""
+
+OCCASIONS = {
+    "ProveListEntry": "with `--list`",
+    "CertificateEntry": "with `--check`",
+    "ValueEntry": "with `--game`, of a game",
+    "MapperEntry": "with `--game`, of a mapper",
+}
+"""When a command prints its second and third record."""
+
+COMMON = {
+    "algorithm": "the mapper, as the command line names it",
+    "at": "the moment, counted in moves",
+    "certified": "how many decisions have an accepted certificate",
+    "cheapest": "the least that a run can cost",
+    "checked": "how much was judged and decided",
+    "claim": "the name of the claim",
+    "claims": "the status of each claim",
+    "class": "the class of worlds",
+    "cost": "edge traversals of the run",
+    "edges": "the number of edges",
+    "entailed": "how many decisions follow from the history",
+    "event": "the index in the trace; null: the whole run",
+    "expected": "what had to be so",
+    "faces": "the number of faces",
+    "failing": "in how many worlds a claim fails",
+    "file": "the file that was written",
+    "findings": "what is wrong",
+    "genus": "the genus of the world",
+    "how": "how it was lost",
+    "id": "the id of the world",
+    "judgements": "the same as `claims`, with how much each status rests on",
+    "least": "the least cost of a proof",
+    "least_cost": "the least cost of a proof",
+    "mapper": "the mapper",
+    "marker": "the dart that the marker points at; null: a world without edges",
+    "message": "what is wrong, in one sentence",
+    "name": "its name",
+    "not_declared": "the claims of which the mapper declares nothing",
+    "ok": "nothing is wrong, and nothing is left undecided",
+    "order": "the policy that chooses the next hypothesis; null: the mapper has none",
+    "other": "the cost of the other mapper",
+    "pick": "the policy that chooses the next edge; null: the mapper has none",
+    "policies": "the policies of the catalogue's algorithms",
+    "ratio": "the cost divided by that of the reference, or by the least cost",
+    "reference": "what the reference pays",
+    "replay": "the command line that shows it again",
+    "seed": "the seed of the draw",
+    "seen": "what was so",
+    "status": "the status of the claim",
+    "suite": "the suite of worlds",
+    "target": "the mapper, as the command line names it",
+    "total": "how much there is to judge",
+    "verdict": "the verdict",
+    "vertices": "the number of vertices",
+    "why": "the reason, where something is not decided",
+    "witness": "a world with the same history in which the mapper is wrong",
+    "world": "the world, as the command line names it",
+    "worlds": "the number of worlds",
+}
+"""What a field of this name is where its class does not say it."""
+
+SHARED = 2
+"""An option that this many commands have in the same words stands in the table of shared ones."""
+
+_PLAIN = {
+    types.AnyType: "any JSON",
+    types.BoolType: "true or false",
+    types.FloatType: "number",
+    types.IntType: "integer",
+    types.NoneType: "null",
+    types.StrType: "text",
+}
+
+
+def leaves(command: click.Command, path: str = "") -> Iterator[tuple[str, click.Command]]:
+    """Every command that is no group, with the words that call it."""
+    if not isinstance(command, click.Group):
+        yield path, command
+        return
+    for name, part in command.commands.items():
+        yield from leaves(part, f"{path} {name}".strip())
+
+
+COMMANDS = dict(leaves(main))
+
+
+def records(path: str) -> list[Any]:
+    """The records that a command prints, as msgspec sees them."""
+    found: list[Any] = []
+    for name in ENTRIES[path].split():
+        module, _, record = name.partition(".")
+        found.append(types.type_info(getattr(import_module(f"topo_verify.cli.{module}"), record)))
+    return found
+
+
+def page() -> str:
+    """The whole page."""
+    shared = _shared()
+    parts = [HEAD, "## Options that several commands share\n", _options(shared)]
+    for path, command in COMMANDS.items():
+        parts += _command(path, command, shared)
+    parts.append("## Records\n\nParts of the entries above.\n")
+    for record in _nested():
+        parts += [
+            f"### {record.cls.__name__}\n",
+            _text(_summary(record.cls)) + "\n",
+            _fields(record),
+        ]
+    return "\n".join(parts).rstrip("\n") + "\n"
+
+
+# ---------------------------------------------------------------- options
+
+
+def _visible(command: click.Command) -> list[click.Option]:
+    found = (one for one in command.params if isinstance(one, click.Option))
+    return [one for one in found if not one.hidden]
+
+
+def _row(option: click.Option) -> tuple[str, str, str]:
+    """The spelling, the meaning and the default of an option."""
+    first = [name for name in option.opts if name not in aliases(option)]
+    words = "/".join(first)
+    if not option.is_flag:
+        words += f" {option.make_metavar(click.Context(main))}"
+    meaning, _, default = (option.help or "").partition("  [default: ")
+    default = default.rstrip("]")
+    if option.show_default and not default:
+        value = option.default
+        default = (
+            ",".join(value)
+            if isinstance(value, Sequence | tuple) and not isinstance(value, str)
+            else str(value)
+        )
+    if option.multiple and not re.search("repeated|several times", meaning):
+        meaning += " May be repeated."
+    if aliases(option):
+        meaning += f" Alias: {', '.join(f'`{name}`' for name in aliases(option))}."
+    return (
+        f"`{words}`",
+        meaning.strip(),
+        default if " " in default or not default else f"`{default}`",
+    )
+
+
+def _shared() -> list[tuple[str, str, str]]:
+    rows = Counter(_row(option) for command in COMMANDS.values() for option in _visible(command))
+    return [row for row, number in rows.items() if number >= SHARED]
+
+
+def _options(rows: Sequence[tuple[str, str, str]]) -> str:
+    lines = ["| option | meaning | default |", "| --- | --- | --- |"]
+    lines += [_line(row) for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def _hidden(command: click.Command) -> Iterator[str]:
+    for option in command.params:
+        if isinstance(option, click.Option) and option.hidden:
+            yield f"`{'/'.join(option.opts)}` is an alias of {(option.help or '').rstrip('.')}."
+
+
+def _command(path: str, command: click.Command, shared: Sequence[object]) -> Iterator[str]:
+    usage = " ".join(command.collect_usage_pieces(click.Context(command, info_name=path)))
+    yield f"## {path}\n"
+    yield f"    topo-verify {path} {usage}\n"
+    yield _text(inspect.cleandoc(command.help or "")) + "\n"
+    rows = [_row(option) for option in _visible(command)]
+    if mine := [row for row in rows if row not in shared]:
+        yield _options(mine)
+    names = ", ".join(row[0].split()[0].strip("`").join("``") for row in rows if row in shared)
+    yield " ".join([f"Shared: {names}.", *_hidden(command)]) + "\n"
+    for record in records(path):
+        occasion = OCCASIONS.get(record.cls.__name__)
+        yield f"Results{', ' + occasion if occasion else ''}:\n"
+        yield _fields(record)
+
+
+# ---------------------------------------------------------------- fields
+
+
+def _nested() -> list[Any]:
+    """Every record inside an entry, in the order of their names."""
+    entries = [record for path in ENTRIES for record in records(path)]
+    found: dict[type, Any] = {}
+    waiting = [kind for record in entries for kind in _parts(record)]
+    while waiting:
+        kind = waiting.pop()
+        if _is_record(kind) and kind.cls not in found:
+            found[kind.cls] = kind
+        if not _is_record(kind) or found[kind.cls] is kind:
+            waiting += _parts(kind)
+    names = Counter(cls.__name__ for cls in found)
+    if several := [name for name, number in names.items() if number > 1]:
+        raise ValueError(f"expected different names of records, got two of {several}; rename one")
+    return sorted(found.values(), key=lambda kind: kind.cls.__name__)
+
+
+def _is_record(kind: Any) -> bool:
+    return isinstance(kind, types.StructType | types.DataclassType)
+
+
+def _parts(kind: Any) -> list[Any]:
+    """The types that stand in a type."""
+    if _is_record(kind):
+        return [field.type for field in kind.fields]
+    if isinstance(kind, types.UnionType):
+        return list(kind.types)
+    if isinstance(kind, types.TupleType):
+        return list(kind.item_types)
+    if isinstance(kind, types.DictType):
+        return [kind.key_type, kind.value_type]
+    return [kind.item_type] if isinstance(kind, types.CollectionType) else []
+
+
+def _type(kind: Any) -> str:  # noqa: PLR0911  a return for each kind
+    """A type in words."""
+    match kind:
+        case types.UnionType():
+            return " or ".join(_type(one) for one in kind.types)
+        case types.LiteralType():
+            return ", ".join(f"`{value}`" for value in kind.values)
+        case types.TupleType():
+            return f"({', '.join(_type(one) for one in kind.item_types)})"
+        case types.DictType():
+            return f"object of {_type(kind.value_type)}"
+        case types.CollectionType():
+            return f"list of {_type(kind.item_type)}"
+        case types.StructType() | types.DataclassType():
+            name = kind.cls.__name__
+            return f"[{name}](#{name.lower()})"
+        case _:
+            return _PLAIN[type(kind)]
+
+
+def _attributes(cls: type) -> dict[str, str]:
+    """The sentence of each field that the docstring of a class names."""
+    _, _, text = inspect.cleandoc(cls.__doc__ or "").partition("Attributes:\n")
+    found: dict[str, str] = {}
+    for line in re.findall(r"^ {4}(\w[\w, ]*: .*(?:\n {6,}.*)*)", text, re.MULTILINE):
+        # "cost: over all worlds; priced: world by world" is about two fields.
+        for part in re.split(r"; (?=`?\w+`?: )", " ".join(line.split())):
+            names, _, sentence = part.partition(": ")
+            found |= dict.fromkeys(names.replace("`", "").split(", "), sentence)
+    return found
+
+
+def _meaning(record: Any, field: Any) -> str:
+    """The sentence of a field: of its class, of its name, or of the one record in it."""
+    if sentence := _attributes(record.cls).get(field.name) or COMMON.get(field.encode_name):
+        return re.sub(r"\bNone\b", "null", sentence.rstrip("."))
+    inside = [kind for kind in (field.type, *_parts(field.type)) if _is_record(kind)]
+    if len(inside) == 1:
+        return _summary(inside[0].cls).rstrip(".")
+    raise ValueError(
+        f"expected a sentence for the field {field.name} of {record.cls.__module__}."
+        f"{record.cls.__name__}; write it under Attributes in the docstring of the class"
+    )
+
+
+def _summary(cls: type) -> str:
+    """The first paragraph of a docstring."""
+    text = inspect.cleandoc(cls.__doc__ or "").split("\n\n")[0]
+    return " ".join(text.split())
+
+
+def _fields(record: Any) -> str:
+    lines = ["| field | type | meaning |", "| --- | --- | --- |"]
+    if isinstance(record, types.StructType) and record.tag is not None:
+        lines.append(_line((f"`{record.tag_field}`", f"`{record.tag}`", "which record this is")))
+    for field in record.fields:
+        name, meaning = f"`{field.encode_name}`", _meaning(record, field)
+        lines.append(_line((name, _type(field.type), meaning)))
+    return "\n".join(lines) + "\n"
+
+
+# ---------------------------------------------------------------- Markdown
+
+
+def _line(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(_text(cell).replace('|', chr(92) + '|') for cell in cells)} |"
+
+
+def _text(text: str) -> str:
+    """A text with the signs of Markdown as they are, but for code and links."""
+    pieces = re.split(r"(``?[^`]+``?|\[\w+\]\(#\w+\))", text.replace("\b\n", ""))
+    pieces[::2] = [re.sub(r"([\\*_<\[\]])", r"\\\1", piece) for piece in pieces[::2]]
+    return "".join(pieces)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1,0 +1,25 @@
+"""A folder of its own for each test of the search, with the mappers in it."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture(autouse=True)
+def few_worlds_run_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search runs many worlds again; tests/studies/search/test_again.py tries that."""
+    monkeypatch.setattr("topo_verify.studies.search.again.MOST", 2)
+    monkeypatch.setattr("topo_verify.studies.search.again.ROW", 2)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The current folder of the test; it holds mappers.py."""
+    shutil.copy(Path(__file__).parent / "mappers.py", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [*sys.path])  # a mapper's folder is put there
+    return tmp_path

@@ -1,0 +1,487 @@
+"""Shards by the compiled engine: what the checkers count, and what they hold it to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from tests.studies.search.searching import search_of, searched
+from topo_verify import CATALOGUE, Exploration, InputError, InternalError, Limits, explore
+from topo_verify.campaign import compiled as shards
+from topo_verify.campaign.backend import here
+from topo_verify.campaign.campaign import Campaign, Interrupted, Ranks, Shard, ShardResult
+from topo_verify.campaign.campaign import examine as examine_by_checkers
+from topo_verify.campaign.compiled import examine_compiled
+from topo_verify.campaign.engines import CompiledAlgorithm, Engine
+from topo_verify.campaign.identity import source_hash
+from topo_verify.campaign.row import attempt
+from topo_verify.campaign.store import Store
+from topo_verify.campaign.tally import Tally
+from topo_verify.campaign.targets import targets
+from topo_verify.checkers import CLAIMS
+from topo_verify.compiled.judging.layout import J_COST, J_DOORS_HASH, J_OF, J_STATUS, STATUSES
+from topo_verify.faults import FAULTS
+from topo_verify.programs.loaded import Loaded
+from topo_verify.programs.loader import Target
+from topo_verify.studies.search.search import Search, SearchEntry, search, search_campaign
+from topo_verify.studies.verify import trials
+from topo_verify.studies.verify.trials import SmallWorlds
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.enumeration.pruned import ranked_tables
+
+pytest.importorskip("numba")
+
+from topo_verify.compiled import shard as engine
+from topo_verify.compiled import tally
+
+Counts = Any
+
+
+def plain(tally: Tally) -> Tally:
+    """Without what the engines keep in different ways."""
+    statuses = {claim: runs for claim, runs in tally.statuses.items() if runs}
+    return msgspec.structs.replace(tally, digest="", by_checkers=0, statuses=statuses)
+
+
+def campaign(target: str, edges: int, **options: Any) -> Campaign:
+    return search_campaign(targets(target), edges=edges, engine="compiled", **options)
+
+
+# ---------------------------------------------------------------- the same results
+
+
+@pytest.mark.parametrize(
+    ("target", "edges", "kind", "keep_going"),
+    [
+        ("basic", 4, "any", False),
+        ("folding", 4, "genus<=1", False),
+        ("enhancement-iii-all+i", 5, "simple", True),
+        ("enhancement-ii,enhancement-i", 4, "any", False),
+        ("folding+planar", 3, "any", False),
+        ("folding+planar", 4, "any", True),
+    ],
+)
+def test_the_compiled_engine_counts_what_the_checkers_count(
+    target: str, edges: int, kind: str, *, keep_going: bool
+) -> None:
+    options: dict[str, Any] = {"edges": edges, "kind": kind, "keep_going": keep_going}
+    ours, theirs = (searched(target, engine=e, **options) for e in ("reference", "compiled"))
+    for size in ours.tallies:
+        assert plain(theirs.tallies[size]) == plain(ours.tallies[size])
+    ones, others = (
+        msgspec.structs.replace(
+            study.entry(compare="," in target), engine="", judged_by="", by_checkers=0
+        )
+        for study in (ours, theirs)
+    )
+    assert others == ones
+
+
+def test_slices_and_workers_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = searched("basic", edges=4, engine="compiled")
+    study = search_of("basic", edges=4, engine="compiled", workers=2)
+    study.campaign = msgspec.structs.replace(study.campaign, worlds=Ranks(4, shard=100))
+    study.work()
+    assert study.entry().verdict == whole.entry().verdict
+    monkeypatch.setattr(shards, "SLICE", 7)
+    cut = searched("basic", edges=4, engine="compiled")
+    for size in whole.tallies:
+        assert plain(cut.tallies[size]) == plain(whole.tallies[size])
+        assert cut.tallies[size].digest == whole.tallies[size].digest
+
+
+WRONG = {
+    "basic": "tries-only-the-nearest-two",
+    "enhancement-ii": "takes-unknown-for-a-mismatch",
+    "folding": "forgets-that-vu-may-be-new",
+}
+"""Algorithms, and the mistakes that are planted in them here."""
+
+
+@pytest.mark.parametrize("keep_going", [False, True])
+@pytest.mark.parametrize(("edges", "start", "stop"), [(3, 0, 74), (4, 300, 500)])
+def test_several_algorithms_that_fail_are_counted_as_the_checkers_count_them(
+    monkeypatch: pytest.MonkeyPatch, edges: int, start: int, stop: int, *, keep_going: bool
+) -> None:
+    def planted(world: Any, target: Any, **options: Any) -> Exploration:
+        wrong = Target(target, CompiledAlgorithm(target, WRONG[target]))
+        start, *events = (run := explore(world, wrong, limits=options["limits"])).trace
+        start = msgspec.structs.replace(start, policies=None)  # those of a seeded fault are unknown
+        return replace(run, trace=(start, *events))
+
+    monkeypatch.setattr(engine, "examine_steps", partial(engine.examine_steps, faults=WRONG))
+    monkeypatch.setattr(shards, "SAMPLE", 10)
+    monkeypatch.setattr(shards, "explore", planted)
+    wrong = campaign(",".join(WRONG), edges, keep_going=keep_going)
+    mappers = [Target(text, FAULTS[fault]) for text, fault in WRONG.items()]
+    shard = Shard(edges, start, stop)
+    ours = examine_by_checkers(wrong, mappers, shard)
+    theirs = examine_compiled(wrong, mappers, shard, lambda _runs: None)
+    assert plain(theirs.tally) == plain(ours.tally)
+    for result in (ours, theirs):
+        failing = [row for row in result.rows if row.failed]
+        assert len({row.mapper for row in failing}) > 1 or not keep_going
+
+
+# ---------------------------------------------------------------- what the checkers judge again
+
+
+def made(asked: Campaign, shard: Shard) -> ShardResult:
+    """A shard that the compiled engine has examined."""
+    return examine_compiled(asked, asked.load(), shard, lambda _runs: None)
+
+
+def judged_again(asked: Campaign, monkeypatch: pytest.MonkeyPatch) -> set[int]:
+    """The ranks of the worlds of 5 edges that the checkers judge."""
+    ranks: set[int] = set()
+
+    def noted(world: Any, *arguments: Any, where: str, **options: Any) -> Any:
+        ranks.add(int(where.partition("/")[2]))
+        return attempt(world, *arguments, where=where, **options)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(shards, "attempt", noted)
+        assert made(asked, WHOLE).tally.by_checkers == len(ranks)
+    return ranks
+
+
+def lying(monkeypatch: pytest.MonkeyPatch, change: Callable[[Counts], Counts]) -> None:
+    """The engine reports other counts from now on."""
+    examine = engine.examine_steps
+
+    def lies(*arguments: Any, **options: Any) -> Iterator[engine.Snapshot]:
+        for rank, counts in examine(*arguments, **options):
+            yield engine.Snapshot(rank, tuple(change(one) for one in counts))
+
+    monkeypatch.setattr(engine, "examine_steps", lies)
+
+
+BASIC = campaign("basic", 5)
+WHOLE = Shard(5, 0, 8162)
+
+
+def worst() -> set[int]:
+    """The ranks of the most expensive worlds."""
+    rows = made(BASIC, WHOLE).rows
+    most = max(row.cost for row in rows)
+    return {row.place for row in rows if row.cost == most}
+
+
+def test_the_first_worlds_and_about_one_in_a_thousand_are_judged_by_the_checkers_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    drawn = judged_again(BASIC, monkeypatch) - worst()
+    assert 2 <= len(drawn) <= 25
+    assert drawn == judged_again(BASIC, monkeypatch) - worst()
+    assert drawn != judged_again(msgspec.structs.replace(BASIC, seed=1), monkeypatch) - worst()
+    assert 0 in drawn
+
+
+def test_of_a_class_only_worlds_of_the_class_are_judged_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    planar = {
+        rank for rank, _ in ranked_tables(5, WorldClass.parse("planar"), 0, rank_order.count(5))
+    }
+    drawn = judged_again(campaign("basic", 5, kind="planar"), monkeypatch)
+    assert len(drawn) > 2
+    assert drawn < planar
+
+
+def test_the_worst_worlds_are_judged_by_the_checkers_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert worst()
+    assert worst() <= judged_again(BASIC, monkeypatch)
+    seconds = made(BASIC, WHOLE).seconds
+    assert seconds.checkers > 0 < seconds.engine
+
+
+def cheaper(counts: Counts) -> Counts:
+    share = {**counts.shares, "no-false-confirm": (0, 0)}
+    return msgspec.structs.replace(counts, shares=share)
+
+
+def never_confirms(counts: Counts) -> Counts:
+    statuses = {**counts.statuses, "no-false-confirm": {"not-declared": counts.worlds}}
+    return msgspec.structs.replace(counts, statuses=statuses)
+
+
+def convicts(counts: Counts) -> Counts:
+    claims = {**counts.claims, "map-entailed": (1, 0)}
+    return msgspec.structs.replace(counts, claims=claims, failing=1, failing_ranks=(0,))
+
+
+@pytest.mark.parametrize("change", [cheaper, never_confirms, convicts])
+def test_an_engine_that_judges_otherwise_is_our_bug(
+    change: Callable[[Counts], Counts], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lying(monkeypatch, change)
+    words = (
+        r"^m5/\d+, basic: the engines disagree: "
+        r"(\w+ of no-false-confirm: |costs of basic: |failing: )"
+    )
+    with pytest.raises(InternalError, match=words):
+        made(BASIC, WHOLE)
+
+
+def dearer(run: Exploration) -> Exploration:
+    return replace(run, cost=run.cost + 1)
+
+
+def without_map(run: Exploration) -> Exploration:
+    return replace(run, map=None)
+
+
+def cut_off(run: Exploration) -> Exploration:
+    return replace(run, trace=run.trace[:-1])
+
+
+def backwards(run: Exploration) -> Exploration:
+    return replace(run, trace=run.trace[::-1])
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (dearer, r"cost \d+ by the reference, \d+ by the compiled"),
+        (without_map, r"cost \d+ by the reference, \d+ by the compiled"),
+        (cut_off, r"\d+ events by the reference, \d+ by the com"),
+        (backwards, r"event 0 is Start.* by the reference, Finish"),
+    ],
+)
+def test_an_engine_that_runs_otherwise_is_our_bug(
+    change: Callable[[Exploration], Exploration], words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def lies(world: Any, target: Any, **options: Any) -> Exploration:
+        run = explore(world, target, **options)
+        return change(run) if "engine" in options else run
+
+    monkeypatch.setattr(shards, "explore", lies)
+    with pytest.raises(InternalError, match=rf"^m5/\d+, basic: the engines disagree: {words}"):
+        made(BASIC, WHOLE)
+
+
+def test_what_the_engine_leaves_open_the_checkers_decide(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked, shard = campaign("basic", 3), Shard(3, 10, 30)
+    by_checkers = examine_by_checkers(asked, targets("basic"), shard).tally
+
+    def undecided(counts: Counts) -> Counts:
+        return msgspec.structs.replace(counts, undecided=counts.worlds)
+
+    lying(monkeypatch, undecided)
+    tally = made(asked, shard).tally
+    assert plain(tally) == plain(by_checkers)
+    assert tally.by_checkers == 20
+
+
+def test_ctrl_c_keeps_the_slices_that_are_done(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shards, "SLICE", 100)
+
+    def beat(worlds: int) -> None:
+        if worlds == 300:
+            raise KeyboardInterrupt
+
+    with pytest.raises(Interrupted) as cut:
+        examine_compiled(BASIC, targets("basic"), Shard(5, 0, 8162), beat)
+    assert cut.value.result.tally.worlds == 300
+
+
+# ---------------------------------------------------------------- faults in the tally itself
+
+
+def uncompiled(monkeypatch: pytest.MonkeyPatch, fault: Callable[..., int]) -> None:
+    """The tally's kernels run as Python from now on, with a fault where a run is counted.
+
+    Args:
+        fault: called with what `enter` is about to count, and how many worlds its walk has begun;
+            it may change what it is given, and returns the mask of the claims that fail.
+    """
+
+    def plain_function(function: Any, _layout: object) -> Any:
+        return function
+
+    def enters(j: Any, c: Any, t: Any, wrong: int) -> None:
+        enter(j, c, t, fault(j, c, wrong, t[0, tally.T_WORLDS] + 1))
+
+    enter = tally.enter
+    monkeypatch.setattr(tally, "enter", enters)
+    monkeypatch.setattr(engine, "compiled", plain_function)
+
+
+def counts_too_much(j: Any, _c: Any, _wrong: int, worlds: int) -> int:
+    """Right in the first world of every walk, like a range of one world."""
+    if worlds > 1:
+        j[J_COST] += 100_000
+        j[J_STATUS : J_STATUS + len(CLAIMS)] = 0
+    return 0
+
+
+def counts_too_little(j: Any, _c: Any, wrong: int, worlds: int) -> int:
+    j[J_COST] -= worlds > 1
+    return wrong
+
+
+def forgets_a_verdict(j: Any, _c: Any, wrong: int, worlds: int) -> int:
+    if worlds > 1:
+        j[J_STATUS + list(CLAIMS).index("no-false-confirm")] = STATUSES.index("not-declared")
+    return wrong
+
+
+def forgets_a_share(j: Any, _c: Any, wrong: int, worlds: int) -> int:
+    j[J_OF + list(CLAIMS).index("rejection-justified")] += worlds > 1
+    return wrong
+
+
+def takes_another_door(j: Any, _c: Any, wrong: int, worlds: int) -> int:
+    j[J_DOORS_HASH] += worlds > 1
+    return wrong
+
+
+def fails_a_claim(_j: Any, _c: Any, wrong: int, worlds: int) -> int:
+    return wrong | 1 if worlds > 1 else wrong
+
+
+def makes_no_mistake(_j: Any, _c: Any, wrong: int, _worlds: int) -> int:
+    return wrong
+
+
+def makes_no_pause(_j: Any, c: Any, wrong: int, _worlds: int) -> int:
+    c[tally.C_PAUSE] = 0
+    return wrong
+
+
+SMALL = campaign("basic", 3, keep_going=True)
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        (counts_too_much, r"costs of basic: .* by the reference, .* in the tally"),
+        (counts_too_little, "costs of basic: "),
+        (forgets_a_verdict, "statuses of no-false-confirm: "),
+        (forgets_a_share, "shares of rejection-justified: "),
+        (takes_another_door, "digest: "),
+        (fails_a_claim, r"failing: \d+ by the reference, \d+ in the tally"),
+        (makes_no_pause, "the engine made no pause"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:overflow")
+def test_a_fault_in_the_tally_is_our_bug_and_names_a_world(
+    fault: Callable[..., int], words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(shards, "SAMPLE", 1)
+    uncompiled(monkeypatch, fault)
+    with pytest.raises(InternalError, match=rf"^m3/\d+.*: the engines disagree: ({words})"):
+        made(SMALL, Shard(3, 20, 32))
+
+
+@pytest.mark.filterwarnings("ignore:overflow")
+def test_without_a_fault_the_same_kernels_as_python_pass(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shards, "SAMPLE", 1)
+    uncompiled(monkeypatch, makes_no_mistake)
+    assert made(SMALL, Shard(3, 20, 32)).tally.worlds == 12
+
+
+def test_a_world_that_is_named_with_another_cost_is_our_bug(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def late(counts: Counts) -> Counts:  # behind the steps that are compared
+        return counts if counts.worlds < 74 else msgspec.structs.replace(counts, most=99)
+
+    monkeypatch.setattr(shards, "SAMPLE", 10**6)
+    lying(monkeypatch, late)
+    words = r"^m3/9, basic: the engines disagree: cost 10 by the reference, 99 in the tally"
+    with pytest.raises(InternalError, match=words):
+        made(SMALL, Shard(3, 0, 74))
+
+
+def test_a_world_that_is_named_as_costlier_with_other_costs_is_our_bug(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def late(counts: Counts) -> Counts:
+        if counts.worlds < 706 or not counts.dearer_worlds:
+            return counts
+        first, *others = counts.dearer_worlds
+        return msgspec.structs.replace(
+            counts, dearer_worlds=(first._replace(other=first.other - 1), *others)
+        )
+
+    monkeypatch.setattr(shards, "SAMPLE", 10**6)
+    lying(monkeypatch, late)
+    pair = campaign("basic,enhancement-i", 4)
+    words = r"^m4/\d+, enhancement-i: the engines disagree: cost \d+ by the reference, \d+ in the"
+    with pytest.raises(InternalError, match=words):
+        made(pair, Shard(4, 0, 706))
+
+
+# ---------------------------------------------------------------- what is refused
+
+
+@pytest.mark.parametrize(
+    ("target", "options", "words"),
+    [
+        ("mappers.py:right", {}, "runs the algorithms of the catalogue, basic,"),
+        ("basic", {"policies": "all"}, "it knows the reference policies only"),
+        ("basic", {"limits": Limits(world_timeout=1.0)}, "leave out --move-timeout"),
+        ("basic", {"limits": Limits(budget=7)}, "leave out --budget"),
+    ],
+)
+@pytest.mark.usefixtures("folder")
+def test_what_the_engine_cannot_search_is_refused(
+    target: str, options: dict[str, Any], words: str
+) -> None:
+    with pytest.raises(InputError, match=words):
+        search(target, edges=2, engine="compiled", **options)
+
+
+def test_a_store_never_mixes_engines(folder: Path) -> None:
+    def known(engine: Engine) -> SearchEntry:
+        mappers = targets("basic")
+        asked = search_campaign(mappers, edges=3, engine=engine)
+        with Store(folder / "store") as store:
+            memory = store.campaign(asked.identity(source_hash(mappers)), Loaded())
+            study = Search(asked, mappers, here(mappers), memory)
+            study.work()
+            return study.entry()
+
+    assert known("compiled").from_ledger == 0
+    assert known("compiled").from_ledger == 86
+    with pytest.raises(InputError, match="holds another campaign: its shard is 500000, now it is"):
+        known("reference")
+
+
+# ---------------------------------------------------------------- verify
+
+
+def test_verify_goes_one_size_further_and_compares_the_engines(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def part(**options: Any) -> Any:
+        job = SmallWorlds(3, targets("basic,folding"), Limits(), **options)
+        job.work(lambda _what, _done, _total: None)
+        return job.part()
+
+    assert (part().verdict, part().checked) == ("EXHAUSTED", 86)
+    further = part(further=True)
+    assert (further.verdict, further.checked) == ("EXHAUSTED", 792)
+    assert "; those of 4 edges by the compiled engine, and " in further.summary
+
+    def late(counts: Counts) -> Counts:  # behind the worlds that a search compares
+        return msgspec.structs.replace(counts, total=counts.total + (counts.worlds == 74))
+
+    monkeypatch.setattr(shards, "SAMPLE", 10**6)
+    lying(monkeypatch, late)
+    with pytest.raises(InternalError, match="3 edges the engines disagree on costs"):
+        part(further=True)
+    monkeypatch.setattr(trials, "available", lambda: False)
+    assert part(further=True).checked == 86
+
+
+def test_the_engine_knows_every_algorithm_of_the_catalogue() -> None:
+    assert {one.algorithm for one in engine.examine_range(list(CATALOGUE), 2)} == set(CATALOGUE)

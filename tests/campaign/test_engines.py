@@ -1,0 +1,192 @@
+"""The compiled engine behind `explore`, `record`, `reproduce`, `faults`: the same runs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import topo_verify as tv
+from tests.studies.baseline.recording import recording
+from topo_verify import CATALOGUE, InputError, InternalError, Limits, World, explore
+from topo_verify.campaign.engines import (
+    ENGINES,
+    CompiledAlgorithm,
+    Engine,
+    on_engine,
+    planted,
+)
+from topo_verify.campaign.judge import TRACELESS, judge
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.store import Store
+from topo_verify.campaign.targets import one_target
+from topo_verify.compiled.faults import PLANTED
+from topo_verify.faults import FAULTS
+from topo_verify.robot.events import MapData
+from topo_verify.studies.faults.checks import smallest
+from topo_verify.studies.reproduce import measuring
+from topo_verify.studies.reproduce.figures import FIGURES, LATTICE, FigureExtent
+from topo_verify.studies.reproduce.measuring import line_campaigns
+
+pytest.importorskip("numba")
+
+NYC = World.load(Path(tv.__file__).parent / "world" / "data" / "nyc_osmnx.json")
+
+
+# ---------------------------------------------------------------- explore
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_a_run_of_the_compiled_engine_is_the_run_of_the_reference(name: str) -> None:
+    ours, theirs = explore(NYC, name), explore(NYC, name, engine="compiled")
+    assert theirs.trace == ours.trace
+    assert (theirs.cost, theirs.map, theirs.policies) == (ours.cost, ours.map, ours.policies)
+    assert judge(theirs) == judge(ours)
+
+
+def test_cost_and_map_can_be_had_without_the_trace() -> None:
+    whole, brief = (
+        explore(NYC, "basic", engine="compiled", trace=asked) for asked in (True, False)
+    )
+    assert (brief.trace, brief.cost, brief.map) == ((), whole.cost, whole.map)
+
+
+def test_a_budget_stops_the_compiled_engine_where_it_stops_the_reference() -> None:
+    limits = Limits(budget=100)
+    ours = explore(NYC, "enhancement-ii", limits=limits)
+    theirs = explore(NYC, "enhancement-ii", limits=limits, engine="compiled")
+    assert (theirs.trace, theirs.stopped, theirs.limit) == (ours.trace, ours.stopped, ours.limit)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (
+            {"mapper": CATALOGUE["basic"].with_policies(pick="last")},
+            "policies nearest and shortest",
+        ),
+        ({"mapper": print}, "runs the algorithms of the catalogue, basic,"),
+        ({"limits": Limits(move_timeout=1.0)}, "leave out --move-timeout and --world-timeout"),
+        ({"engine": "steam"}, "engine='steam': expected one of reference, compiled"),
+        ({"engine": "reference", "trace": False}, "the reference engine always keeps the trace"),
+    ],
+)
+def test_what_the_engine_cannot_run_is_refused(options: dict[str, Any], words: str) -> None:
+    asked: dict[str, Any] = {"mapper": "basic", "engine": "compiled", **options}
+    with pytest.raises(InputError, match=words):
+        explore(NYC, **asked)
+
+
+def test_without_numba_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("topo_verify.compiled.available", lambda: False)
+    with pytest.raises(InputError, match=r"needs numba: pip install 'topo-verify\[fast\]'"):
+        explore(NYC, "basic", engine="compiled")
+
+
+def test_a_compiled_algorithm_takes_no_robot() -> None:
+    robot: Any = None
+    with pytest.raises(InternalError, match="the compiled basic was called with a robot"):
+        CompiledAlgorithm("basic")(robot)
+
+
+def test_the_reference_engine_leaves_targets_as_they_are() -> None:
+    target = one_target("basic")
+    assert on_engine("reference", (target,), Limits(budget=3)) == (target,)
+
+
+# ---------------------------------------------------------------- record, faults
+
+
+def test_both_engines_record_the_same_baseline() -> None:
+    made = [recording(one_target("folding"), "edges<=3", engine=engine) for engine in ENGINES]
+    assert made[0] == made[1]
+
+
+@pytest.mark.parametrize("name", ["leaves-out-the-darts-of-v0", "takes-each-place-for-known"])
+def test_a_seeded_fault_is_found_in_the_same_worlds_by_either_engine(name: str) -> None:
+    ours, theirs = (smallest(FAULTS[name], engine=one) for one in ("reference", "compiled"))
+    assert theirs == ours
+
+
+def test_every_kernel_with_a_mistake_has_the_name_of_a_seeded_fault() -> None:
+    assert set(PLANTED) <= set(FAULTS)
+    assert len(PLANTED) >= 10
+    assert planted("no-such-fault") is None
+
+
+# ---------------------------------------------------------------- reproduce
+
+
+def rows(folder: Path, engine: Engine, workers: int = 0) -> list[Row]:
+    """The rows of a small figure."""
+    lattices = replace(LATTICE, sizes=(6,), large=())
+    figure = replace(FIGURES["3"], setting=lattices)
+    with Store(folder / f"{engine}.db") as store:
+        campaigns = line_campaigns([figure], FigureExtent(graphs=2), engine, store)
+        return [row for one in campaigns for row in one.rows(workers)]
+
+
+def test_a_point_of_a_figure_is_the_same_by_either_engine(tmp_path: Path) -> None:
+    ours, theirs = rows(tmp_path, "reference"), rows(tmp_path, "compiled")
+    assert [row.mapper for row in ours] == ["basic", "basic", "folding", "folding"]
+    assert [(row.cost, row.claims, row.moves) for row in theirs] == [
+        (row.cost, row.claims, row.moves) for row in ours
+    ]
+
+
+def test_a_large_world_is_judged_by_its_map_and_cost(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = rows(tmp_path, "compiled")
+    monkeypatch.setattr(measuring, "LARGE", 10)
+    (tmp_path / "compiled.db").unlink()
+    brief = rows(tmp_path, "compiled")
+    assert [(row.cost, row.least, row.edges, row.map) for row in brief] == [
+        (row.cost, row.least, row.edges, row.map) for row in whole
+    ]
+    for row in brief:
+        statuses = {one.claim: one.status for one in row.judgements}
+        assert {claim for claim, status in statuses.items() if status == "ok"} == {*TRACELESS}
+        assert {status for claim, status in statuses.items() if claim not in TRACELESS} == {
+            "not-asked"
+        }
+        assert row.right
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        MapData(((0,), (1,)), ((0, 1),), 0),  # another world
+        MapData(((0,), (0,)), ((0, 1),), 0),  # no world
+        None,
+    ],
+)
+def test_a_wrong_map_without_a_trace_is_a_finding(wrong: MapData | None) -> None:
+    run = explore(NYC, "basic", engine="compiled", trace=False)
+    report = judge(replace(run, map=wrong), where="nyc")
+    assert [finding.claim for finding in report.findings] == ["map-isomorphic"]
+    assert report.findings[0].replay == "topo-verify replay nyc --target basic"
+    assert (report.ok, report.claims["cost-within-bound"]) == (False, "ok")
+
+
+def test_a_cost_without_a_trace_is_held_to_the_bound() -> None:
+    run = explore(NYC, "basic", engine="compiled", trace=False)
+    report = judge(replace(run, cost=NYC.cost_bound + 1))
+    assert [finding.claim for finding in report.findings] == ["cost-within-bound"]
+    with pytest.raises(InternalError, match="the least cost of a proof is"):
+        judge(replace(run, cost=1))
+
+
+def test_workers_use_the_engine_that_is_asked_for(tmp_path: Path) -> None:
+    here = rows(tmp_path, "compiled")
+    (tmp_path / "compiled.db").unlink()
+    there = rows(tmp_path, "compiled", workers=2)
+    assert [row.digest for row in there] == [row.digest for row in here]
+
+
+def test_lattices_grow_to_100_by_100_with_the_compiled_engine() -> None:
+    assert FigureExtent(large=True).sizes(LATTICE)[-1] == 100
+    assert FigureExtent().sizes(LATTICE)[-1] == 20
+    assert FIGURES["3"].setting is LATTICE

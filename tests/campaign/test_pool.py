@@ -1,0 +1,528 @@
+"""The pool: the same results in the same order, whatever a task does to its process."""
+
+# A test may look inside.
+# pyright: reportPrivateUsage=false
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from itertools import chain
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from tests.studies.search.searching import search_of
+from topo_verify import InputError, InternalError, Limits
+from topo_verify.campaign import backend
+from topo_verify.campaign.campaign import Shard, ShardResult
+from topo_verify.campaign.identity import source_hash
+from topo_verify.campaign.pool import Pool
+from topo_verify.campaign.store import Store
+from topo_verify.campaign.targets import targets
+from topo_verify.campaign.work import Division, Loss, Work, in_order
+from topo_verify.campaign.worker import WorkerProcess
+from topo_verify.programs.launcher import prepare
+from topo_verify.programs.loaded import Loaded
+from topo_verify.robot.stopwatch import tasks_of
+from topo_verify.studies.search import again
+from topo_verify.studies.search.choices import SHARD
+from topo_verify.studies.search.search import LostWorker, SearchEntry, search, search_campaign
+from topo_verify.world.enumeration.classes import WorldClass
+
+SHORT = Limits(move_timeout=0.2, world_timeout=0.5)
+LOOPED = Limits(move_timeout=0.8, world_timeout=5.0)  # a busy machine holds up no mapper so long
+
+
+def json(entry: SearchEntry) -> bytes:
+    return msgspec.json.encode(entry)
+
+
+@pytest.fixture(autouse=True)
+def small_shards(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Several shards a size, so that workers are at different ones."""
+    monkeypatch.setitem(SHARD, "reference", 20)
+    return folder
+
+
+# ---------------------------------------------------------------- the same results
+
+
+@pytest.mark.parametrize(
+    ("target", "kind", "keep_going"),
+    [
+        ("basic", "planar", False),
+        ("enhancement-ii,enhancement-i", "any", True),
+        ("mappers.py:forgets", "any", False),
+        ("mappers.py:guesses", "loopless", True),
+    ],
+)
+def test_results_are_equal_byte_for_byte_however_many_work(
+    target: str, kind: str, *, keep_going: bool
+) -> None:
+    results = {
+        json(
+            search(
+                target,
+                edges=4 if keep_going else 3,
+                world_class=WorldClass.parse(kind),
+                keep_going=keep_going,
+                workers=number,
+            )
+        )
+        for number in (0, 1, 3)
+    }
+    assert len(results) == 1
+
+
+def test_what_a_mapper_prints_and_reads_does_not_disturb_the_pipes(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    assert search("mappers.py:noisy", edges=1, workers=2).verdict == "EXHAUSTED"
+    captured = capfd.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("x") >= 200_000  # two worlds, which are also run again
+
+
+def test_progress_is_told_while_workers_work() -> None:
+    told: list[tuple[str, int, int]] = []
+
+    def tell(what: str, done: int, total: int) -> None:
+        told.append((what, done, total))
+
+    search("basic", edges=3, workers=2, tell=tell)
+    assert told[0] == ("basic", 0, 86)
+    assert all(done <= total == 86 for _, done, total in told)
+
+
+# ---------------------------------------------------------------- killers
+
+
+@pytest.mark.parametrize(
+    ("name", "how"),
+    [("exits", "exit code 3"), ("segfaults", "signal 11")],
+)
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_world_that_kills_its_worker_twice_is_a_finding(name: str, how: str, number: int) -> None:
+    found = search(f"mappers.py:{name}", edges=3, workers=number)
+    first = found.counterexample
+    assert first is not None
+    assert (first.world, first.claim) == ("m3/21", "map-isomorphic")
+    assert first.message == f"no map was delivered: it ended its process ({how})"
+    assert first.replay == f"topo-verify replay m3/21 --target mappers.py:{name}"
+    assert found.checked == 12 + 22
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_world_whose_worker_is_killed_twice_by_sigkill_is_undecided(number: int) -> None:
+    found = search("mappers.py:kills_itself", edges=3, workers=number)
+    assert (found.verdict, found.counterexample) == ("UNKNOWN", None)
+    assert (found.checked, found.by_edges[2].undecided) == (86 - 5, 5)
+    assert found.lost[0] == LostWorker("m3/21", "its worker was killed each time (signal 9)")
+    assert [one.how for one in found.lost] == [found.lost[0].how] * 5
+
+
+def test_a_world_whose_worker_was_killed_is_not_run_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It would be killed there, too, and it did not pass before."""
+    monkeypatch.setattr(again, "MOST", 20)
+    monkeypatch.setattr(again, "ROW", 20)
+    loopless = WorldClass.parse("loopless")
+    found = search("mappers.py:kills_itself", edges=3, world_class=loopless, workers=1)
+    lost = len(found.lost)
+    assert (found.verdict, found.total - found.checked) == ("UNKNOWN", lost)
+    assert lost > 0
+    assert found.run_again == again.RunAgain(found.checked, found.checked)
+
+
+def test_all_worlds_that_kill_their_workers_are_found() -> None:
+    killed = search("mappers.py:exits", edges=3, workers=2, keep_going=True)
+    looped = search("mappers.py:loops", edges=3, limits=LOOPED, keep_going=True)
+    assert (killed.verdict, killed.checked) == ("REFUTED", 86)
+    assert [size.failing for size in killed.by_edges] == [0, 0, 5]
+    numbers = [{one.claim: one.failing for one in entry.claims} for entry in (killed, looped)]
+    assert numbers[0]["map-isomorphic"] == numbers[1]["map-isomorphic"] == 5
+
+
+def test_a_shard_that_a_stranger_kills_once_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    hears = Pool[Shard, ShardResult]._hear
+    kills: list[Shard] = []
+
+    def hear(pool: Pool[Shard, ShardResult], worker: WorkerProcess) -> None:
+        if worker.ready and not kills:
+            os.kill(worker.process.pid, signal.SIGKILL)
+            kills.append(pool._at[worker].task)
+            pool._lose(worker, None)
+        else:
+            hears(pool, worker)
+
+    monkeypatch.setattr(Pool, "_hear", hear)
+    assert undisturbed(search("basic", edges=3, workers=2)) == json(search("basic", edges=3))
+    assert len(kills) == 1
+
+
+def undisturbed(entry: SearchEntry) -> bytes:
+    """The result, had no worker been lost."""
+    assert entry.verdict == "UNKNOWN"
+    assert {one.how for one in entry.lost} == {"signal 9"}
+    assert entry.total - entry.checked == len(entry.lost)
+    sizes = tuple(
+        msgspec.structs.replace(size, checked=size.checked + size.undecided, undecided=0)
+        for size in entry.by_edges
+    )
+    return json(
+        msgspec.structs.replace(
+            entry, verdict="EXHAUSTED", checked=entry.total, lost=(), by_edges=sizes
+        )
+    )
+
+
+@pytest.mark.parametrize("keep_going", [False, True])
+def test_a_crash_is_a_finding_even_if_the_world_passes_when_tried_again(
+    *, keep_going: bool
+) -> None:
+    found = search("mappers.py:segfaults_once", edges=3, workers=1, keep_going=keep_going)
+    first = found.counterexample
+    assert first is not None
+    assert (found.verdict, first.world) == ("REFUTED", "m3/21")
+    assert found.checked == (86 if keep_going else 12 + 40)
+    assert first.message == (
+        "no map was delivered: it ended its process (signal 11); at the second try it delivered one"
+    )
+    assert [size.failing for size in found.by_edges] == [0, 0, 1]
+    assert [(one.claim, one.failing) for one in found.claims] == [("map-isomorphic", 1)]
+
+
+@pytest.mark.parametrize(("keep_going", "failing"), [(False, 1), (True, 2)])
+def test_a_loss_behind_the_counterexample_is_not_counted(*, keep_going: bool, failing: int) -> None:
+    """Another worker was lost in m3/23 when m3/21 was convicted; whether it was is chance."""
+    campaign = search_campaign(targets("mappers.py:exits"), edges=3, keep_going=keep_going)
+    work = backend._work(backend._job(campaign, None))
+    first = work.lost(Shard(3, 21, 22), Loss("exit code 3", None, loading=False))
+    behind = Loss("exit code 3", None, loading=False)
+    result = work.survived(first, [(Shard(3, 23, 24), behind)], [Shard(3, 21, 22)])
+    assert result.tally.failing == failing
+
+
+def test_a_worker_that_is_killed_once_leaves_the_verdict_open() -> None:
+    found = search("mappers.py:killed_once", edges=3, workers=2)
+    assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 85, None)
+    assert [(one.world, one.how) for one in found.lost] == [("m3/21", "signal 9")]
+
+
+def test_a_shard_whose_worker_was_killed_is_not_kept_in_a_store(folder: Path) -> None:
+    mappers = targets("mappers.py:killed_once")
+    identity = search_campaign(mappers, edges=3).identity(source_hash(mappers))
+    for verdict, known in (("UNKNOWN", 0), ("EXHAUSTED", 66)):
+        with Store("search.db") as store:
+            memory = store.campaign(identity, Loaded())
+            study = search_of("mappers.py:killed_once", edges=3, workers=1, store=memory)
+            study.work()
+            assert (study.entry().verdict, study.entry().from_ledger) == (verdict, known)
+    assert (folder / "done").exists()
+
+
+def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_done(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hears = Pool[Shard, ShardResult]._hear
+    kills: list[Shard] = []
+
+    def hear(pool: Pool[Shard, ShardResult], worker: WorkerProcess) -> None:
+        piece = pool._at.get(worker)
+        if piece is not None and worker.ready and piece.task.stop - piece.task.start > 1:
+            os.kill(worker.process.pid, signal.SIGKILL)
+            kills.append(piece.task)
+            pool._lose(worker, None)
+        else:
+            hears(pool, worker)
+
+    monkeypatch.setattr(Pool, "_hear", hear)
+    assert undisturbed(search("basic", edges=2, workers=1)) == json(search("basic", edges=2))
+    assert kills
+    assert all(kills.count(shard) <= 2 for shard in kills)
+
+
+def test_a_mapper_that_cannot_be_interrupted_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(backend, "GRACE", 1.0 - Limits().world_timeout)
+    found = search("mappers.py:holds", edges=3, workers=2, limits=SHORT)
+    first = found.counterexample
+    assert first is not None
+    assert first.world == "m3/21"
+    assert "its process was ended, for it gave no sign of life for" in first.message
+
+
+def test_a_mapper_that_loops_ends_at_its_time_limit() -> None:
+    found = search("mappers.py:loops", edges=3, workers=2, limits=LOOPED)
+    alone = search("mappers.py:loops", edges=3, limits=LOOPED)
+    # What is run again has its own time limits, which are too short for a busy machine.
+    once, twice = (msgspec.structs.replace(one, run_again=None) for one in (found, alone))
+    assert json(once) == json(twice)
+    assert found.counterexample is not None
+    assert "did not move for 0.8 s" in found.counterexample.message
+
+
+IDLES = """
+import time
+from pathlib import Path
+from topo_verify import CATALOGUE
+class Robot:
+    def __init__(self, robot): self.robot = robot
+    def __getattr__(self, name): return getattr(self.robot, name)
+    def move(self, door, purpose=None):
+        Path("moves").touch()
+        time.sleep(0.5)
+        return self.robot.move(door)
+def explore(robot): return CATALOGUE["basic"](Robot(robot))
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc to look for processes")
+@pytest.mark.parametrize("workers", [0, 1])
+def test_a_machine_that_is_frozen_for_longer_than_a_limit_convicts_no_mapper(
+    folder: Path, workers: int
+) -> None:
+    """All processes of the search stand still for twice the time that a move may take."""
+    (folder / "idles.py").write_text(IDLES)
+    words = f"search idles.py:explore --edges 1 --move-timeout 2 --workers {workers}"
+    with subprocess.Popen(
+        [sys.executable, "-m", "topo_verify", *words.split()],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as running:
+        wait_for((folder / "moves").exists)
+        for how in (signal.SIGSTOP, signal.SIGCONT):
+            for process in {task.split("/")[0]: None for task in tasks_of(running.pid)}:
+                os.kill(int(process), how)
+            time.sleep(4 if how == signal.SIGSTOP else 0)
+        out, _ = running.communicate(timeout=120)
+    assert running.returncode == 0, out
+    assert "EXHAUSTED: 2 of 2 worlds" in out
+
+
+# ---------------------------------------------------------------- loading
+
+
+def test_a_mapper_whose_source_changes_meanwhile_is_refused(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begins = WorkerProcess.__init__
+
+    def begin(worker: WorkerProcess, serve: str, job: object, folder_: str | None = None) -> None:
+        with (folder / "mappers.py").open("a") as file:
+            file.write("changed = True\n")
+        begins(worker, serve, job, folder_)
+
+    monkeypatch.setattr(WorkerProcess, "__init__", begin)
+    with pytest.raises(InputError, match="its source, or topo-verify's, has changed since"):
+        search("mappers.py:right", edges=2, workers=1)
+
+
+def test_a_mapper_that_kills_whoever_loads_it_is_refused(folder: Path) -> None:
+    here = os.getpid()
+    (folder / "deadly.py").write_text(
+        f"import os\nif os.getpid() != {here}: os._exit(7)\ndef explore(robot): ...\n"
+    )
+    with pytest.raises(InputError, match=r"a process that loads it ends \(exit code 7\)"):
+        search("deadly.py:explore", edges=2, workers=2)
+
+
+def test_a_mapper_that_only_a_worker_cannot_load_is_refused(folder: Path) -> None:
+    here = os.getpid()
+    (folder / "shy.py").write_text(
+        f"import os\nif os.getpid() != {here}: raise ValueError('no')\ndef explore(robot): ...\n"
+    )
+    with pytest.raises(InputError, match=r"'shy\.py' fails: ValueError: no"):
+        search("shy.py:explore", edges=2, workers=1)
+
+
+# ---------------------------------------------------------------- nobody is left behind
+
+
+SEARCHER = """
+from topo_verify.studies.search.search import search
+search("mappers.py:{name}", edges=4, workers=2)
+"""
+
+
+def gone(pid: int) -> bool:
+    """Is there no such process, or only its remains?"""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc to look for processes")
+@pytest.mark.parametrize("name", ["tells_and_waits", "tells_and_holds"])
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+def test_workers_end_with_their_parent_however_it_ends(
+    folder: Path, name: str, how: signal.Signals
+) -> None:
+    parent = subprocess.Popen(
+        [sys.executable, "-c", SEARCHER.format(name=name)],
+        cwd=folder,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509
+    )
+    pids: list[int] = []
+    wait_for(lambda: len(pids_in(folder)) >= 2)
+    pids = pids_in(folder)
+    assert not any(map(gone, pids))
+    parent.send_signal(how)
+    parent.wait(timeout=30)
+    wait_for(lambda: all(map(gone, pids)))
+
+
+def pids_in(folder: Path) -> list[int]:
+    file = folder / "pids"
+    return [*map(int, file.read_text().split())] if file.exists() else []
+
+
+def wait_for(there: Callable[[], bool]) -> None:
+    for _ in range(3000):
+        if there():
+            return
+        time.sleep(0.01)
+    raise AssertionError("nothing came of it in 30 s")
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc to look for processes")
+def test_no_worker_is_left_when_a_search_is_over() -> None:
+    prepare()  # what starts the workers stays
+    before = {*tasks_of(os.getpid())}
+    search("mappers.py:forgets", edges=4, workers=2)
+    assert {*tasks_of(os.getpid())} <= before
+
+
+# ---------------------------------------------------------------- tasks of any kind
+
+TOY = """
+import contextlib, os, signal, time
+import msgspec
+
+@contextlib.contextmanager
+def serve(job):
+    job = msgspec.json.decode(job)
+    if job == "dies":
+        os._exit(4)
+    if job == "fails":
+        raise ZeroDivisionError
+    def handle(task, beat):
+        numbers = msgspec.json.decode(task)
+        for done, number in enumerate(numbers):
+            beat(done)
+            if number == -1:
+                os._exit(5)
+            if number == -2:
+                time.sleep(1000)
+            if number == -3:
+                while not os.path.exists("go"):
+                    time.sleep(0.01)
+        return numbers
+    yield handle
+    with open("left", "a") as file:
+        file.write("left\\n")
+"""
+"""Takes lists of numbers and returns them; some of them kill, hang, or wait for a file `go`."""
+
+Numbers = list[int]
+
+
+@pytest.fixture
+def toy(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (folder / "toy.py").write_text(TOY)
+    monkeypatch.setattr(sys, "path", [str(folder), *sys.path])
+    return folder
+
+
+def toy_work(*, job: str = "", silence: float = 60.0, attempts: int = 2) -> Work[Numbers, Numbers]:
+    def cut(task: Numbers, at: int) -> list[Numbers]:
+        return [part for part in (task[:at], task[at : at + 1], task[at + 1 :]) if part]
+
+    def lost(_task: Numbers, loss: Loss) -> Numbers:
+        return [-9 if loss.silence is not None else -5 - loss.loading]
+
+    return Work(
+        serve="toy:serve",
+        job=job,
+        result=Numbers,
+        lost=lost,
+        silence=silence,
+        attempts=attempts,
+        division=Division(cut, join=lambda parts: [*chain(*parts)], last=lambda part: 99 in part),
+    )
+
+
+def results(work: Work[Numbers, Numbers], *tasks: Numbers, size: int = 2) -> list[Numbers]:
+    with Pool(work, size) as pool:
+        return list(in_order(pool, tasks, ahead=4))
+
+
+@pytest.mark.usefixtures("toy")
+@pytest.mark.parametrize("size", [1, 3])
+def test_results_come_in_the_order_of_the_tasks(size: int) -> None:
+    tasks = [[n, n + 1] for n in range(20)]
+    assert results(toy_work(), *tasks, size=size) == tasks
+
+
+def test_a_slow_task_holds_back_the_results_of_a_few_others_only(toy: Path) -> None:
+    taken: list[int] = []
+
+    def tasks() -> Iterator[Numbers]:
+        for number in (-3, *range(20)):
+            taken.append(number)
+            if len(taken) == 4:  # as many as may be taken: now the first of them may go on
+                (toy / "go").touch()
+            yield [number]
+
+    with Pool(toy_work(), 2) as pool:
+        ordered = in_order(pool, tasks(), ahead=4)
+        assert next(ordered) == [-3]
+        assert len(taken) == 4
+        assert list(ordered) == [[n] for n in range(20)]
+
+
+@pytest.mark.usefixtures("toy")
+@pytest.mark.parametrize("attempts", [1, 2])
+def test_the_item_that_kills_is_found_and_the_others_are_done(attempts: int) -> None:
+    killed = results(toy_work(attempts=attempts), [1, 2, -1, 3], [4], [-1], [5, -1])
+    assert killed == [[1, 2, -5, 3], [4], [-5], [5, -5]]
+
+
+@pytest.mark.usefixtures("toy")
+def test_a_task_that_lost_its_workers_has_one_result() -> None:
+    tasks = [[1], [-1], [2, -1], [3]]
+    with Pool(toy_work(), 2) as pool:
+        assert sorted(pool.run(tasks)) == [([-1], [-5]), ([1], [1]), ([2, -1], [2, -5]), ([3], [3])]
+
+
+@pytest.mark.usefixtures("toy")
+def test_the_item_that_hangs_is_found() -> None:
+    assert results(toy_work(silence=3.0, attempts=1), [1, -2, 3]) == [[1, -9, 3]]
+
+
+@pytest.mark.usefixtures("toy")
+def test_nothing_behind_the_last_piece_that_is_wanted_is_joined() -> None:
+    assert results(toy_work(attempts=1), [1, 99, -1, 2, -1]) == [[1, 99]]
+
+
+@pytest.mark.usefixtures("toy")
+def test_a_worker_that_dies_while_it_loads_is_lost_with_its_whole_task() -> None:
+    assert results(toy_work(job="dies"), [1, 2]) == [[-6]]
+
+
+@pytest.mark.usefixtures("toy")
+def test_our_bug_in_a_worker_is_told_as_such() -> None:
+    with pytest.raises(InternalError, match=r"(?s)in a worker: Traceback.*ZeroDivisionError"):
+        results(toy_work(job="fails"), [1])
+
+
+def test_an_idle_worker_leaves_its_context_before_it_ends(toy: Path) -> None:
+    assert results(toy_work(), [1], [2], size=1) == [[1], [2]]
+    assert (toy / "left").read_text() == "left\n"

@@ -1,0 +1,67 @@
+"""Progress: how fast, how long still, and not too often."""
+
+from __future__ import annotations
+
+import pytest
+
+from topo_verify.campaign import progress as module
+from topo_verify.campaign.progress import Progress, ProgressRate, duration
+
+Report = tuple[str, int, int]
+
+
+def listener(reports: list[Report]) -> Progress:
+    """Keep what is reported."""
+
+    def tell(what: str, done: int, total: int) -> None:
+        reports.append((what, done, total))
+
+    return tell
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    now = [100.0]
+    monkeypatch.setattr(module, "monotonic", lambda: now[0])
+    return now
+
+
+def test_rate_and_time_left_are_those_of_what_was_done_now(clock: list[float]) -> None:
+    reports: list[Report] = []
+    progress = ProgressRate("basic", 10_000, listener(reports))
+    progress.known(4_000)  # a ledger knew them: they say nothing of the rate
+    clock[0] += 2
+    progress.finished(1_000)
+    clock[0] += 2
+    progress.in_flight(1_000)
+    assert reports == [
+        ("basic", 4_000, 10_000),
+        ("basic, 500 worlds/s, 10 s left", 5_000, 10_000),
+        ("basic, 500 worlds/s, 8 s left", 6_000, 10_000),
+    ]
+
+
+def test_nobody_is_told_ten_times_in_a_moment(clock: list[float]) -> None:
+    reports: list[Report] = []
+    progress = ProgressRate("basic", 10, listener(reports))
+    for done in range(10):
+        progress.in_flight(done)
+    assert len(reports) == 1
+    clock[0] += module.INTERVAL
+    progress.in_flight(10)
+    assert len(reports) == 2
+
+
+def test_without_a_listener_nothing_happens(clock: list[float]) -> None:
+    progress = ProgressRate("basic", 10, None)
+    clock[0] += 1
+    progress.finished(3)
+    assert progress.done == 3
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(0, "0 s"), (99, "99 s"), (100, "2 min"), (7200, "2 h"), (10**6, "12 days")],
+)
+def test_durations_are_told_as_people_do(seconds: float, words: str) -> None:
+    assert duration(seconds) == words

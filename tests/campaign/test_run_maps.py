@@ -1,0 +1,147 @@
+"""What a mapper may deliver: anything with vertices, edges and a marker, and nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.campaign.test_run import SHORT, WORLD, Unspeakable, delivers, why
+from topo_verify import CATALOGUE, Robot, examine, explore
+from topo_verify.campaign.judge import judge
+
+VERTICES, EDGES = [[0, 1, 2], [3]], [[0, 2], [1, 3]]
+
+
+class Slotted:
+    """A map of one's own."""
+
+    def __init__(self) -> None:
+        self.vertices, self.edges, self.marker = VERTICES, EDGES, 0
+
+
+@pytest.mark.parametrize(
+    "result",
+    [
+        {"vertices": VERTICES, "edges": EDGES, "marker": 0},
+        {"vertices": VERTICES, "edges": EDGES, "marker": 0, "cost": 2, "colour": "red"},
+        {"vertices": VERTICES, "edges": EDGES, "marker": 0, "cost": None},
+        {"vertices": VERTICES, "edges": EDGES, "marker": np.int64(0), "cost": np.int32(2)},
+        {"vertices": [[50, -7, 9], [8]], "edges": [[9, 50], [-7, 8]], "marker": 50},
+        {"vertices": [[3], [1, 2, 0]], "edges": [[3, 1], [2, 0]], "marker": 0},
+        {"vertices": ((0, 1, 2), (3,)), "edges": ((0, 2), (1, 3)), "marker": 0},
+        {"vertices": [np.array([0, 1, 2]), [3]], "edges": np.array(EDGES), "marker": 0},
+        SimpleNamespace(vertices=VERTICES, edges=EDGES, marker=0),
+        Slotted(),
+        WORLD,
+    ],
+)
+def test_anything_with_vertices_edges_and_a_marker_is_a_map(result: object) -> None:
+    report = examine(delivers(result), WORLD)
+    assert report.ok, str(report)
+
+
+def lazy(error: Exception) -> object:
+    """A map that cannot be read."""
+
+    class Lazy:
+        edges, marker = EDGES, 0
+
+        @property
+        def vertices(self) -> object:
+            raise error
+
+    return Lazy()
+
+
+class Endless(list[Any]):
+    """A row that never ends."""
+
+    def __iter__(self) -> Iterator[Any]:
+        while True:
+            yield 0
+
+
+@pytest.mark.parametrize(
+    ("result", "reason"),
+    [
+        (None, "NoneType has no 'vertices'"),
+        ("a map", "str has no 'vertices'"),
+        ({}, "dict has no 'vertices'"),
+        ({"vertices": VERTICES, "edges": EDGES}, "dict has no 'marker'"),
+        ((dart for dart in [1]), "generator has no 'vertices'"),
+        (Slotted, "type has no 'vertices'"),
+        ({"vertices": (row for row in VERTICES), "edges": EDGES, "marker": 0}, "'vertices'"),
+        (
+            {"vertices": "01", "edges": EDGES, "marker": 0},
+            "expected a list of lists of darts as the map's 'vertices'",
+        ),
+        (
+            {"vertices": 3, "edges": EDGES, "marker": 0},
+            "expected a list of lists of darts as the map's 'vertices'",
+        ),
+        ({"vertices": [[0.0, 1, 2], [3]], "edges": EDGES, "marker": 0}, "vertices[0]"),
+        ({"vertices": [[0, 1, 2], [None]], "edges": EDGES, "marker": 0}, "vertices[1]"),
+        ({"vertices": [[0, True, 2], [3]], "edges": EDGES, "marker": 0}, "vertices[0]"),
+        ({"vertices": VERTICES, "edges": [[0, 2], "13"], "marker": 0}, "edges[1]"),
+        ({"vertices": VERTICES, "edges": EDGES, "marker": "0"}, "'marker'"),
+        ({"vertices": VERTICES, "edges": EDGES, "marker": 0.0}, "'marker'"),
+        ({"vertices": VERTICES, "edges": EDGES, "marker": 0, "cost": "2"}, "the cost '2'"),
+        ({"vertices": VERTICES, "edges": EDGES, "marker": 0, "cost": 2.0}, "the cost 2.0"),
+        ({"vertices": VERTICES, "edges": EDGES, "marker": 0, "cost": True}, "the cost True"),
+        ({"vertices": VERTICES, "edges": EDGES, "marker": 0, "cost": 10**30}, "more than 64 bits"),
+        ({"vertices": VERTICES, "edges": EDGES, "marker": 10**30}, "'marker'"),
+        (lazy(ValueError("nobody looks")), "what was delivered cannot be read: ValueError: nob"),
+        (lazy(Unspeakable()), "what was delivered cannot be read: Unspeakable"),
+        (np.array(5), "ndarray has no 'vertices'"),
+        ({"vertices": np.array(5), "edges": EDGES, "marker": 0}, "'vertices'"),
+    ],
+)
+def test_nonsense_is_no_map(result: object, reason: str) -> None:
+    assert reason in why(delivers(result))
+
+
+def test_a_map_that_never_ends_is_out_of_time() -> None:
+    endless = {"vertices": Endless(), "edges": EDGES, "marker": 0}
+    assert why(delivers(endless), SHORT) == "the mapper did not move for 0.15 s"
+
+
+@pytest.mark.parametrize(
+    "result",
+    [
+        {"vertices": VERTICES, "edges": [[0, 2, 1], [3]], "marker": 0},
+        {"vertices": VERTICES, "edges": [[0, 2], [1, 3], [1, 3]], "marker": 0},
+        {"vertices": VERTICES, "edges": [[0, 2]], "marker": 0},
+        {"vertices": VERTICES, "edges": EDGES, "marker": 9},
+        {"vertices": VERTICES, "edges": EDGES, "marker": None},
+        {"vertices": [[0], [1], [2], [3]], "edges": EDGES, "marker": 0},
+        {"vertices": [], "edges": [], "marker": None},
+    ],
+)
+def test_a_map_that_is_no_world_is_delivered_and_refuted(result: object) -> None:
+    run = explore(WORLD, delivers(result))
+    assert run.map is not None
+    (finding,) = judge(run).findings[:1]
+    assert finding.claim == "map-isomorphic"
+    assert finding.message.startswith("the delivered value is not a map: ")
+
+
+def test_moves_that_a_map_makes_when_it_is_read_are_counted() -> None:
+    def mapper(robot: Robot) -> object:
+        survey = CATALOGUE["basic"](robot)
+
+        class Late:
+            edges, marker, cost = survey.edges, survey.marker, survey.cost
+
+            @property
+            def vertices(self) -> object:
+                robot.move(0)
+                return survey.vertices
+
+        return Late()
+
+    report = examine(mapper, WORLD)
+    assert (report.cost, report.claims["cost-honest"]) == (3, "failed")

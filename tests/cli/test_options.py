@@ -1,0 +1,173 @@
+"""Options that are given twice: refused where one value counts, joined where several do."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import click
+import pytest
+
+from topo_verify.cli import main
+
+Call = Callable[..., Any]
+Results = Callable[..., dict[str, Any]]
+
+REPEATABLE = {
+    "explore": {"--algorithm", "--target"},
+    "play": {"--algorithm", "--target"},
+    "search": {"--class", "--depends"},
+    "world count": {"--class"},
+    "world list": {"--class"},
+    "world sample": {"--class"},
+    "conform": {"--worlds"},
+    "record": {"--worlds"},
+    "arena": {"--target", "--cmd"},
+    "prove": {"--kind"},
+}
+"""The options of each command that may be given several times; every value counts."""
+
+
+def leaves(command: click.Command, path: str = "") -> Iterator[tuple[str, click.Command]]:
+    """Every command that is no group, with the words that call it."""
+    if not isinstance(command, click.Group):
+        yield path, command
+        return
+    for name, part in command.commands.items():
+        yield from leaves(part, f"{path} {name}".strip())
+
+
+OPTIONS = [
+    pytest.param(path, option, name, id=f"{path} {name}")
+    for path, command in leaves(main)
+    for option in command.params
+    if isinstance(option, click.Option)
+    for name in option.opts
+]
+
+
+def test_the_tree_has_every_command() -> None:
+    assert len(list(leaves(main))) == 20
+    assert len(OPTIONS) > 200
+
+
+@pytest.mark.parametrize(("path", "option", "name"), OPTIONS)
+def test_an_option_of_one_value_is_refused_when_it_is_given_twice(
+    path: str, option: click.Option, name: str, call: Call
+) -> None:
+    assert option.multiple == (name in REPEATABLE.get(path, set()))
+    if option.multiple:
+        return
+    values = ["", ""] if option.is_flag else [" one", "=two" if name.startswith("--") else " two"]
+    done = call(f"{path} {name}{values[0]} {name}{values[1]}")
+    assert (done.exit_code, done.stdout) == (2, "")
+    got = "it twice" if option.is_flag else "'one' and 'two'"
+    words = f"topo-verify {path}: expected {name} at most once, got {got}: leave "
+    assert done.stderr.startswith(words), done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "conform --cmd bad --cmd good",
+        "search --target guesses --target basic --edges 1",
+        "search basic --edges 3 --edges 1",
+        "search basic --edges 1 --quick --workers 0 --workers=0",
+        "world draw m2/0 -ofirst.svg -o second.svg",
+    ],
+)
+def test_the_last_of_two_values_does_not_win_in_silence(line: str, call: Call) -> None:
+    done = call(line)
+    assert (done.exit_code, done.stdout) == (2, "")
+
+
+def test_all_values_of_three_are_named(call: Call) -> None:
+    done = call("search basic --edges 1 --edges 2 --edges 3")
+    assert "expected --edges at most once, got '1', '2' and '3': leave out all but one" in (
+        done.stderr
+    )
+
+
+@pytest.mark.parametrize("line", ["search basic --edges 3 --edges 1 --help", "search --help -h"])
+def test_help_is_shown_whatever_stands_beside_it(line: str, call: Call) -> None:
+    done = call(line)
+    assert done.exit_code == 0
+    assert done.stdout.startswith("Usage: topo-verify search ")
+
+
+# ---------------------------------------------------------------- several that count
+
+
+def test_every_algorithm_counts(results: Results) -> None:
+    """The right one, named last, does not hide the wrong one."""
+    line = "explore m2/5 --algorithm mappers.py:guesses --algorithm basic --target folding"
+    entries = results(line, code=1)["results"]
+    assert [(one["algorithm"], one["ok"]) for one in entries] == [
+        ("mappers.py:guesses", False),
+        ("basic", True),
+        ("folding", True),
+    ]
+    (page,) = results("play m2/5 --algorithm basic --algorithm folding")["results"]
+    assert page["algorithms"] == ["basic", "folding"]
+
+
+@pytest.mark.parametrize(
+    ("line", "targets"),
+    [
+        ("explore m2/5 --algorithm mappers.py:right,basic", ["mappers.py:right", "basic"]),
+        ("search mappers.py:right,basic --edges 1", ["mappers.py:right", "basic"]),
+        ("search 'basic, mappers.py:right' --edges 1", ["basic", "mappers.py:right"]),
+        ("arena mappers.py:right,basic --suite tiny", ["mappers.py:right", "basic"]),
+    ],
+)
+def test_a_list_with_commas_takes_files(line: str, targets: list[str], results: Results) -> None:
+    entries = results(f"{line} --in-process")["results"]
+    names = [one.get("target") or one.get("algorithm") or one["mapper"] for one in entries]
+    assert sorted(set(names)) == sorted(targets)
+
+
+def test_each_mapper_of_a_list_is_tried_by_conform(results: Results) -> None:
+    found = results(
+        "conform mappers.py:guesses,basic --worlds m1/0 --worlds m1/1 --workers 0", code=1
+    )
+    verdicts = {(one["target"], one["level"]): one["verdict"] for one in found["results"]}
+    assert verdicts["mappers.py:guesses", "result"] == "REFUTED"
+    assert verdicts["basic", "result"] == "SAMPLED"
+
+
+def test_a_file_may_have_a_comma_in_its_name(call: Call, folder: Any) -> None:
+    (folder / "a,b.py").write_text("from mappers import right\n")
+    assert call("explore m2/5 --algorithm a,b.py:right").exit_code == 0
+
+
+def test_a_wrong_file_in_a_list_is_named(call: Call) -> None:
+    done = call("explore m2/5 --algorithm basic,gone.py:f")
+    assert done.exit_code == 2
+    assert "there is no file 'gone.py'" in done.stderr
+
+
+@pytest.mark.parametrize("classes", [("planar", "simple"), ("simple", "planar"), ("any", "simple")])
+@pytest.mark.parametrize(
+    "line", ["search basic --edges 3", "world count --edges 3", "world list --edges 3"]
+)
+def test_classes_are_joined_as_by_a_comma(line: str, classes: tuple[str, str], call: Call) -> None:
+    """Of one class given twice every world has both properties."""
+    apart = call(f"{line} --class {classes[0]} --class {classes[1]}")
+    together = call(f"{line} --class {','.join(classes)}")
+    assert apart.exit_code == together.exit_code == 0
+    assert apart.stdout == together.stdout
+    assert apart.stdout != call(line).stdout
+
+
+def test_classes_that_contradict_each_other_are_refused(call: Call) -> None:
+    done = call("search basic --class genus:1 --class planar")
+    assert done.exit_code == 2
+    assert "contradicts itself" in done.stderr
+
+
+def test_the_line_that_repeats_a_run_keeps_every_value(call: Call, folder: Any) -> None:
+    line = "search basic --edges 2 --class planar --class simple"
+    assert call(f"{line} --report page.html").exit_code == 0
+    assert shlex.join(["topo-verify", *line.split()]) in (folder / "page.html").read_text()

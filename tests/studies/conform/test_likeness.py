@@ -1,0 +1,110 @@
+"""Two runs event for event: where they part, and what was known then."""
+
+from __future__ import annotations
+
+import msgspec
+import pytest
+
+from tests.helpers import edited, place, trace_of, worlds
+from topo_verify import CATALOGUE
+from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Pose, Reject, Trace
+from topo_verify.studies.conform.likeness import Difference, KnownState, declares, first_difference
+
+
+def by_folding(event: Event) -> bool:
+    return isinstance(event, Reject) and event.rule == "folding"
+
+
+def moves_alone(trace: Trace) -> Trace:
+    """The run of a mapper that declares nothing."""
+    return tuple(e for e in trace if not isinstance(e, Pose | Reject | Confirm | Augment))
+
+
+def test_a_run_is_like_itself() -> None:
+    for world in worlds(range(1, 4)):
+        for name in CATALOGUE:
+            trace = trace_of(world, name)
+            assert first_difference(trace, trace) is None
+
+
+def test_the_smallest_world_in_which_two_algorithms_part() -> None:
+    parted = first_difference(trace_of("m4/41", "enhancement-ii"), trace_of("m4/41", "basic"))
+    assert parted == Difference(
+        event=11,
+        expected="reject 4 for dart 7 by history: step 1, expected (degree 2, no marker),"
+        " saw (degree 5, no marker), sequence 0 at dart 6",
+        seen="move by door 0 to (degree 5, no marker)",
+        before=(
+            "move by door 1 to (degree 5, no marker)",
+            "pose for dart 7: [3, 4, 5]",
+            "move by door 3 to (degree 5, no marker)",
+            (
+                "reject 3 for dart 7 by motion: step 1, expected (degree 1, marker at door 0),"
+                " saw (degree 5, no marker)"
+            ),
+        ),
+        state=KnownState(
+            moves=4,
+            vertices=(1, 5, 2),
+            explored=((0, 1), (2, 6)),
+            edge=7,
+            left=(4, 5),
+            doors=(1, 3),
+        ),
+        at=11,
+    )
+
+
+@pytest.mark.parametrize("kind", [Move, Pose, Reject, Confirm, Augment])
+def test_every_event_that_is_left_out_is_seen(kind: type[Event]) -> None:
+    trace = trace_of("m4/41", "enhancement-ii")
+    at = place(trace, kind)
+    parted = first_difference(trace, (*trace[:at], *trace[at + 1 :]))
+    assert parted is not None
+    assert parted.event == at
+
+
+def test_other_evidence_is_another_event() -> None:
+    trace = trace_of("m4/41")
+    at = place(trace, Reject)
+    rejection = trace[at]
+    assert isinstance(rejection, Reject)
+    evidence = msgspec.structs.replace(rejection.evidence, step=2)
+    parted = first_difference(trace, edited(trace, at, evidence=evidence))
+    assert parted is not None
+    assert parted.event == at
+
+
+def test_what_is_no_promise_is_not_compared() -> None:
+    runs = (trace_of(world, "folding") for world in worlds([4]))
+    trace = next(run for run in runs if any(map(by_folding, run)))
+    at = next(when for when, event in enumerate(trace) if by_folding(event))
+    rejection = trace[at]
+    assert isinstance(rejection, Reject)
+    assert rejection.evidence.contradiction is not None
+    evidence = msgspec.structs.replace(rejection.evidence, contradiction="in my words")
+    assert first_difference(trace, edited(trace, at, evidence=evidence)) is None
+    aimless = tuple(Move(e.door, e.percept) if isinstance(e, Move) else e for e in trace)
+    assert first_difference(trace, aimless) is None
+    assert first_difference(trace, edited(trace, -1, cost=None)) is None
+
+
+def test_a_run_that_ends_too_early_or_goes_on_is_seen() -> None:
+    trace = trace_of("m3/14")
+    assert isinstance(trace[-1], Finish)
+    shorter, longer = trace[:-2], (*trace[:-1], trace[1])
+    early, late = first_difference(trace, shorter), first_difference(trace, longer)
+    assert early is not None
+    assert late is not None
+    assert (early.event, early.seen) == (len(shorter), None)
+    assert (late.event, late.expected) == (len(trace) - 1, None)
+
+
+def test_of_a_mapper_that_declares_nothing_the_moves_are_compared() -> None:
+    basic, other = trace_of("m4/41"), trace_of("m4/41", "enhancement-ii")
+    assert not declares(moves_alone(basic))
+    assert first_difference(basic, moves_alone(basic)) is None
+    parted = first_difference(other, moves_alone(basic))
+    assert parted is not None
+    assert parted.expected is not None
+    assert parted.expected.startswith("move by door")

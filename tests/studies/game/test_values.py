@@ -1,0 +1,142 @@
+"""The values of the games: against plain recursion, least costs, mappers and each other."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+from functools import cache
+
+import pytest
+
+import topo_verify as tv
+from tests.studies.game.plain import plain_value
+from topo_verify.algorithms import CATALOGUE
+from topo_verify.studies.game.mapper_costs import mapper_costs
+from topo_verify.studies.game.search import Least
+from topo_verify.studies.game.values import GAMES, DrawnClass, GameValue, Knowledge, game_value
+from topo_verify.world.rooted_map import World
+
+KNOWN = cache(game_value)
+
+MORE: tuple[tuple[DrawnClass, Knowledge, Knowledge], ...] = (
+    ("any", "nothing", "n"),
+    ("any", "nothing", "m"),
+    ("any", "n", "m and n"),
+    ("any", "m", "m and n"),
+    ("planar", "nothing", "planar"),
+    ("planar", "nothing", "m"),
+    ("planar", "planar", "m and planar"),
+    ("planar", "m", "m and planar"),
+)
+"""What is drawn, what is known, and more."""
+
+
+def plain_games(
+    edges: int, drawn: DrawnClass, knows: Knowledge, most: int = 4
+) -> Iterator[tuple[list[World], list[World]]]:
+    """The games by the worlds that are drawn and those to exclude, of up to `most` edges."""
+    worlds = list(tv.worlds(edges=edges, cls=drawn))
+    sizes = [edges] if "m" in knows.split() else range(1, most + 1)
+    others = [w for m in sizes for w in tv.worlds(edges=m)]
+    if "planar" in knows:
+        others = [world for world in others if world.is_planar]
+    if "n" not in knows.split():
+        yield worlds, others
+        return
+    groups = defaultdict[int, list[World]](list)
+    for world in worlds:
+        groups[len(world.vertices)].append(world)
+    for n, group in groups.items():
+        yield group, [world for world in others if len(world.vertices) == n]
+
+
+def plain(edges: int, drawn: DrawnClass, knows: Knowledge, depth: int) -> tuple[float, float]:
+    """The worst case and the sum by plain recursion."""
+    games = list(plain_games(edges, drawn, knows))
+    worst = max(plain_value(*game, depth, mean=False) for game in games)
+    return worst, sum(plain_value(*game, depth, mean=True) for game in games)
+
+
+@pytest.mark.parametrize(("drawn", "knows"), GAMES)
+@pytest.mark.parametrize("edges", [1, 2])
+def test_plain_recursion_finds_the_same_values(
+    edges: int, drawn: DrawnClass, knows: Knowledge
+) -> None:
+    """Worlds of up to 4 edges refute every claim that a robot could make too early here."""
+    value = KNOWN(edges, knows, drawn)
+    assert (value.worst.cost, value.total.cost) == plain(edges, drawn, knows, depth=4)
+
+
+@pytest.mark.parametrize(
+    ("drawn", "knows"), [(drawn, knows) for drawn, knows in GAMES if "m" in knows.split()]
+)
+def test_plain_recursion_finds_the_same_values_where_three_edges_are_known(
+    drawn: DrawnClass, knows: Knowledge
+) -> None:
+    value = KNOWN(3, knows, drawn)
+    assert (value.worst.cost, value.total.cost) == plain(3, drawn, knows, depth=4)
+
+
+@pytest.mark.parametrize(
+    ("drawn", "knows", "worst", "total"),
+    [
+        ("any", "nothing", 8, 282),
+        ("any", "n", 5, 201),
+        ("any", "m", 4, 167),
+        ("any", "m and n", 4, 142),
+        ("planar", "nothing", 7, 211),
+        ("planar", "planar", 7, 211),
+        ("planar", "m", 4, 123),
+        ("planar", "m and planar", 3, 117),
+    ],
+)
+def test_the_values_of_three_edges(
+    drawn: DrawnClass, knows: Knowledge, worst: int, total: int
+) -> None:
+    value = KNOWN(3, knows, drawn)
+    assert (value.worst, value.total) == (Least(worst, is_value=True), Least(total, is_value=True))
+    assert value.mean == total / value.worlds
+
+
+@pytest.mark.parametrize(("drawn", "less", "more"), MORE)
+@pytest.mark.parametrize("edges", [1, 2, 3])
+def test_to_know_more_never_costs_more(
+    edges: int, drawn: DrawnClass, less: Knowledge, more: Knowledge
+) -> None:
+    assert not undercut(KNOWN(edges, less, drawn), KNOWN(edges, more, drawn))
+
+
+@pytest.mark.parametrize("drawn", ["any", "planar"])
+@pytest.mark.parametrize("edges", [1, 2, 3])
+def test_a_proof_costs_no_less_than_with_the_map_in_hand(edges: int, drawn: DrawnClass) -> None:
+    value = KNOWN(edges, "nothing", drawn)
+    least = [world.least_cost() for world in tv.worlds(edges=edges, cls=drawn)]
+    assert value.worst.cost >= max(least)
+    assert value.total.cost >= sum(least)
+
+
+@pytest.mark.parametrize("mapper", CATALOGUE)
+def test_no_mapper_costs_less_than_the_value(mapper: str) -> None:
+    for edges in (1, 2, 3):
+        costs = mapper_costs(mapper, edges)
+        value = KNOWN(edges, costs.knows, costs.drawn)
+        assert costs.failing is None
+        assert costs.worst >= value.worst.cost
+        assert costs.total >= value.total.cost
+
+
+def undercut(cheaper: GameValue, dearer: GameValue) -> bool:
+    """Whether the first value is below the second one."""
+    return cheaper.worst.cost < dearer.worst.cost or cheaper.total.cost < dearer.total.cost
+
+
+def test_a_search_that_is_cut_short_says_so_and_gives_a_lower_bound() -> None:
+    value = game_value(3, "nothing", most_states=60)
+    assert not value.worst.is_value
+    assert not value.total.is_value
+    assert 266 <= value.total.cost < 282
+    assert 6 <= value.worst.cost <= 8
+
+
+def test_two_calls_end_alike() -> None:
+    assert game_value(2, "nothing") == game_value(2, "nothing")

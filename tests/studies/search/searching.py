@@ -1,0 +1,39 @@
+"""Searches in one call, with what the result alone does not tell: rows and tallies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+
+from topo_verify.campaign.backend import here, pooled
+from topo_verify.campaign.campaign import ShardMemory, Stop
+from topo_verify.campaign.targets import one_target, targets
+from topo_verify.programs.loader import Mapper, Target
+from topo_verify.studies.search.search import Search, search_campaign
+
+
+def search_of(
+    target: Mapper | str | Target,
+    *,
+    workers: int = 0,
+    stop: Stop | None = None,
+    store: ShardMemory | None = None,
+    **options: Any,
+) -> Search:
+    """A search that has not begun; `options` are those of `search_campaign`."""
+    in_process = options.get("in_process", True)
+    mappers = (
+        targets(target, in_process=in_process) if isinstance(target, str) else (one_target(target),)
+    )
+    campaign = search_campaign(mappers, **options)
+    if stop is not None:
+        campaign = msgspec.structs.replace(campaign, stop=stop)
+    return Search(campaign, mappers, pooled(workers) if workers else here(mappers), store)
+
+
+def searched(target: Mapper | str | Target, **options: Any) -> Search:
+    """A search that has gone to its end; see `search_of`."""
+    study = search_of(target, **options)
+    study.work()
+    return study

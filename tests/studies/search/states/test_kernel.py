@@ -1,0 +1,262 @@
+"""The kernel is held to the states that are found by running the mapper."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import msgspec
+import pytest
+
+from tests.studies.search.states.test_graph import searched, worlds
+from topo_verify import CATALOGUE, World
+from topo_verify.algorithms.motion import Executed, Hypothesis, overlap
+from topo_verify.campaign.judge import judge
+from topo_verify.campaign.row import Attempt
+from topo_verify.campaign.run import explore
+from topo_verify.errors import InputError, InternalError
+from topo_verify.programs.loader import Target
+from topo_verify.robot.simulator import percepts
+from topo_verify.studies.search.states import behind, every, graph, kernel, table
+from topo_verify.studies.search.states.every import (
+    cost_range,
+    every_choice,
+    judged_by,
+    require_edges,
+)
+from topo_verify.studies.search.states.memory import state
+from topo_verify.studies.search.states.script import ChoicePoint, ScriptedPolicies, scripted
+
+pytest.importorskip("numba")
+
+from topo_verify.studies.search.states import best
+
+KNOWN = [name for name, algorithm in CATALOGUE.items() if table.is_known(algorithm)]
+
+
+def test_the_kernel_knows_the_rules_that_remember_nothing() -> None:
+    assert KNOWN == ["basic", "enhancement-i", "enhancement-ii", "enhancement-ii+i"]
+
+
+@pytest.fixture
+def counted(monkeypatch: pytest.MonkeyPatch) -> Callable[[str, World], tuple[int, ...]]:
+    """The states and choices as the kernel counts them, and both costs, as the mapper has them."""
+    seen: dict[object, int] = {}
+
+    def noted(moment: ChoicePoint, world: World) -> object:
+        seen[coarse(moment, world)] = len(moment.ways)
+        return state(moment, world)
+
+    def count(name: str, world: World) -> tuple[int, ...]:
+        seen.clear()
+        costs = cost_range(searched(CATALOGUE[name], world))
+        return len(seen), sum(seen.values()), costs.cheapest, costs.dearest
+
+    monkeypatch.setattr(graph, "state", noted)
+    return count
+
+
+def coarse(moment: ChoicePoint, world: World) -> object:
+    """A state as the kernel has it, for rules that remember nothing, in darts of the world."""
+    chart, darts, frame = moment.chart, table.world_darts(moment.chart, world), moment.frame
+    assert darts is not None
+    assert frame is not None
+    explored = frozenset(darts[d] for d, other in enumerate(chart.alpha) if other is not None)
+    drawn = explored, frozenset(darts[first] for first in chart.first)
+    variables: dict[str, Any] = frame.f_locals
+    if moment.e is None:
+        at: int = variables["at"]
+        return *drawn, world.vertex_of[darts[at]]
+    script = variables["motion"].__self__
+    assert isinstance(script, ScriptedPolicies)
+    hypotheses: list[Hypothesis] = variables["remaining"]
+    remaining = frozenset(darts[h.dart] for h in hypotheses)
+    executed: list[Executed] = variables["sequences"]
+    sequences = executed if script.algorithm.motion is overlap else ()
+    return *drawn, darts[moment.e], remaining, sequences[-1].doors if sequences else ()
+
+
+@pytest.mark.parametrize("name", KNOWN)
+@pytest.mark.parametrize("edges", [1, 2, 3])
+def test_it_finds_the_states_the_choices_and_the_costs_that_the_mapper_has(
+    name: str, edges: int, counted: Callable[[str, World], tuple[int, ...]]
+) -> None:
+    for world in worlds(edges):
+        found = table.found_in(world, CATALOGUE[name])
+        assert found.wrong == 0
+        assert found[1:5] == counted(name, world)
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_it_does_so_where_rules_and_motions_differ(
+    name: str, counted: Callable[[str, World], tuple[int, ...]]
+) -> None:
+    for rank in (133, 402, 560):
+        world = World.from_id(f"m4/{rank}")
+        assert table.found_in(world, CATALOGUE[name])[1:5] == counted(name, world)
+
+
+@pytest.mark.parametrize(
+    ("name", "totals"),
+    [
+        ("basic", (185413, 609908, 3633, 6220)),
+        ("enhancement-i", (187889, 615580, 3633, 6204)),
+        ("enhancement-ii", (185233, 609548, 3633, 6218)),
+        ("enhancement-ii+i", (187721, 615244, 3633, 6202)),
+    ],
+)
+def test_the_numbers_in_all_worlds_of_four_edges_are_pinned(
+    name: str, totals: tuple[int, ...]
+) -> None:
+    found = [table.found_in(world, CATALOGUE[name]) for world in worlds(4)]
+    rows = [(one.states, one.choices, one.cheapest, one.dearest) for one in found]
+    assert tuple(map(sum, zip(*rows, strict=True))) == totals
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_its_two_runs_cost_the_mapper_what_it_says(name: str) -> None:
+    algorithm = CATALOGUE[name]
+    for world in worlds(4)[::10]:
+        found = table.found_in(world, algorithm)
+        for order, cost in ((found.cheap, found.cheapest), (found.dear, found.dearest)):
+            run = explore(world, Target(name, scripted(algorithm, table.Ordered(world, order))))
+            assert run.cost == cost
+
+
+def test_without_the_direction_of_the_marker_it_finds_false_confirmations() -> None:
+    # docs/semantics.md, section 10: such worlds have two edges and more.
+    found: list[str] = []
+    for world in [*worlds(1), *worlds(2)]:
+        blind = [
+            msgspec.structs.replace(seen, marker=None if seen.marker is None else 0)
+            for seen in percepts(world)
+        ]
+        if table.found_in(world, CATALOGUE["basic"], blind).wrong:
+            found.append(world.id)
+    assert "m2/5" in found
+    assert not {"m1/0", "m1/1"} & {*found}
+
+
+# ---------------------------------------------------------------- what becomes of it in a search
+
+
+def runs_in(world: World, name: str = "basic") -> list[Attempt]:
+    """What a search does with a world."""
+
+    def run(target: Target) -> Attempt:
+        found = explore(world, target)
+        return Attempt(found, judge(found))
+
+    target = Target(name, CATALOGUE[name])
+    return list(every_choice(target, world, run, (target,)))
+
+
+def answering(answer: object) -> Callable[..., object]:
+    """A function that gives this answer, whatever it is asked."""
+
+    def answered(*_: object) -> object:
+        return answer
+
+    return answered
+
+
+LARGE = World.from_id("m5/402")
+"""A world that the kernel decides."""
+
+
+def test_a_larger_world_has_its_cheapest_its_dearest_and_its_reference_run_judged() -> None:
+    found = table.found_in(LARGE, CATALOGUE["basic"])
+    costs = [tried.run.cost for tried in runs_in(LARGE)]
+    assert costs == [found.cheapest, found.dearest, explore(LARGE, "basic").cost]
+
+
+def test_a_cost_that_the_mapper_does_not_have_is_a_bug_of_ours(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = table.found_in(LARGE, CATALOGUE["basic"])
+    wrong = found._replace(cheapest=found.cheapest - 1)
+    monkeypatch.setattr(table, "found_in", answering(wrong))
+    with pytest.raises(InternalError, match="where the model says"):
+        runs_in(LARGE)
+
+
+def test_a_claim_that_only_the_kernel_finds_false_is_a_bug_of_ours(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    world = World.from_id("m2/9")
+    monkeypatch.setattr(every, "MOST_BY_MAPPER", 1)
+    wrong = table.found_in(world, CATALOGUE["basic"])._replace(wrong=1)
+    monkeypatch.setattr(table, "found_in", answering(wrong))
+    with pytest.raises(InternalError, match="no run of the mapper shows it"):
+        runs_in(world)
+
+
+def test_larger_worlds_than_can_be_searched_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(InputError, match="for basic it goes to 6 edges"):
+        require_edges("basic", CATALOGUE["basic"], 7)
+    with pytest.raises(InputError, match="for folding it goes to 4 edges"):
+        require_edges("folding", CATALOGUE["folding"], 5)
+    require_edges("basic", CATALOGUE["basic"], 6)
+    monkeypatch.setattr(table, "find_spec", answering(None))
+    require_edges("basic", CATALOGUE["basic"], 4)
+    with pytest.raises(InputError, match="the extra `fast`"):
+        require_edges("basic", CATALOGUE["basic"], 5)
+
+
+def test_it_is_said_what_judged_the_choices() -> None:
+    assert judged_by(4) == "every claim, on a run for each choice"
+    assert "a model: claims 3 and 4 in each state" in judged_by(5)
+
+
+# ---------------------------------------------------------------- mistakes in the kernel
+
+
+@pytest.fixture
+def uncompiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The kernels run as plain Python, so that a mistake can be planted in one."""
+
+    def itself(function: object, _layout: object) -> object:
+        return function
+
+    monkeypatch.setattr(best, "compiled", itself)
+    monkeypatch.setattr(table, "_tables", best.Tables)
+
+
+def seen_in_3_edges(name: str) -> set[int]:
+    """What is wrong in the worlds with 3 edges."""
+    return {table.found_in(world, CATALOGUE[name]).wrong for world in worlds(3)[::6]}
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
+@pytest.mark.usefixtures("uncompiled")
+@pytest.mark.parametrize("name", KNOWN)
+def test_as_plain_python_it_finds_nothing_wrong(name: str) -> None:
+    assert seen_in_3_edges(name) == {behind.GOOD}
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
+@pytest.mark.usefixtures("uncompiled")
+def test_a_rule_that_rejects_what_is_true_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(behind, "refutes", answering(True))
+    assert seen_in_3_edges("enhancement-ii") == {behind.GOOD, behind.KILLED}
+    assert seen_in_3_edges("basic") == {behind.GOOD}  # which asks no rule
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
+@pytest.mark.usefixtures("uncompiled")
+def test_a_true_way_home_that_differs_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    right: Callable[..., int] = behind.walk_home
+
+    def differs(*arguments: object) -> int:
+        return max(0, right(*arguments))
+
+    monkeypatch.setattr(behind, "walk_home", differs)
+    assert seen_in_3_edges("basic") == {behind.GOOD, behind.DIFFERS}
+
+
+@pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
+@pytest.mark.usefixtures("uncompiled")
+def test_more_states_than_there_is_room_for_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kernel, "ROOM", 16)
+    with pytest.raises(InternalError, match="has too many states for the kernel"):
+        table.found_in(World.from_id("m3/9"), CATALOGUE["basic"])

@@ -1,0 +1,168 @@
+"""Worlds run again in fresh processes: a mapper that remembers other worlds is noticed."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from tests.helpers import worlds
+from tests.programs.programs import served
+from topo_verify.campaign.targets import targets
+from topo_verify.cli import main
+from topo_verify.programs.foreign import Foreign
+from topo_verify.studies.search import again
+from topo_verify.studies.search.search import SearchEntry, search, search_campaign
+
+
+@pytest.fixture(autouse=True)
+def as_many_as_usual(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(again, "MOST", 50)
+    monkeypatch.setattr(again, "ROW", 1000)
+
+
+def searched(name: str, edges: int = 3, *, keep_going: bool = False) -> SearchEntry:
+    return search(f"mappers.py:{name}", edges=edges, keep_going=keep_going)
+
+
+def exit_code(line: str) -> int:
+    """What a command line exits with."""
+    from click.testing import CliRunner
+
+    return CliRunner().invoke(main, shlex.split(line)[1:]).exit_code
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_world_that_fails_after_others_only_is_shown_after_others() -> None:
+    found = searched("remembers")
+    first = found.counterexample
+    assert first is not None
+    assert (found.verdict, first.world, first.claim) == ("REFUTED", "m3/8", "not-deterministic")
+    assert first.message.startswith("a claim fails here only after other worlds, and alone none ")
+    assert first.replay.startswith("topo-verify explore m1/0 m1/1 ")
+    assert first.replay.endswith(" m3/8 --target mappers.py:remembers")
+    assert exit_code(first.replay) == 1
+    assert exit_code("topo-verify explore m3/8 --target mappers.py:remembers") == 0
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_world_that_passes_after_others_only_is_a_finding() -> None:
+    found = searched("learns", edges=2)
+    first = found.counterexample
+    assert first is not None
+    assert (found.verdict, first.world, first.claim) == ("REFUTED", "m2/0", "not-deterministic")
+    assert first.message.startswith("it passed after other worlds, and alone it fails: map-isom")
+    assert first.replay == "topo-verify replay m2/0 --target mappers.py:learns"
+    assert exit_code(first.replay) == 1
+    assert [one.failing for one in found.claims if one.claim == "not-deterministic"] == [10]
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_mapper_that_is_right_alone_and_in_the_order_of_the_search_is_tried_in_another() -> None:
+    found = searched("shrinks")
+    first = found.counterexample
+    assert first is not None
+    assert (found.verdict, found.checked, first.claim) == ("REFUTED", 86, "not-deterministic")
+    assert first.message.startswith("it passed in the search, and fails as number ")
+    words = shlex.split(first.replay)
+    assert words[:2] == ["topo-verify", "explore"]
+    assert len(words) == 2 + 2 + 2  # one world before it is enough
+    assert exit_code(first.replay) == 1
+    assert found.run_again is not None
+    assert found.run_again.row < 86
+
+
+@pytest.mark.usefixtures("folder")
+def test_the_row_has_every_world_once_and_an_order_drawn_by_the_seed() -> None:
+    campaign = search_campaign(targets("mappers.py:right"), edges=3)
+    rows = [again.row_of(msgspec.structs.replace(campaign, seed=seed)) for seed in (0, 0, 1)]
+    assert rows[0] == rows[1] != rows[2]
+    every = [world.id for world in worlds([1, 2, 3])]
+    assert sorted(rows[0]) == sorted(rows[2]) == sorted(every)
+    of_three = [[name for name in row if name.startswith("m3/")] for row in (rows[0], every)]
+    assert of_three[0] != of_three[1]
+
+
+@pytest.mark.usefixtures("folder")
+@pytest.mark.parametrize(("alone", "row"), [(9, 0), (0, 30)])
+def test_a_mapper_that_draws_lots_leaves_the_verdict_open(
+    monkeypatch: pytest.MonkeyPatch, alone: int, row: int
+) -> None:
+    monkeypatch.setattr(again, "MOST", alone)
+    monkeypatch.setattr(again, "ROW", row)
+    found = searched("draws")
+    assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 86, None)
+    assert found.run_again is not None
+    assert found.run_again.others
+
+
+@pytest.mark.usefixtures("folder")
+@pytest.mark.parametrize(("name", "verdict"), [("right", "EXHAUSTED"), ("forgets", "REFUTED")])
+def test_a_mapper_that_does_the_same_each_time_is_judged_as_before(name: str, verdict: str) -> None:
+    found = searched(name, keep_going=True)
+    assert found.verdict == verdict
+    failing = sum(size.failing for size in found.by_edges)
+    row = 0 if failing else 86
+    assert found.run_again == again.RunAgain(min(50, failing) + min(50, 86 - failing), row)
+    assert "not-deterministic" not in [one.claim for one in found.claims]
+
+
+def test_a_program_is_run_again_too(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(again, "MOST", 2)
+    found = search(served(f"{folder / 'mappers.py'}:remembers"), edges=3)
+    assert found.counterexample is not None
+    assert found.counterexample.claim == "not-deterministic"
+    assert found.counterexample.replay.startswith("topo-verify explore m1/0 ")
+    assert "--cmd" in found.counterexample.replay
+
+
+@pytest.mark.usefixtures("folder")
+def test_where_no_row_of_worlds_makes_it_fail_the_search_is_named(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(again, "LONGEST", 4)
+    first = searched("remembers").counterexample
+    assert first is not None
+    assert "No row of up to 4 worlds before it made it fail again" in first.message
+    assert first.replay == (
+        "topo-verify search mappers.py:remembers --edges 3 --class any --workers 0"
+    )
+
+
+def test_an_algorithm_of_the_catalogue_is_not_run_again() -> None:
+    assert search("basic", edges=1).run_again is None
+
+
+# ---------------------------------------------------------------- the fresh process
+
+
+@pytest.mark.usefixtures("folder")
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("exits", "ended with exit code 3"),
+        ("segfaults", "was ended by SIGSEGV"),
+        ("kills_itself", "was ended by SIGKILL"),
+    ],
+)
+def test_what_ends_a_fork_ends_its_process_likewise(name: str, words: str) -> None:
+    from topo_verify import World, explore
+
+    with Foreign(f"mappers.py:{name}", fresh=True) as mapper:
+        run = explore(World.from_id("m3/21"), mapper.target)
+        assert run.stopped is not None
+        assert words in run.stopped
+        assert explore(World.from_id("m3/20"), mapper.target).map is not None
+
+
+def test_a_mapper_that_cannot_be_loaded_any_more_delivers_no_map(folder: Path) -> None:
+    from topo_verify import World, explore
+
+    with Foreign("mappers.py:right", fresh=True) as mapper:
+        assert explore(World.from_id("m1/0"), mapper.target).map is not None
+        (folder / "mappers.py").write_text("")
+        run = explore(World.from_id("m1/0"), mapper.target)
+        assert run.map is None
+        assert "has no attribute 'right'" in str(run.stopped)

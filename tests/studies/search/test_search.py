@@ -1,0 +1,274 @@
+"""The search: what is exhausted, what is the smallest counterexample, and what is counted."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.campaign import mappers
+from tests.programs.programs import served
+from tests.studies.search.searching import searched
+from topo_verify import CATALOGUE, InputError, InternalError, Limits, Robot, World, explore
+from topo_verify.campaign import campaign as campaigns
+from topo_verify.campaign.backend import SHORT_OF_MEMORY
+from topo_verify.campaign.campaign import Ranks, Stop
+from topo_verify.campaign.tally import KEPT_FAILING, KEPT_WORST, Tally
+from topo_verify.studies.search import choices
+from topo_verify.studies.search.search import search
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+
+
+def basic(robot: Robot) -> Any:
+    return CATALOGUE["basic"](robot)
+
+
+def of_class(text: str) -> WorldClass:
+    return WorldClass.parse(text)
+
+
+# ---------------------------------------------------------------- exhausted
+
+
+@pytest.mark.parametrize("name", ["basic", "enhancement-iii-all+i", "folding"])
+def test_the_reference_is_right_in_every_world_of_up_to_four_edges(name: str) -> None:
+    found = search(name, edges=4)
+    assert (found.verdict, found.checked, found.total) == ("EXHAUSTED", 792, 792)
+    assert [(size.edges, size.checked, size.total) for size in found.by_edges] == [
+        (1, 2, 2), (2, 10, 10), (3, 74, 74), (4, 706, 706),
+    ]  # fmt: skip
+    assert found.counterexample is None
+    entailed = next(one for one in found.judgements if one.claim == "map-entailed")
+    assert (entailed.status, entailed.judged, entailed.of) == ("ok", 792, 792)
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [
+        ("planar", [2, 9, 54, 378]),
+        ("genus:1", [0, 1, 20, 307]),
+        ("simple", [1, 2, 6, 23]),
+        ("loopless", [1, 3, 14, 87]),
+        ("simple,planar", [1, 2, 6, 23]),
+        ("max-degree:2", [2, 3, 4, 5]),
+    ],
+)
+def test_a_class_is_exhausted_when_its_number_is_met(text: str, numbers: list[int]) -> None:
+    found = search(basic, edges=4, world_class=of_class(text))
+    assert found.verdict == "EXHAUSTED"
+    assert [size.checked for size in found.by_edges] == numbers
+
+
+def test_the_planar_prior_is_right_in_planar_worlds_and_wrong_in_all_others() -> None:
+    planar = search("folding+planar", edges=4, world_class=of_class("planar"))
+    assert planar.verdict == "EXHAUSTED"
+    torus = search("folding+planar", edges=4, world_class=of_class("genus:1"), keep_going=True)
+    assert [(size.failing, size.total) for size in torus.by_edges] == [
+        (0, 0), (1, 1), (20, 20), (307, 307),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("lie", [-1, 1])
+def test_a_search_that_does_not_meet_its_number_is_our_bug(
+    lie: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def wrong(kind: WorldClass, edges: int) -> int:
+        return kind.count(edges) + lie
+
+    monkeypatch.setattr(campaigns, "_total", wrong)
+    with pytest.raises(InternalError, match="2 worlds of class any where m = 1, and there are"):
+        search(basic, edges=2)
+
+
+# ---------------------------------------------------------------- counterexamples
+
+
+def test_the_search_stops_at_the_smallest_counterexample() -> None:
+    found = search(mappers.guesses, edges=4)
+    assert (found.verdict, found.checked, found.total) == ("REFUTED", 2, 792)
+    first = found.counterexample
+    assert first is not None
+    assert (first.world, first.edges, first.claim) == ("m1/1", 1, "map-isomorphic")
+    assert first.message.startswith("the map (2 vertices, 1 edges) is not isomorphic")
+    assert first.replay.startswith("topo-verify replay m1/1 --target ")
+
+
+def test_what_lies_behind_the_counterexample_is_not_counted() -> None:
+    found = search(mappers.forgets, edges=4)
+    assert [(size.checked, size.total, size.failing) for size in found.by_edges] == [
+        (2, 2, 0), (10, 10, 0), (1, 74, 1), (0, 706, 0),
+    ]  # fmt: skip
+
+
+def test_keeping_going_tells_of_each_claim_how_often_it_fails_and_where_first() -> None:
+    found = search(mappers.guesses, edges=3, keep_going=True)
+    assert (found.verdict, found.checked) == ("REFUTED", 86)
+    assert [size.failing for size in found.by_edges] == [1, 10, 74]
+    assert {one.claim: one.failing for one in found.claims}["map-isomorphic"] == 85
+    assert found.counterexample is not None
+    smallest = {one.claim: one.smallest.world for one in found.claims}
+    assert smallest == {
+        "map-isomorphic": found.counterexample.world,
+        "map-entailed": found.counterexample.world,
+        "cost-within-bound": "m2/0",
+    }
+    study = searched(mappers.guesses, edges=3, keep_going=True)
+    kept = [row for row in study.rows if row.failed and row.edges == 3]
+    assert [row.place for row in kept[:KEPT_FAILING]] == [0, 1, 2]
+
+
+def test_a_mapper_that_loops_without_moving_is_a_finding() -> None:
+    found = search(mappers.loops, edges=3, limits=Limits(move_timeout=0.1))
+    assert found.counterexample is not None
+    assert found.counterexample.world == "m3/21"
+    assert "did not move for 0.1 s" in found.counterexample.message
+    assert found.counterexample.replay.endswith("--move-timeout 0.1")
+
+
+def test_a_mapper_that_is_out_of_time_is_neither_right_nor_wrong() -> None:
+    found = search(mappers.strolls, edges=2, limits=Limits(world_timeout=0.01))
+    assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 0, 12)
+    assert [size.undecided for size in found.by_edges] == [2, 10]
+
+
+@pytest.mark.parametrize(
+    ("deed", "verdict"), [("killed_once", "UNKNOWN"), ("segfaults_once", "REFUTED")]
+)
+def test_a_program_that_is_killed_once_is_tried_again(
+    folder: Path, deed: str, verdict: str
+) -> None:
+    found = search(served(f"{folder / 'mappers.py'}:{deed}"), edges=3)
+    assert found.verdict == verdict
+    if verdict == "UNKNOWN":
+        assert [(one.world, one.how) for one in found.lost] == [("m3/21", "SIGKILL")]
+        assert found.checked == 85
+    else:
+        assert found.counterexample is not None
+        assert found.counterexample.world == "m3/21"
+        assert "SIGSEGV before it delivered a map" in found.counterexample.message
+        assert "; at the second try it delivered one" in found.counterexample.message
+
+
+def test_a_search_that_would_take_for_ever_ends_after_its_time_outs() -> None:
+    limits = Limits(world_timeout=0.01)
+    study = searched(mappers.strolls, edges=3, limits=limits, stop=Stop(timeouts=4))
+    assert study.tally.worlds == 2 + 4
+
+
+# ---------------------------------------------------------------- costs
+
+
+def test_the_highest_costs_are_the_known_ones_and_their_worlds_have_them() -> None:
+    found = search("basic", edges=4)
+    assert [size.max_cost for size in found.by_edges] == [1, 3, 10, 21]
+    for size in found.by_edges:
+        spent = [_cost(world) for world in map(World.from_code, rank_order.tables(size.edges))]
+        assert (size.max_cost, size.total_cost, size.runs) == (max(spent), sum(spent), len(spent))
+        assert size.attained == spent.count(max(spent))
+        assert all(_cost(World.from_id(world)) == max(spent) for world in size.worst)
+        assert len(size.worst) == min(size.attained, KEPT_WORST)
+
+
+def _cost(world: World) -> int:
+    return explore(world, "basic").cost
+
+
+def test_failing_runs_have_no_part_in_the_costs() -> None:
+    found = search(mappers.guesses, edges=1)
+    assert found.by_edges[0].runs == 1
+
+
+def test_two_mappers_in_the_same_worlds_are_compared() -> None:
+    found = searched("enhancement-ii,enhancement-i", edges=4, keep_going=True).entry(compare=True)
+    sizes = [size.compare for size in found.by_edges if size.compare is not None]
+    assert [compared.dearer for compared in sizes] == [0, 0, 0, 2]
+    compared = sizes[3]
+    assert [(pair.world, pair.cost - pair.other) for pair in compared.first] == [
+        ("m4/16", 2),
+        ("m4/97", 2),
+    ]
+    assert (compared.most, compared.cheaper) == (2, 5)
+
+
+# ---------------------------------------------------------------- shards
+
+
+@pytest.mark.parametrize("size", [1, 50, 10_000])
+@pytest.mark.parametrize("text", ["any", "planar"])
+def test_the_size_of_the_shards_makes_no_difference(
+    size: int, text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for mapper, keep_going in ((mappers.forgets, True), (mappers.forgets, False), (basic, False)):
+        usual = search(mapper, edges=3, world_class=of_class(text), keep_going=keep_going)
+        monkeypatch.setitem(choices.SHARD, "reference", size)
+        cut = search(mapper, edges=3, world_class=of_class(text), keep_going=keep_going)
+        monkeypatch.undo()
+        assert cut == usual
+
+
+def test_shards_cover_each_rank_once() -> None:
+    for text in ("any", "planar", "max-degree:2", "simple"):
+        shards = list(Ranks(6, text).shards())
+        for edges in range(1, 7):
+            ranks = [0, *(s.stop for s in shards if s.edges == edges)]
+            assert [s.start for s in shards if s.edges == edges] == ranks[:-1]
+            assert ranks[-1] == rank_order.count(edges)
+
+
+def test_tallies_add_up_in_any_grouping() -> None:
+    a, b, c = searched(mappers.guesses, edges=3, keep_going=True).tallies.values()
+    assert (a + b) + c == a + (b + c)
+    assert Tally() + a == a == a + Tally()
+
+
+# ---------------------------------------------------------------- what cannot be searched
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"edges": 0}, "worlds of 1 edge and more"),
+        ({"edges": 2, "policies": "some"}, "no policies 'some'"),
+        ({"edges": 9, "world_class": of_class("simple,planar")}, "there is no formula"),
+        ({"edges": 17, "world_class": of_class("simple")}, "expected at most 16 edges, got 17"),
+        ({"edges": 2, "policies": "all"}, "has no policies"),
+        ({"edges": 2, "workers": 2}, "cannot be handed to workers"),
+    ],
+)
+def test_what_cannot_be_searched_is_refused_with_a_sentence(
+    arguments: dict[str, Any], words: str
+) -> None:
+    class Mine:
+        def __call__(self, robot: Robot) -> object:
+            return basic(robot)
+
+    with pytest.raises(InputError, match=words):
+        search(Mine(), **arguments)
+
+
+def test_every_choice_is_refused_where_there_are_too_many() -> None:
+    with pytest.raises(InputError, match="larger ones take days"):
+        search("basic", edges=7, policies="every")
+
+
+# ---------------------------------------------------------------- memory
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_mapper_that_lacks_memory_in_a_worker_once_is_undecided() -> None:
+    found = search("mappers.py:lacks_memory_once", edges=3, keep_going=True, workers=1)
+    assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 85, None)
+    assert [(one.world, one.how) for one in found.lost] == [("m3/21", SHORT_OF_MEMORY)]
+
+
+@pytest.mark.usefixtures("folder")
+@pytest.mark.parametrize("workers", [0, 1])
+def test_a_mapper_that_lacks_memory_each_time_is_refuted(workers: int) -> None:
+    found = search("mappers.py:lacks_memory", edges=3, workers=workers)
+    assert found.verdict == "REFUTED"
+    assert found.counterexample is not None
+    assert found.counterexample.world == "m3/21"
+    assert "the mapper raised MemoryError" in found.counterexample.message
+    assert found.lost == ()

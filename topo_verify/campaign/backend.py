@@ -1,0 +1,446 @@
+"""Where shards are examined: in this process, in worker processes, on a Dask cluster.
+
+    here()              this process
+    pooled(workers)     worker processes of this machine; 0: this process
+    clustered(cluster)  the workers of a Dask cluster
+
+What a lost worker means is decided here, for every study:
+
+- A run that loses its worker twice is a finding, for no map was delivered. So is a run in which a
+  worker gives no sign of life for longer than any limit allows: its mapper cannot be interrupted.
+- A run that loses its worker once and is done at the second try is a finding, too: a right mapper
+  does not crash.
+- Unless something else may have ended the worker (SIGKILL, as by the out-of-memory killer; or, if
+  it was done at the second try, no sign of life): then the world is undecided, and named.
+"""
+
+from __future__ import annotations
+
+import re
+import signal
+import sys
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial, reduce
+from itertools import pairwise
+
+import msgspec
+
+from topo_verify.campaign.campaign import (
+    Backend,
+    Campaign,
+    EngineSeconds,
+    Ranks,
+    Shard,
+    ShardResult,
+    close,
+    examine,
+)
+from topo_verify.campaign.cluster import Cluster, ClusterPool
+from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
+from topo_verify.campaign.pool import Pool
+from topo_verify.campaign.row import OUTSIDE, SECOND_TRY, Look, Row, lost_row
+from topo_verify.campaign.tally import Counts, Tally, notable
+from topo_verify.campaign.work import Division, Loss, Remote, Work
+from topo_verify.campaign.worker import Beat, Handler
+from topo_verify.errors import InputError
+from topo_verify.programs.foreign import Unlisted
+from topo_verify.programs.loaded import Loaded, watch
+from topo_verify.programs.loader import Target
+from topo_verify.robot.limits import Limits
+
+GRACE = 10.0
+"""Seconds without a heartbeat, beyond all limits of a run, until a worker is given up."""
+
+COMPILING = 1200.0
+"""Seconds that a worker of the compiled engine has to get ready: it compiles, or waits for one."""
+
+PARTS = 16
+"""Number of parts into which a shard is cut when whole machines were lost with it."""
+
+_LAST = sys.maxsize
+"""The number of a run, in the place of that of the last run of a shard."""
+
+MACHINES = "the Dask worker was lost, each time"
+"""Why a world is undecided with which whole machines were lost."""
+
+SHORT_OF_MEMORY = "the mapper raised MemoryError there, and here it did not"
+"""Why a world is undecided in which a worker lacked memory that a process of the client's has."""
+
+_MEMORY_ERROR = re.compile(r"the mapper raised \w*MemoryError\b")  # numpy has one of its own
+
+Depends = Sequence[str] | None
+"""Further files that mappers depend on; None: what they load is not asked for."""
+
+
+class CampaignJob(msgspec.Struct, frozen=True):
+    """What a worker is handed before its first shard.
+
+    Attributes:
+        sources: the hash of the mappers' files.
+        depends: see `Depends`.
+    """
+
+    campaign: Campaign
+    sources: str
+    depends: tuple[str, ...] | None = None
+
+
+def here(
+    mappers: Sequence[Target] | None = None, *, depends: Depends = None, look: Look | None = None
+) -> Backend:
+    """This process.
+
+    Args:
+        mappers: those of the campaign, if they are loaded already; they are not closed here.
+        look: notes more about each run, in the place of the campaign's `look`.
+    """
+
+    def run(
+        campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
+    ) -> Generator[tuple[Shard, ShardResult]]:
+        targets = campaign.load() if mappers is None else mappers
+        try:
+            identity = None if depends is None else Identity(targets, depends)
+            for shard in shards:
+                yield shard, _examined(campaign, targets, identity, shard, in_flight, look)
+        finally:
+            if mappers is None:
+                close(targets)
+
+    return run
+
+
+def pooled(workers: int, depends: Depends = None) -> Backend:
+    """Processes of this machine, `workers` of them; 0: this process alone."""
+    if not workers:
+        return here(depends=depends)
+
+    def run(
+        campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
+    ) -> Generator[tuple[Shard, ShardResult]]:
+        work = _work(_job(campaign, depends))
+        _prepare(campaign)  # before the workers start, which then find it in the cache
+        with Pool(work, workers, in_flight=in_flight) as pool:
+            for shard, result in pool.run(shards):
+                yield shard, _with_our_memory(work, shard, result)
+
+    return run
+
+
+def clustered(cluster: Cluster, depends: Depends = None) -> Backend:
+    """The workers of a Dask cluster."""
+
+    def run(
+        campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
+    ) -> Generator[tuple[Shard, ShardResult]]:
+        del in_flight  # a cluster says no more than which shards are finished
+        # What mappers load is asked for in any case: other machines may have other files.
+        depends_on = tuple(depends or ())
+        mappers = campaign.load()
+        try:
+            ours = Identity(mappers, depends_on).loaded()
+        finally:
+            close(mappers)
+        work = _work(_job(campaign, depends_on), ours)
+        if cluster.is_local:
+            _prepare(campaign)
+        with ClusterPool(cluster, work) as pool:
+            for shard, result in pool.run(shards):
+                yield shard, _with_our_memory(work, shard, result)
+
+    return run
+
+
+def _examined(
+    campaign: Campaign,
+    mappers: Sequence[Target],
+    identity: Identity | None,
+    shard: Shard,
+    beat: Callable[[int], None],
+    look: Look | None = None,
+) -> ShardResult:
+    """The result of a shard, with what the mappers have loaded, if that is asked for."""
+    if campaign.engine == "compiled" and isinstance(campaign.worlds, Ranks):
+        from topo_verify.campaign.compiled import examine_compiled
+
+        result = examine_compiled(campaign, mappers, shard, beat)
+    else:
+        result = examine(campaign, mappers, shard, beat, look)
+    if identity is None:
+        return result
+    try:
+        return msgspec.structs.replace(result, loaded=identity.loaded())
+    except Unlisted as why:  # its process misbehaved between two worlds
+        cause = f"after the run: {why}"
+        row = _row_at(campaign, shard, _LAST, cause, external=False)
+        if row is None or result.tally.failing:
+            return result
+        (wrong,) = row.findings
+        told = (msgspec.structs.replace(wrong, message=cause),)
+        return _with_loss(result, msgspec.structs.replace(row, findings=told))
+
+
+def _prepare(campaign: Campaign) -> None:
+    """Have compiled what the campaign needs."""
+    if campaign.engine == "compiled" and isinstance(campaign.worlds, Ranks):
+        from topo_verify.campaign.compiled import warm
+
+        warm(campaign)
+
+
+def _job(campaign: Campaign, depends: Depends) -> CampaignJob:
+    mappers = campaign.load()  # before any worker is started: the message is then the first
+    try:
+        sources = source_hash(mappers)
+    finally:
+        close(mappers)
+    return CampaignJob(campaign, sources, None if depends is None else tuple(depends))
+
+
+def remade(job: bytes) -> Work[Shard, ShardResult]:
+    """The same work on another machine, made of its job as JSON."""
+    return _work(msgspec.json.decode(job, type=CampaignJob))
+
+
+def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[Shard, ShardResult]:
+    """What workers are to do.
+
+    Args:
+        ours: what the mappers have loaded here; what they load on other machines must be the same.
+    """
+    campaign = job.campaign
+
+    def require_ours(result: ShardResult, worker: str) -> None:
+        if ours is not None and result.loaded is not None:
+            require_equal(ours, result.loaded, worker)
+
+    # A failing mapper is run in a witness world, too, under the usual limits.
+    silence = GRACE + campaign.limits.world_timeout + Limits().world_timeout
+    return Work(
+        serve=f"{__name__}:{serve.__name__}",
+        job=job,
+        result=ShardResult,
+        lost=partial(_lost, campaign),
+        survived=partial(_survived, campaign),
+        silence=silence,
+        loading=COMPILING if campaign.engine == "compiled" else Work.loading,
+        division=Division(
+            cut=partial(_cut, campaign),
+            join=partial(_joined, campaign),
+            last=lambda result: campaign.stop.reached(result.tally),
+        ),
+        remote=Remote(
+            remade=f"{__name__}:{remade.__name__}",
+            task=Shard,
+            parts=_parts,
+            lost=partial(_open, campaign),
+            require_ours=require_ours,
+        ),
+    )
+
+
+def _with_our_memory(
+    work: Work[Shard, ShardResult], shard: Shard, result: ShardResult
+) -> ShardResult:
+    """The result of a worker; if a mapper lacked memory there, what a process of ours finds.
+
+    A worker may have less memory than this process, by a limit or because others take it. So a
+    MemoryError refutes only if it comes again; otherwise the world is undecided.
+    """
+    short = [row for row in result.rows if _lacks_memory(row)]
+    if not short:
+        return result
+    with Pool(work, 1) as pool:
+        ((_, again),) = pool.run([shard])
+    still = {(row.place, row.mapper) for row in again.rows if _lacks_memory(row)}
+    for row in short:
+        if (row.place, row.mapper) not in still:
+            lost = msgspec.structs.replace(
+                row, findings=(), undecided=SHORT_OF_MEMORY, lost=SHORT_OF_MEMORY
+            )
+            again = _with_loss(again, lost)
+    return again
+
+
+def _lacks_memory(row: Row) -> bool:
+    return any(_MEMORY_ERROR.search(finding.message) for finding in row.findings)
+
+
+# ---------------------------------------------------------------- in a worker
+
+
+@contextmanager
+def serve(job: bytes) -> Generator[Handler]:
+    """Load the mappers of a `CampaignJob`, then examine shards.
+
+    Raises:
+        InputError: a mapper cannot be loaded, or its source is another than when this began.
+    """
+    signal.signal(signal.SIGTERM, lambda _signal, _frame: sys.exit(1))  # through this context
+    asked = msgspec.json.decode(job, type=CampaignJob)
+    if asked.depends is not None:
+        watch()  # before a mapper is loaded
+    mappers = asked.campaign.load()
+    try:
+        if source_hash(mappers) != asked.sources:
+            raise InputError(
+                f"target {asked.campaign.mappers[0]!r}: its source, or topo-verify's, has changed"
+                " since this began, or is another one on this machine: start it again, with the"
+                " same sources everywhere"
+            )
+        _prepare(asked.campaign)
+        identity = None if asked.depends is None else Identity(mappers, asked.depends)
+
+        def handle(task: bytes, beat: Beat) -> ShardResult:
+            shard = msgspec.json.decode(task, type=Shard)
+            return _examined(asked.campaign, mappers, identity, shard, beat)
+
+        yield handle
+    finally:
+        close(mappers)
+
+
+# ---------------------------------------------------------------- pieces of shards
+
+
+def _joined(campaign: Campaign, results: list[ShardResult]) -> ShardResult:
+    """The result of all parts of a shard, in their order."""
+    known = [result.loaded for result in results if result.loaded is not None]
+    rows = [row for result in results for row in result.rows]
+    return ShardResult(
+        sum((result.tally for result in results), Tally()),
+        _kept(campaign, rows),
+        reduce(_merged, known) if known else None,
+        sum((result.seconds for result in results), EngineSeconds()),
+    )
+
+
+def _kept(campaign: Campaign, rows: Sequence[Row]) -> tuple[Row, ...]:
+    """Those of the rows that the campaign keeps."""
+    return tuple(rows) if campaign.keep == "all" else notable(rows, campaign.seed)
+
+
+def _merged(loaded: Loaded, other: Loaded) -> Loaded:
+    return merged(loaded, other, "the campaign")
+
+
+def _cut(campaign: Campaign, shard: Shard, runs: int) -> list[Shard]:
+    """Cut a shard around the world where its worker was last seen, after some runs."""
+    places = [place for place, _, _ in campaign.worlds.worlds(shard)]
+    if len(places) < 2:
+        return []
+    at = min(runs // len(campaign.mappers), len(places) - 1)
+    return _split(shard, [shard.start, *places[max(at, 1) : at + 2], shard.stop])
+
+
+def _parts(shard: Shard) -> list[Shard]:
+    """Parts of a shard, about equal."""
+    width = -(-(shard.stop - shard.start) // PARTS)
+    return _split(shard, [*range(shard.start, shard.stop, width), shard.stop])
+
+
+def _split(shard: Shard, cuts: Sequence[int]) -> list[Shard]:
+    """The parts of a shard between these places."""
+    begin = shard.start
+    return [
+        Shard(shard.edges, start, stop, shard.listed[start - begin : stop - begin])
+        for start, stop in pairwise(cuts)
+    ]
+
+
+# ---------------------------------------------------------------- lost workers
+
+
+def _lost(campaign: Campaign, shard: Shard, loss: Loss) -> ShardResult:
+    """The result of a shard of one world, or of none, that was lost with its last worker."""
+    if loss.loading:
+        raise InputError(
+            f"target {campaign.mappers[0]!r}: a process that loads it ends ({loss.cause})"
+        )
+    external = loss.stranger and loss.silence is None
+    row = _row_at(campaign, shard, loss.items, str(loss), external=external)
+    if row is not None and external:
+        why = f"its worker was killed each time ({loss.status})"
+        row = msgspec.structs.replace(row, undecided=why, lost=why)
+    return counted([] if row is None else [[row]])
+
+
+def _open(campaign: Campaign, shard: Shard) -> ShardResult:
+    """The result of a shard with which whole machines were lost: its worlds are undecided."""
+    worlds = campaign.worlds.worlds(shard)
+    mapper, limits = campaign.mappers[0], campaign.limits
+    return counted(
+        [lost_row(world, place, name, mapper, limits, MACHINES, external=True)]
+        for place, name, world in worlds
+    )
+
+
+def counted(worlds: Iterable[Sequence[Row]]) -> ShardResult:
+    """The result of a shard, given the rows of each of its worlds; all of them are kept."""
+    counts, rows = Counts(), list[Row]()
+    for met in worlds:
+        counts.enter(met)
+        rows += met
+    return ShardResult(counts.tally(), tuple(rows))
+
+
+def _row_at(
+    campaign: Campaign, shard: Shard, runs: int, cause: str, *, external: bool
+) -> Row | None:
+    """The row of the run in which a worker was lost, after some runs of the shard."""
+    worlds = list(campaign.worlds.worlds(shard))
+    if not worlds:
+        return None
+    at, which = divmod(min(runs, len(worlds) * len(campaign.mappers) - 1), len(campaign.mappers))
+    place, name, world = worlds[at]
+    mapper = campaign.mappers[which]
+    return lost_row(world, place, name, mapper, campaign.limits, cause, external=external)
+
+
+def _survived(
+    campaign: Campaign,
+    result: ShardResult,
+    losses: Sequence[tuple[Shard, Loss]],
+    given_up: Sequence[Shard],
+) -> ShardResult:
+    """The result of a shard, with the losses in runs that were done when tried again."""
+    for shard, loss in losses:
+        cause = loss.cause if loss.stranger else f"{loss}{SECOND_TRY}"
+        row = _row_at(campaign, shard, loss.items, cause, external=loss.stranger)
+        failing = [known.place for known in result.rows if known.failed]
+        if (
+            row is None
+            or any(
+                known.place == row.place and (known.failed or known.lost) for known in result.rows
+            )
+            or any(part.start <= row.place < part.stop for part in given_up)
+            # Another worker was ahead: the campaign ends at the first failing world.
+            or (failing and campaign.stop.failing == 1 and row.place > min(failing))
+        ):
+            continue
+        result = _with_loss(result, row)
+    return result
+
+
+def _with_loss(result: ShardResult, row: Row) -> ShardResult:
+    """The result with a lost worker's row in the place of the run that passed, or beside it."""
+    rows: list[Row] = []
+    for known in result.rows:
+        if (known.place, known.mapper, known.turn) == (row.place, row.mapper, row.turn):
+            row = _passed_later(known, row)
+        else:
+            rows.append(known)
+    rows = sorted([*rows, row], key=lambda row: (row.edges, row.place, row.turn))
+    tally = result.tally.amended(row)
+    return msgspec.structs.replace(result, tally=tally, rows=tuple(rows))
+
+
+def _passed_later(known: Row, lost: Row) -> Row:
+    """The row of a run that passed at the second try, and had lost a worker before."""
+    if lost.undecided is None:
+        return msgspec.structs.replace(
+            known, ended=lost.ended, stopped=lost.stopped, findings=lost.findings
+        )
+    why = f"its worker was lost ({lost.lost}), {OUTSIDE}"
+    return msgspec.structs.replace(known, undecided=why, lost=lost.lost)

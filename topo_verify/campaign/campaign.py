@@ -1,0 +1,591 @@
+"""A campaign: worlds, mappers, limits, what is kept, as data; and its results in order.
+
+    for shard, result in results(campaign, backend):
+        tally += result.tally
+        rows += result.rows
+
+Worlds are cut into shards. A backend examines them in any order and in any process. Here they are
+put in order again, and what lies behind the world at which a campaign stops is dropped. So the
+results depend on the campaign alone, not on the number and the speed of workers.
+
+`examine` is the only loop over worlds and mappers. A study that needs more than runs and
+judgements names a function, `module:function`, which is imported in the process that makes the run:
+`look` notes more about a run, `ways` makes several runs of a mapper in one world.
+
+**The order of a list.** A list has a fixed order. A mapper that knew it could tell by counting in
+which world it is, and be right without exploring. So with a seed each `BLOCK` of listed worlds is
+met in an order drawn by it. What this does not show: that a mapper does not know in which block it
+is.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import closing
+from functools import cache, partial
+from hashlib import sha256
+from itertools import chain, islice
+from random import Random
+from typing import Any, Literal, Protocol
+
+import msgspec
+
+from topo_verify.campaign.corpus import Corpus, Named
+from topo_verify.campaign.engines import Engine, on_engine
+from topo_verify.campaign.progress import Progress, ProgressRate
+from topo_verify.campaign.row import Attempt, Look, Row, attempt, row_of
+from topo_verify.campaign.tally import Counts, Notable, Tally
+from topo_verify.campaign.targets import targets
+from topo_verify.campaign.worker import Beat
+from topo_verify.errors import InputError
+from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.loaded import Loaded
+from topo_verify.programs.loader import Target
+from topo_verify.programs.program import PREFIX, Program
+from topo_verify.robot.limits import Limits
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.enumeration.pruned import ranked_tables
+from topo_verify.world.rooted_map import Code, World
+
+BLOCK = 10_000
+"""Number of listed worlds whose order is drawn at a time."""
+
+ENGINE_SHARD = 500_000
+"""Number of worlds in a shard of the compiled engine: about two seconds of work."""
+
+AGAIN = 200
+"""The least number of worlds that a resumed campaign examines again, if there are as many."""
+
+NamedCodes = tuple[tuple[str, Code], ...]
+"""Worlds of a list, each with its name."""
+
+Ways = Callable[[Target, World, Callable[[Target], Attempt]], Iterator[Attempt]]
+"""Makes the runs of a mapper in a world, given how one run is made."""
+
+
+class Shard(msgspec.Struct, frozen=True):
+    """Worlds that are examined in one go.
+
+    Attributes:
+        edges: their size; 0 if they are listed.
+        start, stop: their ranks, or their places in the list.
+        listed: the name and the code of each listed world.
+    """
+
+    edges: int
+    start: int
+    stop: int
+    listed: NamedCodes = ()
+
+    @property
+    def key(self) -> str:
+        """The text by which a store finds it again: its ranks, or a hash of its worlds."""
+        if not self.listed:
+            return f"m{self.edges}/{self.start}-{self.stop}"
+        return f"listed-{sha256(msgspec.json.encode(self.listed)).hexdigest()}"
+
+
+class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
+    """Every world of a class with 1 to `edges` edges.
+
+    Attributes:
+        shard: how many worlds a shard has on average.
+    """
+
+    edges: int
+    kind: str = "any"
+    shard: int = 400
+
+    def __post_init__(self) -> None:
+        if self.edges < 1:
+            raise InputError(f"edges={self.edges}: a search goes through worlds of 1 edge and more")
+
+    @property
+    def world_class(self) -> WorldClass:
+        """The class of worlds."""
+        return WorldClass.parse(self.kind)
+
+    def totals(self) -> dict[int, int]:
+        """How many worlds there are of each size, counted without listing them in this order.
+
+        Raises:
+            InputError: there is no way to count them.
+        """
+        _total(self.world_class, self.edges)  # if there is no way, this size says so first
+        return {edges: _total(self.world_class, edges) for edges in range(1, self.edges + 1)}
+
+    def shards(self) -> Iterator[Shard]:
+        """The shards. They depend on the class alone, so a later campaign finds them in a store."""
+        for edges, worlds in self.totals().items():
+            ranks = rank_order.count(edges)
+            width = max(1, ranks * self.shard // max(1, worlds))
+            for start in range(0, ranks, width):
+                yield Shard(edges, start, min(start + width, ranks))
+
+    def worlds(self, shard: Shard) -> Iterator[tuple[int, str, World]]:
+        """Rank, id and world of each world in a shard."""
+        for rank, code in ranked_tables(shard.edges, self.world_class, shard.start, shard.stop):
+            yield rank, f"m{shard.edges}/{rank}", World.from_code(code)
+
+
+@cache
+def _total(kind: WorldClass, edges: int) -> int:
+    return kind.count(edges)
+
+
+class ListedWorlds(msgspec.Struct, frozen=True, tag="listed"):
+    """Worlds of a list, each a shard. The list stays with the caller.
+
+    Attributes:
+        total: how many worlds there are.
+    """
+
+    total: int
+
+    def totals(self) -> dict[int, int]:
+        """How many worlds there are, of all sizes together."""
+        return {0: self.total}
+
+    def worlds(self, shard: Shard) -> Iterator[tuple[int, str, World]]:
+        """Place, name and world of each world in a shard."""
+        for place, (name, code) in enumerate(shard.listed, shard.start):
+            yield place, name, World.from_code(code)
+
+
+NamedWorlds = Iterable[tuple[str, World]]
+"""The worlds of a list, each with its name; iterated twice."""
+
+
+def listed_shards(worlds: NamedWorlds) -> Iterator[Shard]:
+    """One shard for each world of a list."""
+    for place, (name, world) in enumerate(worlds):
+        yield Shard(0, place, place + 1, ((name, world.code),))
+
+
+class CorpusWorlds:
+    """The worlds of a corpus with their names, to be iterated any number of times."""
+
+    def __init__(self, corpus: Corpus) -> None:
+        self._corpus = corpus
+        self._placed = enumerate(corpus)
+        self._last: tuple[int, Named] | None = None
+
+    def __iter__(self) -> Iterator[tuple[str, World]]:
+        return ((at.name, at.world) for at in self._corpus)
+
+    def at(self, place: int) -> Named:
+        """The world at a place. No later call asks for an earlier place."""
+        while self._last is None or self._last[0] < place:
+            self._last = next(self._placed)
+        return self._last[1]
+
+
+class Stop(msgspec.Struct, frozen=True):
+    """When a campaign ends before its last world: after so many failing worlds, or time-outs."""
+
+    failing: int | None = None
+    timeouts: int | None = None
+
+    def reached(self, numbers: Tally | Counts) -> bool:
+        """Whether these numbers end the campaign."""
+        fails = self.failing is not None and numbers.failing >= self.failing
+        return fails or (self.timeouts is not None and numbers.timeouts >= self.timeouts)
+
+
+class Campaign(msgspec.Struct, frozen=True, kw_only=True):
+    """What is to be run, as data that can be hashed, stored and sent.
+
+    Attributes:
+        worlds: a class, or a list.
+        mappers: TARGETs; each runs in every world.
+        pick, order: policies of algorithms of the catalogue.
+        engine: what runs algorithms of the catalogue.
+        limits: of one run.
+        in_process: a user's mapper shares the process of the harness.
+        strict: claim 10 is asked in worlds of more than 2,000 edges, too.
+        validate: unknown and doubled fields in a program's messages are refused.
+        record: each `Attempt` has the messages of the program.
+        stop: when it ends early.
+        keep: every row, or those that are notable.
+        look, asked: `module:function` of a `Look`, and what it is given; None: nothing is noted.
+        ways: `module:function` of `Ways`; None: each mapper makes one run in each world.
+        seed: of the sample, and of the order in which a list is met.
+        drawn: a list is met in an order drawn by the seed.
+    """
+
+    worlds: Ranks | ListedWorlds
+    mappers: tuple[str, ...]
+    pick: str | None = None
+    order: str | None = None
+    engine: Engine = "reference"
+    limits: Limits = Limits()
+    in_process: bool = True
+    strict: bool = False
+    validate: bool = False
+    record: bool = False
+    stop: Stop = Stop()
+    keep: Literal["all", "notable"] = "all"
+    look: str | None = None
+    asked: tuple[str, ...] = ()
+    ways: str | None = None
+    seed: int = 0
+    drawn: bool = False
+
+    def load(self) -> tuple[Target, ...]:
+        """The mappers, in this process.
+
+        Raises:
+            InputError: there is no such mapper or policy, or the engine cannot run it.
+        """
+        find = partial(targets, pick=self.pick, order=self.order, in_process=self.in_process)
+        mappers = tuple(target for text in self.mappers for target in find(text))
+        for mapper in (target.mapper for target in mappers):
+            # The messages of a mapper in Python are ours.
+            if isinstance(mapper, Program) and not isinstance(mapper, Foreign):
+                mapper.validate, mapper.record = self.validate, self.record
+        listed = isinstance(self.worlds, ListedWorlds)
+        return on_engine(self.engine, mappers, self.limits) if listed else mappers
+
+    def identity(self, sources: str) -> dict[str, str]:
+        """Everything that changes a row: a store with the same can be resumed.
+
+        How far the campaign goes is left out, so that a finished one can be extended.
+
+        Args:
+            sources: a hash of the mappers' sources.
+        """
+        known: dict[str, Any] = msgspec.to_builtins(self)
+        worlds = known.pop("worlds")
+        chosen = {"target": ",".join(known.pop("mappers")), "hash": sources}
+        if isinstance(self.worlds, Ranks):
+            chosen |= {"class": worlds["kind"], "shard": str(worlds["shard"])}
+        for name in ("drawn", "keep", "record"):  # they change which rows come when, not the rows
+            del known[name]
+        if not any(":" in text and not text.startswith(PREFIX) for text in self.mappers):
+            del known["in_process"]  # it is about a user's mapper in Python alone
+        return chosen | {
+            name.replace("_", "-"): value
+            if isinstance(value, str)
+            else msgspec.json.encode(value).decode()
+            for name, value in known.items()
+        }
+
+
+def function_at(place: str) -> Any:
+    """The function at `module:function`."""
+    module, _, name = place.partition(":")
+    return getattr(importlib.import_module(module), name)
+
+
+class EngineSeconds(msgspec.Struct, frozen=True):
+    """Seconds of processor time: in the compiled engine, and in the checkers."""
+
+    engine: float = 0.0
+    checkers: float = 0.0
+
+    def __add__(self, other: EngineSeconds) -> EngineSeconds:
+        return EngineSeconds(self.engine + other.engine, self.checkers + other.checkers)
+
+
+class ShardResult(msgspec.Struct, frozen=True):
+    """The result of a shard.
+
+    Attributes:
+        tally: of its worlds.
+        rows: all of them, or the notable ones.
+        loaded: what the mappers had loaded by then; None: nobody asked.
+        seconds: what the compiled engine and the checkers took.
+    """
+
+    tally: Tally = Tally()
+    rows: tuple[Row, ...] = ()
+    loaded: Loaded | None = None
+    seconds: EngineSeconds = EngineSeconds()
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C came in the middle of a shard; `result` is of the worlds that were finished."""
+
+    def __init__(self, shard: Shard, result: ShardResult) -> None:
+        super().__init__()
+        self.shard, self.result = shard, result
+
+
+# ---------------------------------------------------------------- the loop
+
+
+def examine(
+    campaign: Campaign,
+    mappers: Sequence[Target],
+    shard: Shard,
+    beat: Beat = lambda _runs: None,
+    look: Look | None = None,
+) -> ShardResult:
+    """Run every mapper in every world of a shard.
+
+    Args:
+        look: in the place of the one that the campaign names.
+    Raises:
+        Interrupted: Ctrl-C.
+    """
+    counts, kept, rows = Counts(), Notable(campaign.seed), list[Row]()
+    if look is None and campaign.look is not None:
+        look = function_at(campaign.look)(*campaign.asked)
+    ways: Ways = _one_way if campaign.ways is None else function_at(campaign.ways)
+    done = 0
+    try:
+        for place, name, world in campaign.worlds.worlds(shard):
+            met: list[Row] = []
+            for target in mappers:
+                once = partial(
+                    _attempt, campaign, world, name, partial(beat, done), ours=target.mapper
+                )
+                for made in ways(target, world, once):
+                    met.append(row_of(made, name, place, len(met), look))
+                done += 1
+            counts.enter(met)
+            if campaign.keep == "all":
+                rows += met
+            else:
+                kept.enter(met)
+            if campaign.stop.reached(counts):
+                break
+    except KeyboardInterrupt:
+        raise Interrupted(shard, ShardResult(counts.tally(), (*rows, *kept.rows()))) from None
+    return ShardResult(counts.tally(), (*rows, *kept.rows()))
+
+
+def _attempt(
+    campaign: Campaign,
+    world: World,
+    name: str,
+    beat: Callable[[], None],
+    target: Target,
+    *,
+    ours: object,
+) -> Attempt:
+    # Choices that are made for one world cannot be repeated in a witness world.
+    witness = target.mapper is ours or campaign.ways is None
+    return attempt(
+        world,
+        target,
+        campaign.limits,
+        where=name,
+        strict=campaign.strict,
+        witness=witness,
+        beat=beat,
+    )
+
+
+def _one_way(target: Target, _world: World, once: Callable[[Target], Attempt]) -> Iterator[Attempt]:
+    yield once(target)
+
+
+def close(mappers: Iterable[Target]) -> None:
+    """End the processes of mappers that have one."""
+    for target in mappers:
+        if isinstance(target.mapper, Program):
+            target.mapper.close()
+
+
+# ---------------------------------------------------------------- shards in order
+
+
+class Backend(Protocol):
+    """Examines shards: `here`, in worker processes, on a cluster."""
+
+    def __call__(
+        self, campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
+    ) -> Generator[tuple[Shard, ShardResult]]:
+        """Each shard and its result, as they are finished.
+
+        Args:
+            in_flight: told now and then how many runs are finished in shards that are not.
+        """
+        ...
+
+
+def _idle(
+    _campaign: Campaign, _shards: Iterator[Shard], _in_flight: Callable[[int], None]
+) -> Generator[tuple[Shard, ShardResult]]:
+    """A backend that has nothing to do."""
+    yield from ()
+
+
+class ShardMemory(Protocol):
+    """Keeps the results of finished shards; a `Store` gives one."""
+
+    @property
+    def path(self) -> str:
+        """Its file."""
+        ...
+
+    def get(self, shard: Shard) -> ShardResult | None:
+        """The result of a shard; None if it is not finished."""
+        ...
+
+    def put(self, shard: Shard, result: ShardResult) -> None:
+        """Keep the result of a finished shard."""
+        ...
+
+    def known(self) -> list[Shard]:
+        """The finished shards of a class, in the order of their worlds."""
+        ...
+
+
+def results(
+    campaign: Campaign,
+    backend: Backend,
+    worlds: NamedWorlds = (),
+    *,
+    store: ShardMemory | None = None,
+    tell: Progress | None = None,
+) -> Generator[tuple[Shard, ShardResult]]:
+    """Each shard and its result, in order, until the last or until the campaign stops.
+
+    After Ctrl-C the worlds that were finished come, too; then KeyboardInterrupt is raised.
+
+    Args:
+        worlds: those of a list.
+        store: what is finished already, and where results are kept.
+        tell: the progress callback.
+    Raises:
+        InputError: the store has another result than the same shard, examined again.
+    """
+    order = _Order(campaign, backend, worlds, store, tell)
+    if store is not None and isinstance(campaign.worlds, Ranks):
+        order.examine_again(store)
+    return order.results()
+
+
+class _Order:
+    """Puts the results of shards in order. Life cycle: `examine_again` or not, `results` once."""
+
+    def __init__(
+        self,
+        campaign: Campaign,
+        backend: Backend,
+        worlds: NamedWorlds,
+        store: ShardMemory | None,
+        tell: Progress | None,
+    ) -> None:
+        self._campaign, self._backend, self._worlds = campaign, backend, worlds
+        self._store = store
+        self._ahead: dict[tuple[int, int], ShardResult] = {}  # finished, and an earlier one is not
+        self._finished = Tally()
+        total = sum(campaign.worlds.totals().values())
+        self._rate = ProgressRate(", ".join(campaign.mappers), total, tell)
+
+    def _shards(self) -> Iterator[Shard]:
+        worlds = self._campaign.worlds
+        return worlds.shards() if isinstance(worlds, Ranks) else listed_shards(self._worlds)
+
+    def _todo(self) -> Iterator[Shard]:
+        """The shards that no store knows, as they are to be begun."""
+        campaign = self._campaign
+        for shard in self._met():
+            if isinstance(campaign.worlds, Ranks) and campaign.stop.reached(self._finished):
+                return  # what is not begun lies behind
+            known = None if self._store is None else self._store.get(shard)
+            if known is None:
+                yield shard
+            else:
+                self._ahead[shard.edges, shard.start] = known
+                self._rate.known(known.tally.worlds)
+
+    def _met(self) -> Iterator[Shard]:
+        shards = self._shards()
+        if not self._campaign.drawn:
+            yield from shards
+            return
+        random = Random(self._campaign.seed)
+        while block := list(islice(shards, BLOCK)):
+            left = dict(enumerate(block))
+            drawn = list(left)
+            random.shuffle(drawn)
+            while left:
+                # After enough time-outs in order, so that it ends at the same world each time.
+                late = self._campaign.stop.reached(self._finished)
+                place = next(iter(left)) if late else drawn.pop()
+                if place in left:
+                    yield left.pop(place)
+
+    def results(self) -> Generator[tuple[Shard, ShardResult]]:
+        """See the function of this name."""
+        self._rate.in_flight(0)
+        seen = Tally()
+        todo = self._todo()
+        try:
+            # A backend loads mappers and starts workers: only if something is to be done.
+            tasks = [shard for shard in (next(todo, None),) if shard is not None]
+            backend = self._backend if tasks else _idle
+            with closing(
+                backend(self._campaign, chain(tasks, todo), self._rate.in_flight)
+            ) as finished:
+                for shard in self._shards():
+                    place = shard.edges, shard.start
+                    while place not in self._ahead and (done := next(finished, None)):
+                        self._take(*done)
+                    result = self._ahead.pop(place)
+                    seen += result.tally
+                    yield shard, result
+                    if self._campaign.stop.reached(seen):
+                        return
+                next(finished, None)  # nothing: it ends
+        except KeyboardInterrupt as cut:
+            if isinstance(cut, Interrupted):
+                self._ahead[cut.shard.edges, cut.shard.start] = cut.result
+            for shard in self._shards():
+                if not self._ahead:
+                    break
+                if (shard.edges, shard.start) in self._ahead:
+                    yield shard, self._ahead.pop((shard.edges, shard.start))
+            raise
+
+    def _take(self, shard: Shard, result: ShardResult) -> None:
+        self._ahead[shard.edges, shard.start] = result
+        self._finished += result.tally
+        # A shard that may have lost a worker to something else is examined anew next time.
+        if self._store is not None and not (result.tally.lost or result.tally.undecided):
+            self._store.put(shard, result)
+        self._rate.finished(result.tally.worlds)
+
+    def examine_again(self, store: ShardMemory) -> None:
+        """Examine some shards of the store, and compare.
+
+        No list of what a mapper rests on is complete, so the store is tried as well.
+
+        Raises:
+            InputError: in a world something else happened than the store says.
+        """
+        drawn = self._drawn_again(store)
+        with closing(self._backend(self._campaign, drawn, lambda _runs: None)) as examined:
+            for shard, result in examined:
+                known = store.get(shard)
+                if known is not None and known.tally.digest != result.tally.digest:
+                    raise InputError(
+                        f"store {store.path}: examined again, some world of m{shard.edges}/"
+                        f"{shard.start} … {shard.stop - 1} has another verdict, other doors or"
+                        " another cost than recorded. The mapper or something that it depends on"
+                        " has changed, or it does not do the same each time: remove the file and"
+                        " start anew"
+                    )
+
+    def _drawn_again(self, store: ShardMemory) -> Iterator[Shard]:
+        """Shards of every size, drawn by the seed; of `AGAIN` worlds, or all there are."""
+        assert isinstance(self._campaign.worlds, Ranks)
+        drawn = [shard for shard in store.known() if shard.edges <= self._campaign.worlds.edges]
+        Random(f"{self._campaign.seed} {len(drawn)}").shuffle(drawn)
+        sizes: set[int] = set()
+        worlds = 0
+        for shard in drawn:
+            if shard.edges in sizes and worlds >= AGAIN:
+                continue
+            known = store.get(shard)
+            # How far a run comes that is out of time depends on the machine.
+            if known is not None and known.tally.worlds and not known.tally.timeouts:
+                sizes.add(shard.edges)
+                worlds += known.tally.worlds
+                yield shard

@@ -1,0 +1,311 @@
+"""A Dask cluster: tasks in, results out, whichever of its workers are lost.
+
+    connected("tcp://host:8786")    a cluster that somebody has started
+    connected("local")              workers on this machine, one a processor, while the block lasts
+
+A `ClusterPool` is a `TaskBackend`, as the `Pool` of processes on this machine is. What a task does
+to its process is settled on the machine of the worker, by a pool there (cluster_worker.py). So a
+loss means here that a whole Dask worker went, with its machine, its network or its memory:
+
+- The scheduler gives the tasks of a lost worker to others, as often as its setting
+  `allowed-failures` says (3). Most losses end here, and change no result.
+- A task that was lost more often is done again with no other task at work, so that none is blamed
+  for what another one does. If it is lost again, it is cut, down to a task that cannot be cut:
+  `Remote.lost` says what its result is. That convicts nobody.
+- If the scheduler is lost, or no worker is left for `PATIENCE` seconds, an InputError says so. The
+  client holds the results: what it has written down is kept.
+
+Workers of another topo-verify refuse every task, and so do workers with another mapper. Each result
+is refused if its worker loaded a file that is another one here (`Remote.require_ours`).
+"""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
+from importlib import import_module, metadata
+from importlib.util import find_spec
+from queue import Empty, SimpleQueue
+from time import monotonic
+from types import TracebackType
+from typing import Any, Generic, Protocol, Self, cast
+
+import msgspec
+
+from topo_verify.campaign import cluster_worker
+from topo_verify.campaign.cluster_worker import ClusterTask, ClusterTaskDone
+from topo_verify.campaign.identity import own_hash
+from topo_verify.campaign.pieces import Piece, Pieces
+from topo_verify.campaign.work import ResultT, TaskT, Work, processors
+from topo_verify.campaign.worker import WorkerFailed
+from topo_verify.errors import InputError, InternalError
+
+LOCAL = "local"
+"""The address that means workers on this machine."""
+
+ANSWER = 10.0
+"""Seconds that a scheduler has to answer."""
+
+PATIENCE = 60.0
+"""Seconds for which a cluster may be without a worker."""
+
+LOOK = 2.0
+"""Seconds between two looks at the number of workers."""
+
+AHEAD = 2
+"""How many tasks are handed out for each thread of the workers: none waits for the client."""
+
+
+_DO = f"__import__({cluster_worker.__name__!r}, fromlist=['do']).do(assignment)"
+"""What a worker evaluates. To send the function itself would end a worker that lacks topo_verify:
+Dask reads it before it knows of a task, so nobody could say what is missing."""
+
+
+class _Future(Protocol):
+    """What is used of a future of Dask's."""
+
+    @property
+    def status(self) -> str: ...
+    def result(self) -> bytes: ...
+    def exception(self) -> BaseException: ...
+    def add_done_callback(self, call: Callable[[_Future], None], /) -> None: ...
+
+
+class _Client(Protocol):
+    """What is used of a client of Dask's."""
+
+    def submit(self, function: Callable[..., Any], *args: Any, pure: bool) -> _Future: ...
+    def nthreads(self) -> Mapping[str, int]: ...
+    def cancel(self, futures: list[_Future], *, force: bool) -> None: ...
+    def wait_for_workers(self, n_workers: int, timeout: float) -> None: ...
+
+
+class Cluster:
+    """A cluster that has answered and has a worker; `connected` makes it.
+
+    Attributes:
+        address: as it was given.
+        client: the client of Dask's.
+    """
+
+    def __init__(self, address: str, client: _Client) -> None:
+        self.address, self.client = address, client
+
+    @property
+    def is_local(self) -> bool:
+        """Whether its workers are on this machine."""
+        return self.address == LOCAL
+
+    def threads(self) -> int:
+        """How many tasks its workers can do at the same time.
+
+        Raises:
+            InputError: the scheduler does not answer.
+        """
+        try:
+            return sum(self.client.nthreads().values())
+        except (OSError, RuntimeError) as error:
+            raise self.lost() from error
+
+    def lost(self) -> InputError:
+        """The error that says that the scheduler is lost."""
+        return InputError(
+            f"--dask {self.address}: the scheduler was lost in the course of the work: start it and"
+            " its workers again, and then the same command, which resumes from its --ledger"
+        )
+
+
+@contextmanager
+def connected(address: str) -> Generator[Cluster]:
+    """A Dask cluster, for as long as the block lasts.
+
+    Args:
+        address: of the scheduler, as `tcp://host:8786`; or `local`.
+    Raises:
+        InputError: dask is not installed; no scheduler answers there; it has no worker.
+    """
+    if find_spec("distributed") is None:
+        raise InputError(
+            f"--dask {address} needs dask.distributed: pip install 'topo-verify[cluster]'"
+        )
+    dask: Any = import_module("dask")
+    # What its loggers tell of is told here in a sentence, or mended.
+    names = ("distributed", "distributed.client", "distributed.worker", "tornado", "bokeh")
+    with ExitStack() as stack:
+        stack.enter_context(dask.config.set({"logging": dict.fromkeys(names, "critical")}))
+        distributed: Any = import_module("distributed")  # its types are not all written
+        made: Any = address
+        if address == LOCAL:
+            made = distributed.LocalCluster(
+                n_workers=processors(),
+                threads_per_worker=1,
+                processes=True,
+                dashboard_address=":0",  # a free port
+                silence_logs="CRITICAL",
+                preload=[cluster_worker.__name__],  # its `dask_setup`
+            )
+            stack.callback(made.close, timeout=ANSWER)
+        try:
+            if address != LOCAL:
+                distributed.comm.resolve_address(address)  # at once, before anybody is asked
+            found = distributed.Client(made, timeout=ANSWER, set_as_default=False)
+        except (OSError, ValueError, RuntimeError) as error:
+            raise InputError(
+                f"--dask {address}: expected the address of a Dask scheduler, as tcp://host:8786,"
+                f" and none answers there within {ANSWER:.0f} s: start one with `dask scheduler`"
+            ) from error
+        stack.callback(_close, found)
+        client = cast("_Client", found)
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except OSError as error:  # a TimeoutError is one
+            raise _no_worker(address) from error
+        yield Cluster(address, client)
+
+
+def both_given(dask: str, workers: int) -> InputError:
+    """The error that says that work is for a cluster or for workers here, not for both."""
+    return InputError(
+        f"--dask {dask} with --workers {workers}: expected one of the two, for the cluster says"
+        " how many workers it has; leave --workers out"
+    )
+
+
+def _close(client: Any) -> None:
+    with suppress(OSError, RuntimeError):  # the scheduler is lost: there is nothing to close
+        client.close(timeout=ANSWER)
+
+
+def _no_worker(address: str) -> InputError:
+    return InputError(
+        f"--dask {address}: the scheduler has had no worker for {PATIENCE:.0f} s: start some with"
+        f" `dask worker {address}`"
+    )
+
+
+class ClusterPool(Generic[TaskT, ResultT]):
+    """The workers of a cluster as a `TaskBackend`. Life cycle: `with` it, `run`; it leaves no task.
+
+    Raises (by `run`):
+        InputError: a worker refuses its task; the scheduler or all workers are lost.
+        InternalError: there is a bug of ours on a worker.
+    """
+
+    def __init__(self, cluster: Cluster, work: Work[TaskT, ResultT]) -> None:
+        if work.remote is None:
+            raise InternalError(f"{work.serve} is not for other machines")
+        self._cluster, self._work, self._remote = cluster, work, work.remote
+        self._pieces = Pieces(work)
+        self._at: dict[_Future, Piece[TaskT, ResultT]] = {}
+        self._done: SimpleQueue[_Future] = SimpleQueue()
+        self._suspects: deque[Piece[TaskT, ResultT]] = deque()  # each is done with no other at work
+        self._alone = False
+        self._threads = 0
+        self._looked = self._had_threads = monotonic()
+
+    def __enter__(self) -> Self:
+        self._look()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._at:
+            with suppress(OSError, RuntimeError):  # the scheduler is lost, and its tasks are
+                self._cluster.client.cancel(list(self._at), force=True)
+            self._at.clear()
+
+    def run(
+        self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = lambda: True
+    ) -> Generator[tuple[TaskT, ResultT]]:
+        """Each task and its result, in the order in which tasks are finished; see `TaskBackend`."""
+        todo = iter(tasks)
+        self._hand_out(todo, room)
+        while self._at:
+            self._listen()
+            self._hand_out(todo, room)
+            while self._pieces.finished:
+                yield self._pieces.finished.popleft()
+            self._hand_out(todo, room)  # again: results that were looked at make room
+
+    def _hand_out(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> None:
+        """Submit pieces until every thread has some."""
+        if self._suspects or self._alone:
+            if not self._at and self._suspects:
+                self._alone = True
+                self._submit(self._suspects.popleft())
+            return
+        while len(self._at) < AHEAD * max(1, self._threads):
+            piece = self._pieces.next(todo, room)
+            if piece is None:
+                return
+            self._submit(piece)
+
+    def _submit(self, piece: Piece[TaskT, ResultT]) -> None:
+        assignment = ClusterTask(
+            cluster_worker.VERSION,
+            metadata.version("topo-verify"),
+            own_hash(),
+            self._remote.remade,
+            msgspec.Raw(msgspec.json.encode(self._work.job)),
+            msgspec.Raw(msgspec.json.encode(piece.task)),
+            os.getcwd(),  # noqa: PTH109  a text
+        )
+        names = {"assignment": msgspec.json.encode(assignment)}
+        future = self._cluster.client.submit(eval, _DO, names, pure=False)
+        self._at[future] = piece
+        future.add_done_callback(self._done.put)
+
+    def _listen(self) -> None:
+        """Take what one task came to; now and then look whether there are workers."""
+        with suppress(Empty):
+            self._hear(self._done.get(timeout=LOOK))
+        if monotonic() > self._looked + LOOK:
+            self._look()
+
+    def _look(self) -> None:
+        self._threads = self._cluster.threads()
+        self._looked = monotonic()
+        if self._threads:
+            self._had_threads = self._looked
+        elif self._looked > self._had_threads + PATIENCE:
+            raise _no_worker(self._cluster.address)
+
+    def _hear(self, future: _Future) -> None:
+        """Take what one task came to."""
+        if future.status not in ("finished", "error"):  # cancelled: Dask does so on a lost link
+            raise self._cluster.lost()
+        piece, alone = self._at.pop(future), self._alone
+        self._alone = False
+        if future.status == "error":
+            self._lose(piece, future.exception(), alone=alone)
+            return
+        answer: ClusterTaskDone | WorkerFailed = msgspec.json.decode(
+            future.result(), type=ClusterTaskDone | WorkerFailed
+        )
+        match answer:
+            case ClusterTaskDone(place, encoded):
+                result = msgspec.json.decode(encoded, type=self._work.result)
+                self._remote.require_ours(result, place)
+                self._pieces.finish(piece, result)
+            case WorkerFailed(text, bug):
+                raise InternalError(text) if bug else InputError(text)
+
+    def _lose(self, piece: Piece[TaskT, ResultT], error: BaseException, *, alone: bool) -> None:
+        """Workers were lost with a piece: do it alone, then cut it, then give it up."""
+        from distributed import KilledWorker
+
+        if not isinstance(error, KilledWorker):
+            raise InputError(
+                f"--dask {self._cluster.address}: a worker cannot load topo-verify"
+                f" ({type(error).__name__}: {error}): install the same version on every machine"
+            ) from error
+        if not alone:
+            self._suspects.append(piece)
+        elif not self._pieces.replace(piece, self._remote.parts(piece.task)):
+            self._pieces.finish(piece, self._remote.lost(piece.task))

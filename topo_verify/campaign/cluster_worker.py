@@ -1,0 +1,198 @@
+"""What a Dask worker does for a client of ours: a task, in a process that may die or hang.
+
+A mapper under test never runs in the Dask worker itself. Each thread of the worker has a `Pool` of
+one process on its machine, so that a mapper that crashes or hangs there is tried again, bisected
+and convicted by the rules of `pool.py`, as with `--workers`. A Dask worker that is lost is then no
+mapper's fault: the cluster gives its tasks to another one.
+
+What this does not show: that the results are the workers'. The scheduler believes whatever reaches
+it, and a Dask worker is hidden from other programs only from its first task on. A mapper that
+attacks the cluster is not kept away from it.
+
+Identity: a worker whose topo_verify has other sources than the client's refuses every task, and the
+process that loads the mappers refuses them if the files that name them differ. Each result says
+which worker made it and, in a search, what the mappers have loaded there; the client compares that
+with its own files before the result counts (search/identity.py).
+
+The process is kept for the next task of the same job; after `IDLE` seconds without one it ends.
+"""
+
+from __future__ import annotations
+
+import importlib
+import signal
+import threading
+import traceback
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from topo_verify.campaign.identity import own_hash
+from topo_verify.campaign.pool import Pool
+from topo_verify.campaign.work import Work
+from topo_verify.campaign.worker import WorkerFailed
+from topo_verify.errors import InputError
+from topo_verify.programs.launcher import prepare
+
+IDLE = 30.0
+"""Seconds without a task after which a process on the worker's machine ends."""
+
+VERSION = 2
+"""The version of an assignment."""
+
+
+class ClusterTask(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One task, as a client sends it.
+
+    Attributes:
+        version: of this format.
+        tool, own: the client's version of topo-verify, and the hash of its sources.
+        remade: `module:function`, which makes the `Work` from the job; `work.Remote`.
+        job, task: as JSON.
+        folder: the client's current folder, where relative paths of mappers begin; a worker that
+            has no such folder starts processes in its own.
+    """
+
+    version: int
+    tool: str
+    own: str
+    remade: str
+    job: msgspec.Raw
+    task: msgspec.Raw
+    folder: str
+
+
+class ClusterTaskDone(msgspec.Struct, frozen=True, tag=True):
+    """A task is finished.
+
+    Attributes:
+        place: the worker, for a sentence.
+        result: as JSON.
+    """
+
+    place: str
+    result: msgspec.Raw
+
+
+def do(assignment: bytes) -> bytes:
+    """The result of a task, a `ClusterTaskDone` or `WorkerFailed` as JSON; runs on a Dask worker.
+
+    Args:
+        assignment: an `ClusterTask` as JSON.
+    """
+    try:
+        result = _mine().do(_require_ours(assignment))
+    except InputError as error:
+        return msgspec.json.encode(WorkerFailed(f"{_place()}: {error}", bug=False))
+    except Exception:  # noqa: BLE001  whatever it is, the client is told
+        return msgspec.json.encode(WorkerFailed(f"{_place()}: {traceback.format_exc()}", bug=True))
+    return msgspec.json.encode(ClusterTaskDone(_place(), msgspec.Raw(result)))
+
+
+def _require_ours(assignment: bytes) -> ClusterTask:
+    """The assignment, if it comes from the same topo-verify.
+
+    Raises:
+        InputError: the client has another topo-verify.
+    """
+    here = metadata.version("topo-verify")
+    try:
+        wanted = msgspec.json.decode(assignment, type=ClusterTask)
+    except msgspec.MsgspecError:
+        wanted = None
+    if wanted is None or wanted.version != VERSION or wanted.own != own_hash():
+        tool = "another version" if wanted is None else f"version {wanted.tool}"
+        raise InputError(
+            f"it has topo-verify {here} with other sources than the client, which has {tool}:"
+            " install the same topo-verify on every machine, and restart the workers"
+        )
+    return wanted
+
+
+def _place() -> str:
+    """The name of this worker, for a sentence."""
+    from distributed import get_worker
+
+    try:
+        worker: Any = get_worker()
+    except ValueError:  # no worker runs this
+        return "a worker of the cluster"
+    return f"worker {worker.address} of the cluster"
+
+
+def dask_setup(_worker: object) -> None:
+    """Leave Ctrl-C to the client, and shield this process before it has a task.
+
+    Dask calls this when it starts a worker for `--dask local`.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    prepare()
+
+
+# ---------------------------------------------------------------- the process that is kept
+
+
+class _Kept:
+    """The pool of one thread, with one process. Life cycle: `do` tasks; it ends when it is idle."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._pool: Pool[Any, Any] | None = None
+        self._work: Work[Any, Any] | None = None
+        self._of: tuple[str, bytes, str] = ("", b"", "")
+        self._alarm: threading.Timer | None = None
+
+    def do(self, wanted: ClusterTask) -> bytes:
+        """The result of a task as JSON."""
+        with self._lock:
+            if self._alarm is not None:
+                self._alarm.cancel()
+            pool, work = self._ready(wanted)
+            remote = work.remote
+            assert remote is not None, "it was made by `remade`"
+            try:
+                task = msgspec.json.decode(wanted.task, type=remote.task)
+                ((_, result),) = pool.run([task])
+            except BaseException:
+                self._close()
+                raise
+            self._alarm = threading.Timer(IDLE, self._end)
+            self._alarm.daemon = True
+            self._alarm.start()
+            return msgspec.json.encode(result)
+
+    def _ready(self, wanted: ClusterTask) -> tuple[Pool[Any, Any], Work[Any, Any]]:
+        """The pool for tasks of this job, and what it does."""
+        of = (wanted.remade, bytes(wanted.job), wanted.folder)
+        if self._pool is None or self._work is None or self._of != of:
+            self._close()
+            module, _, name = wanted.remade.partition(":")
+            work: Work[Any, Any] = getattr(importlib.import_module(module), name)(wanted.job)
+            folder = wanted.folder if Path(wanted.folder).is_dir() else None
+            self._pool, self._work, self._of = Pool(work, 1, folder=folder), work, of
+        return self._pool, self._work
+
+    def _end(self) -> None:
+        with self._lock:
+            self._close()
+
+    def _close(self) -> None:
+        if self._pool is not None:
+            self._pool.__exit__(None, None, None)
+        self._pool = self._work = None
+
+
+class _Mine(threading.local):
+    """A thread's own: a pool does the tasks of one thread."""
+
+    def __init__(self) -> None:
+        self.kept = _Kept()
+
+
+_threads = _Mine()
+
+
+def _mine() -> _Kept:
+    return _threads.kept

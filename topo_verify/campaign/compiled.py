@@ -1,0 +1,394 @@
+"""Examines one shard by the compiled engine, and has the checkers judge a part of it again.
+
+The engine runs the algorithms in every world of the shard, judges all claims there and adds up the
+numbers. It is not trusted. The checkers judge again, from runs of the reference algorithms:
+
+- every world that the counts name: the first failing worlds and the first of each claim, so each
+  finding is one of the checkers; the most expensive worlds; those in which the first of two
+  algorithms costs more. Verdicts and costs there must be those of the counts.
+- a sample: the first worlds of each slice and about one world in `SAMPLE` with the one behind it,
+  drawn by the campaign's seed. The counts before such a step plus the reference's of the step must
+  equal the counts behind it: verdicts, shares, costs, the worlds that are named, and the digest,
+  which covers every door. So what is compared is what was added to the total. The first step adds
+  to counts of nothing.
+
+In all these worlds both engines must agree on every event of the run. If they disagree on anything,
+that is a bug of ours, and the campaign ends.
+
+What this does not show: the other worlds were judged and counted by the engine alone. If it is
+wrong in a share p of all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from random import Random
+from time import process_time
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import msgspec
+
+from topo_verify.campaign.campaign import (
+    Campaign,
+    EngineSeconds,
+    Interrupted,
+    Ranks,
+    Shard,
+    ShardResult,
+    examine,
+)
+from topo_verify.campaign.row import Row, attempt, row_of
+from topo_verify.campaign.run import Exploration, explore
+from topo_verify.campaign.tally import KEPT_FAILING, Costs, Counts, Pairs, Tally, notable
+from topo_verify.campaign.worker import Beat
+from topo_verify.checkers import CLAIMS
+from topo_verify.errors import InternalError
+from topo_verify.programs.loader import Target
+from topo_verify.world.rooted_map import World
+
+if TYPE_CHECKING:
+    from topo_verify.compiled.shard import ShardCounts, Snapshot
+
+SAMPLE = 1000
+"""Average number of worlds between two steps that the checkers judge as well."""
+
+STEP = (1, 1, 1, 2)
+"""The numbers of worlds in such a step. A second world is not the first behind a pause."""
+
+SLICE = 50_000
+"""How many ranks are examined between two heartbeats. The counts of each slice begin empty."""
+
+
+def warm(campaign: Campaign) -> None:
+    """Have the kernels compiled that a campaign needs, or loaded from the cache."""
+    from topo_verify.compiled.explore import run_world
+
+    _snapshots(campaign, Shard(1, 0, 2))
+    run_world(World.from_id("m1/0"), campaign.mappers[0], trace=True)
+
+
+def examine_compiled(
+    campaign: Campaign, mappers: Sequence[Target], shard: Shard, beat: Beat
+) -> ShardResult:
+    """Run algorithms of the catalogue in every world of a shard; see `campaign.examine`.
+
+    Raises:
+        Interrupted: Ctrl-C.
+        InternalError: the engine and the checkers disagree.
+    """
+    work = _CompiledShard(campaign, mappers, shard)
+    try:
+        work.examine(beat)
+    except KeyboardInterrupt:
+        raise Interrupted(shard, work.result()) from None
+    return work.result()
+
+
+class _Judged(NamedTuple):
+    """A run of the reference, as a row, and what it adds to the digest of its algorithm."""
+
+    row: Row
+    digest: int
+
+
+class _CompiledShard:
+    """The examination of one shard. Life cycle: `examine`, once; `result` at any time."""
+
+    def __init__(self, campaign: Campaign, mappers: Sequence[Target], shard: Shard) -> None:
+        assert isinstance(campaign.worlds, Ranks)
+        self._campaign, self._worlds = campaign, campaign.worlds
+        self._mappers, self._shard = mappers, shard
+        self._tally, self._seconds = Tally(), EngineSeconds()
+        self._rows: dict[tuple[int, int], Row] = {}  # by rank and mapper
+        self._checked: set[int] = set()
+        self._known: dict[tuple[int, int], _Judged] = {}  # of the slice
+        self._alone: set[tuple[int, int]] = set()
+
+    def result(self) -> ShardResult:
+        """The result of the worlds that were examined."""
+        tally = msgspec.structs.replace(self._tally, by_checkers=len(self._checked))
+        rows = notable(self._rows.values(), self._campaign.seed)
+        return ShardResult(tally, rows, None, self._seconds)
+
+    def examine(self, beat: Beat) -> None:
+        """Examine the shard; a campaign that stops at a failing world ends there.
+
+        Raises:
+            InternalError: the engines disagree in a world.
+        """
+
+        def beats() -> None:
+            beat(self._tally.worlds * len(self._mappers))
+
+        for start in range(self._shard.start, self._shard.stop, SLICE):
+            beats()
+            ranks = self._ranks(start, min(start + SLICE, self._shard.stop))
+            self._tally += self._slice(ranks, beats)
+            self._known, self._alone = {}, set()
+            if self._campaign.stop.reached(self._tally):
+                break
+
+    def _ranks(self, start: int, stop: int) -> Shard:
+        return Shard(self._shard.edges, start, stop)
+
+    def _slice(self, ranks: Shard, beats: Callable[[], None]) -> Tally:
+        """The tally of some worlds, by the engine, with the rows of the checkers."""
+        begin = process_time()
+        *snapshots, end = _snapshots(self._campaign, ranks)
+        self._seconds += EngineSeconds(engine=process_time() - begin)
+        if any(counts.undecided for counts in end.counts):
+            return self._undecided(ranks, beats)
+        begin = process_time()
+        if not snapshots and end.counts[0].worlds > max(STEP):
+            raise _disagreement(f"m{ranks.edges}/{ranks.start}", "the engine made no pause")
+        for before, behind in _drawn(snapshots):
+            beats()
+            first = ranks.start if before is None else before.rank + 1
+            self._require_same(before, behind, self._ranks(first, behind.rank + 1))
+        for which, counts in enumerate(end.counts):
+            beats()
+            self._require_named(which, counts, end.counts)
+        self._seconds += EngineSeconds(checkers=process_time() - begin)
+        return _tally(end.counts)
+
+    def _undecided(self, ranks: Shard, beats: Callable[[], None]) -> Tally:
+        """The tally of worlds among which the engine could not decide one: the checkers do that."""
+        middle = (ranks.start + ranks.stop) // 2
+        if middle > ranks.start:
+            first = self._slice(self._ranks(ranks.start, middle), beats)
+            if self._campaign.stop.reached(first):
+                return first
+            return first + self._slice(self._ranks(middle, ranks.stop), beats)
+        self._checked.add(ranks.start)
+        made = examine(self._campaign, self._mappers, ranks)
+        self._rows |= {(row.place, row.turn): row for row in made.rows}
+        return made.tally
+
+    # ------------------------------------------------------------ by the checkers
+
+    def _require_same(self, before: Snapshot | None, behind: Snapshot, step: Shard) -> None:
+        """Raise an InternalError unless a step adds to the counts what it adds by the reference."""
+        numbers, digest, met = Counts(), 0, list[list[Row]]()
+        for rank, _, _ in self._worlds.worlds(step):
+            judged = [self._judged(which, rank) for which in range(len(self._mappers))]
+            met.append([one.row for one in judged])
+            numbers.enter(met[-1])
+            digest += sum(one.digest for one in judged)
+        added = msgspec.structs.replace(numbers.tally(), digest=_as_digest(digest))
+        known = Tally() if before is None else _tally(before.counts)
+        ours, theirs = _fields(known + added), _fields(_tally(behind.counts))
+        for which, counts in enumerate(behind.counts):
+            first = None if before is None else before.counts[which]
+            ours |= _names(which, first, met)
+            theirs |= _names(which, counts, ())
+        for name in {**ours, **theirs}:
+            if ours.get(name) != theirs.get(name):
+                ranks = f"m{step.edges}/{step.start}"
+                if step.stop > step.start + 1:
+                    ranks += f" … m{step.edges}/{step.stop - 1}"
+                difference = (
+                    f"{name}: {ours.get(name)} by the reference, {theirs.get(name)} in the tally"
+                )
+                raise _disagreement(f"{ranks}, {', '.join(self._campaign.mappers)}", difference)
+
+    def _require_named(
+        self, which: int, counts: ShardCounts, others: Sequence[ShardCounts]
+    ) -> None:
+        """Keep the rows of the worlds that the counts name, once they are as the counts say."""
+        firsts = {claim: rank for claim, (failing, rank) in counts.claims.items() if failing}
+        for rank in sorted({*firsts.values(), *counts.failing_ranks[:KEPT_FAILING]}):
+            row = self._agreed(which, rank)
+            claims = [claim for claim, first in firsts.items() if first == rank] or ["a claim"]
+            for claim in claims:
+                if not row.failed or (claim in CLAIMS and claim not in row.failed):
+                    what = f"{claim} does not fail by the checkers, it does in the tally"
+                    raise _disagreement(f"{row.world}, {row.mapper}", what)
+        named = [(which, rank, counts.most) for rank in counts.worst if counts.worlds]
+        for pair in counts.dearer_worlds if which == 0 and len(others) == 2 else ():
+            named += [(0, pair.rank, pair.cost), (1, pair.rank, pair.other)]
+        for mapper, rank, cost in named:
+            row = self._agreed(mapper, rank)
+            if (row.cost, row.right) != (cost, True):
+                what = f"cost {row.cost} by the reference, {cost} in the tally"
+                raise _disagreement(f"{row.world}, {row.mapper}", what)
+
+    def _agreed(self, which: int, rank: int) -> Row:
+        """The row of a run, after a comparison with the engine's verdict on this world alone."""
+        row, _ = self._judged(which, rank)
+        if (rank, which) not in self._alone:
+            self._alone.add((rank, which))
+            counts = _snapshots(self._campaign, self._ranks(rank, rank + 1))[-1].counts[which]
+            difference = _verdict_difference(row, counts)
+            if difference is not None:
+                raise _disagreement(f"{row.world}, {row.mapper}", difference)
+        self._rows[rank, which] = row
+        return row
+
+    def _judged(self, which: int, rank: int) -> _Judged:
+        """The run of the reference, judged by the checkers; its events are those of the engine.
+
+        Raises:
+            InternalError: they are not.
+        """
+        if (rank, which) not in self._known:
+            from topo_verify.compiled.shard import run_digest
+
+            self._checked.add(rank)
+            target, limits = self._mappers[which], self._campaign.limits
+            name = f"m{self._shard.edges}/{rank}"
+            world = World.from_id(name)
+            made = attempt(world, target, limits, where=name)
+            engine = explore(world, target.text, limits=limits, engine="compiled")
+            difference = _run_difference(made.run, engine)
+            if difference is not None:
+                raise _disagreement(f"{name}, {target.text}", difference)
+            statuses = made.report.claims.values()
+            digest = run_digest(rank, made.run.cost, statuses, made.run.trace)
+            self._known[rank, which] = _Judged(row_of(made, name, rank, which), digest)
+        return self._known[rank, which]
+
+
+def _disagreement(where: str, what: str) -> InternalError:
+    return InternalError(f"{where}: the engines disagree: {what}")
+
+
+def _snapshots(campaign: Campaign, ranks: Shard) -> list[Snapshot]:
+    """The counts of the engine in some worlds: behind each step, and behind the last world."""
+    from topo_verify.compiled.shard import examine_steps
+
+    assert isinstance(campaign.worlds, Ranks)
+    return [
+        *examine_steps(
+            campaign.mappers,
+            ranks.edges,
+            campaign.worlds.kind,
+            ranks.start,
+            ranks.stop,
+            steps=_steps(campaign, ranks),
+            stop_at_first=campaign.stop.failing is not None,
+        )
+    ]
+
+
+def _steps(campaign: Campaign, ranks: Shard) -> Iterator[int]:
+    """The numbers of worlds in the steps: every other one, from the first on, is judged again."""
+    draw = Random(f"{campaign.seed} m{ranks.edges}/{ranks.start}")
+    while True:
+        yield draw.choice(STEP)
+        yield 1 + int(draw.expovariate(1 / SAMPLE))
+
+
+def _drawn(snapshots: Sequence[Snapshot]) -> Iterator[tuple[Snapshot | None, Snapshot]]:
+    """The snapshots before and behind each step that the checkers judge: see `_steps`."""
+    before: Snapshot | None = None
+    for place, behind in enumerate(snapshots):
+        if place % 2 == 0:
+            yield before, behind
+        before = behind
+
+
+def _run_difference(run: Exploration, made: Exploration) -> str | None:
+    """What a run of the reference and one of the compiled engine differ in, or None."""
+    if (run.cost, run.map is None) != (made.cost, made.map is None):
+        return f"cost {run.cost} by the reference, {made.cost} by the compiled engine"
+    for at, (ours, theirs) in enumerate(zip(run.trace, made.trace, strict=False)):
+        if ours != theirs:
+            return f"event {at} is {ours} by the reference, {theirs} by the compiled engine"
+    if len(run.trace) != len(made.trace):
+        return f"{len(run.trace)} events by the reference, {len(made.trace)} by the compiled engine"
+    return None
+
+
+def _verdict_difference(row: Row, counts: ShardCounts) -> str | None:
+    """What the checkers and the engine's counts of one run differ in, or None."""
+    if bool(row.findings) != bool(counts.failing):
+        words = ("no claim fails", "a claim fails")
+        ours, theirs = words[bool(row.findings)], words[bool(counts.failing)]
+        return f"{ours} by the checkers, {theirs} by the compiled engine"
+    for claim, judged in zip(CLAIMS, row.claims, strict=True):
+        statuses = [status for status, runs in counts.statuses[claim].items() if runs]
+        ours = f"{judged.status} ({judged.judged} of {judged.of})"
+        theirs = "{} ({} of {})".format(", ".join(statuses), *counts.shares[claim])
+        if ours != theirs:
+            return f"{claim} is {ours} by the checkers, {theirs} by the compiled engine"
+    return None
+
+
+# ---------------------------------------------------------------- counts as a tally
+
+
+def _tally(counts: Sequence[ShardCounts]) -> Tally:
+    """The counts of all algorithms in the same worlds as a tally."""
+    statuses: dict[str, dict[str, int]] = {claim: {} for claim in CLAIMS}
+    shares: dict[str, tuple[int, int]] = {}
+    claims: dict[str, int] = {}
+    for claim in CLAIMS:
+        for one in counts:
+            for status, runs in one.statuses[claim].items():
+                if runs:
+                    statuses[claim][status] = statuses[claim].get(status, 0) + runs
+        judged, of = (sum(one.shares[claim][side] for one in counts) for side in (0, 1))
+        shares[claim] = judged, of
+        if failing := sum(one.newly_failing_claims[claim] for one in counts):
+            claims[claim] = failing
+    first = counts[0]
+    return Tally(
+        worlds=max(one.worlds for one in counts),
+        failing=sum(one.newly_failing for one in counts),
+        statuses=statuses,
+        shares=shares,
+        claims=claims,
+        costs={
+            one.algorithm: Costs(one.worlds - one.failing, one.total, one.most, one.attained)
+            for one in counts
+            if one.worlds > one.failing
+        },
+        pairs=Pairs(first.dearer, first.cheaper, first.excess) if len(counts) == 2 else Pairs(),
+        digest=_as_digest(sum(one.digest for one in counts)),
+    )
+
+
+def _as_digest(digest: int) -> str:
+    """A digest of the engine, 64 bits, as one of a tally."""
+    # In the highest of 256 bits, where sums of digests wrap around as the engine's do.
+    return f"{digest % (1 << 64) << 192:064x}"
+
+
+def _fields(tally: Tally) -> dict[str, object]:
+    """The fields of a tally; each entry of a table is a field by itself."""
+    fields: dict[str, object] = {}
+    for name in tally.__struct_fields__:
+        value: object = getattr(tally, name)
+        if isinstance(value, dict):
+            entries = cast("dict[str, object]", value)
+            fields |= {f"{name} of {key}": entry for key, entry in entries.items()}
+        else:
+            fields[name] = value
+    return fields
+
+
+def _names(
+    which: int, counts: ShardCounts | None, met: Sequence[Sequence[Row]]
+) -> dict[str, object]:
+    """The worlds that an algorithm's counts name, once some more worlds are counted."""
+    failing = [] if counts is None else list(counts.failing_ranks)
+    most, worst = (0, []) if counts is None else (counts.most, list(counts.worst))
+    dearer = [] if counts is None else [tuple(pair) for pair in counts.dearer_worlds]
+    for rows in met:
+        row = rows[which]
+        if not row.right:
+            failing.append(row.place)
+            continue
+        if row.cost > most:
+            most, worst = row.cost, []
+        if row.cost == most:
+            worst.append(row.place)
+        if which == 0 and len(rows) == 2 and rows[1].right and row.cost > rows[1].cost:
+            dearer.append((row.place, row.cost, rows[1].cost))
+    from topo_verify.compiled.tally import KEPT_RANKS
+
+    return {
+        f"failing worlds of mapper {which}": failing[:KEPT_RANKS],
+        f"most expensive worlds of mapper {which}": worst[:KEPT_RANKS],
+        f"worlds in which mapper {which} costs more": dearer[:KEPT_RANKS],
+    }

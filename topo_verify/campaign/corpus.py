@@ -1,0 +1,279 @@
+"""WORLDS: the worlds to try an implementation on, as the command line names them.
+
+| text | worlds |
+| --- | --- |
+| `corpus` | every world of 1 to 4 edges, 20 of each strategy, the street network |
+| `edges<=5` | every world of 1 to 5 edges, in the order of their ids |
+| `generated:200` | 200 worlds, the same number from each strategy (up to a remainder) |
+| `generated:200:STRATEGY` | 200 worlds of one strategy, such as `planar_worlds(max_edges=20)` |
+| a folder | the world files in it, in the order of their names |
+| any WORLD | this world: a path, `family:…`, an id, `nyc` |
+
+    corpus = corpus_from(["edges<=3", "nyc"])
+    corpus.total, corpus.digest          # 87, and a hash that names exactly these worlds
+    for at in corpus: at.name, at.world
+
+Each iteration enumerates the worlds again, so a corpus may be larger than memory. A world that two
+texts name occurs twice.
+
+Source: docs/semantics.md, section 16.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from hashlib import sha256
+from pathlib import Path
+
+import msgspec
+
+from topo_verify.errors import InputError
+from topo_verify.text import is_utf8, shown
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.resolve import resolve_world
+from topo_verify.world.rooted_map import World
+
+DEFAULT = ("corpus",)
+"""The worlds if none are named."""
+
+SMALL = "edges<=4"
+"""The exhaustive part of the default corpus."""
+
+GENERATED = 160
+"""How many worlds of the default corpus are generated."""
+
+NETWORKS = ("nyc",)
+"""The street networks in the package."""
+
+STRATEGIES = (
+    "worlds(min_edges=1, max_edges=24)",
+    "planar_worlds(min_edges=1, max_edges=24)",
+    "nonplanar_worlds(max_edges=24)",
+    "tree_worlds(min_edges=1, max_edges=24)",
+    "lattices(min_edges=1, max_edges=40)",
+    "dense_worlds(min_edges=1, max_edges=24)",
+    "symmetric_worlds(min_edges=1, max_edges=24)",
+    "uniform_worlds(edges=12)",
+)
+"""The strategies that `generated:N` draws from, in this order."""
+
+MOST_GENERATED = 1_000_000
+MOST_ENUMERATED = 9
+"""The most edges of `edges<=N`: 576,037,442 worlds have 9 edges."""
+
+SUFFIXES = (".json", ".graphml", ".net.xml", ".pc", ".plc")
+"""The endings of the files in a folder that are read as worlds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A world of a corpus.
+
+    Attributes:
+        name: a WORLD of the command line if it has an id or a file, else a text that is unique.
+        world: the world.
+        group: the text of WORLDS that names it.
+        replay_arguments: the arguments of a command line that name this world.
+    """
+
+    name: str
+    world: World
+    group: str
+    replay_arguments: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class CorpusPart:
+    """The worlds that one text names.
+
+    Attributes:
+        text: the text.
+        total: their number.
+        listed: lists them; called once for each iteration.
+        finite: they are all worlds of a finite class.
+    """
+
+    text: str
+    total: int
+    listed: Callable[[], Iterator[Named]]
+    finite: bool = False
+
+
+@dataclass(frozen=True)
+class Corpus:
+    """Worlds in a fixed order, to be iterated any number of times."""
+
+    parts: tuple[CorpusPart, ...]
+
+    def __iter__(self) -> Iterator[Named]:
+        for part in self.parts:
+            yield from part.listed()
+
+    @property
+    def total(self) -> int:
+        """The number of worlds, by formulas and lengths, without listing any."""
+        return sum(part.total for part in self.parts)
+
+    @property
+    def finite(self) -> bool:
+        """Whether these are all worlds of finite classes."""
+        return all(part.finite for part in self.parts)
+
+    @property
+    def description(self) -> str:
+        """The texts and how many worlds each one names."""
+        return ", ".join(f"{part.text} ({part.total:,})" for part in self.parts)
+
+    @cached_property
+    def digest(self) -> str:
+        """A hash of the worlds in their order.
+
+        The text `edges<=N` stands for its worlds, since the enumeration order is a promise.
+        """
+        made = sha256(b"topo-verify/corpus 1")
+        for part in self.parts:
+            made.update(msgspec.json.encode([part.text if part.finite else "", part.total]))
+            for at in () if part.finite else part.listed():
+                made.update(msgspec.json.encode(at.world.code))
+        return made.hexdigest()
+
+
+def corpus_from(texts: Sequence[str] = DEFAULT, *, seed: int = 0) -> Corpus:
+    """The worlds that these texts name, in their order; the default corpus if there are none.
+
+    Args:
+        seed: of the generated worlds.
+    Raises:
+        InputError: a text names no worlds, or a named file holds none.
+    """
+    parts = [part for text in texts or DEFAULT for part in _parts(text, seed)]
+    return Corpus(tuple(parts))
+
+
+def _parts(text: str, seed: int) -> Iterator[CorpusPart]:
+    if text == "corpus":
+        yield _enumerated(SMALL)
+        yield _generated(f"generated:{GENERATED}", seed)
+        for name in NETWORKS:
+            yield _listed(name, [_by_name(name, name)])
+    elif text.startswith("edges"):
+        yield _enumerated(text)
+    elif text.startswith("generated"):
+        yield _generated(text, seed)
+    elif text == "-":
+        # Standard input can be read once, but a corpus is iterated several times.
+        raise InputError("--worlds -: standard input is read only once; name a file or a folder")
+    elif _is_folder(text):
+        yield _folder(text)
+    else:
+        yield _listed(text, [_by_name(text, text)])
+
+
+# ---------------------------------------------------------------- all of a size
+
+
+def _enumerated(text: str) -> CorpusPart:
+    found = re.fullmatch(r"edges<=([0-9]{1,3})", text)
+    most = int(found[1]) if found else 0
+    if not 1 <= most <= MOST_ENUMERATED:
+        raise InputError(
+            f"--worlds: expected 'edges<=N', every world of 1 to N edges, with N from 1 to"
+            f" {MOST_ENUMERATED}, got {text!r}"
+        )
+
+    def listed() -> Iterator[Named]:
+        for edges in range(1, most + 1):
+            # Listing in order of rank is much faster than unranking each id.
+            for rank, table in enumerate(rank_order.tables(edges)):
+                name = f"m{edges}/{rank}"
+                yield Named(name, World.from_code(table), text, ("--worlds", name))
+
+    return CorpusPart(text, sum(map(rank_order.count, range(1, most + 1))), listed, finite=True)
+
+
+# ---------------------------------------------------------------- drawn
+
+
+def _generated(text: str, seed: int) -> CorpusPart:
+    found = re.fullmatch(r"generated:([0-9]{1,9})(?::(.+))?", text, re.DOTALL)
+    number = int(found[1]) if found else 0
+    if found is None or not 1 <= number <= MOST_GENERATED:
+        raise InputError(
+            f"--worlds: expected 'generated:N' or 'generated:N:STRATEGY' with N from 1 to"
+            f" {MOST_GENERATED:,}, as in 'generated:200:planar_worlds(max_edges=20)', got {text!r}"
+        )
+    strategies = STRATEGIES if found[2] is None else (found[2],)
+    # The first strategies draw one world more, if the number does not divide.
+    each, more = divmod(number, len(strategies))
+    worlds: list[World] = []
+    for place, strategy in enumerate(strategies):
+        worlds += _drawn(text, strategy, each + (place < more), seed)
+    arguments = ("--worlds", text, "--seed", str(seed))
+    named = [_named(f"{text}#{i}", world, text, arguments) for i, world in enumerate(worlds)]
+    return _listed(text, named)
+
+
+def _drawn(text: str, strategy: str, number: int, seed: int) -> list[World]:
+    from hypothesis.errors import HypothesisException
+
+    from topo_verify.strategies.sample import resolve_strategy, sample
+
+    if number == 0:
+        return []
+    try:
+        return sample(resolve_strategy(strategy), number, start=seed)
+    except HypothesisException as error:
+        raise InputError(f"--worlds {text!r}: {strategy} draws no worlds: {error}") from error
+
+
+# ---------------------------------------------------------------- named
+
+
+def _listed(text: str, worlds: Sequence[Named]) -> CorpusPart:
+    return CorpusPart(text, len(worlds), lambda: iter(worlds))
+
+
+def _by_name(name: str, group: str) -> Named:
+    if not is_utf8(name):  # results keep the name as JSON
+        raise InputError(
+            f"--worlds {name!r}: expected a name in UTF-8; rename the file or the folder"
+        )
+    return Named(name, resolve_world(name), group, ("--worlds", name))
+
+
+def _named(name: str, world: World, group: str, arguments: tuple[str, ...]) -> Named:
+    """A world without a file; its id, if it has one, is its name and the argument."""
+    if len(world.edges) > rank_order.MAX_ID_EDGES:
+        return Named(name, world, group, arguments)
+    return Named(world.id, world, group, ("--worlds", world.id))
+
+
+def _is_folder(text: str) -> bool:
+    try:
+        return Path(text).is_dir()
+    except (OSError, ValueError):  # the text cannot be a file name
+        return False
+
+
+def _folder(text: str) -> CorpusPart:
+    names = sorted(_world_files(Path(text)))
+    if not names:
+        raise InputError(
+            f"--worlds {shown(text)}: expected a folder with world files, whose names end in"
+            f" {', '.join(SUFFIXES)}; this one has none"
+        )
+    return _listed(text, [_by_name(name, text) for name in names])
+
+
+def _world_files(folder: Path) -> Iterable[str]:
+    try:
+        return [
+            str(path)
+            for path in folder.iterdir()
+            if path.is_file() and path.name.lower().endswith(SUFFIXES)
+        ]
+    except OSError as error:
+        raise InputError(f"cannot read the folder {shown(folder)}: {error.strerror}") from error

@@ -1,0 +1,225 @@
+"""What a mapper rests on, so that results of different mappers are never added up.
+
+    source_hash         before a search: a hash of topo_verify and of what the TARGETs name
+    runs_here           whether a mapper of the user's shares the process of the checkers
+    loaded_by           in its course: the files and distributions that a mapper has loaded
+    require_equal       for each worker on another machine: these are what they are here
+    require_unchanged   before it goes on: these are what they were
+
+For an algorithm of the catalogue that is topo_verify alone. For a user's mapper it is every file
+that its process loaded or opened for reading, and what it was made with (programs/loaded.py). For
+a program it is each file that its command names, and each that `--depends` does.
+
+No such list is complete: a ledger also has shards examined again.
+"""
+
+from __future__ import annotations
+
+import importlib.machinery
+import os
+import shutil
+import sys
+from collections.abc import Iterable, Sequence
+from functools import cache
+from hashlib import sha256
+from importlib import metadata
+from pathlib import Path
+
+from topo_verify import errors
+from topo_verify.algorithms import Algorithm, Steered
+from topo_verify.errors import InputError
+from topo_verify.programs import loaded
+from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.loaded import Loaded
+from topo_verify.programs.loader import Target
+from topo_verify.programs.program import PREFIX, Program, split
+from topo_verify.programs.values import values_hash
+from topo_verify.text import shown
+
+_PACKAGE = Path(errors.__file__).resolve().parent
+
+
+# ---------------------------------------------------------------- before
+
+
+def source_hash(mappers: Iterable[Target]) -> str:
+    """A hash of topo_verify and of the files that name these mappers, as they are now."""
+    digest = sha256(own_hash().encode())
+    for mapper in mappers:
+        if not isinstance(mapper.mapper, Algorithm | Steered):
+            for path, made in sorted(loaded.hashes(named_files(mapper.text)).items()):
+                digest.update(f"\0{path}\0{made}".encode(errors="surrogateescape"))
+    return digest.hexdigest()
+
+
+@cache
+def own_hash() -> str:
+    """The hash of topo_verify's sources, as they were when this process first asked."""
+    digest = sha256()
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        digest.update(f"\0{path.relative_to(_PACKAGE)}\0".encode() + path.read_bytes())
+    return digest.hexdigest()
+
+
+def named_files(text: str) -> list[str]:
+    """The files that a TARGET names: of a program, or of a Python mapper."""
+    if text.startswith(PREFIX):
+        words = split(text.removeprefix(PREFIX))
+        return [shutil.which(words[0]) or words[0], *words[1:]]
+    place = text.rpartition(":")[0]
+    found = place if place.endswith(".py") else _module_file(place)
+    return [found] if found else []
+
+
+def _module_file(name: str) -> str | None:
+    """The file of a module, found without running its package."""
+    folders: list[str] | None = [str(Path.cwd()), *sys.path]
+    spec = None
+    for part in name.split("."):
+        spec = importlib.machinery.PathFinder.find_spec(part, folders)
+        if spec is None:
+            return None
+        folders = list(spec.submodule_search_locations or ())
+    return spec.origin if spec is not None else None
+
+
+def runs_here(target: Target) -> bool:
+    """Whether this is a user's mapper that runs in this process, where it could replace checkers.
+
+    Results of such runs are worth less, so a store does not mix them with others.
+    """
+    return not isinstance(target.mapper, Algorithm | Steered | Program)
+
+
+# ---------------------------------------------------------------- in the course of a search
+
+
+class Identity:
+    """What the mappers of a search rest on, in this process.
+
+    Life cycle: made when they are loaded, before any of them runs; `loaded` at any time.
+
+    Args:
+        depends: further files that they depend on.
+    """
+
+    def __init__(self, mappers: Sequence[Target], depends: Sequence[str] = ()) -> None:
+        self._mappers, self.depends = mappers, tuple(depends)
+        self._values = " ".join(values_hash(m.mapper) for m in mappers if runs_here(m))
+
+    def loaded(self) -> Loaded:
+        """What they have loaded until now."""
+        found = Loaded(loaded.hashes(self.depends))
+        for target in self._mappers:
+            found = merged(found, self._of(target), f"target {target.text!r}")
+        return found
+
+    def _of(self, target: Target) -> Loaded:
+        mapper = target.mapper
+        if isinstance(mapper, Algorithm | Steered):
+            return Loaded()
+        if isinstance(mapper, Foreign):
+            return mapper.loaded()
+        if isinstance(mapper, Program):
+            return Loaded(loaded.hashes(named_files(target.text)))
+        return loaded.loaded(self._values)
+
+
+def merged(one: Loaded, other: Loaded, where: str) -> Loaded:
+    """What either has loaded.
+
+    Args:
+        where: the beginning of the sentence.
+    Raises:
+        InputError: they differ in a file, a distribution or the values.
+    """
+    for path, made in other.files.items():
+        if one.files.get(path, made) != made:
+            raise InputError(
+                f"{where}: the mapper read {shown(path)}, which changed while the search ran: start"
+                " the search again"
+            )
+    if one.values and other.values and one.values != other.values:
+        raise InputError(
+            f"{where}: the mapper is made with other values each time (arguments of a partial, a"
+            " closure, defaults): give it the same ones, or search without a ledger"
+        )
+    for name, path in other.modules.items():
+        if (known := one.modules.get(name, path)) != path:
+            raise InputError(
+                f"{where}: the mapper's module {shown(name)} is {shown(known)} in one process and"
+                f" {shown(path)} in another: give all the same search path for modules"
+            )
+    return Loaded(
+        {**one.files, **other.files},
+        {**one.distributions, **other.distributions},
+        one.values or other.values,
+        {**one.modules, **other.modules},
+    )
+
+
+def require_equal(here: Loaded, there: Loaded, where: str) -> None:
+    """Raise an InputError unless all that mappers have loaded on another machine is the same here.
+
+    Files that they read in the course of a run count as well: they are looked up by their names.
+
+    Args:
+        here: what the mappers have loaded here; they may not have run yet.
+        where: the beginning of the sentence, which names the other machine.
+    """
+    if here.values and there.values and here.values != there.values:
+        raise InputError(
+            f"{where}: the mapper is made with other values there (arguments of a partial, a"
+            " closure, defaults): give it the same ones in every process"
+        )
+    for path, made in there.files.items():
+        known = loaded.file_hash(path)
+        if known != made:
+            fault = "is another file here" if known else "is not a file here"
+            raise InputError(
+                f"{where}: the mapper read {shown(path)}, which {fault}: give every machine the"
+                " same files, and restart the workers"
+            )
+    for name, version in there.distributions.items():
+        if (installed := _version(name)) != version:
+            raise InputError(
+                f"{where}: the mapper used {name} {version}, installed here is"
+                f" {installed or 'none'}: install the same version on every machine"
+            )
+    merged(here, there, where)
+
+
+# ---------------------------------------------------------------- before it goes on
+
+
+def require_unchanged(then: Loaded, now: Loaded, where: str) -> None:
+    """Raise an InputError unless files, distributions and values are what they were.
+
+    Args:
+        now: what the mappers have loaded until now.
+        where: the beginning of the sentence.
+    """
+    again = "name another file, or remove this one to search anew"
+    if then.values and now.values and then.values != now.values:
+        raise InputError(
+            f"{where}: the mapper was made with other values (arguments of a partial, a closure,"
+            f" defaults); {again}"
+        )
+    for path, made in then.files.items():
+        if loaded.file_hash(path) != made:
+            what = "has changed" if os.path.exists(path) else "is gone"  # noqa: PTH110
+            raise InputError(f"{where}: {shown(path)}, which the mapper read, {what}; {again}")
+    for name, version in then.distributions.items():
+        installed = _version(name)
+        if installed != version:
+            raise InputError(
+                f"{where}: the mapper used {name} {version}, installed is {installed or 'none'};"
+                f" {again}"
+            )
+
+
+def _version(name: str) -> str | None:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return None

@@ -1,0 +1,424 @@
+"""The judgement of one run by every claim: `examine` runs a mapper and judges it, `judge` a run.
+
+report = examine(my_mapper, world)             # -> Report: ok, claims, findings
+assert_maps(my_mapper, world)                  # raises ClaimFailed with the report
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import msgspec
+
+from topo_verify.algorithms import NAMED
+from topo_verify.campaign.run import Exploration, explore
+from topo_verify.campaign.targets import is_found_again
+from topo_verify.checkers import CLAIMS, Finding, Judgement, Status, check
+from topo_verify.checkers.claims import LARGE
+from topo_verify.errors import ClaimFailed, ClaimUndecided, InputError, InternalError
+from topo_verify.programs.loader import Mapper, Target
+from topo_verify.programs.program import PREFIX
+from topo_verify.robot.events import Event, MapData, Move, Policies
+from topo_verify.robot.limits import Limits
+from topo_verify.text import LINE, plural, shown
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.rooted_map import World
+
+if TYPE_CHECKING:
+    from topo_verify.player.scenes import Playback
+
+
+class JudgedRun(NamedTuple):
+    """What a report judges: a world, a trace, and why it ended without a map, if it did."""
+
+    world: World
+    trace: Sequence[Event]
+    stopped: str | None
+
+
+_RUN = "_run"
+"""The attribute of a report that holds its `JudgedRun`."""
+
+
+class Report(msgspec.Struct, frozen=True, dict=True):
+    """The judgement of every claim on one run; its text shows the walk to the first finding.
+
+    Attributes:
+        world, target: the world and the mapper, as the command line names them.
+        ok: no claim failed. (Only `ok` is a success; the other statuses are neither.)
+        cost: edge traversals.
+        claims: the status of each claim by name.
+        findings: all violations, each with the command line that shows it again.
+        judgements: the status of each claim, and how much of the run it rests on.
+    """
+
+    world: str
+    target: str
+    ok: bool
+    cost: int
+    claims: dict[str, Status]
+    findings: tuple[Finding, ...]
+    judgements: tuple[Judgement, ...]
+
+    @property
+    def undecided(self) -> bool:
+        """Whether a claim was neither proved nor refuted."""
+        return "undecided" in self.claims.values()
+
+    @property
+    def run(self) -> JudgedRun | None:
+        """The run that is judged; None for a report that was read from a file."""
+        return self.__dict__.get(_RUN)
+
+    @cached_property
+    def playback(self) -> Playback | None:
+        """The run, event by event, with what is wrong; None where `run` is."""
+        from topo_verify.player.scenes import Playback
+
+        if self.run is None:
+            return None
+        return Playback(self.run.world, self.run.trace, self.judgements, self.run.stopped)
+
+    def of(self, run: JudgedRun | None) -> Report:
+        """This report, with the run that it judges."""
+        # No field: JSON and equality leave it out, and the trace may be long.
+        vars(self)[_RUN] = run
+        return self
+
+    def with_findings(self, findings: Sequence[Finding]) -> Report:
+        """The report with other findings for those that it has."""
+        judgements = tuple(
+            msgspec.structs.replace(
+                one, findings=tuple(f for f in findings if f.claim == one.claim)
+            )
+            for one in self.judgements
+        )
+        changed = msgspec.structs.replace(self, findings=tuple(findings), judgements=judgements)
+        return changed.of(self.run)
+
+    def to_json(self) -> str:
+        """The report as one JSON object."""
+        return msgspec.json.encode(self).decode()
+
+    @property
+    def head(self) -> str:
+        """What ran where, at what cost, and how many claims hold."""
+        ran = f"{self.target} in {self.world}, {plural(self.cost, 'edge traversal')}"
+        return f"{ran}: {in_words(self.claims, 'claims hold')}"
+
+    def _repr_html_(self) -> str:
+        from topo_verify.player import cards
+
+        again = self.findings[0].replay if self.findings else ""
+        playback = self.playback if self.findings else None
+        return cards.report_card(self.head, self.judgements, playback, again)
+
+    def __str__(self) -> str:
+        from topo_verify.player import walk
+
+        lines = [self.head]
+        lines += [f"  {line}" for line in shortfalls(self.judgements)]
+        for finding in self.findings:
+            place = "" if finding.event is None else f" (event {finding.event})"
+            lines.append(f"  {finding.claim}{place}: {finding.message}")
+        if self.findings and self.playback is not None:
+            lines += ["", *walk.lines(self.playback), ""]
+        if self.findings and self.findings[0].replay:
+            lines.append(f"  again: {self.findings[0].replay}")
+        return "\n".join(shown(line, limit=LINE) for line in lines)
+
+
+_WORDS: dict[Status, str] = {
+    "failed": "fail",
+    "partial": "partial",
+    "undecided": "undecided",
+    "not-declared": "not declared",
+    "not-asked": "not asked",
+}
+
+
+def in_words(claims: Mapping[str, Status], hold: str) -> str:
+    """How many of the claims hold, and how many have each other status."""
+    counts = Counter(claims.values())
+    words = [f"{counts['ok']} of {len(claims)} {hold}"]
+    return ", ".join(
+        words + [f"{counts[one]} {word}" for one, word in _WORDS.items() if counts[one]]
+    )
+
+
+def shortfalls(judgements: Sequence[Judgement]) -> list[str]:
+    """A line for each claim that was asked, and judged only in part."""
+    return [
+        f"{one.claim}: {_WORDS[one.status]}, {one.judged} of {one.of}"
+        for one in judgements
+        if one.status in ("partial", "undecided")
+    ]
+
+
+def examine(
+    mapper: Mapper | str | Target,
+    world: World,
+    *,
+    pick: str | None = None,
+    order: str | None = None,
+    limits: Limits | None = None,
+    where: str | None = None,
+    strict: bool = False,
+) -> Report:
+    """Run a mapper in a world and judge the run by every claim.
+
+    Args:
+        where: the world as the command line names it, for the findings; default: its id.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
+    Raises:
+        InputError: there is no such mapper or policy.
+    """
+    run = explore(world, mapper, pick=pick, order=order, limits=limits)
+    return judge(run, where=where, options=limits.options if limits else (), strict=strict)
+
+
+def assert_maps(
+    mapper: Mapper | str | Target,
+    world: World,
+    *,
+    pick: str | None = None,
+    order: str | None = None,
+    limits: Limits | None = None,
+    strict: bool = False,
+) -> None:
+    """Assert that every claim holds of a mapper in a world: the one line of a property test.
+
+    Args:
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
+    Raises:
+        ClaimFailed: a claim fails. It is an AssertionError whose text is the report; its cause is
+            the exception that the mapper raised, if it did.
+        ClaimUndecided: no claim fails, but one is undecided. It is an AssertionError, too.
+        InputError: there is no such mapper or policy.
+    """
+    run = explore(world, mapper, pick=pick, order=order, limits=limits)
+    report = judge(run, options=limits.options if limits else (), strict=strict)
+    if not report.ok:
+        # The report and not its text, which is made when somebody reads it: Hypothesis has an
+        # example fail many times, and counts the seconds.
+        raise ClaimFailed(report) from run.error
+    if report.undecided:
+        names = ", ".join(name for name, status in report.claims.items() if status == "undecided")
+        raise ClaimUndecided(f"nothing is refuted, and {names} is not decided: {report}")
+
+
+def judge(
+    run: Exploration,
+    *,
+    where: str | None = None,
+    options: Sequence[str] = (),
+    strict: bool = False,
+) -> Report:
+    """Judge a run by every claim; see `examine`.
+
+    If the history does not entail the map, the mapper also runs in the witness world, with the same
+    limits. (A deterministic mapper makes the same moves there, since its percepts are the same.)
+    Of a run without a trace `TRACELESS` are judged, and no other claim is asked.
+
+    Args:
+        options: the options that the replay command needs besides world and target.
+    """
+    where = where or world_argument(run.world)
+    words = (*options, *strict_option(run.world, strict=strict))
+    replay_command = replay_line(where, run.algorithm, run.policies, words)
+    if not run.trace:
+        return _judge_result(run, where, replay_command)
+    report = judge_trace(
+        run.world,
+        run.trace,
+        run.stopped,
+        target=run.algorithm,
+        where=where,
+        replay_command=replay_command,
+        strict=strict,
+    )
+    report = _with_count(report, run.cost, replay_command)
+    return report.with_findings([_with_run_in_witness(finding, run) for finding in report.findings])
+
+
+TRACELESS = ("map-isomorphic", "cost-within-bound")
+"""The claims that are judged without a trace."""
+
+
+def _judge_result(run: Exploration, where: str, replay_command: str) -> Report:
+    """The report on the map and the cost of a run that kept no trace."""
+    world = run.world
+    held = (run.map is not None and _is_map_of(world, run.map), run.cost <= world.cost_bound)
+    wrong = {
+        claim: Finding(
+            claim, None, "it holds", None, run.stopped or "it fails", None, where, replay_command
+        )
+        for claim, holds in zip(TRACELESS, held, strict=True)
+        if not holds
+    }
+    statuses: dict[str, Status] = dict.fromkeys(CLAIMS, "not-asked")
+    statuses |= {claim: "failed" if claim in wrong else "ok" for claim in TRACELESS}
+    judgements = tuple(
+        Judgement(claim, status, (asked := int(claim in TRACELESS)), asked)
+        for claim, status in statuses.items()
+    )
+    report = Report(where, run.algorithm, not wrong, run.cost, statuses, (), judgements)
+    return _with_least(report.with_findings([*wrong.values()]), world, replay_command)
+
+
+def _is_map_of(world: World, delivered: MapData) -> bool:
+    """Whether a map is isomorphic to a world, the marker on the marker."""
+    try:
+        return World.from_map(delivered).code == world.code
+    except InputError:
+        return False
+
+
+def judge_trace(
+    world: World,
+    trace: Sequence[Event],
+    stopped: str | None = None,
+    *,
+    target: str,
+    where: str | None = None,
+    replay_command: str | None = None,
+    strict: bool = False,
+) -> Report:
+    """Judge a trace of any origin in its world.
+
+    Args:
+        target: the mapper that left the trace, as the command line names it.
+        where: the world as the command line names it; default: its id.
+        replay_command: the command line that shows the findings again; default: `replay` of the
+            target in the world.
+    Raises:
+        InputError: the trace does not begin with its only `start`, or goes on after `finish`.
+        InternalError: an algorithm of the catalogue is right at a cost below that of any proof.
+    """
+    where = where or world_argument(world)
+    replay_command = replay_command or replay_line(where, target)
+    judgements = check(world, trace, stopped, strict=strict)
+    findings = tuple(
+        msgspec.structs.replace(
+            finding,
+            world=where,
+            replay=replay_command,
+            message=shown(finding.message, limit=LINE),  # it may quote what a mapper raised
+        )
+        for judgement in judgements
+        for finding in judgement.findings
+    )
+    cost = sum(isinstance(event, Move) for event in trace)
+    statuses: dict[str, Status] = {judgement.claim: judgement.status for judgement in judgements}
+    report = Report(where, target, not findings, cost, statuses, (), tuple(judgements))
+    report = report.of(JudgedRun(world, trace, stopped)).with_findings(findings)
+    return _with_least(report, world, replay_command)
+
+
+def _with_least(report: Report, world: World, replay_command: str) -> Report:
+    """The report; `cost-within-bound` fails if a right run costs less than any proof of the map.
+
+    The checkers prove each map that they pass, so they cannot say that of such a run.
+
+    Raises:
+        InternalError: the run is an algorithm's of the catalogue.
+    """
+    if not report.ok or report.cost >= (least := world.least_cost()):
+        return report
+    message = f"no claim fails at a cost of {report.cost}, and the least cost of a proof is {least}"
+    if report.target in NAMED:
+        raise InternalError(f"{report.world}, {report.target}: {message}")
+    message = f"{message}: somebody changed the checkers, as a mapper in the same process can"
+    claim = "cost-within-bound"
+    wrong = Finding(claim, None, f"at least {least}", report.cost, message, None, report.world)
+    return _failing(report, msgspec.structs.replace(wrong, replay=replay_command), report.cost)
+
+
+def _with_count(report: Report, made: int, replay_command: str) -> Report:
+    """The report; `cost-honest` fails unless the trace holds as many moves as the robot made."""
+    if report.cost == made:
+        return report
+    claim = "cost-honest"
+    message = (
+        f"the robot made {made} moves and the trace holds {report.cost}: somebody changed the"
+        " trace, as a mapper in the same process can"
+    )
+    wrong = Finding(
+        claim, None, made, report.cost, message, world=report.world, replay=replay_command
+    )
+    return _failing(report, wrong, made)
+
+
+def _failing(report: Report, wrong: Finding, cost: int) -> Report:
+    """The report with one finding more, before the others, and with this cost."""
+    claim = wrong.claim
+    judgements = tuple(
+        msgspec.structs.replace(one, status="failed") if one.claim == claim else one
+        for one in report.judgements
+    )
+    claims: dict[str, Status] = {**report.claims, claim: "failed"}
+    changed = msgspec.structs.replace(
+        report, ok=False, cost=cost, claims=claims, judgements=judgements
+    )
+    return changed.of(report.run).with_findings([wrong, *report.findings])
+
+
+def undecided(run: Exploration, report: Report) -> bool:
+    """Whether no claim is refuted, but one is undecided, or a map is missing without a fault.
+
+    That is the map of a run that exceeded its time while it still moved, or whose program declined
+    the world.
+    """
+    if not report.findings:
+        return report.undecided
+    lost = all(f.claim == "map-isomorphic" and f.event is None for f in report.findings)
+    return (run.limit == "world-timeout" or run.declined) and lost
+
+
+def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:
+    """The finding; if it names a witness of a wrong map, with what the same mapper does there."""
+    if finding.claim != "map-entailed" or finding.witness is None or run.mapper is None:
+        return finding
+    witness = World.from_text(finding.witness)
+    there = explore(witness, Target(run.algorithm, run.mapper), limits=run.limits)
+    failed = {j.claim for j in check(witness, there.trace, there.stopped) if j.status == "failed"}
+    wrong = "map-isomorphic" in failed
+    result = "the mapper is wrong" if wrong else "the mapper was lucky again"
+    result = str(there.stopped) if there.limit is not None else result
+    message = f"{finding.message}; witness {_short(finding.witness)}: run there, {result}"
+    return msgspec.structs.replace(finding, message=message)
+
+
+def _short(witness: str) -> str:
+    return witness if len(witness) < 200 else "as given"
+
+
+def world_argument(world: World) -> str:
+    """The argument that names this world: its id; if it is too large for one, a file to save."""
+    return (
+        world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else f"{world.name or 'world'}.json"
+    )
+
+
+def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:
+    """The option that asks every claim, where a claim is not asked without it."""
+    return ("--strict",) if strict and len(world.edges) > LARGE else ()
+
+
+def replay_line(
+    where: str, target: str, policies: Policies | None = None, options: Sequence[str] = ()
+) -> str:
+    """The command line that shows a run again; empty if no command line finds the mapper."""
+    if not (target.startswith(PREFIX) or is_found_again(target)):
+        return ""
+    words = ["topo-verify", "replay", where]
+    program = target.startswith(PREFIX)
+    words += ["--cmd", target.removeprefix(PREFIX)] if program else ["--target", target]
+    for name, default in (("pick", "nearest"), ("order", "shortest")):
+        value = getattr(policies, name, default)
+        words += [f"--{name}", value] if value != default else []
+    return shlex.join([*words, *options])

@@ -1,0 +1,245 @@
+"""The one way to run a mapper in a world: `explore`; what judges the run is `judge.py`.
+
+A **mapper** is any callable that takes a robot and returns a map: an object with the attributes, or
+a mapping with the keys, `vertices`, `edges`, `marker`, and optionally `cost`. It is not trusted: if
+it raises, returns something else, exceeds its budget or loops without moving, that is a finding.
+
+    run = explore(world, "enhancement-ii")         # -> Exploration: map, cost, trace
+
+A TARGET's text runs in this process, or, with `in_process=False`, in one of its own. An algorithm
+of the catalogue may be run by the compiled engine (`engines.py`), which is given the world: what it
+delivers is judged like any trace.
+
+What this does not show: a mapper in the same process can be stopped only if it runs Python code and
+does not catch BaseException in a loop; see `topo_verify.robot.limits`. If it is determined to look,
+it finds world and trace; a mapper in a process of its own does not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import msgspec
+
+from topo_verify.campaign.engines import ENGINES, CompiledAlgorithm, Engine, on_engine, policies_of
+from topo_verify.campaign.targets import one_target
+from topo_verify.checkers import check
+from topo_verify.errors import InputError
+from topo_verify.programs.delivery import Undelivered, deliver
+from topo_verify.programs.loader import Mapper, Target
+from topo_verify.programs.misbehaviour import Misbehaved
+from topo_verify.programs.program import Program
+from topo_verify.robot.events import (
+    Confirm,
+    Finish,
+    MapData,
+    Move,
+    Policies,
+    Reject,
+    Start,
+    Trace,
+)
+from topo_verify.robot.limits import Limit, Limits, MapperStopped, within
+from topo_verify.robot.simulator import SimulatedRobot, first_percept
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.rooted_map import World
+
+
+@dataclass(frozen=True, slots=True)
+class Exploration:
+    """One run of a mapper in a world.
+
+    Attributes:
+        world: the world in which the mapper ran.
+        algorithm: the mapper's name, as a TARGET of the command line.
+        policies: its policies, or None where they are not known.
+        trace: all events, in order; together with the world it is a certificate.
+        map: the map that it delivered, or None.
+        stopped: why it delivered none, or None.
+        error: the exception that it raised, if it did.
+        cost: the number of moves, in edge traversals, as counted by the simulator.
+        limit: the limit that stopped it, if one did.
+        mapper: the mapper itself; a program's process lives as long as it.
+        limits: the moves and the time that it was allowed.
+        misbehaved: what a program, or a mapper in a process of its own, did in place of a map.
+    """
+
+    world: World
+    algorithm: str
+    policies: Policies | None
+    trace: Trace = field(repr=False)
+    map: MapData | None = field(repr=False)
+    stopped: str | None = None
+    error: BaseException | None = None
+    cost: int = 0
+    limit: Limit | None = None
+    mapper: Mapper | None = field(default=None, repr=False)
+    limits: Limits = field(default_factory=Limits)
+    misbehaved: Misbehaved | None = field(default=None, repr=False)
+
+    @property
+    def kept_trace(self) -> Trace:
+        """The trace for a file: its `start` says why the run ended without a map, if it did."""
+        start, *rest = self.trace
+        if self.stopped is None or not isinstance(start, Start):
+            return self.trace
+        return (msgspec.structs.replace(start, stopped=self.stopped), *rest)
+
+    @property
+    def declined(self) -> bool:
+        """Whether a program skipped the world or gave it up, as the protocol lets it."""
+        return self.misbehaved is not None and self.misbehaved.kind in ("skip", "error")
+
+    @property
+    def rejected_free(self) -> int:
+        """How many hypotheses were rejected where the robot had not moved since it decided."""
+        return sum(isinstance(e, Reject) for e in self.trace) - self.rejected_moving
+
+    @property
+    def rejected_moving(self) -> int:
+        """How many hypotheses were rejected after moves that no other decision came after.
+
+        Counted from the moves: what rule a rejection names changes nothing.
+        """
+        return sum(
+            isinstance(before, Move) and isinstance(event, Reject)
+            for before, event in pairwise(self.trace)
+        )
+
+    @property
+    def confirmed(self) -> int:
+        """How many hypotheses were confirmed."""
+        return sum(isinstance(e, Confirm) for e in self.trace)
+
+    def _repr_html_(self) -> str:
+        """The run as a page in a frame, for notebooks: the player."""
+        from topo_verify.player.page import framed
+        from topo_verify.player.recording import PlayedRun
+
+        judgements = check(self.world, self.trace, self.stopped)
+        return framed(self.world, PlayedRun(self.algorithm, self.trace, judgements, self.stopped))
+
+
+def explore(
+    world: World,
+    mapper: Mapper | str | Target = "basic",
+    *,
+    pick: str | None = None,
+    order: str | None = None,
+    limits: Limits | None = None,
+    engine: Engine = "reference",
+    trace: bool = True,
+) -> Exploration:
+    """Run a mapper in a world.
+
+    Args:
+        mapper: a callable, a name of the catalogue, or any other TARGET of one mapper.
+        pick, order: policies, for algorithms of the catalogue; default: the reference policies.
+        limits: moves and seconds; default: the bound of claim 7, 5 s between moves, 60 s in all.
+        engine: what runs an algorithm of the catalogue, "reference" or "compiled".
+        trace: keep the trace; False, for the compiled engine: cost and map at once, no trace.
+    Returns:
+        The run, also of a mapper that delivers no map: then `map` is None and `stopped` says why.
+    Raises:
+        InputError: there is no such mapper or policy; the engine cannot run it.
+    """
+    limits = limits or Limits()
+    target = _on(engine, one_target(mapper, pick=pick, order=order), limits, trace=trace)
+    if isinstance(target.mapper, CompiledAlgorithm):
+        trace = trace and target.mapper.trace
+        return _compiled(world, target, target.mapper, limits, trace=trace)
+    budget = world.cost_bound if limits.budget is None else limits.budget
+    robot = SimulatedRobot(world, budget)
+    policies = policies_of(target)
+    start = _start(world, target, policies)
+    if isinstance(target.mapper, Program):
+        target.mapper.start()  # here: no limit of a run counts what it takes to load a mapper
+    finish, stopped, error, limit = _run(target.mapper, robot, limits)
+    if limit in ("move-timeout", "world-timeout"):
+        robot.settle()
+    misbehaved = None
+    if isinstance(target.mapper, Program):
+        misbehaved = target.mapper.misbehaved
+        # Here and not in the next run: ending a process takes time that no limit should count.
+        target.mapper.settle()
+    events = (start, *robot.events)
+    return Exploration(
+        world,
+        target.text,
+        policies,
+        events if finish is None else (*events, finish),
+        None if finish is None else finish.map,
+        stopped,
+        error,
+        robot.cost,
+        limit,
+        target.mapper,
+        limits,
+        misbehaved,
+    )
+
+
+def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Target:
+    """The mapper, to be run by this engine; an InputError if it cannot be."""
+    if engine not in ENGINES:
+        raise InputError(f"engine={engine!r}: expected one of {', '.join(ENGINES)}")
+    (found,) = on_engine(engine, (target,), limits)
+    if not trace and not isinstance(found.mapper, CompiledAlgorithm):
+        raise InputError("trace=False: the reference engine always keeps the trace; leave it out")
+    return found
+
+
+def _start(world: World, target: Target, policies: Policies | None) -> Start:
+    """The first event of a trace."""
+    known = len(world.edges) <= rank_order.MAX_ID_EDGES
+    return Start(
+        algorithm=target.text,
+        policies=policies,
+        world=world.id if known else None,
+        percept=first_percept(world),
+    )
+
+
+def _compiled(
+    world: World, target: Target, mapper: CompiledAlgorithm, limits: Limits, *, trace: bool
+) -> Exploration:
+    """The run of an algorithm by the compiled engine."""
+    from topo_verify.compiled.explore import run_world
+
+    made = run_world(world, mapper.name, trace=trace, budget=limits.budget, fault=mapper.fault)
+    return Exploration(
+        world,
+        target.text,
+        mapper.policies,
+        (_start(world, target, mapper.policies), *made.events) if trace else (),
+        made.map,
+        made.stopped,
+        cost=made.cost,
+        limit=None if made.map is not None else "budget",
+        mapper=mapper,
+        limits=limits,
+    )
+
+
+def _run(
+    mapper: Mapper, robot: SimulatedRobot, limits: Limits
+) -> tuple[Finish | None, str | None, BaseException | None, Limit | None]:
+    """The delivered map; or why there is none, what the mapper raised and which limit struck."""
+
+    def survey() -> Finish | Undelivered:
+        # What a program is given stays on this side of its pipe.
+        return mapper(robot) if isinstance(mapper, Program) else deliver(mapper, robot.handle)
+
+    try:
+        found = within(limits, lambda: robot.cost, survey)
+    except MapperStopped as stop:
+        stop = robot.stopped or stop
+        return None, str(stop), None, stop.limit
+    error = found.error if isinstance(found, Undelivered) else None
+    # A mapper that swallows the robot's exception and goes on is still stopped by the first limit.
+    if robot.stopped is not None:
+        return None, str(robot.stopped), error, robot.stopped.limit
+    if isinstance(found, Undelivered):
+        return None, found.why, error, None
+    return found, None, None, None

@@ -1,0 +1,449 @@
+"""A store: the SQLite file in which finished shards are kept, and from which a campaign resumes.
+
+    with Store("search.db") as store:
+        memory = store.campaign(identity, loaded)
+        for shard, result in results(campaign, backend, store=memory): ...
+
+`meta` says what was run, so that only results of the same campaign are added up: format and version
+of the file, the version of topo-verify, and the campaign's identity (targets, a hash of their
+sources, class of worlds, limits, every option that changes a result), and which files and
+distributions the mappers were seen to load. How far a campaign goes is not in it, so a finished one
+can be extended. A file may hold several campaigns, each under a name. `shards` has a line for each
+finished shard, `rows` the rows that were kept of it.
+
+Nothing is lost: a shard is written in one transaction once it is finished, and SQLite rolls back a
+transaction that was cut off when the file is opened next. The file is locked for as long as it is
+open, by a lock of the operating system's that ends with the process. Only the process that runs the
+campaign opens it; workers never do.
+
+**Sums.** Each shard has a checksum of its fields, of its rows and of the checksum before it, and
+`meta` one over all. They are computed again when the file is opened, before anything in it is
+believed, and that of a shard again when it is read. Checksums guard against accidents, not against
+forgery.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from hashlib import sha256
+from importlib import metadata
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import msgspec
+
+from topo_verify.campaign.campaign import Shard, ShardResult
+from topo_verify.campaign.identity import merged, require_unchanged
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.tally import Tally, notable
+from topo_verify.errors import InputError
+from topo_verify.programs.loaded import Loaded
+from topo_verify.text import shown
+
+FORMAT = "topo-verify/store"
+VERSION = 3
+"""Versions 1 and 2 were ledgers of `search`, under the format `topo-verify/ledger`."""
+
+_SCHEMA = """
+CREATE TABLE meta (
+    name TEXT NOT NULL,  -- of a campaign; '' holds what is said of the file
+    key TEXT NOT NULL,
+    value TEXT NOT NULL,
+    PRIMARY KEY (name, key)
+) WITHOUT ROWID;
+CREATE TABLE shards (
+    number INTEGER PRIMARY KEY,  -- 1, 2, … in the order of writing
+    name TEXT NOT NULL,
+    edges INTEGER NOT NULL,
+    start TEXT NOT NULL,  -- ranks have any length
+    stop TEXT NOT NULL,
+    key TEXT NOT NULL,
+    tally TEXT NOT NULL,
+    written TEXT NOT NULL,
+    sum TEXT NOT NULL
+);
+CREATE TABLE rows (shard INTEGER NOT NULL, row TEXT NOT NULL);
+CREATE INDEX rows_of ON rows (shard)
+"""
+
+_FIELDS = "name, edges, start, stop, key, tally, written"
+
+_LOADED = "loaded"
+"""The key under which a campaign says what its mappers have loaded; it grows."""
+
+
+class Store:
+    """An open store. Life cycle: `with` it, which locks the file; `campaign` for each one in it.
+
+    Args:
+        path: the file; a new one is made if it does not exist.
+    Raises:
+        InputError: the file is no store, is of another version, was changed, is in use, or cannot
+            be written; the message says which, and how to fix it.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = _require_file_name(str(path))
+        self.sums = [""]  # of nothing, then of each shard
+        self.meta: dict[tuple[str, str], str] = {}
+        self.places: dict[tuple[str, str], int] = {}  # the number of a shard, by name and key
+        self.written: dict[str, tuple[str, str]] = {}  # by name: the first date and the last
+        with explained(self.path):
+            # An absolute path: SQLite takes some relative names for something else than a file.
+            self._base = sqlite3.connect(Path(path).absolute(), timeout=0, isolation_level=None)
+            try:
+                self._open()
+            except BaseException:
+                self._base.close()
+                raise
+        self._file = self._inode()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._base.close()
+
+    def campaign(
+        self, identity: Mapping[str, str], now: Loaded, *, name: str = "", all_rows: bool = False
+    ) -> StoredCampaign:
+        """The campaign of this name, which is begun if the file does not have it.
+
+        Args:
+            now: what the mappers have loaded until now.
+            all_rows: every row is kept, or else those that are notable among all.
+        Raises:
+            InputError: the file has another campaign of this name.
+        """
+        identity = {**identity, "tool": metadata.version("topo-verify")}
+        whose = f" of {name}" if name else ""
+        known = {key: value for (other, key), value in self.meta.items() if other == name}
+        if _LOADED in known:
+            self._require_same(known, identity, whose)
+            loaded = msgspec.json.decode(known[_LOADED], type=Loaded)
+            require_unchanged(loaded, now, f"store {self.path}{whose}")
+        else:
+            loaded = Loaded()
+            self.write(name, identity, loaded)
+        return StoredCampaign(self, name, loaded, now, all_rows=all_rows)
+
+    def _require_same(
+        self, known: Mapping[str, str], identity: Mapping[str, str], whose: str
+    ) -> None:
+        for key, value in identity.items():
+            if known.get(key) != value:
+                said = f"its {key} is {known.get(key)}, now it is {value}"
+                if key == "hash":
+                    said = "the source of the mapper, or of topo-verify, has changed since"
+                raise InputError(
+                    f"store {self.path} holds another campaign{whose}: {said}; name another file,"
+                    " or remove this one to start anew"
+                )
+
+    def require_file(self) -> None:
+        """Raise an InputError if the file was removed or replaced since it was opened."""
+        if self._inode() != self._file:
+            raise InputError(
+                f"store {self.path}: the file was removed or replaced while it was in use, and what"
+                " it recorded is lost: start again, and leave the file alone"
+            )
+
+    # ------------------------------------------------------------ reading and writing
+
+    def read(self, number: int) -> tuple[tuple[Any, ...], list[str]]:
+        """The fields of a shard and its rows.
+
+        Raises:
+            InputError: it is not what was written.
+        """
+        with explained(self.path):
+            ask = f"SELECT {_FIELDS}, sum FROM shards WHERE number = ?"  # noqa: S608  no input in it
+            found = self._base.execute(ask, (number,)).fetchone()
+            ask = "SELECT row FROM rows WHERE shard = ? ORDER BY rowid"
+            rows = [row for (row,) in self._base.execute(ask, (number,))]
+        if found is None or found[-1] != checksum(self.sums[number - 1], found[:-1], rows):
+            raise changed(self.path, f"the shard {number}")
+        return found[:-1], rows
+
+    def write(
+        self,
+        name: str,
+        identity: Mapping[str, str],
+        loaded: Loaded,
+        fields: Sequence[Any] = (),
+        rows: Sequence[str] = (),
+    ) -> None:
+        """Write what is new of a campaign: its identity, what it loaded, a shard with its rows."""
+        self.require_file()
+        number, made = len(self.sums), checksum(self.sums[-1], fields, rows)
+        meta = self.meta | {(name, key): value for key, value in identity.items()}
+        meta[name, _LOADED] = msgspec.json.encode(loaded).decode()
+        new = {pair: value for pair, value in meta.items() if self.meta.get(pair) != value}
+        new["", "sum"] = _seal(meta, made if fields else self.sums[-1])
+        with explained(self.path):
+            self._base.execute("BEGIN")
+            try:
+                if fields:
+                    self._base.execute(
+                        f"INSERT INTO shards VALUES (?,{'?,' * len(fields)}?)",  # noqa: S608
+                        (number, *fields, made),
+                    )
+                    self._base.executemany(
+                        "INSERT INTO rows VALUES (?, ?)", [(number, row) for row in rows]
+                    )
+                self._base.executemany(
+                    "REPLACE INTO meta VALUES (?, ?, ?)",
+                    [(*pair, value) for pair, value in new.items()],
+                )
+            except BaseException:
+                self._base.rollback()
+                raise
+            self._base.execute("COMMIT")
+        self.meta = meta
+        if fields:
+            self.sums.append(made)
+            self._note(number, fields)
+
+    def _note(self, number: int, fields: Sequence[Any]) -> None:
+        name, _, _, _, key, _, written = fields
+        self.places[name, key] = number
+        first, _ = self.written.get(name, (written, written))
+        self.written[name] = (first, written)
+
+    # ------------------------------------------------------------ opening
+
+    def _open(self) -> None:
+        """Lock the file and check every sum; give a new file its tables."""
+        self._base.execute("PRAGMA locking_mode = EXCLUSIVE")
+        self._base.execute("BEGIN EXCLUSIVE")  # locks now, and for longer than COMMIT
+        if Path(self.path).stat().st_size == 0:  # what was cut off has been rolled back by now
+            for statement in _SCHEMA.split(";\n"):
+                self._base.execute(statement)
+            self.meta = {("", "format"): FORMAT, ("", "version"): str(VERSION)}
+            entries = [(*pair, value) for pair, value in self.meta.items()]
+            entries.append(("", "sum", _seal(self.meta, "")))
+            self._base.executemany("INSERT INTO meta VALUES (?, ?, ?)", entries)
+        else:
+            self._require_ours()
+            self._require_sums()
+        self._base.execute("COMMIT")
+
+    def _require_ours(self) -> None:
+        tables = {name for (name,) in self._base.execute("SELECT name FROM sqlite_master")}
+        if "meta" not in tables:
+            raise no_store(self.path)
+        intact = self._base.execute("PRAGMA integrity_check(1)").fetchone()
+        if intact != ("ok",):
+            raise changed(self.path, f"the database ({shown(str(intact[0]))})")
+        columns = [column[1] for column in self._base.execute("PRAGMA table_info(meta)")]
+        entries = list(self._base.execute("SELECT * FROM meta"))
+        # SQLite gives what it finds: the type of a value stands beside it in the file.
+        if not all(type(word) is str for entry in entries for word in entry):
+            raise changed(self.path, "its table meta")
+        if columns == ["key", "value"]:
+            raise _older(self.path, dict(entries))
+        self.meta = {(name, key): value for name, key, value in entries}
+        if self.meta.get(("", "format")) != FORMAT:
+            raise no_store(self.path)
+        version = self.meta.get(("", "version"), "")
+        if version.isdecimal() and int(version) > VERSION:
+            raise InputError(
+                f"store {self.path}: its version {version} is newer than {VERSION}, the newest that"
+                " this topo-verify reads: update it"
+            )
+        if version != str(VERSION):
+            raise changed(self.path, "its version")
+
+    def _require_sums(self) -> None:
+        """Compute every sum again; note sums and numbers of the shards."""
+        stated = self.meta.pop(("", "sum"), "")
+        (count,) = self._base.execute("SELECT count(*) FROM shards").fetchone()
+        rows: dict[int, list[str]] = {}
+        for shard, row in self._base.execute("SELECT shard, row FROM rows ORDER BY rowid"):
+            rows.setdefault(shard, []).append(row)
+        ask = f"SELECT number, {_FIELDS}, sum FROM shards ORDER BY number"  # noqa: S608  no input in it
+        for number, *fields, made in self._base.execute(ask):
+            expected = checksum(self.sums[-1], fields, rows.pop(number, []))
+            if number != len(self.sums) or made != expected:
+                raise changed(self.path, f"the shard {len(self.sums)}")
+            self.sums.append(made)
+            self._note(number, fields)
+        if rows or count != len(self.sums) - 1:
+            raise changed(self.path, "the number of its rows")
+        if stated != _seal(self.meta, self.sums[-1]):
+            raise changed(self.path, "its table meta")
+
+    def _inode(self) -> tuple[int, int] | None:
+        """Which file has the name now; None if none has."""
+        try:
+            status = Path(self.path).stat()
+        except OSError:
+            return None
+        return status.st_dev, status.st_ino
+
+
+class StoredCampaign:
+    """The finished shards of one campaign in a store; a `ShardMemory`.
+
+    Attributes:
+        loaded: which files and distributions the mappers loaded.
+    """
+
+    def __init__(
+        self, store: Store, name: str, loaded: Loaded, now: Loaded, *, all_rows: bool
+    ) -> None:
+        self._store, self._name, self._now, self._all_rows = store, name, now, all_rows
+        self.loaded = loaded
+        self._notable: tuple[Row, ...] = ()
+        if not all_rows:
+            kept = (row for shard in self.known() for row in self._require(shard).rows)
+            self._notable = notable(kept)
+
+    @property
+    def path(self) -> str:
+        """Its file."""
+        return self._store.path
+
+    @property
+    def since(self) -> tuple[str, str] | None:
+        """When the first shard was written, and the last; None: there is none."""
+        return self._store.written.get(self._name)
+
+    def known(self) -> list[Shard]:
+        """The finished shards of a class, in the order of their worlds."""
+        numbers = [number for (name, _), number in self._store.places.items() if name == self._name]
+        shards: list[Shard] = []
+        for number in numbers:
+            (_, edges, start, stop, *_), _ = self._store.read(number)
+            if edges:
+                shards.append(Shard(edges, int(start), int(stop)))
+        return sorted(shards, key=lambda shard: (shard.edges, shard.start))
+
+    def get(self, shard: Shard) -> ShardResult | None:
+        """The result of a shard; None if it is not finished.
+
+        Raises:
+            InputError: it is not what was written.
+        """
+        number = self._store.places.get((self._name, shard.key))
+        if number is None:
+            return None
+        fields, rows = self._store.read(number)
+        try:
+            tally = msgspec.json.decode(fields[5], type=Tally)
+            return ShardResult(tally, tuple(msgspec.json.decode(row, type=Row) for row in rows))
+        except msgspec.MsgspecError as error:
+            raise changed(self.path, f"the shard {number} ({error})") from error
+
+    def _require(self, shard: Shard) -> ShardResult:
+        result = self.get(shard)
+        assert result is not None, "it is among those that are known"
+        return result
+
+    def put(self, shard: Shard, result: ShardResult) -> None:
+        """Record a finished shard. Once this returns, it is kept whatever happens.
+
+        Raises:
+            InputError: the file cannot be written, since the disk may be full, or it was removed; a
+                file that the mappers loaded has changed.
+        """
+        rows = result.rows
+        if not self._all_rows:  # a row that others in the file put out of the list is not needed
+            self._notable = notable([*self._notable, *rows])
+            kept = set(map(id, self._notable))
+            rows = tuple(row for row in rows if id(row) in kept)
+        loaded = self._without_itself(result.loaded or self._now)
+        self.loaded = merged(self.loaded, loaded, f"store {self.path}")
+        now = datetime.now(UTC).isoformat(timespec="seconds")
+        tally = msgspec.json.encode(result.tally).decode()
+        place = (self._name, shard.edges, str(shard.start), str(shard.stop), shard.key)
+        texts = [msgspec.json.encode(row).decode() for row in rows]
+        self._store.write(self._name, {}, self.loaded, (*place, tally, now), texts)
+
+    def _without_itself(self, loaded: Loaded) -> Loaded:
+        # In this process the store, too, is a file that was opened.
+        own = str(Path(self.path).absolute())
+        files = {path: made for path, made in loaded.files.items() if path != own}
+        return msgspec.structs.replace(loaded, files=files)
+
+
+def checksum(before: str, *parts: Sequence[Any]) -> str:
+    """The checksum of a shard, given that of the one before it."""
+    return sha256(msgspec.json.encode([before, *parts])).hexdigest()
+
+
+def _seal(meta: Mapping[tuple[str, str], str], last: str) -> str:
+    """The checksum over a whole file."""
+    return checksum(last, sorted((*pair, value) for pair, value in meta.items()))
+
+
+# ---------------------------------------------------------------- errors
+
+
+def _require_file_name(path: str) -> str:
+    if path in ("", ":memory:"):
+        raise InputError(
+            f"store {path!r}: expected the name of a file, which keeps finished work; got what"
+            " SQLite takes for a database in memory"
+        )
+    return path
+
+
+def _older(path: str, known: Mapping[str, str]) -> InputError:
+    """The file is a ledger of 0.2 or before."""
+    if known.get("format") != "topo-verify/ledger":
+        return no_store(path)
+    return InputError(
+        f"store {path}: topo-verify {known.get('tool', '0.1')} wrote this ledger (version"
+        f" {known.get('version')}), and verdicts of different versions are never added up: remove"
+        " it, or name another file, and start anew"
+    )
+
+
+def no_store(path: str) -> InputError:
+    """The database is something else."""
+    return InputError(f"{path} is a database, but no store of topo-verify: name another file")
+
+
+def changed(path: str, part: str) -> InputError:
+    """A part of the store was changed after it was written."""
+    return InputError(
+        f"store {path}: {part} is not what topo-verify wrote: copy the file again, or remove it and"
+        " start anew"
+    )
+
+
+@contextmanager
+def explained(path: str) -> Generator[None]:
+    """Turn an error of SQLite's into an InputError that says how to fix it."""
+    try:
+        yield
+    except InputError:  # it is a ValueError, too
+        raise
+    # Of a changed file: text that is no text, numbers beyond all bounds.
+    except (UnicodeError, ValueError, OverflowError, MemoryError) as error:
+        raise changed(path, f"the database ({shown(str(error))})") from error
+    except sqlite3.Error as error:
+        message = shown(str(error))
+        if "locked" in message:
+            message = "another process has it open: wait for its end, or name another file"
+        elif "not a database" in message:
+            message = "it is no store of topo-verify: name another file"
+        elif "readonly" in message or "read-only" in message:
+            message = "it cannot be written: name a file that can"
+        elif "unable to open" in message:
+            message = "it cannot be opened: name a file in a folder that can be written"
+        elif "full" in message or "I/O" in message:
+            message += "; what was recorded before is kept: make room and start again"
+        else:
+            message += "; name another file, or remove this one to start anew"
+        raise InputError(f"store {path}: {message}") from error

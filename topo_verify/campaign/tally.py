@@ -1,0 +1,364 @@
+"""A tally: the numbers that rows add up to. And `notable`: the rows that are kept as examples.
+
+A tally holds numbers only, so it stays small however many worlds it is about. What is shown of a
+single world is a row. Both add up in any grouping that keeps the order of the worlds:
+
+    tally + tally
+    notable(notable(rows) + notable(rows)) == notable(rows + rows)
+"""
+
+from __future__ import annotations
+
+from bisect import insort
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from hashlib import sha256
+from operator import attrgetter, itemgetter
+
+import msgspec
+
+from topo_verify.campaign.row import PolicyCosts, Row
+from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
+
+KEPT_FAILING, KEPT_WORST, KEPT_PAIRS, SAMPLE = 3, 10, 10, 50
+"""The most rows that are kept of each kind and size of worlds; `SAMPLE`: of all sizes together."""
+
+
+class Costs(msgspec.Struct, frozen=True):
+    """Costs of one mapper's runs in which no claim fails, in edge traversals.
+
+    Attributes:
+        runs, total, most: their number, their sum, the highest.
+        attained: in how many worlds a run has the highest cost.
+    """
+
+    runs: int = 0
+    total: int = 0
+    most: int = 0
+    attained: int = 0
+
+    def __add__(self, other: Costs) -> Costs:
+        most = max(self.most, other.most)
+        attained = sum(costs.attained for costs in (self, other) if costs.most == most)
+        return Costs(self.runs + other.runs, self.total + other.total, most, attained)
+
+
+class Pairs(msgspec.Struct, frozen=True):
+    """The first two mappers in the same worlds, both right.
+
+    Attributes:
+        dearer, cheaper: in how many worlds the first costs more, and less.
+        most: the largest difference where it costs more.
+    """
+
+    dearer: int = 0
+    cheaper: int = 0
+    most: int = 0
+
+    def __add__(self, other: Pairs) -> Pairs:
+        most = max(self.most, other.most)
+        return Pairs(self.dearer + other.dearer, self.cheaper + other.cheaper, most)
+
+
+class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
+    """The numbers of some worlds.
+
+    Attributes:
+        worlds, failing, undecided: worlds; those where a claim fails; those that are left open.
+        timeouts: runs that a time limit ended, or that lost their worker each time.
+        late: runs that were cut off and say nothing else.
+        lost: worlds in which a worker was lost, perhaps by nothing that a mapper did.
+        statuses: for each claim, how many runs have which status.
+        shares: for each claim, how much was judged in all runs together, of how much.
+        claims: for each claim that fails, in how many worlds.
+        costs: of each mapper.
+        pairs: the first mapper with the second.
+        digest: a hash of what happened in every world, whatever the order.
+        by_checkers: worlds that the checkers judged again after another engine.
+        choices: what any choices of the mappers can cost, where every choice is tried.
+    """
+
+    worlds: int = 0
+    failing: int = 0
+    undecided: int = 0
+    timeouts: int = 0
+    late: int = 0
+    lost: int = 0
+    statuses: dict[str, dict[str, int]] = {}
+    shares: dict[str, tuple[int, int]] = {}
+    claims: dict[str, int] = {}
+    costs: dict[str, Costs] = {}
+    pairs: Pairs = Pairs()
+    digest: str = ""
+    by_checkers: int = 0
+    choices: PolicyCosts = PolicyCosts()
+
+    def __add__(self, other: Tally) -> Tally:
+        statuses = {
+            claim: _summed(self.statuses.get(claim, {}), other.statuses.get(claim, {}))
+            for claim in (*self.statuses, *other.statuses)
+        }
+        shares = {
+            claim: _paired(self.shares.get(claim, (0, 0)), other.shares.get(claim, (0, 0)))
+            for claim in (*self.shares, *other.shares)
+        }
+        costs = {
+            mapper: self.costs.get(mapper, Costs()) + other.costs.get(mapper, Costs())
+            for mapper in (*self.costs, *other.costs)
+        }
+        return Tally(
+            self.worlds + other.worlds,
+            self.failing + other.failing,
+            self.undecided + other.undecided,
+            self.timeouts + other.timeouts,
+            self.late + other.late,
+            self.lost + other.lost,
+            statuses,
+            shares,
+            _summed(self.claims, other.claims),
+            costs,
+            self.pairs + other.pairs,
+            added(self.digest, other.digest),
+            self.by_checkers + other.by_checkers,
+            self.choices + other.choices,
+        )
+
+    def amended(self, row: Row) -> Tally:
+        """The tally with a lost worker in one of its worlds, whose runs count already."""
+        if row.undecided is not None:
+            return self + Tally(undecided=1, lost=1)
+        return self + Tally(failing=1, claims=dict.fromkeys(row.failed, 1))
+
+    def judgements(self, findings: Sequence[Finding] = ()) -> tuple[Judgement, ...]:
+        """The judgement of each claim on all runs: `ok` only if it is `ok` in each.
+
+        Args:
+            findings: those that are shown.
+        """
+        return tuple(
+            Judgement(
+                claim,
+                joint_status(self.statuses[claim]),
+                *self.shares.get(claim, (0, 0)),
+                tuple(finding for finding in findings if finding.claim == claim),
+            )
+            for claim in CLAIMS
+            if any(self.statuses.get(claim, {}).values())
+        )
+
+
+def added(digest: str, other: str) -> str:
+    """The digest of all worlds of two digests; the empty text is the digest of none."""
+    if not digest or not other:
+        return digest or other
+    return f"{(int(digest, 16) + int(other, 16)) % (1 << 256):064x}"
+
+
+def joint_status(runs: Mapping[str, int]) -> Status:
+    """The status of a claim in many runs, given how many of them have each status."""
+    seen = {status for status, number in runs.items() if number}
+    worst: tuple[Status, ...] = ("failed", "undecided")
+    alike: tuple[Status, ...] = ("ok", "not-declared", "not-asked")
+    for status in worst:
+        if status in seen:
+            return status
+    for status in alike:
+        if seen == {status}:
+            return status
+    return "partial"
+
+
+def _paired(pair: tuple[int, int], other: tuple[int, int]) -> tuple[int, int]:
+    return pair[0] + other[0], pair[1] + other[1]
+
+
+def _summed(counts: Mapping[str, int], others: Mapping[str, int]) -> dict[str, int]:
+    return {key: counts.get(key, 0) + others.get(key, 0) for key in (*counts, *others)}
+
+
+@dataclass
+class Counts:
+    """Counts rows, world by world. Life cycle: `enter` each world, `tally` at any time.
+
+    (`Tally + Tally` for each world would copy all numbers each time.)
+    """
+
+    worlds: int = 0
+    failing: int = 0
+    undecided: int = 0
+    timeouts: int = 0
+    late: int = 0
+    lost: int = 0
+    # Counting whole rows of statuses is faster than counting ten claims in each run.
+    _rows: Counter[tuple[Status, ...]] = field(default_factory=Counter[tuple[Status, ...]])
+    _lost_claims: Counter[str] = field(default_factory=Counter[str])
+    _judged: list[int] = field(default_factory=lambda: [0] * len(CLAIMS))
+    _of: list[int] = field(default_factory=lambda: [0] * len(CLAIMS))
+    _claims: Counter[str] = field(default_factory=Counter[str])
+    _costs: dict[str, list[int]] = field(default_factory=dict[str, list[int]])
+    _pairs: Pairs = field(default_factory=Pairs)
+    _digest: int = 0
+    _choices: PolicyCosts = field(default_factory=PolicyCosts)
+
+    def enter(self, rows: Sequence[Row]) -> None:
+        """Count one world: the rows of all mappers in it."""
+        failed: dict[str, None] = {}
+        paid: dict[str, int] = {}
+        digests = sha256()
+        for row in rows:
+            digests.update(row.digest.encode())
+            # A worker that hangs is lost, and may take a whole limit of time each time.
+            self.timeouts += row.timed_out or row.ended == "worker-lost"
+            self.lost += row.lost is not None
+            if row.choices is not None:
+                self._choices += row.choices
+            if row.late:
+                self.late += 1
+                continue
+            self._judge(row)
+            failed |= dict.fromkeys(row.failed)
+            if row.right:
+                self._pay(row)
+                paid[row.mapper] = row.cost
+        self.worlds += 1
+        self.failing += bool(failed)
+        self.undecided += not failed and any(row.undecided for row in rows)
+        self._claims.update(failed.keys())
+        if len(paid) == 2:
+            first, second = paid.values()
+            self._pairs += Pairs(first > second, first < second, max(0, first - second))
+        text = f"{rows[0].world} {bool(failed)} {digests.hexdigest()}"
+        self._digest += int(sha256(text.encode()).hexdigest(), 16)
+
+    def _judge(self, row: Row) -> None:
+        if not row.claims:  # a lost worker: nothing was judged but that there is no map
+            self._lost_claims.update(row.failed)
+            return
+        statuses: list[Status] = [judged.status for judged in row.claims]
+        self._rows[tuple(statuses)] += 1
+        for place, judged in enumerate(row.claims):
+            self._judged[place] += judged.judged
+            self._of[place] += judged.of
+
+    def _pay(self, row: Row) -> None:
+        costs = self._costs.setdefault(row.mapper, [0, 0, 0, 0, -1])
+        costs[0] += 1
+        costs[1] += row.cost
+        if row.cost > costs[2] or costs[0] == 1:
+            costs[2:] = [row.cost, 1, row.place]
+        elif row.cost == costs[2] and row.place != costs[4]:  # several policies, one world
+            costs[3:] = [costs[3] + 1, row.place]
+
+    def tally(self) -> Tally:
+        """The numbers so far."""
+        statuses: dict[str, dict[str, int]] = {claim: {} for claim in CLAIMS}
+        for row, runs in self._rows.items():
+            for claim, status in zip(CLAIMS, row, strict=True):
+                statuses[claim][status] = statuses[claim].get(status, 0) + runs
+        for claim, runs in self._lost_claims.items():
+            statuses[claim]["failed"] = statuses[claim].get("failed", 0) + runs
+        return Tally(
+            self.worlds,
+            self.failing,
+            self.undecided,
+            self.timeouts,
+            self.late,
+            self.lost,
+            statuses,
+            dict(zip(CLAIMS, zip(self._judged, self._of, strict=True), strict=True)),
+            dict(self._claims),
+            {mapper: Costs(*costs[:4]) for mapper, costs in self._costs.items()},
+            self._pairs,
+            f"{self._digest % (1 << 256):064x}" if self.worlds else "",
+            choices=self._choices,
+        )
+
+
+# ---------------------------------------------------------------- which rows are kept
+
+
+@dataclass
+class Notable:
+    """The rows that matter: failing, lost, most expensive, more expensive than the other mapper's.
+
+    Life cycle: `enter` worlds in their order; `rows` at any time. Whether a row is kept depends on
+    the worlds of its size alone, never on the process that examined which shard.
+
+    Attributes:
+        seed: draws the sample: the rows with the least keys, failing ones and others apart.
+    """
+
+    seed: int = 0
+    _kept: dict[tuple[str, int], list[Row]] = field(
+        default_factory=dict[tuple[str, int], list[Row]]
+    )
+    _claims: dict[tuple[int, str], Row] = field(default_factory=dict[tuple[int, str], Row])
+    _worst: dict[tuple[int, str], list[Row]] = field(
+        default_factory=dict[tuple[int, str], list[Row]]
+    )
+    _sample: dict[bool, list[tuple[str, Row]]] = field(
+        default_factory=dict[bool, list[tuple[str, Row]]]
+    )
+
+    def enter(self, rows: Sequence[Row]) -> None:
+        """Look at one world."""
+        for row in rows:
+            if row.failed:
+                self._keep("failing", row, KEPT_FAILING)
+                for claim in row.failed:
+                    self._claims.setdefault((row.edges, claim), row)
+            if row.lost:
+                self._keep("lost", row, SAMPLE)
+            if not row.timed_out:  # it may be in time when it is run again
+                self._draw(row)
+            if row.right:
+                self._enter_cost(row)
+        if len(rows) == 2 and all(row.right for row in rows) and rows[0].cost > rows[1].cost:
+            for row in rows:
+                self._keep("pairs", row, 2 * KEPT_PAIRS)
+
+    def _keep(self, kind: str, row: Row, most: int) -> None:
+        rows = self._kept.setdefault((kind, row.edges), [])
+        if len(rows) < most:
+            rows.append(row)
+
+    def _draw(self, row: Row) -> None:
+        drawn = self._sample.setdefault(bool(row.failed), [])
+        key = sample_key(self.seed, row.world)
+        if len(drawn) < SAMPLE or key < drawn[-1][0]:
+            insort(drawn, (key, row), key=itemgetter(0))
+            del drawn[SAMPLE:]
+
+    def _enter_cost(self, row: Row) -> None:
+        worst = self._worst.setdefault((row.edges, row.mapper), [row])
+        if row.cost > worst[0].cost:
+            worst[:] = [row]
+        elif row.cost == worst[0].cost and len(worst) < KEPT_WORST and row.place != worst[-1].place:
+            worst.append(row)
+
+    def rows(self) -> tuple[Row, ...]:
+        """The rows kept so far, in the order of their worlds."""
+        kept = [*self._claims.values()]
+        for rows in (*self._kept.values(), *self._worst.values()):
+            kept += rows
+        for drawn in self._sample.values():
+            kept += [row for _, row in drawn]
+        once = {id(row): row for row in kept}
+        return tuple(sorted(once.values(), key=attrgetter("edges", "place", "turn")))
+
+
+def sample_key(seed: int, world: str) -> str:
+    """The key of a world: evenly distributed, drawn by the seed, the same in every process."""
+    return sha256(f"{seed} {world}".encode()).hexdigest()[:12]
+
+
+def notable(rows: Iterable[Row], seed: int = 0) -> tuple[Row, ...]:
+    """Those of these rows that are kept, in the order of their worlds."""
+    kept = Notable(seed)
+    worlds: dict[tuple[int, int], list[Row]] = {}
+    for row in rows:
+        worlds.setdefault((row.edges, row.place), []).append(row)
+    for key in sorted(worlds):
+        kept.enter(worlds[key])
+    return kept.rows()

@@ -1,0 +1,239 @@
+"""The TARGET of a command: a mapper by its name, its module, its file or its command.
+
+    basic                       a name of the catalogue
+    package.module:attribute    a callable of an importable module, in this process or its own
+    path/file.py:attribute      a callable of a file, likewise
+    --cmd program args          a program behind protocol 1, started when it plays its first world
+    all                         the algorithms of the catalogue that are right in every world
+    basic,path/file.py:name     several of these, but for programs
+
+The other way round, `text_of` gives the text by which a command line finds a callable again that
+was handed over in Python:
+
+| the callable | its text |
+| --- | --- |
+| an algorithm of the catalogue | its name |
+| what a module holds under a name | `package.module:name` |
+| likewise, but other programs do not find the module by its name | `path/file.py:name` |
+| anything else, such as a closure, or what a notebook holds | `module:<name>`, which finds none |
+
+No replay command is printed for the last kind.
+
+A program's text is `--cmd` and its command in one text, so that workers, ledgers and baselines keep
+every mapper as one text.
+
+Source: docs/semantics.md, section 16.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import os
+import shlex
+import sys
+from dataclasses import replace
+from operator import attrgetter
+from pathlib import Path
+from types import ModuleType
+
+from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, Algorithm, Steered
+from topo_verify.errors import InputError
+from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.hints import close_name, missing_attribute
+from topo_verify.programs.loader import Mapper, Target, load
+from topo_verify.programs.program import PREFIX, Program, split
+from topo_verify.text import is_utf8
+
+
+def targets(
+    text: str, *, pick: str | None = None, order: str | None = None, in_process: bool = True
+) -> tuple[Target, ...]:
+    """The mappers that a TARGET names, in its order.
+
+    A program runs from its first world until it is closed or its object is deleted; a mapper in a
+    process of its own from now on.
+
+    Args:
+        pick, order: policies for algorithms of the catalogue.
+        in_process: a mapper that is not of the catalogue shares this process, or else gets its own.
+    Raises:
+        InputError: there is no such algorithm, module, file, attribute or policy; what was found
+            cannot be called; the command is empty; or policies are given for another mapper.
+    """
+    found = (_target(one, in_process=in_process) for one in each_text(text))
+    return tuple(_with_policies(target, pick, order) for target in found)
+
+
+def each_text(text: str) -> tuple[str, ...]:
+    """The text of each mapper that a TARGET names: it is divided at commas, `all` into names."""
+    # The prefix comes first: a command may well hold a comma, a module path never begins with `--`.
+    place = text.rpartition(":")[0]
+    named = "," in place and os.path.isfile(place)  # noqa: PTH113  Path.is_file raises if a list is longer than a file name
+    if named or text.startswith(PREFIX):
+        return (text,)
+    general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
+    parts = (part.strip() for part in text.split(","))
+    return tuple(name for part in parts for name in (general if part == "all" else [part]))
+
+
+def one_target(
+    mapper: Mapper | str | Target,
+    *,
+    pick: str | None = None,
+    order: str | None = None,
+    in_process: bool = True,
+) -> Target:
+    """The target that a callable or a text names; see `targets`.
+
+    Raises:
+        InputError: as `targets`; or the text names several mappers, or the object is no callable.
+    """
+    if isinstance(mapper, Target):
+        return _with_policies(mapper, pick, order)
+    if not isinstance(mapper, str):
+        if not callable(mapper):
+            raise InputError(f"expected a callable that takes a robot, got {mapper!r}")
+        return _with_policies(Target(text_of(mapper), mapper), pick, order)
+    found = targets(mapper, pick=pick, order=order, in_process=in_process)
+    if len(found) != 1:
+        raise InputError(f"{mapper!r} names {len(found)} mappers: name one")
+    return found[0]
+
+
+def _target(text: str, *, in_process: bool) -> Target:
+    if not is_utf8(text):  # results, stores and workers keep every mapper as one text of JSON
+        raise InputError(
+            f"target {text!r}: expected a name in UTF-8; rename the file or the folder, or change"
+            " into the folder"
+        )
+    if text.startswith(PREFIX):
+        return Program(text.removeprefix(PREFIX)).target
+    if ":" in text:
+        if in_process:
+            return Target(text, load(text))
+        foreign = Foreign(text)
+        foreign.start()  # now, so that a text that names no mapper is refused before all else
+        return foreign.target
+    if text not in NAMED:
+        if (hint := missing_attribute(text)) is not None:
+            raise InputError(f"target {text!r}: {hint}")
+        raise InputError(
+            f"no algorithm {text!r}{close_name(text, NAMED) or ':'} there are"
+            f" {', '.join(NAMED)} and all; a mapper of your own is"
+            " package.module:attribute, path/file.py:attribute or --cmd 'program args'"
+        )
+    return Target(text, NAMED[text])
+
+
+def _with_policies(target: Target, pick: str | None, order: str | None) -> Target:
+    if pick is None and order is None:
+        return target
+    if not isinstance(target.mapper, Algorithm):
+        raise InputError(
+            f"{target.text} has no policies: leave out --pick and --order, which are for algorithms"
+            " of the catalogue"
+        )
+    try:
+        return Target(target.text, target.mapper.with_policies(pick=pick, order=order))
+    except ValueError as error:
+        raise InputError(str(error)) from None
+
+
+# ---------------------------------------------------------------- on the command line
+
+
+def target_text(target: str | None, command: str | None, default: str | None = None) -> str:
+    """The text of the TARGET that is given as an argument or by `--cmd`.
+
+    Args:
+        default: the text if neither is given.
+    Raises:
+        InputError: both are given; or neither, and there is no default.
+    """
+    if command is not None and target is None:
+        return PREFIX + shlex.join(split(command))
+    if command is None and target is None:
+        target = default
+    if command is not None or target is None:
+        raise InputError(
+            "name a TARGET, or a program with --cmd 'program args': one of the two, not both"
+        )
+    return target
+
+
+def target_arguments(text: str) -> tuple[str, ...]:
+    """The arguments of a command line that name this TARGET."""
+    return ("--cmd", text.removeprefix(PREFIX)) if text.startswith(PREFIX) else (text,)
+
+
+# ---------------------------------------------------------------- the text of a callable
+
+
+def text_of(mapper: Mapper) -> str:
+    """The text of a callable; see the table above."""
+    if isinstance(mapper, Algorithm):
+        known = CATALOGUE.get(mapper.name)
+        ours = known is not None and replace(mapper, policies=known.policies) == known
+        return mapper.name if ours else f"<{mapper.name}>"
+    if isinstance(mapper, Steered):
+        return mapper.name if mapper == STEERED.get(mapper.name) else f"<{mapper.name}>"
+    home: str = getattr(mapper, "__module__", None) or "__main__"
+    module = sys.modules.get(home)
+    name = None if module is None else _name_in(module, mapper)
+    place = None if module is None or name is None else _place(module)
+    if place is not None:
+        return f"{place}:{name}"
+    called: str = getattr(mapper, "__qualname__", type(mapper).__qualname__)
+    return f"{home}:<{called.rpartition('.')[2].strip('<>')}>"
+
+
+def is_found_again(text: str) -> bool:
+    """Whether a command line finds the mapper of this text."""
+    return "<" not in text.rpartition(":")[2]
+
+
+def _name_in(module: ModuleType, mapper: Mapper) -> str | None:
+    """The name under which a module holds this very object; None if it does not."""
+    name: str = getattr(mapper, "__qualname__", "")
+    try:
+        if attrgetter(name)(module) is mapper:
+            return name
+    except AttributeError:
+        pass
+    return next((key for key, value in vars(module).items() if value is mapper), None)
+
+
+def _place(module: ModuleType) -> str | None:
+    """How another program, started in this folder, names the module; None if it cannot."""
+    name, file = module.__name__, getattr(module, "__file__", None)
+    if name == "__main__":
+        return file if file is not None and _is_guarded(module, Path(file)) else None
+    if "." in name or file is None:
+        return name
+    path = Path(file).resolve()
+    folders = [Path.cwd(), *map(Path, os.environ.get("PYTHONPATH", "").split(os.pathsep))]
+    at_hand = path.parent in [folder.resolve() for folder in folders]
+    at_hand |= path.stem == "__init__" or "site-packages" in path.parts
+    if at_hand and path.stem in (name, "__init__"):
+        return name
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
+
+
+def _is_guarded(script: ModuleType, path: Path) -> bool:
+    """Whether a script may be loaded again: the line that it is at stands below a guard.
+
+    The guard is `if __name__ == "__main__":`. A script without one would do its work again as soon
+    as it is loaded, and that may fail before the mapper is found.
+    """
+    if path.suffix != ".py" or not path.is_file():
+        return False
+    frame = inspect.currentframe()
+    while frame and not (frame.f_globals is vars(script) and frame.f_code.co_name == "<module>"):
+        frame = frame.f_back
+    return frame is None or any(
+        isinstance(node, ast.If)
+        and "__name__" in ast.unparse(node.test)
+        and node.lineno < frame.f_lineno <= (node.end_lineno or 0)
+        for node in ast.parse(path.read_bytes()).body
+    )

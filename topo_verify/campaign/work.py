@@ -1,0 +1,171 @@
+"""What the workers of a pool do, as a value: tasks, results, and what becomes of a lost task.
+
+    Work        the work: what a worker runs, and what a task means that loses its workers
+    Loss        how a worker was lost
+    Division    how a task is cut around the item that kills
+    Remote      what other machines need on top of that
+    TaskBackend     whoever does tasks: `pool.py` on this machine, `cluster.py` on others
+
+A job, a task and a result are data (JSON); this file knows nothing of what they mean.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, TypeVar
+
+TaskT = TypeVar("TaskT")
+ResultT = TypeVar("ResultT")
+ResultT_co = TypeVar("ResultT_co", covariant=True)
+
+
+def processors() -> int:
+    """How many processors this process may use: a good number of workers."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
+
+
+@dataclass(frozen=True)
+class Loss:
+    """How a worker was lost.
+
+    Attributes:
+        status: its exit status in words, `exit code 3` or `signal 9`.
+        silence: after how many seconds without a heartbeat it was killed; None: it ended itself.
+        loading: it was not ready for its first task yet.
+        items: so many items of its task were finished.
+    """
+
+    status: str
+    silence: float | None
+    loading: bool
+    items: int = 0
+
+    @property
+    def stranger(self) -> bool:
+        """Whether it may have been lost by nothing that its task did, as by a lack of memory."""
+        return self.silence is not None or self.status == f"signal {signal.SIGKILL.value}"
+
+    @property
+    def cause(self) -> str:
+        """What happened, in brief."""
+        if self.silence is None:
+            return self.status
+        return f"it gave no sign of life for {self.silence:.0f} s"
+
+    def __str__(self) -> str:
+        if self.silence is None:
+            return f"it ended its process ({self.status})"
+        return f"its process was ended, for {self.cause}"
+
+
+@dataclass(frozen=True)
+class Division(Generic[TaskT, ResultT]):
+    """How a task is cut into pieces, which are tasks, too.
+
+    Attributes:
+        cut: the pieces in their order, given how many items were finished when the worker was lost;
+            fewer than two: the task cannot be cut.
+        join: one result from those of the pieces, in their order.
+        last: no piece behind one with such a result is wanted, and none is joined.
+    """
+
+    cut: Callable[[TaskT, int], Sequence[TaskT]]
+    join: Callable[[list[ResultT]], ResultT]
+    last: Callable[[ResultT], bool]
+
+
+@dataclass(frozen=True)
+class Remote(Generic[TaskT, ResultT]):
+    """What other machines need to do a task of some work.
+
+    Attributes:
+        remade: `module:function`, which makes the same `Work` from its job, as JSON.
+        task: the type of a task, to read it from JSON.
+        parts: a task in parts, without a look at its items; fewer than two: it cannot be cut.
+        lost: the result of a task that cannot be cut and with which machines were lost, so many
+            that none is tried again; that convicts nobody.
+        require_ours: raises an InputError if a result was made with other files than are here; it
+            is given the result and the name of the worker.
+    """
+
+    remade: str
+    task: type[TaskT]
+    parts: Callable[[TaskT], Sequence[TaskT]]
+    lost: Callable[[TaskT], ResultT]
+    require_ours: Callable[[ResultT, str], None] = lambda _result, _worker: None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Work(Generic[TaskT, ResultT]):
+    """What the workers of a pool do, and what becomes of a task that loses them.
+
+    Attributes:
+        serve: the function that a worker runs, `module:function`; a `worker.Serve`.
+        job: what each worker is handed once, before its first task.
+        result: the type of a result, to read it from JSON.
+        lost: the result of a task that was lost with its last worker; it may raise.
+        survived: the result of a task that lost workers, given what it came to in the end, how they
+            were lost, each with the piece that it was at, and the pieces that were given up;
+            default: what it came to.
+        silence: a worker that writes no heartbeat for so many seconds is lost.
+        loading: seconds that a worker has to get ready.
+        attempts: so many workers may be lost with a task.
+        division: how a task is cut; None: it cannot be.
+        remote: what other machines need; None: the work is done on this one only.
+    """
+
+    serve: str
+    job: Any
+    result: type[ResultT]
+    lost: Callable[[TaskT, Loss], ResultT]
+    survived: Callable[[ResultT, Sequence[tuple[TaskT, Loss]], Sequence[TaskT]], ResultT] = (
+        lambda result, _losses, _given_up: result
+    )
+    silence: float
+    loading: float = 120.0
+    attempts: int = 2
+    division: Division[TaskT, ResultT] | None = None
+    remote: Remote[TaskT, ResultT] | None = None
+
+
+class TaskBackend(Protocol[TaskT, ResultT_co]):
+    """Whoever does tasks: a pool on this machine, or a cluster of others."""
+
+    def run(
+        self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = ...
+    ) -> Iterator[tuple[TaskT, ResultT_co]]:
+        """Each task, the very object, and its result, in the order in which tasks are finished.
+
+        Args:
+            room: asked before a task is taken; while it says no, none is.
+        """
+        ...
+
+
+def in_order(
+    backend: TaskBackend[TaskT, ResultT], tasks: Iterable[TaskT], *, ahead: int
+) -> Iterator[ResultT]:
+    """The results in the order of the tasks.
+
+    Args:
+        tasks: each an object of its own.
+        ahead: at most so many tasks are taken before the first of them is finished: a slow one must
+            not fill the memory with results that wait for it.
+    """
+    taken: deque[TaskT] = deque()
+    results: dict[int, ResultT] = {}  # by the identity of the task, which `taken` keeps alive
+
+    def take() -> Iterator[TaskT]:
+        for task in tasks:
+            taken.append(task)
+            yield task
+
+    for finished, result in backend.run(take(), room=lambda: len(taken) < ahead):
+        results[id(finished)] = result
+        while taken and id(taken[0]) in results:
+            yield results.pop(id(taken.popleft()))

@@ -1,0 +1,309 @@
+"""One worker of a `Pool`: the process, which does tasks, and the handle that its parent has on it.
+
+    in          the key and the job, then the tasks: a JSON value a line
+    out         a sealed message a line: WorkerReady, a TaskDone for each task; or WorkerFailed, the
+                last
+    heartbeat   a small file: how many items of the task are finished, and a number that grows
+
+What the process works at is named by `module:function` (`Serve`): the pool, which starts it, knows
+nothing of its own of searches, mappers or worlds.
+
+Four things the code here must see to:
+
+- **A worker ends with its parent, however that ends.** It is a fork of the launcher, which sees its
+  control end, and on Linux the kernel kills a worker with the launcher, for a mapper that sits in C
+  code lets no thread run. Elsewhere the thread that reads tasks sees the channel end.
+- **No other program speaks for a worker.** A worker is shielded from its first moment
+  (launcher.py), so that its memory and its channel cannot be opened. Each message carries a *seal*:
+  its number and its text, signed with a key that only parent and worker know. So a message that
+  comes by another way, as through a channel that a child has inherited, ends the work.
+- **A mapper cannot disturb the channel.** One that reads standard input finds nothing, and what it
+  prints goes to standard error.
+- **Ctrl-C is for the parent**, which decides what becomes of the workers.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import signal
+import socket
+import threading
+import traceback
+from collections.abc import Callable
+from contextlib import AbstractContextManager, suppress
+from functools import partial
+from hashlib import blake2b
+from hmac import compare_digest
+from queue import SimpleQueue
+from secrets import token_hex
+from tempfile import TemporaryFile
+from time import monotonic, sleep
+from typing import Any, BinaryIO
+
+import msgspec
+
+from topo_verify.errors import InputError
+from topo_verify.programs.launcher import launch
+from topo_verify.robot.stopwatch import Stopwatch, tasks_of
+
+Beat = Callable[[int], None]
+"""Called in the course of a task, before anything that may take long: (items finished so far)."""
+
+Handler = Callable[[bytes, Beat], Any]
+"""Does one task: takes it as JSON, returns the result, which msgspec can write as JSON."""
+
+Serve = Callable[[bytes], AbstractContextManager[Handler]]
+"""Takes the job as JSON, and prepares for its tasks; on leaving the context, clears up."""
+
+END_GRACE = 5.0
+"""Seconds that an idle worker has to leave its context and end."""
+
+LOOK = 1.0
+"""Seconds between two looks of the pool at a heartbeat, at most, unless the pool does not run."""
+
+TERM_GRACE = 2.0
+"""Seconds that a busy worker has to end after SIGTERM."""
+
+
+class WorkerReady(msgspec.Struct, frozen=True, tag=True):
+    """The worker is prepared and waits for tasks."""
+
+
+class TaskDone(msgspec.Struct, frozen=True, tag=True):
+    """A task is finished."""
+
+    result: msgspec.Raw
+
+
+class WorkerFailed(msgspec.Struct, frozen=True, tag=True):
+    """The worker cannot go on: the input is bad, or there is a bug of ours (`bug`)."""
+
+    text: str
+    bug: bool
+
+
+WorkerMessage = WorkerReady | TaskDone | WorkerFailed
+
+
+class Heartbeat:
+    """The file that a worker writes its signs of life to, and its parent reads.
+
+    It is one write of fixed width, so a reader never sees half of one. A pipe would fill up while
+    the parent is busy, and would have to be drained; of a file only the last beat is ever read.
+
+    Args:
+        file: its file descriptor.
+    """
+
+    def __init__(self, file: int) -> None:
+        self.file = file
+        self._count = 0
+
+    def beat(self, items: int) -> None:
+        """Report that so many items of the task are finished, and that something new begins."""
+        self._count += 1
+        os.pwrite(self.file, b"%12d %12d" % (items, self._count), 0)
+
+    def read(self) -> tuple[int, int]:
+        """How many items are finished, and how many beats there were."""
+        items, count = os.pread(self.file, 25, 0).split() or (0, 0)
+        return int(items), int(count)
+
+
+class Seal:
+    """Signs the messages of one worker, each with its number, so that none is forged or repeated.
+
+    Args:
+        key: known to the worker and to its parent.
+    """
+
+    def __init__(self, key: str) -> None:
+        self._key, self._messages = key.encode(), 0
+
+    def sealed(self, text: bytes) -> bytes:
+        """The next message with its seal."""
+        self._messages += 1
+        numbered = b"%d %b" % (self._messages, text)
+        return blake2b(numbered, key=self._key, digest_size=32).hexdigest().encode() + b" " + text
+
+    def opened(self, line: bytes) -> bytes:
+        """The next message without its seal.
+
+        Raises:
+            InputError: its seal is not that of the worker's next message.
+        """
+        text = line.partition(b" ")[2]
+        if not compare_digest(line, self.sealed(text)):
+            raise InputError(
+                "expected the seal of a worker on its message, got another one: a process on this"
+                " machine writes in its place; run the mapper as another user or in a container"
+            )
+        return text
+
+
+# ---------------------------------------------------------------- in the parent
+
+
+class WorkerProcess:
+    """A worker, as its parent sees it. Life cycle: made, `start` tasks, `kill`.
+
+    Args:
+        serve: what it is to run, `module:function`; a `Serve`.
+        job: what it is handed before its first task.
+        folder: where it is started; None: in the current folder.
+    Attributes:
+        ready: it has said that it waits for tasks.
+        items: how many items of its task were finished when its heartbeat was last read.
+    """
+
+    def __init__(self, serve: str, job: object, folder: str | None = None) -> None:
+        self._file = TemporaryFile()  # noqa: SIM115  closed by `kill`
+        self.heartbeat = Heartbeat(self._file.fileno())
+        self.process = launch(f"{__name__}:main", self.heartbeat.file, folder=folder)
+        key = token_hex(32)
+        self._seal = Seal(key)
+        self.ready = False
+        self.items: int = 0
+        self._beats: int = 0
+        self._since_beat = self._stopwatch()
+        self._rest = b""
+        self._grace = 0.0
+        self._write([key, serve, job])
+
+    @property
+    def out(self) -> socket.socket:
+        """The socket on which its messages come."""
+        return self.process.channel
+
+    def start(self, task: object) -> None:
+        """Hand it a task. It must be idle: a busy one would not read, and the pipe may fill up."""
+        self.items, self._since_beat = 0, self._stopwatch()
+        self._write(task)
+
+    def _write(self, data: object) -> None:
+        with suppress(ConnectionError):  # it is dead: reading from it will tell
+            self.out.sendall(msgspec.json.encode(data) + b"\n")
+
+    def hear(self) -> list[WorkerMessage] | None:
+        """The messages that have come; None if it has ended.
+
+        Raises:
+            InputError: another process wrote a message.
+        """
+        text = self._received()
+        if not text:
+            return None
+        *lines, self._rest = (self._rest + text).split(b"\n")
+        return [msgspec.json.decode(self._seal.opened(line), type=WorkerMessage) for line in lines]
+
+    def _received(self) -> bytes:
+        """What has come; nothing if it has ended."""
+        try:
+            return self.out.recv(1 << 16)
+        except ConnectionError:  # it ended before it read what was written
+            return b""
+
+    def silence(self) -> float:
+        """For how many seconds it has written no heartbeat.
+
+        Seconds in which it waits for a processor do not count: a busy machine hangs no worker.
+        """
+        items, beats = self.heartbeat.read()
+        if beats != self._beats:
+            self.items, self._beats, self._since_beat = items, beats, self._stopwatch()
+        return self._since_beat.seconds()
+
+    def _stopwatch(self) -> Stopwatch:
+        return Stopwatch(lambda: tasks_of(self.process.pid), tick=LOOK)
+
+    def dismiss(self, *, busy: bool) -> None:
+        """Have it end: an idle worker leaves its context, a busy one gets SIGTERM."""
+        with suppress(OSError):
+            self.out.shutdown(socket.SHUT_WR)
+        if busy:
+            with suppress(ProcessLookupError):
+                os.kill(self.process.pid, signal.SIGTERM)
+        self._grace = TERM_GRACE if busy else END_GRACE
+
+    def await_end(self) -> None:
+        """Wait until it has ended by itself after `dismiss`, but not for long."""
+        until = monotonic() + self._grace
+        with suppress(TimeoutError):
+            while (left := until - monotonic()) > 0:
+                self.out.settimeout(left)
+                if not self._received():
+                    return
+
+    def kill(self) -> str:
+        """Kill it and whatever it started; its exit status in words."""
+        # Its number names no other group: it is not reaped before `wait`.
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(self.process.pid, signal.SIGKILL)
+        code = self.process.wait()
+        self.silence()  # how far it came
+        self.out.close()
+        self._file.close()
+        return f"signal {-code}" if code < 0 else f"exit code {code}"
+
+
+# ---------------------------------------------------------------- in the worker
+
+
+def main(commands: BinaryIO, out: BinaryIO, heartbeat: int) -> None:
+    """Work for a parent until it has no more tasks or is gone.
+
+    Args:
+        commands, out: from the parent and to it.
+        heartbeat: the file descriptor of the heartbeat.
+    """
+    lines: SimpleQueue[bytes | None] = SimpleQueue()
+    threading.Thread(target=_read, args=(commands, lines.put), daemon=True).start()
+    first = lines.get()
+    if first is None:
+        return
+    key, serve, job = msgspec.json.decode(first, type=tuple[str, str, msgspec.Raw])
+    send = partial(_send, out, Seal(key))
+    try:
+        _work(_function(serve)(bytes(job)), lines, send, Heartbeat(heartbeat).beat)
+    except ConnectionError:
+        pass  # the parent is gone: nobody wants the result
+    except InputError as error:
+        send(WorkerFailed(str(error), bug=False))
+    except Exception:  # noqa: BLE001  whatever it is, the parent is told
+        send(WorkerFailed(traceback.format_exc(), bug=True))
+
+
+def _work(
+    served: AbstractContextManager[Handler],
+    lines: SimpleQueue[bytes | None],
+    send: Callable[[WorkerMessage], None],
+    beat: Beat,
+) -> None:
+    """Do tasks until there are no more."""
+    with served as handle:
+        send(WorkerReady())
+        beat(0)
+        while (task := lines.get()) is not None:
+            beat(0)
+            send(TaskDone(msgspec.Raw(msgspec.json.encode(handle(task, beat)))))
+
+
+def _function(name: str) -> Serve:
+    module, _, attribute = name.partition(":")
+    found: Serve = getattr(importlib.import_module(module), attribute)
+    return found
+
+
+def _send(out: BinaryIO, seal: Seal, message: WorkerMessage) -> None:
+    out.write(seal.sealed(msgspec.json.encode(message)) + b"\n")
+    out.flush()
+
+
+def _read(commands: BinaryIO, put: Callable[[bytes | None], None]) -> None:
+    """Hand on the lines; when they end, have the process end, in the midst of a task or not."""
+    for line in commands:
+        put(line)
+    put(None)  # an idle worker sees this, and leaves its context
+    sleep(END_GRACE)
+    os._exit(1)  # a busy one does not

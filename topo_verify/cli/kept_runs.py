@@ -1,0 +1,70 @@
+"""The runs that commands keep in a store, and what they say of them."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from pathlib import Path
+
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.store import Store
+from topo_verify.cli.output import Output
+from topo_verify.programs.loaded import watch
+from topo_verify.studies.by_mapper import MapperCampaign
+from topo_verify.text import plural
+
+STORE, OLD_STORE = "runs.db", "runs.jsonl"
+"""The file in the folder that keeps the runs; the one in which version 0.2 kept them."""
+
+
+@contextmanager
+def open_store(output: Output, folder: Path | None) -> Generator[Store | None]:
+    """The store in a folder; None: there is no folder, and nothing is kept.
+
+    Raises:
+        InputError: the file cannot be used.
+    """
+    if folder is None:
+        yield None
+        return
+    if (folder / OLD_STORE).exists() and not (folder / STORE).exists():
+        output.note(
+            f"topo-verify 0.2 or before wrote {folder / OLD_STORE}: its runs are made again, in"
+            f" {STORE}; remove the old file"
+        )
+    with Store(folder / STORE) as store:
+        yield store
+
+
+def opened(path: str | None) -> AbstractContextManager[Store | None]:
+    """The store in a file; None: none is asked for."""
+    if path is None:
+        return nullcontext()
+    watch()  # before a mapper is loaded
+    return Store(path)
+
+
+def stored_rows(
+    output: Output, campaigns: Sequence[MapperCampaign], workers: int, store: Store | None
+) -> Iterator[Row]:
+    """The rows of all campaigns; those that the store lacks are made, and kept.
+
+    Args:
+        workers: the number of processes; 0: this one alone.
+    """
+    total = sum(one.total for one in campaigns)
+    if store is not None:
+        output.timing["from_store"] = stored = sum(one.stored for one in campaigns)
+        if stored:
+            output.note(f"{stored} of {plural(total, 'run')} are in {store.path}")
+    try:
+        for one in campaigns:
+            yield from one.rows(workers, output.progress)
+    except KeyboardInterrupt:
+        if store is not None:
+            stored = sum(one.stored for one in campaigns)
+            output.note(
+                f"{stored} of {plural(total, 'run')} are kept in {store.path}; the same command"
+                " goes on"
+            )
+        raise

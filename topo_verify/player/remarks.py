@@ -1,0 +1,193 @@
+"""What the replay adds to an event that the mapper did not say: what speaks against a decision.
+
+Lines of text, in which places are named as in `names.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from topo_verify.checkers.darts import KnownDart, WorldDart
+from topo_verify.player.detours import Turn, way_home
+from topo_verify.player.names import (
+    door_words,
+    either_place,
+    listed,
+    map_place,
+    percept_in_brackets,
+)
+from topo_verify.player.scenes import Mismatch, Moment, Playback
+from topo_verify.robot import events as ev
+from topo_verify.robot.percept import Door, Percept
+
+
+def remarks(playback: Playback, moment: Moment, turn: Turn | None = None) -> Iterator[str]:
+    """What the replay adds that the mapper did not say.
+
+    Args:
+        turn: of a move, if its door is not counted from the dart by which the robot came.
+    """
+    if playback.replayed.spoiled == moment.number:
+        yield "from here on the mapper's map is false; places are named by what was true of it"
+    match moment.event:
+        case ev.Pose() if playback.replayed.spoiled is None or moment.number < (
+            playback.replayed.spoiled
+        ):
+            yield from _about_pose(playback, moment, moment.event)
+        case ev.Reject() if moment.mismatch is not None:
+            found, leaves = moment.mismatch, moment.mismatch.leaves
+            if leaves is not None and found.evidence.record is None:
+                yield _leaving(playback, moment.number, found, leaves)
+        case ev.Confirm():
+            yield from _about_confirm(playback, moment)
+        case ev.Move() if turn is not None:
+            yield _turned(playback, moment.event, playback.moments[moment.number - 1], turn)
+        case _:
+            pass
+
+
+def _leaving(playback: Playback, number: int, found: Mismatch, leaves: KnownDart) -> str:
+    """That the doors of a rejection lead out of S, where S expects nothing; and which lead home."""
+    start = map_place(playback, found.traced[0])
+    words = (
+        f"from {start}, {door_words(found.doors)} would leave S by {map_place(playback, leaves)}"
+    )
+    home = door_words(way_home(playback, found.traced[0], number))
+    return f"{words}, which is unexplored; the way home from {start} is by {home}"
+
+
+class Homeward(NamedTuple):
+    """The walk behind an edge beside S, as if the confirmed hypothesis were true.
+
+    Attributes:
+        start: the hypothesis, the dart by which the robot would have come in.
+        took: the doors that the robot took.
+        step: the doors before the first place that differs; all doors if no place differs.
+        expected, seen: what S has there, and what the robot saw.
+        arrived: the doors lead to v0 on S.
+        home: the doors of a shortest way there.
+    """
+
+    start: KnownDart
+    took: tuple[Door, ...]
+    step: int
+    expected: Percept
+    seen: Percept
+    arrived: bool
+    home: tuple[Door, ...]
+
+    @property
+    def proves(self) -> bool:
+        """Whether the walk led to the marker and each place on it looked as S has it."""
+        return self.arrived and self.expected == self.seen
+
+
+def homeward(playback: Playback, moment: Moment) -> Homeward | None:
+    """The walk on which a confirmation by motion rests.
+
+    None if the event is no such confirmation, cannot be judged, or the walk did not begin behind
+    its edge.
+
+    From the start of a way to v0 back, S and the marker fix each dart of it. So if each percept is
+    as S has it, the hypothesis is true.
+    """
+    event, drawn, number = moment.event, playback.map, moment.number
+    spoiled = playback.replayed.spoiled
+    if not isinstance(event, ev.Confirm) or event.rule != "motion" or moment.edge != event.edge:
+        return None
+    if not drawn.is_open(event.edge, number) or not drawn.is_open(event.hypothesis, number):
+        return None
+    if moment.position is None or (spoiled is not None and spoiled < number):
+        return None
+    posed = next(m for m in playback.moments[number::-1] if isinstance(m.event, ev.Pose))
+    if posed.position != drawn.end(event.edge):
+        return None
+    took = tuple(step.door for step in moment.word)
+    seen = drawn.seen_at(drawn.end(event.edge)), *(step.percept for step in moment.word)
+    at, step = event.hypothesis, 0
+    for step, door in enumerate((*took, 0)):
+        out = drawn.turn(at, door)
+        if seen[step] != drawn.seen_at(drawn.phi[at]) or step == len(took):
+            break
+        if drawn.is_open(out, number):
+            break
+        at = drawn.alpha[out]
+    arrived = step == len(took) and playback.vertex(at) == 0
+    home = way_home(playback, event.hypothesis, number)
+    expected = drawn.seen_at(drawn.phi[at])
+    return Homeward(event.hypothesis, took, step, expected, seen[step], arrived, home)
+
+
+def _about_confirm(playback: Playback, moment: Moment) -> Iterator[str]:
+    """What the walk home shows that speaks against a confirmation, or that it was not walked."""
+    way = homeward(playback, moment)
+    if way is None or way.proves:
+        return
+    start = map_place(playback, way.start)
+    if way.expected == way.seen:
+        took = door_words(way.took)
+        yield f"the way home from {start} is by {door_words(way.home)}; the robot took {took}"
+        return
+    behind = f", behind {door_words(way.took[: way.step])}" if way.step else ""
+    words = f"who comes in by {start} sees {percept_in_brackets(way.expected)}{behind}"
+    yield f"{words}; the robot saw {percept_in_brackets(way.seen)}"
+    if not way.home:
+        yield f"{start} is at v0: the way home has no door, so this percept decides"
+
+
+def _turned(playback: Playback, move: ev.Move, before: Moment, turn: Turn) -> str:
+    """That the reference dart is not the dart by which the robot came to the place."""
+    now = either_place(playback, before.known, before.position)
+    came = either_place(playback, playback.known(turn.entry, before.number), turn.entry)
+    words = f"turned: it came here by {came} and back by {now}"
+    return f"{words}, so door {move.door} is door {turn.door} counted from {came}"
+
+
+def _about_pose(playback: Playback, moment: Moment, pose: ev.Pose) -> Iterator[str]:
+    """Which darts it leaves out; when it crossed the edge, or by which dart it came instead."""
+    edge, drawn, number = pose.edge, playback.map, moment.number
+    if not drawn.is_open(edge, number) or moment.position is None:
+        return
+    crossed = playback.replayed.crossings.get(playback.replayed.crossing(drawn.end(edge)), number)
+    is_late = crossed < number and moment.position != drawn.end(edge)
+    look = drawn.seen_at(drawn.end(edge) if is_late else moment.position).signature
+    alike = [
+        dart
+        for dart in sorted(drawn.phi)
+        if drawn.is_open(dart, number) and drawn.seen_at(drawn.phi[dart]).signature == look
+    ]
+    left_out = [dart for dart in alike if dart not in (edge, *pose.hypotheses)]
+    here = [dart for dart in left_out if playback.vertex(dart) == playback.vertex(edge)]
+    for darts, at in (
+        (here, f"the vertex that edge {edge} leaves"),
+        (
+            [dart for dart in left_out if dart not in here],
+            f"places that look like {'the one there' if is_late else 'this one'}",
+        ),
+    ):
+        if darts:
+            yield f"it leaves out {listed(darts)}, unexplored too, at {at}"
+    if is_late:
+        yield f"it crossed edge {edge} at event {crossed}, and is elsewhere now"
+    last = next(
+        (m for m in reversed(playback.moments[: moment.number]) if isinstance(m.event, ev.Move)),
+        None,
+    )
+    phi = playback.map.phi[edge]
+    if last is None or last.left_by == phi:
+        return
+    assert isinstance(last.event, ev.Move)
+    before = playback.moments[last.number - 1]
+    left = either_place(playback, last.through, last.left_by)
+    words = f"door {last.event.door} at event {last.number} led out by {left}"
+    wanted = map_place(playback, edge)
+    if before.position is not None and _same_vertex(playback, before.position, phi):
+        door = playback.door(before.position, phi)
+        yield f"{words}; edge {edge} ({wanted}) was behind door {door} there"
+    else:
+        yield f"{words}; edge {edge} ({wanted}) is at another vertex"
+
+
+def _same_vertex(playback: Playback, one: WorldDart, other: WorldDart) -> bool:
+    return playback.world.vertex_of[one] == playback.world.vertex_of[other]

@@ -1,0 +1,276 @@
+"""Starts processes of our own that no other program can look into, not even in their first moment.
+
+    prepare()    call it before a program that is not ours is started
+    launch()     a process of ours that calls `module:function`
+
+**Why a launcher.** Every process of the user can read a new Python until that says it is not
+dumpable: by /proc/PID/mem, /proc/PID/fd, ptrace or pidfd_getfd. What was opened by then stays open,
+and a process that was traced by then may do what its tracer wants. So no key and no order of
+messages closes this gap. An exec makes a process dumpable, but a *fork inherits* that its parent is
+not. So one process, the launcher, is started and shielded before this process starts any program,
+and workers are its forks. Then it does not matter when a worker is started, or which process has
+left its group by then. The launcher has one thread and has loaded next to nothing, so it can be
+forked at any time.
+
+**Why not a library?** `multiprocessing.forkserver` listens on a socket with a name, to which any
+process of the user can connect, and it shields nothing.
+
+    control    to the launcher: start a fork with these files; wait for the end of a fork
+    channel    to each fork: a pair of sockets; the first line says what the fork does
+
+The launcher ends with the process that started it, and its forks end with the launcher. If it is
+killed after a program was started, it is not replaced, for a new one would have a first moment.
+
+What this does not show: a process that an *earlier* command left over runs beside the first moment
+of the launcher. On other systems than Linux nothing is hidden.
+"""
+
+from __future__ import annotations
+
+import atexit
+import importlib
+import json
+import os
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import threading
+from collections.abc import Sequence
+from contextlib import suppress
+
+from topo_verify.errors import InputError, InternalError
+from topo_verify.programs import isolation
+
+_ORDER = struct.Struct("=qcq")
+"""An order to the launcher: its number, `_START` or `_WAIT`, the process to wait for."""
+
+_ANSWER = struct.Struct("=qq")
+"""An answer: the number of the order; the process that was started, or how a process ended."""
+
+_START, _WAIT, _READY = b"+", b"-", b"."
+
+_MOST_FILES = 8
+
+
+class Launched:
+    """A process that the launcher started. Life cycle: `launch` makes it, `wait` reaps it.
+
+    Attributes:
+        pid: its number, which no other process has before `wait`.
+        channel: the socket to it.
+    """
+
+    def __init__(self, launcher: _Launcher, pid: int, channel: socket.socket) -> None:
+        self._launcher, self.pid, self.channel = launcher, pid, channel
+
+    def wait(self) -> int:
+        """Wait for its end; its exit code, or a signal as a negative number."""
+        try:
+            return self._launcher.ask(_WAIT, self.pid)
+        except _Lost:
+            return -signal.SIGKILL  # the kernel ended it with the launcher
+
+
+def prepare() -> None:
+    """Shield this process and start the launcher, so that foreign code may run from now on."""
+    if not _forked:
+        _launcher().foreign = True
+
+
+def launch(place: str, *files: int, folder: str | None = None) -> Launched:
+    """A process that calls `module:function` with pipes from us and to us, and with the files.
+
+    It imports from where this process imports, and has our environment and our standard error.
+
+    Args:
+        files: file descriptors.
+        folder: where it runs; None: in the current folder.
+    Raises:
+        InputError: the launcher was killed after a program was started.
+        OSError: the system starts no process.
+    """
+    ours, theirs = socket.socketpair()
+    try:
+        with theirs, open(os.devnull, "wb") as nothing:  # noqa: PTH123  as raw as the others
+            error = 2 if _is_open(2) else nothing.fileno()
+            launcher, pid = _started((theirs.fileno(), error, *files))
+    except BaseException:
+        ours.close()
+        raise
+    task = [place, sys.path, dict(os.environ), _absolute(folder or ".")]
+    with suppress(ConnectionError):  # it is dead: reading from it will tell
+        ours.sendall(json.dumps(task).encode() + b"\n")
+    return Launched(launcher, pid, ours)
+
+
+def _started(files: Sequence[int]) -> tuple[_Launcher, int]:
+    """A fork that has these files, and its launcher."""
+    while True:  # as long as there is no foreign program, a launcher that was killed is replaced
+        launcher = _launcher()
+        with suppress(_Lost):
+            return launcher, launcher.ask(_START, files=files)
+
+
+def _is_open(file: int) -> bool:
+    with suppress(OSError):
+        os.fstat(file)
+        return True
+    return False
+
+
+def _absolute(folder: str) -> str | None:
+    with suppress(OSError):  # it was removed; the launcher is in it, too
+        return os.path.abspath(folder)  # noqa: PTH100  a text
+    return None
+
+
+# ---------------------------------------------------------------- in the process that has it
+
+
+class _Lost(Exception):
+    """The launcher has ended."""
+
+
+class _Launcher:
+    """The launcher of this process. It lives until `close`.
+
+    Attributes:
+        owner: the process that started it; a fork of that has a launcher of its own.
+        foreign: a program that is not ours was started since.
+    """
+
+    def __init__(self) -> None:
+        isolation.shield()  # first, for what its children lose: see there
+        self.owner, self.foreign = os.getpid(), False
+        self._orders, self._lock = 0, threading.Lock()
+        self._control, theirs = socket.socketpair()
+        with theirs:
+            self._process = subprocess.Popen(  # noqa: S603  this very Python
+                isolation.python_command(f"{__name__}:main"),
+                stdin=theirs.fileno(),
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                process_group=0,  # Ctrl-C is for its parent
+            )
+        if self._control.recv(1) != _READY:  # it is shielded when this returns
+            raise InternalError("the process that starts workers ended before it was ready")
+
+    @property
+    def lost(self) -> bool:
+        """Whether it has ended."""
+        return self._process.poll() is not None
+
+    def ask(self, kind: bytes, process: int = 0, files: Sequence[int] = ()) -> int:
+        """The answer to an order.
+
+        Raises:
+            _Lost: the launcher has ended.
+            OSError: the system starts no process.
+        """
+        with self._lock:
+            self._orders += 1
+            order = _ORDER.pack(self._orders, kind, process)
+            answer = (0, 0)
+            try:
+                socket.send_fds(self._control, [order], files)
+                while answer[0] != self._orders:  # Ctrl-C left an answer unread
+                    answer = _ANSWER.unpack(self._control.recv(_ANSWER.size))
+            except (ConnectionError, struct.error):
+                self._process.wait()
+                raise _Lost from None
+        if kind == _START and answer[1] < 0:
+            raise OSError(-answer[1], os.strerror(-answer[1]))
+        return answer[1]
+
+    def close(self) -> None:
+        """End it."""
+        self._control.close()
+        if self.owner == os.getpid():
+            self._process.wait()
+
+
+_launchers: list[_Launcher] = []
+_starting = threading.Lock()
+_forked: list[bool] = []
+"""Not empty in a fork of a launcher, which starts no forks itself."""
+
+
+def _launcher() -> _Launcher:
+    """The launcher of this process; started if there is none."""
+    with _starting:
+        if _launchers and _launchers[-1].owner == os.getpid():
+            last = _launchers[-1]
+            if not last.lost:
+                return last
+            if last.foreign:
+                raise InputError(
+                    "the process that starts workers was killed, and none can be started beside"
+                    " a mapper: start the command again"
+                )
+        launcher = _Launcher()
+        _launchers.append(launcher)
+        atexit.register(launcher.close)
+        return launcher
+
+
+# ---------------------------------------------------------------- in the launcher
+
+
+def main() -> None:
+    """Start forks and wait for them, until the parent is gone; a fork goes on to its task."""
+    isolation.shield()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    control = socket.socket(fileno=os.dup(0))
+    with open(os.devnull, "rb") as nothing:  # noqa: PTH123  as raw as the others
+        os.dup2(nothing.fileno(), 0)
+    control.sendall(_READY)
+    here = os.getpid()
+    while True:
+        order, files, _, _ = socket.recv_fds(control, _ORDER.size, _MOST_FILES)
+        if not order:
+            return
+        number, kind, process = _ORDER.unpack(order)
+        if kind == _WAIT:
+            _, status = os.waitpid(process, 0)
+            answer = os.waitstatus_to_exitcode(status)
+        else:
+            try:
+                answer = os.fork()
+            except OSError as error:
+                answer = -(error.errno or 1)
+            if answer == 0:
+                control.close()
+                isolation.end_with(here)
+                os.setpgid(0, 0)
+                _play(*files)
+                return
+            for file in files:
+                os.close(file)
+            with suppress(OSError):  # here, too: its group exists when its number is known
+                os.setpgid(answer, answer)
+        control.sendall(_ANSWER.pack(number, answer))
+
+
+def _play(channel: int, error: int, *files: int) -> None:
+    """Do in this fork what the channel says."""
+    _forked.append(True)
+    for file in (channel, *files):
+        os.set_inheritable(file, False)  # noqa: FBT003  its only argument
+    for stream in (1, 2):  # what a mapper prints goes to standard error
+        os.dup2(error, stream)
+    os.close(error)
+    # Neither is ever closed: a thread may read from one until this process ends.
+    reader, writer = os.fdopen(channel, "rb"), os.fdopen(os.dup(channel), "wb")
+    task = reader.readline()
+    if not task.endswith(b"\n"):
+        return  # the parent was interrupted
+    place, path, environment, folder = json.loads(task)
+    sys.path[:] = path
+    os.environ.clear()
+    os.environ.update(environment)
+    if folder is not None:
+        os.chdir(folder)
+    module, _, function = place.partition(":")
+    getattr(importlib.import_module(module), function)(reader, writer, *files)

@@ -1,0 +1,274 @@
+"""From runs to the league table: places, paired intervals, coverage of claims, counterexamples.
+
+A mapper has a place in a suite if it was judged in all its worlds and no claim failed in any run of
+the call. One that breaks a claim anywhere has no place in any suite: its entries hold the
+counterexample, the first failing world in the order of suites and worlds. What is judged in part
+(`not-declared`, `partial`) is no failure, and `claims` says so.
+
+Nothing here depends on the order in which runs were finished.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from statistics import fmean
+
+import msgspec
+
+from topo_verify.algorithms import Algorithm, Steered
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.tally import Counts
+from topo_verify.checkers import Judgement, Status
+from topo_verify.programs.loader import Target
+from topo_verify.studies.arena.interval import FamilySample, MeanInterval, mean_interval
+from topo_verify.studies.arena.suites import Suite, SuiteFamily
+
+
+class LeagueBehind(msgspec.Struct, frozen=True):
+    """By how much more a mapper pays than the first of the table, in the same worlds.
+
+    Attributes:
+        mapper: the first of the table.
+        mean, low, high: of the differences of cost / LB.
+    """
+
+    mapper: str
+    mean: float
+    low: float | None
+    high: float | None
+
+
+class FamilyCosts(msgspec.Struct, frozen=True):
+    """The costs of a mapper in one family of a suite: means over its worlds.
+
+    Attributes:
+        family: its name.
+        edges, least, cost: means.
+    """
+
+    family: str
+    worlds: int
+    edges: float
+    least: float
+    cost: float
+    ratio: MeanInterval
+
+
+class DearestWorld(msgspec.Struct, frozen=True):
+    """The world in which a mapper's cost is the highest multiple of the least one."""
+
+    world: str
+    edges: int
+    least: int
+    cost: int
+    ratio: float
+
+
+class LeagueCounterexample(msgspec.Struct, frozen=True):
+    """The first world in which a claim fails."""
+
+    suite: str
+    world: str
+    edges: int
+    claim: str
+    message: str
+    replay: str
+
+
+class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
+    """A mapper in a suite.
+
+    Attributes:
+        worlds, total: worlds judged, of how many.
+        undecided: worlds that were out of time or declined; `why`: the first reasons.
+        place: 1 is the best; null: no place.
+        ratio: cost / LB, the mean over families.
+        rejected_free, rejected_moving: hypotheses, over all worlds.
+        ms_per_move: milliseconds a move; the one figure here that differs from run to run.
+    """
+
+    mapper: str
+    suite: str
+    worlds: int
+    total: int
+    undecided: int
+    why: tuple[str, ...]
+    place: int | None
+    ratio: MeanInterval | None
+    behind: LeagueBehind | None
+    families: tuple[FamilyCosts, ...]
+    rejected_free: int
+    rejected_moving: int
+    ms_per_move: float | None
+    claims: dict[str, Status]
+    judgements: tuple[Judgement, ...]
+    dearest: DearestWorld | None
+    counterexample: LeagueCounterexample | None
+
+
+KEPT_REASONS = 3
+"""How many worlds that are not decided have their reasons kept."""
+
+
+@dataclass(frozen=True)
+class League:
+    """What is to be played: mappers, suites, a seed; and the table of the runs so far.
+
+    Attributes:
+        mappers: by their TARGETs, in the order of the command line.
+        seed: of the drawn worlds.
+        made: the rows that are done, by mapper and world; grows while they are made.
+        peaks: the kibibytes that a mapper took at most in a world; None: the system does not tell.
+    """
+
+    mappers: tuple[Target, ...]
+    suites: tuple[Suite, ...]
+    seed: int
+    made: dict[tuple[str, str], Row] = field(default_factory=dict[tuple[str, str], Row], repr=False)
+    peaks: dict[tuple[str, str], int | None] = field(
+        default_factory=dict[tuple[str, str], int | None], repr=False
+    )
+
+    def plays(self, mapper: Target, suite: Suite) -> bool:
+        """Whether a mapper is right to be asked: one that assumes planar worlds plays no others."""
+        assumes = mapper.mapper.assumes if isinstance(mapper.mapper, Algorithm | Steered) else None
+        return assumes != "planar" or suite.planar
+
+    def worlds_of(self, mapper: Target) -> list[str]:
+        """The worlds that a mapper plays, each once, in the order of suites and worlds."""
+        suites = [suite for suite in self.suites if self.plays(mapper, suite)]
+        return list(dict.fromkeys(world for suite in suites for world in suite.worlds(self.seed)))
+
+    @property
+    def planned(self) -> int:
+        """The number of runs."""
+        return sum(len(self.worlds_of(mapper)) for mapper in self.mappers)
+
+    def _counted(self, mapper: Target) -> dict[str, Row]:
+        """The runs of a mapper up to the first failing one, by world, as far as they are done."""
+        rows: dict[str, Row] = {}
+        for world in self.worlds_of(mapper):
+            if (row := self.made.get((mapper.text, world))) is not None:
+                rows[world] = row
+                if row.failed:  # how many come after it depends on the number of workers
+                    break
+        return rows
+
+    def memory(self, entry: LeagueEntry) -> float | None:
+        """The mebibytes that a mapper took in its dearest world of a suite, if they are known."""
+        if entry.dearest is None:
+            return None
+        kibibytes = self.peaks.get((entry.mapper, entry.dearest.world))
+        return None if kibibytes is None else round(kibibytes / 1024, 1)
+
+    def entries(self) -> list[LeagueEntry]:
+        """The table, suite by suite: the ranked mappers by their places, then the others."""
+        counted = {mapper.text: self._counted(mapper) for mapper in self.mappers}
+        return [entry for suite in self.suites for entry in self._table(suite, counted)]
+
+    def runs(self, mapper: str, suite: Suite) -> list[Row]:
+        """The runs of a mapper in a suite, in the order of its worlds, as far as they are done."""
+        runs = (self.made.get((mapper, world)) for world in suite.worlds(self.seed))
+        return [run for run in runs if run is not None]
+
+    # ------------------------------------------------------------ a suite
+
+    def _table(self, suite: Suite, counted: Mapping[str, Mapping[str, Row]]) -> list[LeagueEntry]:
+        mappers = [one.text for one in self.mappers if self.plays(one, suite)]
+        entries = [self._entry(mapper, suite, counted[mapper]) for mapper in mappers]
+        means = {one.mapper: one.ratio.mean for one in entries if one.ratio is not None}
+        ranked = sorted(
+            (one for one in entries if one.ratio is not None), key=lambda one: means[one.mapper]
+        )
+        placed = [self._placed(one, ranked[0], means, suite) for one in ranked]
+        others = [one for one in entries if one.ratio is None]
+        return placed + sorted(others, key=lambda one: one.counterexample is not None)
+
+    def _entry(self, mapper: str, suite: Suite, rows: Mapping[str, Row]) -> LeagueEntry:
+        """The entry without its place, from the rows that count."""
+        failure = next((row for row in rows.values() if row.failed), None)
+        runs = [rows[world] for world in suite.worlds(self.seed) if world in rows]
+        decided = [run for run in runs if run.undecided is None]
+        whole = failure is None and len(decided) == suite.size
+        moves, seconds = sum(run.cost for run in decided), sum(run.seconds for run in decided)
+        counts = Counts()
+        for run in decided:
+            counts.enter([run])
+        judgements = counts.tally().judgements()
+        return LeagueEntry(
+            mapper=mapper,
+            suite=suite.name,
+            worlds=len(decided),
+            total=suite.size,
+            undecided=len(runs) - len(decided),
+            why=tuple(f"{r.world}: {r.undecided}" for r in runs if r.undecided)[:KEPT_REASONS],
+            place=None,
+            ratio=mean_interval(_samples(suite, decided)) if whole else None,
+            behind=None,
+            families=_by_family(suite, decided) if whole else (),
+            rejected_free=sum(run.free for run in decided),
+            rejected_moving=sum(run.moving for run in decided),
+            ms_per_move=round(1000 * seconds / moves, 4) if moves else None,
+            claims={one.claim: one.status for one in judgements},
+            judgements=judgements,
+            dearest=_dearest(decided) if whole else None,
+            counterexample=None if failure is None else self._counterexample(failure),
+        )
+
+    def _placed(
+        self, entry: LeagueEntry, best: LeagueEntry, means: Mapping[str, float], suite: Suite
+    ) -> LeagueEntry:
+        """The entry with its place: equal means share one."""
+        place = 1 + sum(mean < means[entry.mapper] for mean in means.values())
+        behind = None
+        if entry is not best:
+            ours, theirs = self.runs(entry.mapper, suite), self.runs(best.mapper, suite)
+            pairs = [a.ratio - b.ratio for a, b in zip(ours, theirs, strict=True)]
+            found = mean_interval(_split(suite, pairs))
+            behind = LeagueBehind(best.mapper, found.mean, found.low, found.high)
+        return msgspec.structs.replace(entry, place=place, behind=behind)
+
+    def _counterexample(self, failure: Row) -> LeagueCounterexample:
+        found = failure.findings[0]
+        suite = next(one.name for one in self.suites if failure.world in one.worlds(self.seed))
+        return LeagueCounterexample(
+            suite, failure.world, failure.edges, found.claim, found.message, found.replay
+        )
+
+
+def _split(suite: Suite, values: Sequence[float]) -> list[FamilySample]:
+    """The values of a suite's worlds, by family."""
+    samples: list[FamilySample] = []
+    start = 0
+    for family in suite.families:
+        samples.append(FamilySample(values[start : start + family.size], family.exact))
+        start += family.size
+    return samples
+
+
+def _samples(suite: Suite, runs: Sequence[Row]) -> list[FamilySample]:
+    return _split(suite, [run.ratio for run in runs])
+
+
+def _by_family(suite: Suite, runs: Sequence[Row]) -> tuple[FamilyCosts, ...]:
+    made: list[FamilyCosts] = []
+    start = 0
+    for family in suite.families:
+        made.append(_costs(family, runs[start : start + family.size]))
+        start += family.size
+    return tuple(made)
+
+
+def _costs(family: SuiteFamily, runs: Sequence[Row]) -> FamilyCosts:
+    edges, least, cost = (
+        round(fmean(values), 3)
+        for values in ([r.edges for r in runs], [r.least for r in runs], [r.cost for r in runs])
+    )
+    sample = FamilySample([run.ratio for run in runs], family.exact)
+    return FamilyCosts(family.name, len(runs), edges, least, cost, mean_interval([sample]))
+
+
+def _dearest(runs: Sequence[Row]) -> DearestWorld:
+    run = max(runs, key=lambda one: one.ratio)  # the first of equals
+    return DearestWorld(run.world, run.edges, run.least, run.cost, round(run.ratio, 6))

@@ -1,0 +1,165 @@
+"""The runs of a league: one campaign for each mapper, which ends at its first failing world.
+
+**Memory** is measured apart, since the process of a worker also keeps the trace and judges it: the
+mapper plays one world in a fresh process of its own, an algorithm of the catalogue too, and the
+system says what its resident set was at most. What this does not show: memory of processes that a
+program starts.
+
+**Hidden worlds.** A mapper can read the store while others play. So in the rows of drawn worlds a
+hash of the arena's seed and of the world's name stands for the name, and nothing stands for the
+map. What this does not hide: a finding, which tells of its world.
+"""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+
+import msgspec
+
+from topo_verify.algorithms import NAMED
+from topo_verify.campaign.backend import here
+from topo_verify.campaign.campaign import (
+    Campaign,
+    ListedWorlds,
+    Shard,
+    ShardMemory,
+    ShardResult,
+    Stop,
+    results,
+)
+from topo_verify.campaign.identity import Identity, runs_here, source_hash
+from topo_verify.campaign.progress import Progress
+from topo_verify.campaign.row import Attempt
+from topo_verify.campaign.store import Store
+from topo_verify.errors import InputError
+from topo_verify.programs import serve
+from topo_verify.programs.loader import Target
+from topo_verify.programs.program import Program
+from topo_verify.robot.limits import Limits
+from topo_verify.studies.arena.league import League
+from topo_verify.studies.by_mapper import MapperCampaign
+from topo_verify.world.resolve import resolve_world
+
+
+def matches(league: League, limits: Limits, store: Store | None) -> list[MapperCampaign]:
+    """The campaign of each mapper of the league.
+
+    Raises:
+        InputError: the store has runs of a mapper that were made with other options or sources.
+    """
+    every = {name for mapper in league.mappers for name in league.worlds_of(mapper)}
+    worlds = {name: resolve_world(name) for name in every}
+    found: list[MapperCampaign] = []
+    for mapper in league.mappers:
+        names = league.worlds_of(mapper)
+        campaign = Campaign(
+            worlds=ListedWorlds(len(names)),
+            mappers=(mapper.text,),
+            limits=limits,
+            in_process=runs_here(mapper),
+            stop=Stop(failing=1),
+        )
+        kept = _kept(league, store, campaign, mapper)
+        found.append(MapperCampaign(campaign, [(name, worlds[name]) for name in names], kept))
+    return found
+
+
+def _kept(
+    league: League, store: Store | None, campaign: Campaign, mapper: Target, what: str = ""
+) -> ShardMemory | None:
+    """Where the rows of a campaign are kept; see `Store.campaign`."""
+    if store is None:
+        return None
+    identity = campaign.identity(source_hash([mapper]))
+    name = f"{what}{mapper.text}"
+    kept = store.campaign(identity, Identity([mapper]).loaded(), name=name, all_rows=True)
+    return _Hidden(kept, league.seed)
+
+
+# ---------------------------------------------------------------- hidden worlds
+
+
+@dataclass(frozen=True)
+class _Hidden:
+    """Keeps results under names from which no mapper can tell the drawn worlds."""
+
+    memory: ShardMemory
+    seed: int
+
+    @property
+    def path(self) -> str:
+        return self.memory.path
+
+    def known(self) -> list[Shard]:
+        return self.memory.known()
+
+    def get(self, shard: Shard) -> ShardResult | None:
+        result = self.memory.get(self._hidden(shard))
+        if result is None:
+            return None
+        name = shard.listed[0][0]
+        return _renamed(result, self._mark(name), name)
+
+    def put(self, shard: Shard, result: ShardResult) -> None:
+        name = shard.listed[0][0]
+        mark = self._mark(name)
+        if mark != name:
+            rows = tuple(msgspec.structs.replace(row, map=None) for row in result.rows)
+            tally = msgspec.structs.replace(result.tally, digest="")  # the name can be tried on it
+            bare = msgspec.structs.replace(result, tally=tally, rows=rows)
+            result = _renamed(bare, name, mark)
+        self.memory.put(self._hidden(shard), result)
+
+    def _hidden(self, shard: Shard) -> Shard:
+        ((name, code),) = shard.listed
+        mark = self._mark(name)
+        listed = ((mark, code if mark == name else ((), ())),)
+        return msgspec.structs.replace(shard, listed=listed)
+
+    def _mark(self, name: str) -> str:
+        """What stands for the name of a world."""
+        if not self.seed or ",seed=" not in name:  # all the world knows it
+            return name
+        return f"hidden-{sha256(f'{self.seed} {name}'.encode()).hexdigest()[:32]}"
+
+
+def _renamed(result: ShardResult, name: str, other: str) -> ShardResult:
+    """The result of a world under another name, also where a finding repeats it."""
+    text = msgspec.json.encode(result).decode().replace(name, other)
+    return msgspec.json.decode(text, type=ShardResult)
+
+
+# ---------------------------------------------------------------- memory
+
+
+def measure(league: League, limits: Limits, store: Store | None, tell: Progress) -> None:
+    """Note the memory that each ranked mapper takes in its most expensive world of each suite."""
+    ranked = [entry for entry in league.entries() if entry.place is not None]
+    for done, entry in enumerate(ranked):
+        assert entry.dearest is not None, "it was in every world"
+        name, text = entry.dearest.world, entry.mapper
+        (mapper,) = (one for one in league.mappers if one.text == text)
+        alone = serve.CATALOGUE.format(text) if text in NAMED else text
+        campaign = Campaign(
+            worlds=ListedWorlds(1), mappers=(alone,), limits=limits, in_process=False
+        )
+        kept = _kept(league, store, campaign, mapper, "memory of ")
+        worlds = [(name, resolve_world(name))]
+        with suppress(InputError):  # it cannot be started once more
+            for _, result in results(campaign, here(look=_peak), worlds, store=kept):
+                league.peaks[text, name] = result.rows[0].note
+        tell("memory", done + 1, len(ranked))
+
+
+def _peak(made: Attempt) -> int | None:
+    """The kibibytes that the process of a mapper took at most; None: the system does not tell."""
+    process = made.run.mapper.process if isinstance(made.run.mapper, Program) else None
+    with suppress(OSError):
+        status = Path(f"/proc/{process}/status").read_text(encoding="ascii", errors="replace")
+        if (peak := re.search(r"^VmHWM:\s+(\d+) kB$", status, re.MULTILINE)) is not None:
+            return int(peak[1])
+    return None

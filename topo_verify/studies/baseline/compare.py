@@ -1,0 +1,324 @@
+"""Compares a mapper with a baseline: where it is wrong, costs more or less, or decides otherwise.
+
+The mapper runs in the baseline's own worlds, under the baseline's own limits, and every claim is
+judged. Each world then falls into one kind, the first of these that fits:
+
+| kind | meaning |
+| --- | --- |
+| `undecided` | the mapper was out of time, or declined, or was not run |
+| `wrong` | a claim fails, whatever the baseline says |
+| `newly_right` | no claim fails, but in the baseline one did, or the world was undecided |
+| `dearer`, `cheaper` | right in both, at another cost |
+| `other_decisions` | right in both, at the same cost, by other moves or other decisions |
+| `equal` | right in both, at the same cost, by the same moves and decisions |
+
+A mapper that declares nothing, then or now, is compared by its moves alone.
+
+**Tolerance** is asked of each world by itself: P percent are exceeded where 100·after is more than
+(100 + P)·before, in exact arithmetic. No cheaper world makes up for a dearer one.
+
+What this does not show: anything about worlds that are not in the baseline.
+
+Source: docs/baselines.md.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import zip_longest
+from typing import Literal, NamedTuple, get_args
+
+import msgspec
+
+from topo_verify.campaign.corpus import NETWORKS
+from topo_verify.campaign.row import Row
+from topo_verify.programs.loader import Target
+from topo_verify.studies.baseline.file import Baseline, BaselineEntry, world_of
+from topo_verify.studies.baseline.record import MAX_TIMEOUTS, entry_of, replay_command
+from topo_verify.world.rooted_map import World
+
+ChangeKind = Literal[
+    "wrong", "dearer", "cheaper", "other_decisions", "newly_right", "undecided", "equal"
+]
+KINDS: tuple[ChangeKind, ...] = get_args(ChangeKind)
+
+Property = Literal["edges", "genus", "shape"]
+
+SIZES = (0, 1, 2, 3, 4, 5, 10, 20, 50, 100, 200)
+"""The most edges in each class of worlds by size; beyond there is one more."""
+
+HANDLES = 3
+"""From this genus on worlds are one class."""
+
+EXAMPLES = 5
+"""How many worlds of each kind are kept."""
+
+
+class Change(msgspec.Struct, frozen=True):
+    """A world in which the mapper does not do what it did.
+
+    Attributes:
+        kind: what has changed.
+        edges, genus: of the world.
+        before, after: costs, in edge traversals; None where the run was not right.
+        percent: how much dearer (cheaper if below 0), to a tenth; None where a cost is missing.
+        beyond: it exceeds the tolerance.
+        message: what is wrong or has changed; "" where the costs say it.
+        replay: the command line that shows the run again.
+    """
+
+    world: str
+    kind: ChangeKind
+    edges: int
+    genus: int
+    before: int | None
+    after: int | None
+    percent: float | None
+    beyond: bool
+    message: str
+    replay: str
+
+
+class Group(msgspec.Struct, frozen=True):
+    """The worlds of one class: how many of each kind, and what those that are right cost.
+
+    Attributes:
+        by, value: the property and what it is: edges 6-10, genus 1, shape simple.
+        before, after: the costs where the mapper is right then and now, summed up.
+        kinds: how many worlds are of each kind.
+    """
+
+    by: Property
+    value: str
+    worlds: int
+    before: int
+    after: int
+    kinds: dict[ChangeKind, int]
+
+    @property
+    def changed(self) -> bool:
+        """Is there a world of another kind than `equal`?"""
+        return self.kinds["equal"] < self.worlds
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """What has changed since the baseline.
+
+    Attributes:
+        kinds: how many worlds are of each kind; together all of the baseline.
+        beyond: in how many the cost exceeds the tolerance.
+        before, after: the costs where the mapper is right then and now, summed up.
+        groups: the same by class of worlds.
+        examples: of each kind but `equal`: where a cost changed, the largest changes first; else
+            the smallest worlds.
+    """
+
+    kinds: dict[ChangeKind, int]
+    beyond: int
+    before: int
+    after: int
+    groups: tuple[Group, ...]
+    examples: tuple[Change, ...]
+
+
+class BaselineWorlds:
+    """The worlds of a baseline with their names, to be iterated any number of times.
+
+    Args:
+        name: what to call the baseline in messages.
+    Raises:
+        InputError: an entry of the baseline names no world.
+    """
+
+    def __init__(self, baseline: Baseline, name: str = "baseline") -> None:
+        self._baseline, self._name = baseline, name
+        for _ in self:
+            pass  # that each can be read is to be known before a mapper runs for the first time
+
+    def __iter__(self) -> Iterator[tuple[str, World]]:
+        for line, entry in enumerate(self._baseline.entries, 2):
+            yield _argument(entry), world_of(entry, name=self._name, line=line)
+
+
+def compare(
+    baseline: Baseline, target: Target, rows: Iterable[Row], *, tolerance: Fraction | int = 0
+) -> Comparison:
+    """Say what has changed: the join of the baseline with rows.
+
+    Args:
+        rows: those of the mapper in the baseline's worlds, in their order; fewer, if they ended
+            early.
+        tolerance: percent by which each world may be dearer.
+    """
+    tally = _ComparisonTally()
+    for entry, row in zip_longest(baseline.entries, rows):
+        world = World.from_text(entry.world)
+        replay = replay_command(target, _argument(entry), baseline.header.limits)
+        tally.enter(_change(entry, world, row, Fraction(tolerance), replay), world)
+    return tally.comparison()
+
+
+def _argument(entry: BaselineEntry) -> str:
+    """How a command line names the world, in whatever folder it is called."""
+    known = entry.name in NETWORKS or entry.name.startswith("family:")
+    return entry.name if known or entry.world.startswith("{") else entry.world
+
+
+@dataclass
+class _ChangeCounts:
+    """Counts changes by kind, and sums up the costs where the mapper is right then and now."""
+
+    kinds: Counter[ChangeKind] = field(default_factory=Counter[ChangeKind])
+    before: int = 0
+    after: int = 0
+
+    def enter(self, change: Change) -> None:
+        """Count the change in one world."""
+        self.kinds[change.kind] += 1
+        if change.before is not None and change.after is not None:
+            self.before += change.before
+            self.after += change.after
+
+    def by_kind(self) -> dict[ChangeKind, int]:
+        """How many worlds are of each kind, those without any included."""
+        return {kind: self.kinds[kind] for kind in KINDS}
+
+
+@dataclass
+class _ComparisonTally:
+    """Tallies changes, in all worlds and by class. Life cycle: `enter` each, then `comparison`.
+
+    Not a `tally.Tally`: that counts runs by what claims say of them, this by what was before. And
+    its examples are the largest changes, not the first.
+    """
+
+    beyond: int = 0
+    total: _ChangeCounts = field(default_factory=_ChangeCounts)
+    classes: dict[_Class, _ChangeCounts] = field(default_factory=dict["_Class", _ChangeCounts])
+    changes: dict[ChangeKind, list[Change]] = field(default_factory=dict[ChangeKind, list[Change]])
+
+    def enter(self, change: Change, world: World) -> None:
+        """Count one world, and keep it if its change is among the largest of its kind."""
+        self.beyond += change.beyond
+        self.total.enter(change)
+        for one in _classes(world):
+            self.classes.setdefault(one, _ChangeCounts()).enter(change)
+        kept = self.changes.setdefault(change.kind, [])
+        if change not in kept:  # a corpus may name a world twice
+            kept.append(change)
+            kept.sort(key=_weight)
+            del kept[EXAMPLES:]
+
+    def comparison(self) -> Comparison:
+        """The comparison over the worlds that were entered."""
+        groups = [
+            Group(
+                one.by,
+                one.value,
+                counts.kinds.total(),
+                counts.before,
+                counts.after,
+                counts.by_kind(),
+            )
+            for one, counts in sorted(self.classes.items())
+        ]
+        examples = [c for kind in KINDS if kind != "equal" for c in self.changes.get(kind, ())]
+        total = self.total
+        return Comparison(
+            total.by_kind(), self.beyond, total.before, total.after, tuple(groups), tuple(examples)
+        )
+
+
+# ---------------------------------------------------------------- one world
+
+
+def _change(
+    then: BaselineEntry, world: World, row: Row | None, tolerance: Fraction, replay: str
+) -> Change:
+    now = None if row is None else entry_of(row, world)
+    kind = _kind(then, now)
+    before = then.cost if then.right else None
+    after = now.cost if now is not None and now.right else None
+    # The world without edges costs 0, of which nothing is a percentage.
+    percent, beyond = None, False
+    if before and after is not None:
+        dearer = Fraction(100 * (after - before), before)
+        # The exact fraction is compared, not the rounded number that is shown.
+        percent, beyond = float(round(dearer, 1)), dearer > tolerance
+    return Change(
+        world=then.called,
+        kind=kind,
+        edges=len(world.edges),
+        genus=world.genus,
+        before=before,
+        after=after,
+        percent=percent,
+        beyond=beyond,
+        message=_message(kind, then, row),
+        replay=replay,
+    )
+
+
+def _kind(then: BaselineEntry, now: BaselineEntry | None) -> ChangeKind:
+    if now is None or now.undecided:
+        return "undecided"
+    if now.failed:
+        return "wrong"
+    if not then.right:
+        return "newly_right"
+    if now.cost != then.cost:
+        return "dearer" if now.cost > then.cost else "cheaper"
+    declared = then.decisions is not None and now.decisions is not None
+    if then.moves != now.moves or (declared and then.decisions != now.decisions):
+        return "other_decisions"
+    return "equal"
+
+
+def _message(kind: ChangeKind, then: BaselineEntry, row: Row | None) -> str:
+    if row is None:
+        return f"not run: the mapper was out of time {MAX_TIMEOUTS} times before"
+    if kind == "other_decisions":
+        return "the same moves, other decisions" if then.moves == row.moves else "other moves"
+    return row.findings[0].message if row.findings else row.undecided or ""
+
+
+def _weight(change: Change) -> tuple[float, int]:
+    """A key that sorts the largest change of cost first; where none changed, the smallest world."""
+    if change.kind in ("dearer", "cheaper"):
+        assert change.before is not None
+        assert change.after is not None
+        return -abs(change.after - change.before), change.edges
+    return change.edges, 0
+
+
+# ---------------------------------------------------------------- classes of worlds
+
+
+class _Class(NamedTuple):
+    """A class of worlds; classes are shown in the order of (by, place)."""
+
+    by: Property
+    place: int
+    value: str
+
+
+def _classes(world: World) -> Iterator[_Class]:
+    """The classes that a world is in, one for each property."""
+    edges = len(world.edges)
+    place = next((place for place, most in enumerate(SIZES) if edges <= most), len(SIZES))
+    least = SIZES[place - 1] + 1 if place else 0
+    most = SIZES[place] if place < len(SIZES) else None
+    sizes = f"{least} or more" if most is None else f"{least}-{most}" if least < most else f"{most}"
+    yield _Class("edges", place, sizes)
+    genus = min(world.genus, HANDLES)
+    yield _Class("genus", genus, f"{genus} or more" if genus == HANDLES else f"{genus}")
+    if world.is_simple:
+        yield _Class("shape", 0, "simple")
+    elif world.is_loopless:
+        yield _Class("shape", 1, "parallel edges, no loop")
+    else:
+        yield _Class("shape", 2, "with loops")

@@ -1,0 +1,127 @@
+"""Recording of a baseline: the rows of a mapper in every world of a corpus, as lines of a file.
+
+An entry keeps four results of a run: its cost; a hash of its doors; a hash of its declarations, or
+None if there are none; the id of its map. They are those of the row.
+
+**The hash of the decisions** covers each `pose`, `reject`, `confirm` and `augment` with the number
+of moves before it: edge, hypotheses, rule, kind, dart. The evidence of a rejection and the purpose
+of a move say why, not what, and are left out. So two mappers have the same hashes if they make the
+same moves and the same decisions at the same time, whatever reasons they give.
+
+What this does not show: a difference between two runs whose 64-bit hashes collide.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterable, Sequence
+from importlib import metadata
+
+from topo_verify.campaign.campaign import Campaign, ListedWorlds, NamedWorlds, Stop
+from topo_verify.campaign.corpus import Corpus
+from topo_verify.campaign.engines import Engine, policies_of
+from topo_verify.campaign.identity import Identity, runs_here, source_hash
+from topo_verify.campaign.judge import replay_line
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.store import Store
+from topo_verify.campaign.targets import target_arguments
+from topo_verify.programs.loader import Target
+from topo_verify.programs.program import PREFIX
+from topo_verify.robot.limits import Limits
+from topo_verify.studies.baseline.file import Baseline, BaselineEntry, Header
+from topo_verify.studies.by_mapper import MapperCampaign
+from topo_verify.world.rooted_map import World
+
+MAX_TIMEOUTS = 3
+"""After this many time-outs the remaining worlds are not tried."""
+
+
+def baseline_runs(
+    target: Target,
+    worlds: NamedWorlds,
+    total: int,
+    *,
+    limits: Limits | None = None,
+    engine: Engine = "reference",
+    store: Store | None = None,
+) -> MapperCampaign:
+    """The runs of a mapper in some worlds; they end after `MAX_TIMEOUTS` time-outs.
+
+    Args:
+        worlds, total: the worlds with their names, and their number.
+        store: where the runs are kept.
+    Raises:
+        InputError: the store holds the runs of another mapper, or under other limits.
+    """
+    policies = policies_of(target)
+    campaign = Campaign(
+        worlds=ListedWorlds(total),
+        mappers=(target.text,),
+        pick=None if policies is None else policies.pick,
+        order=None if policies is None else policies.order,
+        engine=engine,
+        limits=limits or Limits(),
+        in_process=runs_here(target),
+        stop=Stop(timeouts=MAX_TIMEOUTS),
+    )
+    kept = None
+    if store is not None:
+        identity, now = campaign.identity(source_hash([target])), Identity([target]).loaded()
+        kept = store.campaign(identity, now, all_rows=True)
+    return MapperCampaign(campaign, worlds, kept, target)
+
+
+def record(
+    target: Target,
+    corpus: Corpus,
+    rows: Iterable[Row],
+    *,
+    worlds: Sequence[str] = (),
+    seed: int = 0,
+    limits: Limits | None = None,
+) -> Baseline:
+    """The baseline of a mapper in a corpus.
+
+    Args:
+        rows: its rows, in the order of the corpus. If the runs ended early, there are fewer entries
+            than the header says.
+        worlds, seed: the arguments that gave the corpus, for the header.
+    """
+    header = Header(
+        tool=metadata.version("topo-verify"),
+        target=target.text,
+        policies=policies_of(target),
+        worlds=tuple(worlds),
+        seed=seed,
+        corpus=corpus.description,
+        digest=corpus.digest,
+        total=corpus.total,
+        limits=limits or Limits(),
+    )
+    # The rows come first: there may be fewer of them.
+    return Baseline(
+        header, tuple(entry_of(row, at.world) for row, at in zip(rows, corpus, strict=False))
+    )
+
+
+def entry_of(row: Row, world: World) -> BaselineEntry:
+    """The line of a baseline that a row makes."""
+    return BaselineEntry(
+        world=world.text,
+        name="" if row.world == world.text else row.world,
+        cost=row.cost,
+        moves=row.moves,
+        decisions=row.decisions,
+        map=row.map,
+        failed=row.failed,
+        undecided=row.undecided is not None,
+    )
+
+
+def replay_command(target: Target, where: str, limits: Limits) -> str:
+    """The command line that shows the mapper in the world `where` again."""
+    if target.text.startswith(PREFIX):
+        words = ("conform", *target_arguments(target.text), "--worlds", where, *limits.options)
+        return shlex.join(["topo-verify", *words])
+    policies = policies_of(target)
+    return replay_line(where, target.text, policies, limits.options)

@@ -1,0 +1,194 @@
+"""The first event in which two runs in one world differ.
+
+Compared are the doors and percepts of moves, and every declared decision with its evidence. Not
+compared are the purpose of a move; which contradiction is cited, where several may follow; the
+map at the end, whose darts a mapper may number freely (`map-isomorphic` judges it).
+
+If a mapper declares nothing, its moves are compared with the reference's moves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import zip_longest
+from typing import assert_never
+
+import msgspec
+
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Evidence,
+    Finish,
+    Move,
+    Pose,
+    Reject,
+    Start,
+    Trace,
+)
+
+SHOWN = 4
+"""How many events before the first difference are shown."""
+
+
+class KnownState(msgspec.Struct, frozen=True):
+    """The knowledge that two runs share when they part.
+
+    Attributes:
+        moves: edge traversals so far.
+        vertices: the degree of each vertex of S.
+        explored: the explored edges of S, lesser dart first.
+        edge: the dart whose other end is in question, or None.
+        left: its hypotheses that were neither rejected nor confirmed.
+        doors: the doors taken since S last grew.
+    """
+
+    moves: int
+    vertices: tuple[int, ...]
+    explored: tuple[tuple[int, int], ...]
+    edge: int | None
+    left: tuple[int, ...]
+    doors: tuple[int, ...]
+
+
+class Difference(msgspec.Struct, frozen=True):
+    """The first event in which a mapper differs from the reference.
+
+    Attributes:
+        event: its index in the mapper's trace.
+        at: the index of the reference's event.
+        expected, seen: the reference's event and the mapper's, in words; None: no more events.
+        before: the last events in which they agree.
+        state: the knowledge at this point.
+    """
+
+    event: int
+    expected: str | None
+    seen: str | None
+    before: tuple[str, ...]
+    state: KnownState
+    at: int
+
+
+class Likeness(msgspec.Struct, frozen=True, omit_defaults=True):
+    """What is noted of a run beside a reference.
+
+    Attributes:
+        reference: the cost of the reference, in edge traversals.
+        silent: the world has edges, and no decision is declared.
+        difference: the first one, if decisions are compared.
+        detail: words that say more of why a program was stopped.
+    """
+
+    reference: int
+    silent: bool = False
+    difference: Difference | None = None
+    detail: str = ""
+
+
+def declares(trace: Iterable[Event]) -> bool:
+    """Whether the trace holds a declared decision."""
+    return any(isinstance(event, Pose | Reject | Confirm | Augment) for event in trace)
+
+
+def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
+    """The first difference between the two runs; None if there is none.
+
+    If the mapper declares nothing, only the moves are compared.
+    """
+    # A mapper that declares some decisions must declare all of them: it is compared in full.
+    silent = not declares(mapper)
+    ours = _events(reference, silent=silent)
+    theirs = _events(mapper, silent=silent)
+    for place, (one, other) in enumerate(zip_longest(ours, theirs)):
+        expected = None if one is None else _bare(one[1])
+        seen = None if other is None else _bare(other[1])
+        if expected != seen:
+            # The knowledge comes from the reference: a mapper that declares nothing shows none.
+            upto = len(reference) if one is None else one[0]
+            return Difference(
+                event=len(mapper) if other is None else other[0],
+                expected=None if expected is None else event_text(expected),
+                seen=None if seen is None else event_text(seen),
+                before=tuple(event_text(event) for _, event in ours[max(0, place - SHOWN) : place]),
+                state=_state(reference[:upto]),
+                at=upto,
+            )
+    return None
+
+
+def _events(trace: Trace, *, silent: bool) -> list[tuple[int, Event]]:
+    """The compared events of a run, each with its index."""
+    kinds = (Move,) if silent else (Move, Pose, Reject, Confirm, Augment)
+    return [(when, event) for when, event in enumerate(trace) if isinstance(event, kinds)]
+
+
+def _bare(event: Event) -> Event:
+    """The event without the fields that are not compared."""
+    if isinstance(event, Move):
+        return Move(event.door, event.percept)
+    if isinstance(event, Reject) and event.rule in ("folding", "planar"):
+        # Several contradictions may follow, and the percepts beside them may be left out.
+        return msgspec.structs.replace(event, evidence=Evidence(event.evidence.step))
+    return event
+
+
+def event_text(event: Event) -> str:
+    """An event in words."""
+    match event:
+        case Start(percept=percept):
+            words = f"start at {percept}"
+        case Move(door, percept):
+            words = f"move by door {door} to {percept}"
+        case Pose(edge, hypotheses):
+            words = f"pose for dart {edge}: {list(hypotheses)}"
+        case Reject():
+            words = f"reject {event.hypothesis} for dart {event.edge} {_why(event)}"
+        case Confirm(edge, hypothesis, rule):
+            words = f"confirm {hypothesis} for dart {edge} by {rule}"
+        case Augment(edge, kind, dart, degree):
+            words = f"augment dart {edge} by {kind} dart {dart}, degree {degree}"
+        case Finish():
+            words = f"finish at cost {event.cost}"
+        case _:
+            assert_never(event)
+    return words
+
+
+def _why(event: Reject) -> str:
+    """The rule and the evidence of a rejection in words."""
+    cited = event.evidence
+    words = f"by {event.rule}: step {cited.step}, expected {cited.expected}, saw {cited.observed}"
+    words += "" if cited.sequence is None else f", sequence {cited.sequence}"
+    words += "" if cited.at is None else f" at dart {cited.at}"
+    if cited.record is not None:
+        words += f", record behind {cited.record.dart} {list(cited.record.doors)}"
+    return words
+
+
+def _state(trace: Sequence[Event]) -> KnownState:
+    """The knowledge after the first events of the reference."""
+    vertices: list[int] = []
+    explored: list[tuple[int, int]] = []
+    edge: int | None = None
+    left: list[int] = []
+    doors: list[int] = []
+    for event in trace:
+        match event:
+            case Start(percept=percept):
+                vertices.append(percept.degree)
+            case Move(door):
+                doors.append(door)
+            case Pose():
+                edge, left = event.edge, list(event.hypotheses)
+            case Reject(hypothesis=h) | Confirm(hypothesis=h) if h in left:
+                left.remove(h)
+            case Augment(end, kind, dart, degree):
+                explored.append((min(end, dart), max(end, dart)))
+                vertices += [degree] if kind == "new" else []
+                edge, left, doors = None, [], []
+            case _:
+                pass
+    moves = sum(isinstance(event, Move) for event in trace)
+    return KnownState(moves, tuple(vertices), tuple(explored), edge, tuple(left), tuple(doors))

@@ -1,0 +1,309 @@
+"""Tries one check on one seeded fault: exhaustive search, property tests, or a theorem.
+
+Mappers are limited by counts, not by time: of their moves, and of the edges that they declare. The
+time limit is for a mapper that neither moves nor declares and never ends. A run that a time limit
+ended is undecided: no fault counts as found by it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+from statistics import median
+
+import msgspec
+
+from topo_verify.campaign.engines import Engine, planted
+from topo_verify.campaign.progress import Progress
+from topo_verify.campaign.run import explore
+from topo_verify.checkers import CLAIMS
+from topo_verify.checkers.findings import Verdict
+from topo_verify.checkers.replayed_trace import ReplayedTrace
+from topo_verify.faults import Fault
+from topo_verify.faults.fault import ForwardingRobot
+from topo_verify.programs.loader import Target
+from topo_verify.robot.events import Augment, Decision, Move, Robot
+from topo_verify.robot.limits import Limits
+from topo_verify.studies.search.search import Counterexample, SearchEntry, search
+from topo_verify.world.rooted_map import World
+
+LARGEST = 7
+"""The most edges of worlds in which a fault is searched for."""
+
+COUNTED = 5
+"""Up to so many edges all failing worlds of a size are counted; in larger ones if thorough."""
+
+SEEDS = range(5)
+EXAMPLES = 100
+"""The most examples of a property test: Hypothesis's default."""
+
+STRATEGIES = (
+    "worlds(max_edges=30)",
+    "worlds(min_edges=16,max_edges=24,max_degree=4,simple=True)",
+)
+"""What the property tests draw from: any worlds, most of them small; and street networks, so
+large that a way home leads through places seen before, where a wrong second look shows."""
+
+A_SECOND = Limits(move_timeout=1, world_timeout=1)
+"""The time limits of a run: a second, moves or not; a few milliseconds are usual.
+(A mapper that walks in a circle on its map, without moving, fills the memory in a minute.)"""
+
+TIMEOUT = 20.0
+"""Seconds for a question to the solver; each takes a fraction of one."""
+
+
+class Smallest(msgspec.Struct, frozen=True):
+    """What exhaustive search found in worlds of the smallest size in which a claim fails.
+
+    Attributes:
+        edges: that size; the largest that was searched if nothing was found.
+        failing, checked: in how many of so many worlds of that size a claim fails. Beyond
+            `COUNTED` edges the search ends at the first of them, unless it is thorough.
+        total: how many worlds of that size there are.
+        undecided: in how many of all searched worlds a run was out of time.
+        claims: for each claim that fails there, in how many worlds.
+        world: the first of them.
+        convicting: the first in which claim 9 or 10 fails: one run, judged without its world.
+        message, replay: what is wrong in `world`, and the command line that shows it again.
+    """
+
+    edges: int
+    failing: int
+    checked: int
+    total: int
+    undecided: int = 0
+    claims: dict[str, int] = {}
+    world: str | None = None
+    convicting: str | None = None
+    message: str = ""
+    replay: str = ""
+
+
+class Examples(msgspec.Struct, frozen=True):
+    """What property tests found.
+
+    Attributes:
+        median_examples: how many examples it took with the first strategy with which all seeds
+            found something; None if there is none.
+        strategy: which one that is; None as above.
+        examples: of each strategy that was asked, that of each seed; None where nothing was found.
+        most: after so many a test gives up.
+        undecided: how many examples were cut off, by moves or by time.
+    """
+
+    median_examples: int | None
+    strategy: str | None
+    examples: dict[str, tuple[int | None, ...]]
+    most: int
+    undecided: int = 0
+
+    @property
+    def found(self) -> bool:
+        """Does a test of any strategy and seed fail?"""
+        return any(number is not None for row in self.examples.values() for number in row)
+
+
+class Proof(msgspec.Struct, frozen=True):
+    """The verdict on the theorem with the same mistake in it, which must be REFUTED.
+
+    Attributes:
+        theorem: the mutant of it.
+    """
+
+    theorem: str
+    verdict: Verdict
+
+
+# ---------------------------------------------------------------- exhaustive search
+
+
+def smallest(
+    fault: Fault,
+    *,
+    first: int = 1,
+    largest: int = LARGEST,
+    workers: int = 0,
+    thorough: bool = False,
+    engine: Engine = "reference",
+    tell: Progress | None = None,
+) -> Smallest:
+    """Search the worlds of 1, 2, … edges up to the first size in which a claim fails.
+
+    Args:
+        first, largest: the first size at which to stop, and the last.
+        thorough: count the failing worlds also of sizes beyond `COUNTED`.
+        engine: what runs the fault, if it has a kernel, in this process.
+    """
+    target = Target(fault.target, (planted(fault.name) if engine == "compiled" else None) or fault)
+    limits = A_SECOND if fault.harmless else None
+    edges = first - 1
+    while True:
+        edges += 1
+        counted = thorough or edges <= COUNTED
+        # Each search begins with one edge again. The smaller sizes cost little, and so `undecided`
+        # speaks of all of them.
+        found = search(
+            target,
+            edges=edges if counted else largest,
+            keep_going=counted,
+            limits=limits,
+            workers=workers,
+            tell=tell,
+        )
+        if found.counterexample is not None:
+            return _smallest(found, found.counterexample)
+        if found.edges == largest:
+            size = found.by_edges[-1]
+            undecided = sum(size.undecided for size in found.by_edges)
+            return Smallest(largest, 0, size.checked, size.total, undecided)
+
+
+def _smallest(found: SearchEntry, first: Counterexample) -> Smallest:
+    """What a search found; of its sizes only the last has a world in which a claim fails."""
+    size = found.by_edges[first.edges - 1]
+    convicting = (
+        claim.smallest.world
+        for claim in found.claims
+        if claim.claim in ("map-entailed", "decisions-entailed")
+    )
+    return Smallest(
+        edges=size.edges,
+        failing=size.failing,
+        checked=size.checked,
+        total=size.total,
+        undecided=sum(size.undecided for size in found.by_edges),
+        claims={claim.claim: claim.failing for claim in found.claims},
+        world=first.world,
+        convicting=min(convicting, key=lambda world: int(world.partition("/")[2]), default=None),
+        message=first.message,
+        replay=first.replay,
+    )
+
+
+# ---------------------------------------------------------------- property tests
+
+
+class _Failed(Exception):
+    """A claim fails in the world that was drawn: the property test found the fault."""
+
+
+class _TooManyEdges(Exception):
+    """The mapper declared more edges than the world has."""
+
+
+def examples(fault: Fault, *, seeds: Sequence[int] = SEEDS, most: int = EXAMPLES) -> Examples:
+    """How many examples property tests take to find the fault, for each strategy and seed.
+
+    If one strategy finds it with every seed, the next is not tried.
+    """
+    numbers: dict[str, tuple[int | None, ...]] = {}
+    undecided = 0
+    for strategy in STRATEGIES:
+        row = [examples_to_detection(fault, strategy, seed, most=most) for seed in seeds]
+        numbers[strategy] = tuple(number for number, _ in row)
+        undecided += sum(late for _, late in row)
+        found = [number for number, _ in row if number is not None]
+        if len(found) == len(seeds):
+            return Examples(round(median(found)), strategy, numbers, most, undecided)
+    return Examples(None, None, numbers, most, undecided)
+
+
+def examples_to_detection(
+    fault: Fault, strategy: str, seed: int, *, most: int = EXAMPLES
+) -> tuple[int | None, int]:
+    """After how many examples a property test with this seed fails, and how many were undecided.
+
+    None: after `most` it has not failed. Hypothesis's default settings, but for the seed, no
+    example database, no shrinking, and no literals of the modules that are loaded.
+    """
+    import hypothesis
+
+    from topo_verify.strategies.sample import drawing_no_literals, resolve_strategy
+
+    tried = undecided = 0
+    found: int | None = None
+    failing: World | None = None
+
+    @hypothesis.seed(seed)
+    @hypothesis.settings(
+        max_examples=most,
+        phases=[hypothesis.Phase.generate],
+        database=None,
+        deadline=None,
+        derandomize=False,
+        suppress_health_check=[
+            hypothesis.HealthCheck.too_slow,
+            hypothesis.HealthCheck.filter_too_much,
+        ],
+        report_multiple_bugs=False,
+    )
+    @hypothesis.given(resolve_strategy(strategy))
+    def every_claim_holds(world: World) -> None:
+        nonlocal tried, found, failing, undecided
+        if world == failing:  # the failing example comes once more, to be shown
+            raise _Failed
+        tried += 1
+        wrong = fails(fault, world)
+        undecided += wrong is None
+        if wrong:
+            found, failing = found or tried, world
+            raise _Failed
+
+    with drawing_no_literals(), suppress(_Failed):
+        every_claim_holds()
+    return found, undecided
+
+
+def fails(fault: Fault, world: World) -> bool | None:
+    """Does a claim fail in this world? None if the run was cut off, which says nothing.
+
+    It judges one claim after the other, up to the first that fails. A mapper that declares more
+    edges than there are has failed and is stopped: a map S that is wrong may grow without end. A
+    harmless mapper may make the moves of claim 7, which takes seconds. One with a mistake may make
+    4m², twice what any of the catalogue is known to need.
+    """
+    edges = len(world.edges)
+    bound = world.cost_bound
+    budget = bound if fault.harmless else min(bound, 4 * edges**2)
+    limits = replace(A_SECOND, budget=budget)
+    target = Target(fault.target, lambda robot: fault(_Counting(robot, edges)))
+    run = explore(world, target, limits=limits)
+    # Only the bound of claim 7 counts against a mapper: any other limit is ours, proving nothing.
+    if run.limit is not None and (run.limit != "budget" or budget < bound):
+        return None
+    if run.map is None or run.cost != sum(isinstance(event, Move) for event in run.trace):
+        return True
+    replayed = ReplayedTrace(world, run.trace, run.stopped)
+    return any(True for claim, _ in CLAIMS.values() for _ in claim(replayed))
+
+
+class _Counting(ForwardingRobot):
+    """Stops a mapper that declares more explored edges than the world has."""
+
+    def __init__(self, robot: Robot, edges: int) -> None:
+        super().__init__(robot)
+        self.left = edges
+
+    def declare(self, event: Decision) -> None:
+        self.left -= isinstance(event, Augment)
+        if self.left < 0:
+            raise _TooManyEdges
+        super().declare(event)
+
+
+# ---------------------------------------------------------------- proofs
+
+
+def proof(fault: Fault) -> Proof | None:
+    """The verdict on the theorem with the same mistake in it; None if there is no such theorem."""
+    if fault.theorem is None:
+        return None
+    from topo_verify.proofs.catalogue import choose
+    from topo_verify.proofs.theorem import Budget
+
+    (theorem,) = choose([fault.theorem])
+    outcome = theorem.prove(Budget(timeout=TIMEOUT))
+    # A refutation that the replay in worlds does not confirm decides nothing.
+    open_ended = outcome.verdict == "REFUTED" and not theorem.ok(outcome)
+    return Proof(theorem.name, "UNKNOWN" if open_ended else outcome.verdict)

@@ -1,0 +1,211 @@
+"""A world that the robot may be in, and what is known of the cost that is still to come there."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import NamedTuple
+
+from topo_verify.studies.game.folds import ABSENT, FoldCode, Sight, distances, vertices
+from topo_verify.world.enumeration.rank_order import Table
+from topo_verify.world.least_cost import BreadthFirstTree
+
+
+class Pendant(NamedTuple):
+    """An edge of a pendant tree, by the vertex below it.
+
+    Attributes:
+        edge: its bit.
+        above: the vertex above it.
+        attached: the depth of the vertex where the tree is attached.
+    """
+
+    edge: int
+    above: int
+    attached: int
+
+
+class Rest(NamedTuple):
+    """What a fold leaves to be done in a world.
+
+    Attributes:
+        uncrossed: the vertices at the ends of edges that were never crossed, two for each edge.
+        unvisited: how many vertices were never visited.
+        trips: the lengths of the shortest closed trips that are still missing, ascending.
+        ended, back: the moves on pendant edges never crossed, if the walk begins and may end there;
+            if it begins at v0 and ends where it ends best.
+        far: of each dart of the fold, the distance of its vertex from v0 in the fold.
+    """
+
+    uncrossed: tuple[int, ...]
+    unvisited: int
+    trips: tuple[int, ...]
+    ended: int
+    back: int
+    far: tuple[int, ...]
+
+
+class DrawnWorld:
+    """A world by its canonical code: where folds lie in it, and what they leave to be done.
+
+    Every fold of a history in this world maps into it, dart by dart, in one way.
+    """
+
+    def __init__(self, table: Table) -> None:
+        self.table = table
+        self.degrees, self.alpha = table
+        self._first, self.vertex = vertices(self.degrees)
+        self._placed = dict[FoldCode, tuple[int, ...]]()
+        self._rest = dict[FoldCode, Rest]()
+
+    def turned(self, dart: int, by: int) -> int:
+        """The dart so many doors clockwise of a dart."""
+        v = self.vertex[dart]
+        return self._first[v] + (dart - self._first[v] + by) % self.degrees[v]
+
+    def sight(self, dart: int) -> Sight:
+        """What is seen by a robot with this reference dart."""
+        v = self.vertex[dart]
+        return self.degrees[v], ABSENT if v else -dart % self.degrees[0]
+
+    def placed(self, code: FoldCode) -> tuple[int, ...]:
+        """For each dart of the fold the dart that it is here."""
+        if code not in self._placed:
+            degrees, alpha = code
+            first, _ = vertices(degrees)
+            darts = list[int]()
+            for v, degree in enumerate(degrees):
+                # The first dart of every vertex but v0 leads to a vertex before it.
+                entry = self.alpha[darts[alpha[first[v]]]] if v else 0
+                darts += [self.turned(entry, by) for by in range(degree)]
+            self._placed[code] = tuple(darts)
+        return self._placed[code]
+
+    # ------------------------------------------------------------ lower bounds
+
+    def proof_bound(self, code: FoldCode, at: int) -> int:
+        """Moves that it takes at least to close the fold here, also with the map in hand.
+
+        Every edge must be crossed. Beyond that, let I be the space (modulo 2) of the closed trips
+        that were made. A trip that is missing adds at most one dimension. As for the least cost of
+        a proof, those of a lightest basis modulo I are the shortest. The first of them is under
+        way: it has `far` of its length behind it; or count the way home, and all but the longest.
+        Moves on pendant edges never crossed belong to no trip.
+        """
+        rest = self._rest_of(code)
+        here = self.vertex[self.placed(code)[at]]
+        bound = len(rest.uncrossed) // 2
+        if rest.trips:
+            under_way = sum(rest.trips) - rest.far[at]
+            home = self._distances[here][0] + sum(rest.trips[:-1])
+            bound = max(bound, rest.back + max(under_way, home))
+        elif rest.uncrossed:
+            near = min(self._distances[here][v] for v in rest.uncrossed)
+            bound = near + max(bound, rest.ended)
+        return max(bound, 1)
+
+    def visit_bound(self, code: FoldCode, _at: int) -> int:
+        """Moves that it takes at least to have visited every vertex and crossed all edges but one.
+
+        So much is needed where n is known: with a vertex not visited one more loop could hang on
+        it, and two edges not crossed could have exchanged ends.
+        """
+        rest = self._rest_of(code)
+        return max(1, rest.unvisited, len(rest.uncrossed) // 2 - 1)
+
+    def crossing_bound(self, code: FoldCode, _at: int) -> int:
+        """Moves that it takes at least to have crossed every edge.
+
+        So much is needed where the world is known to be planar: the part of it that was seen is
+        planar, and where it has an open dart, a leaf or a path of two may hang on it.
+        """
+        return max(1, len(self._rest_of(code).uncrossed) // 2)
+
+    def _rest_of(self, code: FoldCode) -> Rest:
+        if code not in self._rest:
+            self._rest[code] = self._left_to_do(code)
+        return self._rest[code]
+
+    def _left_to_do(self, code: FoldCode) -> Rest:
+        degrees, alpha = code
+        first, vertex = vertices(degrees)
+        darts, seen = self.placed(code), 0
+        way = [0] * len(degrees)  # the edges on a way from v0 to each vertex of the fold, modulo 2
+        made = list[int]()  # a basis of the closed trips
+        for dart, end in enumerate(alpha):
+            if dart < end:
+                edge = self._edges[darts[dart]]
+                seen |= edge
+                if first[vertex[end]] == end and end:
+                    way[vertex[end]] = way[vertex[dart]] ^ edge
+                else:
+                    _extended(made, way[vertex[dart]] ^ way[vertex[end]] ^ edge)
+        missing = tuple(length for length, loop in self._loops if _extended(made, loop))
+        uncrossed = tuple(
+            v for v, edge in zip(self.vertex, self._edges, strict=True) if not edge & seen
+        )
+        unvisited = len(self.degrees) - len({self.vertex[dart] for dart in darts})
+        far_of = distances(code, 0)
+        far = tuple(far_of[v] for v in vertex)
+        return Rest(uncrossed, unvisited, missing, *self._pendant_moves(seen), far)
+
+    def _pendant_moves(self, seen: int) -> tuple[int, int]:
+        """The moves on pendant edges that were not seen: `ended` and `back` of `Rest`."""
+        below = dict[int, int]()  # of each vertex of a pendant tree, such edges on the way to it
+        moves = deepest = saved = 0
+        for v, (edge, above, attached) in self._pendants.items():
+            is_new = not edge & seen
+            moves += 2 * is_new
+            below[v] = below.get(above, 0) + is_new
+            deepest = max(deepest, below[v])
+            saved = max(saved, below[v] - attached)
+        return moves - deepest, moves - saved
+
+    @cached_property
+    def _tree(self) -> BreadthFirstTree:
+        return BreadthFirstTree(self.table)
+
+    @cached_property
+    def _edges(self) -> tuple[int, ...]:
+        """The bit of the edge of each dart."""
+        return tuple(1 << min(dart, end) for dart, end in enumerate(self.alpha))
+
+    @cached_property
+    def _loops(self) -> list[tuple[int, int]]:
+        """The loops of the breadth-first tree, shortest first: length, and edges modulo 2."""
+        loops = list[tuple[int, int]]()
+        for chord in self._tree.chords:
+            edges = 0
+            for dart in self._tree.loop(chord):
+                edges ^= self._edges[dart]
+            loops.append((self._tree.weight(chord), edges))
+        return sorted(loops)
+
+    @cached_property
+    def _pendants(self) -> dict[int, Pendant]:
+        """The edges of pendant trees by the vertex below them, from the top down."""
+        tree, pendants = self._tree, dict[int, Pendant]()
+        core = {0}
+        for chord in tree.chords:
+            for end in (chord, self.alpha[chord]):
+                core.update([*tree.climb(tree.vertex[end], core)])
+        for v in range(1, len(self.degrees)):
+            if v not in core:
+                above = tree.parent[v]
+                attached = pendants[above].attached if above in pendants else tree.depth[above]
+                pendants[v] = Pendant(self._edges[tree.first[v]], above, attached)
+        return pendants
+
+    @cached_property
+    def _distances(self) -> list[list[int]]:
+        """The distances between vertices."""
+        return [distances(self.table, v) for v in range(len(self.degrees))]
+
+
+def _extended(basis: list[int], vector: int) -> bool:
+    """Whether a vector modulo 2 was outside the span of the basis; now it is in it."""
+    for one in basis:
+        vector = min(vector, vector ^ one)
+    if vector:
+        basis.append(vector)
+        basis.sort(reverse=True)
+    return vector != 0

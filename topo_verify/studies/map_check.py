@@ -1,0 +1,261 @@
+"""A map and a log: is the map refuted, proved, or what is left to walk?
+
+A robot holds a map and has walked a part of the place. Its log refutes the map at the first event
+that the map does not show. Or the fold of the log has no open dart: then the map is proved. Or the
+log is true of this map and of others; then a way to go on is planned, which proves the map if the
+map is right. (If it is wrong, a percept on that way differs, or the way proves another map.)
+
+    check = check_map(world, read_trace(log))
+    check.verdict        # REFUTED, PROVED or UNKNOWN
+    check.onward         # UNKNOWN: the moves that prove it from where the log ends
+
+Only `start` and `move` events count; what a log declares is for `certify` to judge.
+
+An edge of the breadth-first tree of the map is **proved** if the fold has crossed it at the end of
+the tree path that leads there from v0; an edge outside the tree, if its loop is closed in the fold.
+The fold has no open dart just if all edges are proved.
+
+**What is minimised.** A plan goes home, perhaps over an unproved edge; then it walks the loops that
+are not proved yet, the shortest first and each only if those before it did not prove it; trees that
+hang off are walked when it passes them, and the last way is not walked back. If every loop is
+proved, it walks the shortest-path tree from where the robot stands. Of these plans the cheapest
+counts. From the start alone it is the least cost of a proof, and in a tree it is the cheapest way.
+In general it need not be: to find the cheapest is as hard as the travelling salesman problem
+(proved loops, and dead ends to visit here and there). So `cost` is an upper bound there.
+
+Source: docs/semantics.md, section 11.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from topo_verify.checkers.entailment import fold_history
+from topo_verify.checkers.folding import Fold, Place
+from topo_verify.checkers.replayed_trace import ReplayedTrace
+from topo_verify.errors import InternalError
+from topo_verify.robot.events import Event, Move, Start, Trace
+from topo_verify.robot.percept import Door
+from topo_verify.robot.simulator import exit_dart, first_percept, percepts
+from topo_verify.robot.trace_store import move
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
+from topo_verify.world.least_cost import BreadthFirstTree, covering_walk
+from topo_verify.world.rooted_map import Dart, World
+
+MOST_DETOURS = 8
+"""So many unproved edges, the nearest, are tried as a way home from where the log ends."""
+
+
+@dataclass(frozen=True, slots=True)
+class MapCheck:
+    """What a log says of a map, and how to go on.
+
+    Attributes:
+        verdict: REFUTED: the map does not show this log. PROVED: it alone does. UNKNOWN: others do.
+        event: the event that refutes the map, or None.
+        message: why it does; "" otherwise.
+        unproved: the edges that are not proved yet, each by its two darts in the map.
+        onward: the moves that prove the map from where the log ends, with what the map shows
+            behind each door; none unless UNKNOWN.
+    """
+
+    verdict: Literal["PROVED", "UNKNOWN", "REFUTED"]
+    event: int | None = None
+    message: str = ""
+    unproved: tuple[tuple[Dart, Dart], ...] = ()
+    onward: tuple[Move, ...] = ()
+
+    @property
+    def doors(self) -> tuple[Door, ...]:
+        """The doors to take from where the log ends."""
+        return tuple(event.door for event in self.onward)
+
+
+def check_map(world: World, log: Sequence[Event]) -> MapCheck:
+    """What this log says of the map `world`.
+
+    Args:
+        log: at least `start` and `move` events.
+    Raises:
+        InputError: the log does not begin with its only `start`, or goes on after `finish`.
+    Complexity: a plan folds the log once and takes O(cost) beside that; there are at most
+        `MOST_DETOURS` + 2 plans.
+    """
+    replayed = ReplayedTrace(world, log)
+    if not replayed.is_history:
+        return _refutation(replayed)
+    history = [event for event in log if isinstance(event, Start | Move)]
+    fold, broken = fold_history(history)
+    if broken is not None:
+        raise InternalError(f"a world shows a log whose fold contradicts: {broken[1]}")
+    if not fold.open_darts():
+        return MapCheck("PROVED")
+    at = replayed.positions[-1]
+    onward = tuple(moves(world, at, _way_on(world, history, at)))
+    _require_proof(fold, onward)
+    unproved = tuple(_unproved(_Planner(world, history)))
+    return MapCheck("UNKNOWN", unproved=unproved, onward=onward)
+
+
+def moves(world: World, at: Dart, doors: Sequence[Door]) -> Iterator[Move]:
+    """The moves of a robot with reference dart `at` that takes these doors in this world."""
+    shown = percepts(world)
+    for door in doors:
+        at = world.alpha[exit_dart(world, at, door)]
+        yield move(door, shown[at], None)
+
+
+def tour_log(world: World) -> Trace:
+    """The log of a robot that walks the cheapest proof of this world: `World.proof_tour`."""
+    known = world.id if len(world.edges) <= MAX_ID_EDGES else None
+    start = Start(percept=first_percept(world), world=known)
+    return start, *moves(world, world.root or 0, world.proof_tour())
+
+
+def _refutation(replayed: ReplayedTrace) -> MapCheck:
+    """The first event of a log that its map does not show."""
+    if replayed.false_percepts:
+        event, seen, shown = replayed.false_percepts[0]
+        told = f"the map shows {shown} there, and the log says {seen}"
+    else:
+        assert replayed.illegal is not None, "a log that is no history shows why"
+        event = replayed.illegal
+        degree = replayed.map.seen_at(replayed.positions[-1]).degree
+        refused = replayed.trace[event]
+        assert isinstance(refused, Move), "only a move can be illegal"
+        told = f"the map has doors 0 to {degree - 1} there, and the log takes door {refused.door}"
+    return MapCheck("REFUTED", event, told)
+
+
+def _require_proof(fold: Fold, onward: Sequence[Move]) -> None:
+    """Raise an InternalError unless this way on proves the map; the fold grows by it."""
+    for event in onward:
+        fold.move(event.door, event.percept)
+    if left := fold.open_darts():
+        raise InternalError(f"a way on leaves {left} darts of the fold open")
+
+
+class _Planner:
+    """A map in its canonical numbering, a log folded, and the robot at its end.
+
+    Args:
+        world: the map.
+        history: the log, which the map shows.
+        at: the robot's reference dart in the map.
+    """
+
+    def __init__(self, world: World, history: Sequence[Event], at: Dart | None = None) -> None:
+        self.tree = BreadthFirstTree(world.code)
+        self.canonical = World.from_code(world.code)
+        self.darts = _numbering(world, self.tree)
+        self.fold, _ = fold_history(history)
+        self.at = 0 if at is None else self.darts.index(at)
+
+    def go(self, darts: Sequence[Dart]) -> None:
+        """Let the robot leave by these darts, one after the other."""
+        for event in moves(self.canonical, self.at, self.tree.doors(darts, self.at)):
+            self.fold.move(event.door, event.percept)
+        if darts:
+            self.at = self.tree.table[1][darts[-1]]
+
+    def trace(self, darts: Sequence[Dart]) -> Place | None:
+        """Where a walk from v0 that leaves by these darts arrives in the fold, or None."""
+        node, reference = self.fold.find((0, 0))
+        for door in self.tree.doors(darts):
+            end = self.fold.partner((node, reference + door))
+            if end is None:
+                return None
+            node, reference = end
+        return node, reference
+
+    def is_closed(self, chord: Dart) -> bool:
+        """Whether the loop of this chord is closed in the fold."""
+        loop = self.tree.loop(chord)
+        return self.trace(loop) == self.fold.find((0, self.tree.table[1][loop[-1]]))
+
+    def open_loops(self) -> list[Dart]:
+        """The chords whose loops are not closed, those with the shortest loop first."""
+        chords = [chord for chord in self.tree.chords if not self.is_closed(chord)]
+        return sorted(chords, key=lambda chord: (self.tree.weight(chord), chord))
+
+    def unreached(self) -> list[int]:
+        """The vertices to which the fold has not crossed the whole tree path, ascending."""
+        return [v for v in range(len(self.tree.first)) if self.trace(self.tree.down(v)) is None]
+
+    def plan(self, home: Sequence[Dart]) -> list[Dart]:
+        """The darts to leave by, first on this way to v0, until every edge is proved."""
+        trips = [list(home)]
+        self.go(home)
+        for chord in self.open_loops():
+            if not self.is_closed(chord):
+                trips.append(self.tree.loop(chord))
+                self.go(trips[-1])
+        return covering_walk(self.tree, trips, self.unreached())
+
+
+def _numbering(world: World, tree: BreadthFirstTree) -> list[Dart]:
+    """The dart of the world that each dart of its canonical code is."""
+    darts: list[Dart] = []
+    for v, first in enumerate(tree.first):
+        dart = world.alpha[darts[tree.table[1][first]]] if v else world.root
+        for _ in range(tree.table[0][v]):
+            assert dart is not None, "only a world without darts has no root"
+            darts.append(dart)
+            dart = world.sigma[dart]
+    return darts
+
+
+def _unproved(planner: _Planner) -> list[tuple[Dart, Dart]]:
+    """The edges of the map that the log does not prove, by their two darts, ascending."""
+    tree, darts = planner.tree, planner.darts
+    left = [*(tree.first[v] for v in planner.unreached()), *planner.open_loops()]
+    pairs = ((darts[dart], darts[tree.table[1][dart]]) for dart in left)
+    return sorted((min(pair), max(pair)) for pair in pairs)
+
+
+def _way_on(world: World, history: Sequence[Event], at: Dart) -> tuple[Door, ...]:
+    """The doors of the cheapest plan that proves the map from where the log ends."""
+    planner = _Planner(world, history, at)
+    tree, start = planner.tree, planner.at
+    home = tree.home(tree.vertex[start])
+    if loops := planner.open_loops():
+        detours = _detours(tree, start, loops)[: MOST_DETOURS if home else 0]
+        plans = [_Planner(world, history, at).plan(way) for way in (home, *detours)]
+        return min((tree.doors(plan, start) for plan in plans), key=len)
+    around = _around(world, at, _unproved(planner))
+    return min(around, tree.doors(planner.plan(home), start), key=len)
+
+
+def _detours(tree: BreadthFirstTree, at: Dart, chords: Sequence[Dart]) -> list[list[Dart]]:
+    """The ways home from the vertex of a dart that go over one of these edges, shortest first."""
+    alpha, start = tree.table[1], tree.vertex[at]
+    entry: dict[int, Dart] = {start: at}  # of each vertex found: the dart by which the search left
+    queue = [start]
+    for v in queue:  # grows as it goes
+        for dart in range(tree.first[v], tree.first[v] + tree.table[0][v]):
+            if (end := tree.vertex[alpha[dart]]) not in entry:
+                entry[end] = dart
+                queue.append(end)
+    ways: list[list[Dart]] = []
+    for dart in (end for chord in chords for end in (chord, alpha[chord])):
+        way = tree.home(tree.vertex[alpha[dart]])
+        there, v = [dart], tree.vertex[dart]
+        while v != start:
+            there.append(entry[v])
+            v = tree.vertex[entry[v]]
+        ways.append([*reversed(there), *way])
+    return sorted(ways, key=len)
+
+
+def _around(world: World, at: Dart, unproved: Sequence[tuple[Dart, Dart]]) -> tuple[Door, ...]:
+    """The doors of a walk from dart `at` over these tree edges, along shortest ways from there.
+
+    The edges hang off: every spanning tree has them, so the breadth-first tree from `at` does.
+    """
+    there = world.with_marker(at)
+    tree = BreadthFirstTree(there.code)
+    number = {dart: place for place, dart in enumerate(_numbering(there, tree))}
+    ends = [max(tree.vertex[number[dart]] for dart in edge) for edge in unproved]
+    return tree.doors(covering_walk(tree, [], ends))

@@ -1,0 +1,267 @@
+"""Points of the figures: means and standard errors over graphs, growth exponents, CSV.
+
+A point's mean is the arithmetic mean over its graphs, its standard error the sample's standard
+deviation over √graphs. Sums of integers are exact, so the same runs give the same bytes in any
+order.
+
+**Growth.** `mean ≈ c·m^exponent` is fitted by least squares of log(mean) on log(mean m), one
+observation a size, so anybody can repeat the fit from the CSV. Its standard error is that of the
+slope. What this does not show: that the cost is a power of m. The exponent describes these sizes.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Mapping, Sequence
+from io import StringIO
+from math import log, sqrt
+from statistics import mean, stdev
+
+import msgspec
+
+from topo_verify.campaign.row import Row
+from topo_verify.checkers import Finding, Status
+from topo_verify.studies.reproduce.figures import (
+    EDGES,
+    REFERENCE,
+    YARDSTICKS,
+    Figure,
+    FigureExtent,
+    PolicyPair,
+)
+from topo_verify.studies.reproduce.measuring import PlannedRun
+
+
+class GrowthFit(msgspec.Struct, frozen=True):
+    """How the cost of a line grows with the number m of edges.
+
+    Attributes:
+        exponent: of m.
+        stderr: its standard error; None for fewer than three points.
+        points: how many sizes it was fitted to.
+    """
+
+    exponent: float
+    stderr: float | None
+    points: int
+
+    def __str__(self) -> str:
+        error = "" if self.stderr is None else f" ± {self.stderr:.2f}"
+        return f"{self.exponent:.2f}{error}"
+
+
+class FigurePoint(msgspec.Struct, frozen=True):
+    """A point of a figure: an entry of `results`.
+
+    Attributes:
+        figure: `3`, `6a` … `6f`.
+        algorithm: a name of the catalogue, or `edges` (m), or `least-cost` (of a proof).
+        size: the side of a lattice, or the nodes of a dense graph, before holes.
+        graphs: how many graphs the mean is over.
+        mean, stderr: the cost in edge traversals, and its standard error; None for one graph.
+        paper: the cost that the paper's text states for this point, or None.
+        stated: how the text puts it, or None.
+        pick, order: the policies; None for a yardstick.
+        edges: the mean of m.
+        held: claims that held in each run; of: claims that were asked of each. 0 for a yardstick.
+        findings: what convicts the algorithm.
+        undecided: runs that were out of time.
+        growth: of the line that the point is on; None for a line of one point.
+    """
+
+    figure: str
+    algorithm: str
+    size: int
+    graphs: int
+    mean: float
+    stderr: float | None
+    paper: int | None
+    stated: str | None
+    pick: str | None
+    order: str | None
+    edges: float
+    held: int
+    of: int
+    findings: tuple[Finding, ...] = ()
+    undecided: int = 0
+    growth: GrowthFit | None = None
+
+    @property
+    def pair(self) -> PolicyPair | None:
+        """The policies; None for a yardstick."""
+        if self.pick is None or self.order is None:
+            return None
+        return PolicyPair(self.pick, self.order)
+
+    @property
+    def is_reference(self) -> bool:
+        """Whether it belongs to the line of the reference policies, or to a yardstick."""
+        return self.pair in (None, REFERENCE)
+
+
+def figure_points(
+    figure: Figure, extent: FigureExtent, runs: Mapping[PlannedRun, Row]
+) -> list[FigurePoint]:
+    """The points of a figure: its lines one after the other, each in the order of sizes.
+
+    Yardsticks come last. A line whose runs are not all there has no points.
+    """
+    points: list[FigurePoint] = []
+    for pair in extent.policies:
+        for algorithm in figure.lines:
+            line = [
+                _point(figure, algorithm, size, pair, rows)
+                for size in extent.sizes(figure.setting)
+                if (rows := _rows(figure, extent, algorithm, size, pair, runs))
+            ]
+            points += _grown(line)
+    first = figure.lines[0], extent.policies[0]
+    for name in YARDSTICKS:
+        line = [
+            _yardstick(figure, name, size, rows)
+            for size in extent.sizes(figure.setting)
+            if (rows := _rows(figure, extent, first[0], size, first[1], runs))
+        ]
+        points += _grown(line)
+    return points
+
+
+def _rows(
+    figure: Figure,
+    extent: FigureExtent,
+    algorithm: str,
+    size: int,
+    pair: PolicyPair,
+    runs: Mapping[PlannedRun, Row],
+) -> list[Row]:
+    """The runs of one point; none if one of them is missing."""
+    wanted = [
+        PlannedRun(world, algorithm, pair.pick, pair.order)
+        for world in extent.worlds(figure.setting, size)
+    ]
+    return [runs[one] for one in wanted] if all(one in runs for one in wanted) else []
+
+
+def _point(
+    figure: Figure, algorithm: str, size: int, pair: PolicyPair, rows: Sequence[Row]
+) -> FigurePoint:
+    stated = figure.stated.get((algorithm, size)) if pair == REFERENCE else None
+    decided = [row for row in rows if row.undecided is None]
+    average, error = _mean([row.cost for row in decided])
+    return FigurePoint(
+        figure=figure.name,
+        algorithm=algorithm,
+        size=size,
+        graphs=len(decided),
+        mean=average,
+        stderr=error,
+        paper=stated.cost if stated else None,
+        stated=stated.words if stated else None,
+        pick=pair.pick,
+        order=pair.order,
+        edges=_mean([row.edges for row in decided])[0],
+        held=min((_claims(row, "ok") for row in decided), default=0),
+        of=min((len(row.claims) - _claims(row, "not-asked") for row in decided), default=0),
+        findings=tuple(finding for row in decided for finding in row.findings),
+        undecided=len(rows) - len(decided),
+    )
+
+
+def _claims(row: Row, status: Status) -> int:
+    """The number of claims with a status."""
+    return sum(judged.status == status for judged in row.claims)
+
+
+def _yardstick(figure: Figure, name: str, size: int, rows: Sequence[Row]) -> FigurePoint:
+    decided = [row for row in rows if row.undecided is None]
+    average, error = _mean([row.edges if name == EDGES else row.least for row in decided])
+    edges = _mean([row.edges for row in decided])[0]
+    return FigurePoint(
+        figure.name, name, size, len(decided), average, error, None, None, None, None, edges, 0, 0
+    )
+
+
+def _mean(values: Sequence[int]) -> tuple[float, float | None]:
+    """The mean, and its standard error, to two decimals."""
+    if not values:
+        return 0.0, None
+    error = round(stdev(values) / sqrt(len(values)), 2) if len(values) > 1 else None
+    return round(mean(values), 2), error
+
+
+# ---------------------------------------------------------------- growth
+
+
+def _grown(line: Sequence[FigurePoint]) -> list[FigurePoint]:
+    """The points of a line, each with the growth of the line."""
+    fit = growth([(point.edges, point.mean) for point in line if point.mean > 0])
+    return [msgspec.structs.replace(point, growth=fit) for point in line]
+
+
+def growth(points: Iterable[tuple[float, float]]) -> GrowthFit | None:
+    """The growth of a line through these points, each (m, cost); None for fewer than two sizes."""
+    import numpy as np
+
+    logs = [(log(edges), log(cost)) for edges, cost in points]
+    if len({x for x, _ in logs}) < 2:
+        return None
+    x, y = zip(*logs, strict=True)
+    slope = round(float(np.polyfit(x, y, 1)[0]), 4)
+    if len(logs) < 3:
+        return GrowthFit(slope, None, len(logs))
+    _, covariance = np.polyfit(x, y, 1, cov=True)
+    return GrowthFit(slope, round(float(np.sqrt(covariance[0, 0])), 4), len(logs))
+
+
+# ---------------------------------------------------------------- CSV
+
+COLUMNS = (
+    *("figure", "algorithm", "pick", "order", "size", "graphs"),
+    *("edges", "mean", "stderr", "paper"),
+)
+
+GROWTH_COLUMNS = ("graphs_of", "algorithm", "pick", "order", "exponent", "stderr", "points")
+
+
+def points_csv(points: Iterable[FigurePoint]) -> str:
+    """The points as CSV with a header, lines ended by a line feed; costs in edge traversals."""
+    rows = [
+        (
+            *(point.figure, point.algorithm, point.pick, point.order, point.size, point.graphs),
+            *(_cell(point.edges), _cell(point.mean), _cell(point.stderr), point.paper),
+        )
+        for point in points
+    ]
+    return _csv(COLUMNS, rows)
+
+
+def growth_csv(points: Iterable[FigurePoint], setting_of: Mapping[str, str]) -> str:
+    """The growth of every line as CSV, each line once.
+
+    Args:
+        setting_of: which graphs each figure is of.
+    """
+    rows = [
+        (
+            setting_of[point.figure],
+            *(point.algorithm, point.pick, point.order),
+            f"{point.growth.exponent:.4f}",
+            "" if point.growth.stderr is None else f"{point.growth.stderr:.4f}",
+            point.growth.points,
+        )
+        for point in points
+        if point.growth is not None
+    ]
+    return _csv(GROWTH_COLUMNS, dict.fromkeys(rows))
+
+
+def _cell(value: float | None) -> str:
+    return "" if value is None else f"{value:.2f}"
+
+
+def _csv(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(head)
+    writer.writerows(rows)
+    return text.getvalue()

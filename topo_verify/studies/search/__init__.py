@@ -1,0 +1,6 @@
+"""Exhaustive search: a mapper in every world up to so many edges, or in a class of them.
+
+search.py      the campaign of a search, its result and the verdict
+choices.py     the choices that the paper leaves open: policies, and every choice; states/
+again.py       runs some worlds again, each in a fresh process
+"""

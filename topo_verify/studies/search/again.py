@@ -1,0 +1,305 @@
+"""Worlds run again, alone and in another order: does the mapper remember the worlds before?
+
+A mapper that keeps something from world to world (a default that it changes, a cache, a drawn
+number) may be right or wrong for reasons that no one world shows. So the counterexample, up to
+`SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are run again, each in a fresh
+process. If none fails, `ROW` worlds, or all, are run in a row by one process, in an order drawn by
+the seed: for workers share the worlds of a search, and none of them meets as many.
+
+    a failing world passes alone    `not-deterministic`: only after other worlds
+    another world fails alone       `not-deterministic`, too; and so in the row
+    other doors, another cost       no finding, for a mapper may draw lots; but the verdict is open
+
+What this does not show: a memory that none of the drawn worlds tells of. If a share p of the worlds
+would come out otherwise alone, it is noticed with a probability of 1 - (1 - p)^SAMPLE: of a tenth
+in 99.5 of 100 searches, of a hundredth in 39. A mapper that fails in its k-th world is noticed for
+sure if k is at most the length of the row.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Generator, Iterator, Sequence
+from random import Random
+
+import msgspec
+
+from topo_verify.algorithms import Algorithm, Steered
+from topo_verify.campaign.backend import here
+from topo_verify.campaign.campaign import (
+    Campaign,
+    ListedWorlds,
+    Ranks,
+    Shard,
+    ShardResult,
+    Stop,
+    examine,
+    results,
+)
+from topo_verify.campaign.progress import Progress, no_progress
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.tally import SAMPLE, sample_key
+from topo_verify.campaign.targets import target_arguments
+from topo_verify.checkers import Finding
+from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.loader import Target
+from topo_verify.programs.program import PREFIX, Program, split
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.rooted_map import World
+
+MOST = SAMPLE
+"""The most failing worlds, and the most others, that are run again."""
+
+ROW = 1000
+"""Number of worlds in the row; all of them if there are fewer."""
+
+LONGEST = 64
+"""The most worlds before a failing one that are tried to make it fail again."""
+
+NEAR = 2**14
+"""How many ranks back to look for these worlds; a class may have few of them."""
+
+CLAIM = "not-deterministic"
+
+
+class Unlike(msgspec.Struct, frozen=True):
+    """A world with another verdict when it was run again.
+
+    Attributes:
+        rank: of the world among those of its edges.
+    """
+
+    edges: int
+    rank: int
+    target: str
+    findings: tuple[Finding, ...]
+
+
+class RunAgain(msgspec.Struct, frozen=True):
+    """What came of the worlds that were run again.
+
+    Attributes:
+        worlds: how many were run alone, each in a fresh process.
+        row: how many were run one after the other, in one process.
+        failures: those with another verdict, in their order.
+        others: those in which only doors or costs were other ones.
+    """
+
+    worlds: int = 0
+    row: int = 0
+    failures: tuple[Unlike, ...] = ()
+    others: tuple[str, ...] = ()
+
+    @property
+    def rows(self) -> tuple[Row, ...]:
+        """The failures as failing rows."""
+        return tuple(
+            Row(
+                world=f"m{one.edges}/{one.rank}",
+                edges=one.edges,
+                place=one.rank,
+                least=0,
+                mapper=one.target,
+                findings=one.findings,
+            )
+            for one in self.failures
+        )
+
+
+def can_run_again(mappers: Sequence[Target]) -> bool:
+    """Whether a fresh process can be had: for what a TARGET names, outside of the catalogue."""
+    return len(mappers) == 1 and not isinstance(mappers[0].mapper, Algorithm | Steered)
+
+
+def run_again(campaign: Campaign, rows: Sequence[Row], tell: Progress | None = None) -> RunAgain:
+    """Run some of the worlds of a search again, each in a fresh process, and then in a row.
+
+    Args:
+        rows: the notable rows of the whole search.
+    """
+    before = _drawn(rows, campaign.seed)
+    told = _telling(f"{campaign.mappers[0]}, again", tell or no_progress)
+    worlds = [row.world for row in before]
+    alone = _rows(campaign, worlds, _alone, told)
+    failures: list[Unlike] = []
+    others: list[str] = []
+    for row, now in zip(before, alone, strict=True):
+        if now.late or now.lost:
+            continue
+        if bool(row.failed) != bool(now.failed):
+            # To look for a command that shows it takes long: once is enough.
+            failures.append(_failure(campaign, row, now, search=not failures))
+        elif not row.timed_out and now.digest != row.digest:
+            others.append(row.world)
+    if failures or any(row.failed for row in rows):  # refuted already
+        return RunAgain(len(before), 0, tuple(failures), tuple(others))
+    known = {row.world: row for row in rows}
+    lost = {row.world for row in rows if row.lost}
+    names = [name for name in row_of(campaign) if name not in lost]
+    in_row = _rows(campaign, names, _one_process, told, stop=Stop(failing=1))
+    for number, now in enumerate(in_row, 1):
+        if now.failed:
+            failures.append(_failure_in_row(campaign, names[:number], now))
+        elif now.undecided is None and now.digest != known.get(now.world, now).digest:
+            others += [now.world] if now.world not in others else []
+    return RunAgain(len(before), len(in_row), tuple(failures), tuple(others))
+
+
+def _telling(what: str, tell: Progress) -> Progress:
+    return lambda _what, done, _total: tell(what, done, 2 * MOST + 1 + ROW)
+
+
+def _drawn(rows: Sequence[Row], seed: int) -> list[Row]:
+    """The counterexample, then the sample, without worlds known to come out otherwise at times."""
+    rows = [row for row in rows if not row.by_chance]
+    first = [row for row in rows if row.failed][:1]
+    drawn = sorted(
+        (row for row in rows if not row.timed_out), key=lambda row: sample_key(seed, row.world)
+    )
+    for fails in (True, False):
+        alike = [row for row in drawn if bool(row.failed) == fails][:MOST]
+        first += [row for row in alike if row not in first]
+    return first
+
+
+def row_of(campaign: Campaign) -> list[str]:
+    """Worlds of the class, in an order of their own."""
+    assert isinstance(campaign.worlds, Ranks)
+    lots = Random(f"{campaign.seed} row")
+    shards = list(campaign.worlds.shards())
+    row: list[str] = []
+    for shard in lots.sample(shards, len(shards)):
+        if len(row) >= ROW:
+            break
+        row += [name for _, name, _ in campaign.worlds.worlds(shard)]
+    lots.shuffle(row)
+    return row[:ROW]
+
+
+# ---------------------------------------------------------------- runs
+
+
+def _rows(
+    campaign: Campaign,
+    worlds: Sequence[str],
+    backend: Callable[..., Generator[tuple[Shard, ShardResult]]],
+    tell: Progress = no_progress,
+    stop: Stop | None = None,
+) -> list[Row]:
+    """The rows of the mapper in these worlds, in this order."""
+    listed = ListedWorlds(len(worlds))
+    once = msgspec.structs.replace(campaign, worlds=listed, keep="all", stop=stop or Stop())
+    named = [(name, World.from_id(name)) for name in worlds]
+    return [row for _, result in results(once, backend, named, tell=tell) for row in result.rows]
+
+
+def _alone(
+    campaign: Campaign, shards: Iterator[Shard], _in_flight: Callable[[int], None]
+) -> Generator[tuple[Shard, ShardResult]]:
+    """Each shard in a process of the mapper's that has played no world."""
+    text = campaign.mappers[0]
+    if text.startswith(PREFIX):
+        for shard in shards:
+            with _program(text) as program:
+                program.start()  # here, where no time limit counts it
+                yield shard, examine(campaign, (program.target,), shard)
+        return
+    with Foreign(text, fresh=True) as program:
+        for shard in shards:
+            program.start()
+            yield shard, examine(campaign, (program.target,), shard)
+
+
+def _one_process(
+    campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
+) -> Generator[tuple[Shard, ShardResult]]:
+    """All shards in one process of the mapper's."""
+    with _program(campaign.mappers[0]) as program:
+        program.start()
+        yield from here((program.target,))(campaign, shards, in_flight)
+
+
+def _program(text: str) -> Program:
+    return Program(split(text.removeprefix(PREFIX))) if text.startswith(PREFIX) else Foreign(text)
+
+
+# ---------------------------------------------------------------- findings
+
+
+def _failure(campaign: Campaign, row: Row, now: Row, *, search: bool) -> Unlike:
+    """The finding in a world that came out otherwise when it was run again.
+
+    Args:
+        row, now: in the search, and alone.
+        search: look for a command that shows it.
+    """
+    if not row.failed:
+        finding = now.findings[0]
+        message = (
+            f"it passed after other worlds, and alone it fails: {finding.claim}, {finding.message}"
+        )
+        return _unlike(campaign, row, message, finding.replay)
+    first = row.findings[0]
+    message = (
+        "a claim fails here only after other worlds, and alone none does:"
+        f" {first.claim}, {first.message}"
+    )
+    replay = _reproduced(campaign, row.world, _before(campaign, row)) if search else None
+    if search and replay is None:
+        message += f". No row of up to {LONGEST} worlds before it made it fail again"
+    return _unlike(campaign, row, message, replay or _searching(campaign))
+
+
+def _failure_in_row(campaign: Campaign, names: Sequence[str], now: Row) -> Unlike:
+    """The finding in the last world of a row."""
+    finding = now.findings[0]
+    message = (
+        f"it passed in the search, and fails as number {len(names)} of a row of worlds that one"
+        f" process played: {finding.claim}, {finding.message}"
+    )
+    replay = _reproduced(campaign, now.world, names[:-1])
+    if replay is None:
+        message += f". The last {LONGEST} worlds before it did not make it fail again"
+    return _unlike(campaign, now, message, replay or _searching(campaign))
+
+
+def _unlike(campaign: Campaign, row: Row, message: str, replay: str) -> Unlike:
+    finding = Finding(CLAIM, None, "the same each time", None, message, None, row.world, replay)
+    rank = int(row.world.partition("/")[2])
+    return Unlike(row.edges, rank, campaign.mappers[0], (finding,))
+
+
+def _reproduced(campaign: Campaign, world: str, before: Sequence[str]) -> str | None:
+    """A command that makes a world fail behind others in one process; None if none was found."""
+    number = 1
+    while before and number <= LONGEST:
+        row = [*before[-number:], world]
+        if _rows(campaign, row, _one_process)[-1].failed:
+            words = ["topo-verify", "explore", *row]
+            target = target_arguments(campaign.mappers[0])
+            words += target if len(target) > 1 else ("--target", *target)
+            return shlex.join([*words, *campaign.limits.options])
+        if number >= len(before):
+            break
+        number *= 2
+    return None
+
+
+def _before(campaign: Campaign, row: Row) -> list[str]:
+    """The last worlds of the class before one, in their order."""
+    assert isinstance(campaign.worlds, Ranks)
+    worlds: list[str] = []
+    for edges in range(row.edges, 0, -1):
+        stop = row.place if edges == row.edges else rank_order.count(edges)
+        near = Shard(edges, max(0, stop - NEAR), stop)
+        worlds = [name for _, name, _ in campaign.worlds.worlds(near)] + worlds
+        if len(worlds) >= LONGEST:
+            break
+    return worlds[-LONGEST:]
+
+
+def _searching(campaign: Campaign) -> str:
+    assert isinstance(campaign.worlds, Ranks)
+    words = ["topo-verify", "search", *target_arguments(campaign.mappers[0])]
+    words += ["--edges", str(campaign.worlds.edges), "--class", campaign.worlds.kind]
+    return shlex.join([*words, "--workers", "0", *campaign.limits.options])

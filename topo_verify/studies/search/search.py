@@ -1,0 +1,523 @@
+"""The search: a mapper in every world of a class, up to the smallest counterexample or EXHAUSTED.
+
+`search` does it in one call. `Search` offers the same in steps: it has a store, and keeps what was
+found when it is cut off.
+
+EXHAUSTED compares two numbers that are computed apart: in how many worlds mappers ran, and how many
+there are (`WorldClass.count`). If they differ at the end of a search, that is a bug of ours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+
+from topo_verify.campaign.backend import clustered, here, pooled
+from topo_verify.campaign.campaign import (
+    ENGINE_SHARD,
+    Backend,
+    Campaign,
+    EngineSeconds,
+    Ranks,
+    ShardMemory,
+    Stop,
+    results,
+)
+from topo_verify.campaign.cluster import both_given, connected
+from topo_verify.campaign.engines import Engine, require_compiled
+from topo_verify.campaign.progress import Progress
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.tally import (
+    KEPT_PAIRS,
+    KEPT_WORST,
+    Costs,
+    Tally,
+    notable,
+)
+from topo_verify.campaign.targets import one_target, targets
+from topo_verify.checkers import Judgement
+from topo_verify.checkers.findings import Verdict
+from topo_verify.errors import InputError, InternalError
+from topo_verify.programs.loader import Mapper, Target
+from topo_verify.programs.program import Program
+from topo_verify.robot.limits import Limits
+from topo_verify.studies.search.again import CLAIM, RunAgain, can_run_again, run_again
+from topo_verify.studies.search.choices import SHARD, WAYS, Choices, require_choices
+from topo_verify.studies.search.states.every import Decider, decided_by, judged_by
+from topo_verify.world.enumeration.classes import WorldClass
+
+JUDGED_BY = (
+    "the compiled engine; every counterexample, the worst worlds and a seeded sample of 1 in 1,000"
+    " by the checkers"
+)
+"""Who judged the worlds of a search by the compiled engine."""
+
+
+DONE: tuple[Verdict, ...] = ("EXHAUSTED", "SAMPLED")
+"""The verdicts of a search that went to its end and refuted nothing."""
+
+
+class Counterexample(msgspec.Struct, frozen=True):
+    """A world in which a claim fails, and the command that shows it again."""
+
+    world: str
+    edges: int
+    claim: str
+    message: str
+    replay: str
+
+
+class FailingClaim(msgspec.Struct, frozen=True):
+    """The number of checked worlds in which a claim fails, and the smallest of them."""
+
+    claim: str
+    failing: int
+    smallest: Counterexample
+
+
+class LostWorker(msgspec.Struct, frozen=True):
+    """A world in which a worker was lost, and how; tried again, nothing went wrong there."""
+
+    world: str
+    how: str
+
+
+class CostPair(msgspec.Struct, frozen=True):
+    """A world in which the first mapper costs more than the second."""
+
+    world: str
+    cost: int
+    other: int
+
+
+class CostComparison(msgspec.Struct, frozen=True):
+    """The costs of two mappers in the same worlds.
+
+    Attributes:
+        dearer, cheaper: in how many worlds the first costs more, and less.
+        most: the largest difference where it costs more.
+        first: the first worlds in which it costs more.
+    """
+
+    dearer: int
+    cheaper: int
+    most: int
+    first: tuple[CostPair, ...]
+
+
+class MostSaved(msgspec.Struct, frozen=True):
+    """A world, what the reference policies cost in it, and the least that a run costs."""
+
+    world: str
+    reference: int
+    cheapest: int
+
+
+class EveryCost(msgspec.Struct, frozen=True):
+    """With --policies every: what any policy of pick and order can cost.
+
+    Attributes:
+        worlds: those in which no claim fails, whatever is chosen; the rest is about them.
+        states, choices: the number of states with more than one way, and of their ways.
+        cheapest, reference, dearest: sums of costs, in edge traversals: the least and the most
+            that a run can cost in each world, and what the reference policies cost.
+        most_saved: where the cheapest run saves the greatest share of the reference cost.
+        decided_by: who made the choices that were judged: the `mapper`, or a `model` of it.
+        judged_by: what judged them.
+    """
+
+    worlds: int
+    states: int
+    choices: int
+    cheapest: int
+    reference: int
+    dearest: int
+    most_saved: MostSaved | None
+    decided_by: Decider
+    judged_by: str
+
+
+class ByEdges(msgspec.Struct, frozen=True):
+    """The worlds of one size.
+
+    Attributes:
+        checked, total, failing, undecided: numbers of worlds.
+        runs: the number of runs in which no claim fails; the costs are theirs.
+        max_cost, total_cost: their highest cost and the sum, in edge traversals.
+        attained: the number of worlds with the highest cost.
+        worst: the first of these worlds.
+        compare: with --compare, where A costs more than B, and where less.
+        every: with --policies every, the range of the costs.
+    """
+
+    edges: int
+    checked: int
+    total: int
+    failing: int
+    undecided: int
+    runs: int
+    max_cost: int
+    total_cost: int
+    attained: int
+    worst: tuple[str, ...]
+    compare: CostComparison | None
+    every: EveryCost | None
+
+
+class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
+    """One search: an entry of `results`.
+
+    Attributes:
+        edges: worlds of 1 to this many are asked for.
+        checked: in how many worlds every run was judged; undecided worlds are left out.
+        counterexample: the smallest, by (edges, rank).
+        claims: of each claim that fails, in how many worlds, and the smallest.
+        not_declared: the claims that no run declared anything about.
+        from_ledger: in how many worlds mappers ran before, as the store says; in the rest, now.
+        lost: worlds in which a worker was lost, perhaps by nothing that the mapper did.
+        run_again: what came of the worlds that were run again, alone and in a row.
+        engine: what ran and judged; judged_by: the same in words.
+        decided_by: with --policies every, who decided the largest worlds: the `mapper`, or a
+            `model` of it; else null.
+        by_checkers: in how many worlds the checkers judged.
+    """
+
+    target: str
+    kind: str
+    edges: int
+    policies: str
+    checked: int
+    total: int
+    verdict: Verdict
+    counterexample: Counterexample | None
+    by_edges: tuple[ByEdges, ...]
+    claims: tuple[FailingClaim, ...]
+    not_declared: tuple[str, ...]
+    judgements: tuple[Judgement, ...]
+    from_ledger: int
+    lost: tuple[LostWorker, ...]
+    run_again: RunAgain | None
+    engine: str
+    decided_by: Decider | None
+    judged_by: str
+    by_checkers: int
+
+
+def search_campaign(  # noqa: PLR0913  an argument an option
+    mappers: Sequence[Target],
+    *,
+    edges: int,
+    kind: str = "any",
+    choices: Choices = "reference",
+    keep_going: bool = False,
+    limits: Limits | None = None,
+    seed: int = 0,
+    in_process: bool = True,
+    engine: Engine = "reference",
+) -> Campaign:
+    """The campaign of a search.
+
+    Raises:
+        InputError: a mapper has no such policies, or the engine cannot run it.
+    """
+    limits = limits or Limits()
+    if engine == "compiled":
+        if choices != "reference":
+            raise InputError(
+                f"--engine compiled with --policies {choices}: it knows the reference policies"
+                " only; leave one of the two out"
+            )
+        require_compiled(mappers, limits)
+        if limits.budget is not None:
+            raise InputError(
+                f"--engine compiled searches with the bound of claim 7 as its budget, got"
+                f" --budget {limits.budget}: leave out --budget, or --engine"
+            )
+    require_choices(mappers, choices, edges)
+    return Campaign(
+        worlds=Ranks(edges, kind, ENGINE_SHARD if engine == "compiled" else SHARD[choices]),
+        mappers=tuple(mapper.text for mapper in mappers),
+        limits=limits,
+        in_process=in_process,
+        engine=engine,
+        stop=Stop(failing=None if keep_going else 1),
+        keep="notable",
+        ways=WAYS[choices],
+        seed=seed,
+    )
+
+
+def search(  # noqa: PLR0913  an argument an option
+    target: Mapper | str | Target,
+    *,
+    edges: int,
+    world_class: WorldClass | None = None,
+    keep_going: bool = False,
+    policies: Choices = "reference",
+    limits: Limits | None = None,
+    workers: int = 0,
+    dask: str | None = None,
+    engine: Engine = "reference",
+    tell: Progress | None = None,
+) -> SearchEntry:
+    """Examine a mapper in every world of a class with 1 to `edges` edges, smallest first.
+
+    Args:
+        target: a callable, a name of the catalogue, any other TARGET. A text that names several
+            lets them run in each world together.
+        world_class: default: all worlds.
+        keep_going: do not stop at the first counterexample.
+        policies: which choices an algorithm of the catalogue is tried with; `choices.py`.
+        limits: of each run.
+        workers: number of worker processes; 0: this one. Workers are handed the TARGET's text.
+        dask: the address of a Dask scheduler, or `local`: its workers in place of processes here.
+        engine: what runs algorithms of the catalogue; `campaign/compiled.py`.
+        tell: the progress callback.
+    Raises:
+        InputError: no such mapper; nothing knows how many worlds the class has; and the like.
+        InternalError: mappers ran in another number of worlds than there are.
+    """
+    mappers = targets(target) if isinstance(target, str) else (one_target(target),)
+    if workers and dask is not None:
+        raise both_given(dask, workers)
+    if (workers or dask is not None) and not isinstance(target, str):
+        _require_texts(mappers)
+    campaign = search_campaign(
+        mappers,
+        edges=edges,
+        kind=str(world_class or WorldClass()),
+        choices=policies,
+        keep_going=keep_going,
+        limits=limits,
+        engine=engine,
+    )
+    if dask is not None:
+        with connected(dask) as cluster:
+            study = Search(campaign, mappers, clustered(cluster))
+            study.work(tell)
+    else:
+        study = Search(campaign, mappers, pooled(workers) if workers else here(mappers))
+        study.work(tell)
+    if isinstance(target, str):
+        study.run_again(tell)
+    return study.entry()
+
+
+def _require_texts(mappers: Sequence[Target]) -> None:
+    """Raise an InputError unless other processes can find these mappers by their texts."""
+    for mapper in mappers:
+        if isinstance(mapper.mapper, Program):
+            continue
+        try:
+            loaded = one_target(mapper.text).mapper
+        except InputError as error:
+            raise InputError(
+                f"{mapper.text} cannot be handed to workers, which find a mapper by its TARGET"
+                f" ({error}): search in this process (workers=0)"
+            ) from None
+        if loaded != mapper.mapper and ".py:" not in mapper.text:
+            raise InputError(
+                f"{mapper.text} names another mapper than the one given, and workers find a mapper"
+                " by its TARGET: search in this process (workers=0)"
+            )
+
+
+class Search:
+    """A search in steps. Life cycle: `work`, then `entry`, also if the work was cut off.
+
+    Args:
+        campaign: of `search_campaign`.
+        mappers: its targets, as they run in this process.
+        store: has the results of finished shards, and is given those of new ones.
+    Attributes:
+        seconds: what the compiled engine and the checkers took, if that engine is the campaign's.
+    Raises:
+        InputError: nothing knows how many worlds there are.
+    """
+
+    def __init__(
+        self,
+        campaign: Campaign,
+        mappers: Sequence[Target],
+        backend: Backend,
+        store: ShardMemory | None = None,
+    ) -> None:
+        assert isinstance(campaign.worlds, Ranks)
+        self.campaign, self.mappers, self._backend, self._store = campaign, mappers, backend, store
+        self.worlds = campaign.worlds
+        self.totals = self.worlds.totals()
+        self.tallies = dict.fromkeys(self.totals, Tally())
+        self.rows: tuple[Row, ...] = ()
+        self.from_store = 0
+        self.again: RunAgain | None = None
+        self.seconds = EngineSeconds()
+
+    def work(self, tell: Progress | None = None) -> None:
+        """Examine the shards until the end, or as far as the campaign says.
+
+        Raises:
+            KeyboardInterrupt: Ctrl-C; `entry` has what was found before.
+            InternalError: mappers ran in another number of worlds than there are.
+        """
+        known = set[str]() if self._store is None else {s.key for s in self._store.known()}
+        for shard, result in results(self.campaign, self._backend, store=self._store, tell=tell):
+            self.tallies[shard.edges] += result.tally
+            self.rows = notable((*self.rows, *result.rows), self.campaign.seed)
+            self.seconds += result.seconds
+            self.from_store += result.tally.worlds * (shard.key in known)
+        if self.campaign.stop.reached(self.tally):
+            return
+        for edges, total in self.totals.items():
+            if self.tallies[edges].worlds != total:
+                raise InternalError(
+                    f"the search ran mappers in {self.tallies[edges].worlds} worlds of class"
+                    f" {self.worlds.kind} where m = {edges}, and there are {total}"
+                )
+
+    def run_again(self, tell: Progress | None = None) -> None:
+        """Run some worlds again, each in a fresh process, if there is a TARGET to start it from."""
+        if can_run_again(self.mappers):
+            self.again = run_again(self.campaign, self.rows, tell)
+
+    # ------------------------------------------------------------ what was found
+
+    @property
+    def tally(self) -> Tally:
+        """The tally of all sizes together."""
+        return sum(self.tallies.values(), Tally())
+
+    @property
+    def choices(self) -> Choices:
+        """Which policies the mappers are tried with."""
+        return next(choices for choices, ways in WAYS.items() if ways == self.campaign.ways)
+
+    @property
+    def failing(self) -> list[Row]:
+        """The failing rows that are kept, in the order of their worlds.
+
+        A row that came out otherwise when it was run again stands in the place of the first one.
+        """
+        rows = {(row.edges, row.place, row.turn): row for row in self.rows if row.failed}
+        for row in () if self.again is None else self.again.rows:
+            rows[row.edges, row.place, row.turn] = row
+        return [rows[place] for place in sorted(rows)]
+
+    def entry(self, *, compare: bool = False) -> SearchEntry:
+        """The result so far.
+
+        Args:
+            compare: the costs of two mappers are compared.
+        """
+        campaign, tally, failing = self.campaign, self.tally, self.failing
+        sizes = tuple(self._size(edges, compare=compare) for edges in self.totals)
+        checked, total = sum(size.checked for size in sizes), sum(self.totals.values())
+        compiled = campaign.engine == "compiled"
+        return SearchEntry(
+            target=",".join(campaign.mappers),
+            kind=self.worlds.kind,
+            edges=self.worlds.edges,
+            policies=self.choices,
+            checked=checked,
+            total=total,
+            verdict=self._verdict(whole=checked == total),
+            counterexample=_counterexample(failing[0]) if failing else None,
+            by_edges=sizes,
+            claims=self._claims(),
+            not_declared=tuple(
+                claim
+                for claim, runs in tally.statuses.items()
+                if runs and runs.keys() <= {"not-declared", "not-asked"}
+            ),
+            judgements=tally.judgements(),
+            from_ledger=self.from_store,
+            lost=tuple(LostWorker(row.world, row.lost) for row in self.rows if row.lost),
+            run_again=self.again,
+            engine=campaign.engine,
+            decided_by=self._decided_by,
+            judged_by=JUDGED_BY if compiled else self._judged_by(self.worlds.edges),
+            by_checkers=tally.by_checkers if compiled else tally.worlds,
+        )
+
+    def _verdict(self, *, whole: bool) -> Verdict:
+        if self.failing:
+            return "REFUTED"
+        if not whole or self.tally.lost or (self.again is not None and self.again.others):
+            return "UNKNOWN"
+        return "SAMPLED" if self._decided_by == "model" else "EXHAUSTED"
+
+    def _claims(self) -> tuple[FailingClaim, ...]:
+        rows = [row for row in self.rows if row.failed]
+        numbers = dict(self.tally.claims)
+        if self.again is not None and self.again.rows:
+            rows += self.again.rows
+            numbers[CLAIM] = len(self.again.rows)
+        return tuple(
+            FailingClaim(
+                claim,
+                number,
+                _counterexample(next(row for row in rows if claim in row.failed), claim),
+            )
+            for claim, number in numbers.items()
+        )
+
+    def _judged_by(self, edges: int) -> str:
+        return "the checkers" if self.choices != "every" else judged_by(edges)
+
+    @property
+    def _decided_by(self) -> Decider | None:
+        return decided_by(self.worlds.edges) if self.choices == "every" else None
+
+    def _size(self, edges: int, *, compare: bool) -> ByEdges:
+        tally, mapper = self.tallies[edges], self.campaign.mappers[0]
+        costs = tally.costs.get(mapper, Costs())
+        mine = [r for r in self.rows if r.edges == edges and r.mapper == mapper and r.right]
+        worst = dict.fromkeys(row.world for row in mine if row.cost == costs.most)
+        return ByEdges(
+            edges=edges,
+            checked=tally.worlds - tally.undecided,
+            total=self.totals[edges],
+            failing=tally.failing,
+            undecided=tally.undecided,
+            runs=costs.runs,
+            max_cost=costs.most,
+            total_cost=costs.total,
+            attained=costs.attained,
+            worst=tuple(worst)[:KEPT_WORST],
+            compare=self._compared(tally, mine) if compare else None,
+            every=self._every(tally, edges) if self.choices == "every" else None,
+        )
+
+    def _compared(self, tally: Tally, mine: Sequence[Row]) -> CostComparison:
+        second = self.campaign.mappers[1]
+        others = {row.world: row.cost for row in self.rows if row.mapper == second and row.right}
+        pairs = [
+            CostPair(row.world, row.cost, others[row.world])
+            for row in mine
+            if row.cost > others.get(row.world, row.cost)
+        ]
+        numbers = tally.pairs
+        return CostComparison(
+            numbers.dearer, numbers.cheaper, numbers.most, tuple(pairs[:KEPT_PAIRS])
+        )
+
+    def _every(self, tally: Tally, edges: int) -> EveryCost:
+        """The range of the costs of the first mapper in the worlds of one size."""
+        costs = tally.choices
+        saved = costs.most_saved
+        return EveryCost(
+            worlds=costs.worlds,
+            states=costs.states,
+            choices=costs.choices,
+            cheapest=costs.cheapest,
+            reference=costs.reference,
+            dearest=costs.dearest,
+            most_saved=None if saved is None else MostSaved(*saved),
+            decided_by=decided_by(edges),
+            judged_by=judged_by(edges),
+        )
+
+
+def _counterexample(row: Row, claim: str | None = None) -> Counterexample:
+    finding = next(f for f in row.findings if claim in (None, f.claim))
+    return Counterexample(row.world, row.edges, finding.claim, finding.message, finding.replay)

@@ -1,0 +1,113 @@
+"""A run that costs the least or the most, read off the tables that `kernel.py` has filled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from topo_verify.compiled.kernel import compiled
+from topo_verify.studies.search.states import behind as b
+from topo_verify.studies.search.states import kernel as k
+from topo_verify.world.rooted_map import Dart
+
+RunOrder = tuple[tuple[Dart, ...], ...]
+"""Of each edge, as they come: e, then the hypotheses as they are tried, in darts of the world."""
+
+
+class Tables:
+    """What the kernel reads and fills. Lives as long as the process; `search` a world at a time."""
+
+    def __init__(self) -> None:
+        self.world = _ints(5, k.MOST_DARTS)
+        self.found = _ints(6)
+        self._work = _ints(4, 4 * k.ROOM, fill=-1)
+        self._cost = _ints(k.ROOM, b.VERTICES, 2)
+        self._low = _ints(k.ROOM, k.MOST_DARTS, 3)
+        self._darts = _ints(k.MOST_DARTS)
+        self._row = _ints(k.MOST_DARTS, 3 * k.MOST_DARTS + 3)
+        self._kills = _ints(k.MOST_DARTS)
+        self._best = _ints((1 << k.MOST_DARTS - 1) * k.MOST_DARTS, 2)
+        self._facts, self._ends = _ints(4), _ints(4)
+        self._tree = _ints(b.VERTICES)
+        self._depth = _ints(b.VERTICES)
+        self._size, self._rule, self._overlap = 0, b.NONE, False
+        self._search_world = compiled(k.search_world, k.STATES)
+        self._outward, self._behind = compiled(b.outward, k.STATES), compiled(b.behind, k.STATES)
+        self._tie, self._same_walk = compiled(b.tie, k.STATES), compiled(b.same_walk, k.STATES)
+        self._try = compiled(b.tried, k.STATES)
+
+    def search(self, size: int, rule: int, *, overlap: bool) -> None:
+        """Search the states of the world in the table, which has so many darts."""
+        self._size, self._rule, self._overlap = size, rule, overlap
+        self._search_world(
+            self.world, size, rule, overlap, self._work, self._cost, self._low, self._darts,
+            self._row, self._kills, self._best, self.found, self._facts, self._ends,
+            self._tree, self._depth,
+        )  # fmt: skip
+
+    def order(self, end: int) -> RunOrder:
+        """A run of the world that was searched: with the least cost (`end` 0), or the most (1)."""
+        return tuple(self._edges(end))
+
+    def _edges(self, end: int) -> Iterator[tuple[Dart, ...]]:
+        here, at = 0, 0
+        for _ in range(self._size // 2):
+            key = int(self._work[k.KEY, here])
+            explored, entries = key & (1 << k.MOST_DARTS) - 1, key >> k.MOST_DARTS
+            e = self._pick(explored, entries, here, at, end)
+            self._outward(self.world, explored, entries, 0, self._tree, self._depth)
+            self._behind(
+                self.world, explored, entries, self._tree, e, self._rule, self._overlap,
+                self._darts, self._row, self._kills, self._facts, self._best, self._ends,
+            )  # fmt: skip
+            yield e, *self._tried(end)
+            here, at = divmod(int(self._low[here, e, 2]), b.VERTICES)
+
+    def _pick(self, explored: int, entries: int, here: int, at: int, end: int) -> Dart:
+        """The first e with which the cost can be reached."""
+        self._outward(self.world, explored, entries, at, self._tree, self._depth)
+        for e in range(self._size):
+            vertex = int(self.world[1, e])
+            if not explored >> e & 1 and entries >> 4 * vertex & 15 != b.UNKNOWN:
+                number, there = divmod(int(self._low[here, e, 2]), b.VERTICES)
+                left = self._low[here, e, end] + self._cost[number, there, end]
+                if self._depth[vertex] + 1 + left == self._cost[here, at, end]:
+                    return e
+        raise AssertionError("some way has the least cost")
+
+    def _tried(self, end: int) -> Iterator[Dart]:
+        """The hypotheses behind e as they are tried."""
+        count, true = int(self._facts[0]), int(self._facts[1])
+        remaining, last = (1 << count) - 1, count
+        free = bool(self._facts[2]) or (self._rule == b.NONE and not self._overlap)
+        while remaining:
+            mask = self._tie(self._row, remaining, last, count, self._overlap and not free)
+            allowed = [place for place in range(count) if mask >> place & 1]
+            if free:  # the true one first, or last
+                place = min(allowed, key=lambda one: (one == true) == bool(end))
+            else:
+                index = remaining * (count + 1) + last
+                place = next(
+                    one
+                    for one in allowed
+                    if self._paid(remaining, last, one)[end] == self._best[index, end]
+                )
+            yield int(self._darts[place])
+            if self._row[place, 2] < 0:
+                return
+            remaining &= ~int(self._kills[place])
+            walked = self._overlap and self._row[place, 1]
+            last = self._same_walk(self._row, place) if walked else count
+
+    def _paid(self, remaining: int, last: int, place: int) -> tuple[int, int]:
+        count = int(self._facts[0])
+        return self._try(
+            self._row, self._kills, count, self._overlap, self._best, remaining, last, place
+        )
+
+
+def _ints(*shape: int, fill: int = 0) -> Any:
+    """An array of this shape with the same number everywhere."""
+    return np.full(shape, fill, np.int64)

@@ -1,0 +1,217 @@
+"""What a search with every choice does with one world: its runs, and the range of its costs.
+
+    worlds of up to 4 edges   decided by the mapper: its states are found by running it, and each
+                              choice lies on a run that is judged by every claim; `graph.py`
+    5 and 6 edges             decided by a model: `none`, `prefix` and `history` are written anew in
+                              `kernel.py`, which judges claims 3 and 4 in each state; the cheapest
+                              and the dearest run are made by the mapper and judged by every claim
+
+Beside these, every named policy runs in a world that the mapper decides, and the reference policies
+in a larger one: the policies are code, too, and the script stands in their place.
+
+The model is not the mapper: a mistake in the mapper's code need not be in the model. So a search
+that it decides is SAMPLED. Nor is it trusted. If the mapper's two runs do not cost what it says,
+that is a bug of ours. If it finds something wrong, the world is searched by running the mapper,
+which must find it, too.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from typing import Literal, NamedTuple, cast
+
+import msgspec
+
+from topo_verify.algorithms import Algorithm
+from topo_verify.campaign.judge import Report, world_argument
+from topo_verify.campaign.row import Attempt, PolicyCosts
+from topo_verify.errors import InputError, InternalError
+from topo_verify.programs.loader import Target
+from topo_verify.robot.limits import Limits
+from topo_verify.studies.search.states import table
+from topo_verify.studies.search.states.graph import StateGraph
+from topo_verify.studies.search.states.script import ChoicePoint, Chooser, choices_text, scripted
+from topo_verify.world.rooted_map import World
+
+Decider = Literal["mapper", "model"]
+"""Who makes the choices that are judged: the code that is shipped, or a second one."""
+
+MOST_BY_MAPPER = 4
+"""The largest worlds in which every choice is made by the mapper itself."""
+
+MOST_BY_MODEL = 6
+"""The largest worlds that are searched by the kernel."""
+
+Run = Callable[[Target], Attempt]
+"""Runs a mapper in the world at hand and judges it."""
+
+
+class CostRange(NamedTuple):
+    """What a mapper can cost in one world, in edge traversals, by what is chosen.
+
+    Attributes:
+        states, choices: how many states have more than one way, and how many ways they have.
+        cheapest, dearest: the least and the most that any run costs.
+    """
+
+    states: int
+    choices: int
+    cheapest: int
+    dearest: int
+
+
+def decided_by(edges: int) -> Decider:
+    """Who decides the worlds with this many edges."""
+    return "model" if edges > MOST_BY_MAPPER else "mapper"
+
+
+def require_edges(text: str, algorithm: Algorithm, edges: int) -> None:
+    """Raise an InputError unless every choice can be searched in worlds with so many edges."""
+    known = table.is_known(algorithm)
+    most = MOST_BY_MODEL if known else MOST_BY_MAPPER
+    if edges > most:
+        reason = "larger ones take days" if known else "its rule remembers what it saw"
+        raise InputError(
+            f"--policies every, --edges {edges}: for {text} it goes to {most} edges ({reason}); ask"
+            f" for --edges {most}, or for --policies all"
+        )
+    if decided_by(edges) == "model":
+        table.require_kernel()
+
+
+def judged_by(edges: int) -> str:
+    """What judged the choices in worlds with so many edges, in words."""
+    if decided_by(edges) == "mapper":
+        return "every claim, on a run for each choice"
+    return "a model: claims 3 and 4 in each state; every claim on three runs of the mapper"
+
+
+def every_choice(
+    target: Target,
+    world: World,
+    run: Run,
+    named: Sequence[Target],
+) -> Iterator[Attempt]:
+    """Runs in a world; if a claim fails, first the one with the fewest choices up to there.
+
+    If none fails, the last run says what any choices can cost.
+
+    Args:
+        target: an algorithm and its name.
+        named: the same with named policies, the reference policies first.
+    Raises:
+        InternalError: the model and the mapper differ, or a state is no state.
+    """
+    algorithm = cast("Algorithm", target.mapper)
+    if decided_by(len(world.edges)) == "mapper":
+        found, runs = _by_running(target.text, algorithm, world, run)
+    else:
+        found, runs = _by_kernel(target.text, algorithm, world, run)
+        named = named[:1]
+    by_name = [run(variant) for variant in named]
+    if found is not None and all(made.report.ok for made in by_name):
+        reference = by_name[0].run.cost
+        saved = world_argument(world), reference, found.cheapest
+        costs = PolicyCosts(1, *found[:3], reference, found.dearest, saved)
+        by_name[-1] = replace(by_name[-1], choices=costs)
+    yield from (*runs, *by_name)
+
+
+def cost_range(graph: StateGraph) -> CostRange:
+    """The range of the costs of a graph all of whose ways were taken.
+
+    The cost so far is in the state, so each cost that some run can have is that of a run made.
+    """
+    costs = [path.tried.run.cost for path in graph.paths]
+    return CostRange(len(graph.nodes), graph.choices, min(costs), max(costs))
+
+
+def _by_running(
+    text: str, algorithm: Algorithm, world: World, run: Run
+) -> tuple[CostRange | None, list[Attempt]]:
+    graph = StateGraph(algorithm, world, lambda mapper: run(Target(text, mapper)))
+    graph.search()
+    shortest = graph.shortest_failing()
+    paths = graph.paths if shortest is None else [shortest, *graph.paths]
+    runs = [replayable(path.tried, text, path.choices) for path in paths]
+    return (cost_range(graph) if shortest is None else None), runs
+
+
+def _by_kernel(
+    text: str, algorithm: Algorithm, world: World, run: Run
+) -> tuple[CostRange | None, list[Attempt]]:
+    found = table.found_in(world, algorithm)
+    if found.wrong:
+        return _require_failing(world, *_by_running(text, algorithm, world, run))
+    runs: list[Attempt] = []
+    for order, cost in ((found.cheap, found.cheapest), (found.dear, found.dearest)):
+        made = RecordedChoices(table.Ordered(world, order))
+        tried = run(Target(text, scripted(algorithm, made)))
+        if not tried.report.ok:  # here, by other choices than the model judged
+            return _by_running(text, algorithm, world, run)
+        if tried.run.cost != cost:
+            raise InternalError(
+                f"{text} in {world_argument(world)} costs {tried.run.cost} where the model says"
+                f" {cost}: --choices {choices_text(made.choices)}"
+            )
+        runs.append(tried)
+    return CostRange(*found[1:5]), runs
+
+
+def _require_failing(
+    world: World, found: CostRange | None, runs: list[Attempt]
+) -> tuple[CostRange | None, list[Attempt]]:
+    if found is not None:
+        raise InternalError(
+            f"the model finds a claim false in {world_argument(world)}, and no run of the mapper"
+            " shows it"
+        )
+    return found, runs
+
+
+# ---------------------------------------------------------------- runs that can be had again
+
+
+class RecordedChoices:
+    """Makes the choices of another chooser and keeps their numbers.
+
+    Attributes:
+        choices: those made so far, as `--choices` takes them.
+        words: the same, to be read.
+    """
+
+    def __init__(self, chooser: Chooser) -> None:
+        self._chooser = chooser
+        self.choices: list[int] = []
+        self.words: list[str] = []
+
+    def __call__(self, moment: ChoicePoint) -> int:
+        """What the other chooser takes."""
+        number = self._chooser(moment)
+        self.choices.append(number)
+        self.words.append(f"{'e' if moment.e is None else 'h'} = {moment.ways[number]}")
+        return number
+
+
+def replayable(tried: Attempt, text: str, choices: tuple[int, ...]) -> Attempt:
+    """The run; its findings name the command that makes the same choices again."""
+    if tried.report.ok:
+        return tried
+    report = with_choices(tried.report, text, choices, tried.run.limits)
+    return replace(tried, report=report)
+
+
+def with_choices(report: Report, text: str, choices: tuple[int, ...], limits: Limits) -> Report:
+    """The report; its findings name the command that makes the same choices again."""
+    chosen = choices_text(choices)
+    words = ["topo-verify", "explore", report.world, "--target", text, "--choices", chosen]
+    replay = shlex.join([*words, *limits.options])
+    changed = [
+        msgspec.structs.replace(
+            finding, message=f"{finding.message} (choices: {chosen})", replay=replay
+        )
+        for finding in report.findings
+    ]
+    return report.with_findings(tuple(changed))

@@ -1,0 +1,217 @@
+"""All states of one world and the choices between them, found by running the mapper.
+
+`StateGraph` runs the mapper again and again, with a list of choices, and goes on where a state has
+a way that was not taken yet. So each way of each state lies on a run, and each run is judged by
+every claim, as any other. A state that was met before is not searched again: that is what makes the
+states of a world few where its runs are beyond counting.
+
+Why it suffices to judge a way on one run that takes it: `memory.py`. Two moments are one state only
+if all that the mapper keeps is equal, and all of the past that a later judgement can depend on. So
+what follows on one run is what follows on any other, event by event and cost by cost.
+
+`StateGraph` also checks itself: where a run comes to a known state by a known way, it must have as
+many ways there, and have made as many moves.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from topo_verify.algorithms import Algorithm
+from topo_verify.campaign.row import Attempt
+from topo_verify.errors import InternalError
+from topo_verify.programs.loader import Mapper
+from topo_verify.studies.search.states.memory import State, state
+from topo_verify.studies.search.states.script import ChoicePoint, scripted
+from topo_verify.world.rooted_map import World
+
+END, LOST = -1, -2
+"""Behind a way there is no state: the run ends; or S is no map, since a claim has failed, or the
+clock stopped the run."""
+
+
+@dataclass
+class ChoiceState:
+    """A state.
+
+    Attributes:
+        prefix: the choices that first led to it.
+        moves: how many the mapper has made.
+        ways: the number of the state behind each way, `END` or `LOST`; None while it was not taken.
+    """
+
+    prefix: tuple[int, ...]
+    moves: int
+    ways: list[int | None]
+
+    @property
+    def open(self) -> int | None:
+        """The first way that was not taken; None: all were."""
+        return self.ways.index(None) if None in self.ways else None
+
+
+class _Passed(NamedTuple):
+    """A state that a run passed: its number, the way it took, the events before."""
+
+    node: int
+    taken: int
+    events: int
+
+
+@dataclass
+class JudgedPath:
+    """A run with the choices that made it, as `--choices` counts them."""
+
+    choices: tuple[int, ...]
+    tried: Attempt
+    passed: tuple[_Passed, ...]
+
+
+@dataclass
+class StateGraph:
+    """The states of a mapper in one world. Life cycle: `search`, then everything else.
+
+    Args:
+        judged: runs a mapper in the world and judges it.
+
+    Attributes:
+        start: the number of the first state, `END` or `LOST`; None before the first run.
+        nodes: the states, in the order in which they were met.
+        paths: the runs that were made.
+    """
+
+    algorithm: Algorithm
+    world: World
+    judged: Callable[[Mapper], Attempt]
+    start: int | None = None
+    nodes: list[ChoiceState] = field(default_factory=list[ChoiceState])
+    paths: list[JudgedPath] = field(default_factory=list[JudgedPath])
+    _numbers: dict[State, int] = field(default_factory=dict[State, int])
+
+    def search(self) -> None:
+        """Take every way of every state."""
+        self.paths.append(self.run(()))
+        for node in self.nodes:  # grows as it goes
+            while (way := node.open) is not None:
+                self.paths.append(self.run((*node.prefix, way)))
+
+    @property
+    def choices(self) -> int:
+        """How many ways all states have together."""
+        return sum(len(node.ways) for node in self.nodes)
+
+    def run(self, prefix: Sequence[int]) -> JudgedPath:
+        """The run that takes these ways, then ways that were not taken, or the first each time."""
+        passed: list[_Passed] = []
+        lost = False
+        broken: Exception | None = None
+
+        def chooser(moment: ChoicePoint) -> int:
+            # What is raised here would count as the mapper's own: so it is kept until the end.
+            nonlocal lost, broken
+            number = LOST
+            try:
+                number = LOST if lost else self._number(moment, passed)
+            except Exception as error:  # noqa: BLE001  whatever is wrong, it is raised below
+                broken = broken or error
+            if number == LOST:  # the run ends as it may
+                lost = True
+                return 0
+            way = self.nodes[number].open or 0
+            if len(passed) < len(prefix):
+                way = prefix[len(passed)]
+            passed.append(_Passed(number, way, len(moment.trace)))
+            return way
+
+        tried = self.judged(scripted(self.algorithm, chooser))
+        if broken is not None:
+            raise broken
+        lost = lost or tried.run.limit in ("move-timeout", "world-timeout")
+        self._lead(passed, LOST if lost else END)
+        return JudgedPath(tuple(one.taken for one in passed), tried, tuple(passed))
+
+    def _number(self, moment: ChoicePoint, passed: Sequence[_Passed]) -> int:
+        """The number of the state at a moment, or `LOST`."""
+        number = self.nodes[passed[-1].node].ways[passed[-1].taken] if passed else self.start
+        if number is None and (kept := state(moment, self.world)) is not None:
+            number = self._numbers.setdefault(kept, len(self.nodes))
+            if number == len(self.nodes):
+                taken = tuple(one.taken for one in passed)
+                self.nodes.append(ChoiceState(taken, moment.moves, [None] * len(moment.ways)))
+            self._lead(passed, number)
+        if number in (None, LOST):
+            return LOST
+        if number == END:
+            raise self._different("the end of a run and a choice")
+        node = self.nodes[number]
+        for name, was, now in (
+            ("ways", len(node.ways), len(moment.ways)),
+            ("moves", node.moves, moment.moves),
+        ):
+            if was != now:
+                raise self._different(f"{was} and {now} {name}")
+        return number
+
+    def _lead(self, passed: Sequence[_Passed], to: int) -> None:
+        """Note where the last way of a run leads; it leads there each time."""
+        ways = self.nodes[passed[-1].node].ways if passed else [self.start]
+        place = passed[-1].taken if passed else 0
+        if ways[place] is None:
+            ways[place] = to
+            self.start = self.start if passed else to
+        elif ways[place] != to and LOST not in (ways[place], to):
+            raise self._different("a choice and the end of a run")
+
+    def _different(self, how: str) -> InternalError:
+        return InternalError(
+            f"a state of {self.algorithm.name} in {self.world.text} has {how}: what the mapper"
+            " remembers is not all in the state, or it does not do the same each time"
+        )
+
+    # ------------------------------------------------------------ the shortest failing choices
+
+    def shortest_failing(self) -> JudgedPath | None:
+        """The run with the fewest choices up to its first finding; None if no claim fails.
+
+        It is run again, with the choices that lead to the failing state the shortest way.
+        """
+        failing = [path for path in self.paths if not path.tried.report.ok]
+        culprits = dict.fromkeys(_culprit(path) for path in failing)
+        ways = self._shortest()
+        rows = [() if one is None else (*ways[one[0]], one[1]) for one in culprits]
+        for row in sorted(rows, key=lambda row: (len(row), row)):
+            path = self.run(row)
+            if not path.tried.report.ok:
+                return path
+        return min(failing, key=lambda path: len(path.choices), default=None)
+
+    def _shortest(self) -> dict[int, tuple[int, ...]]:
+        """The fewest ways that lead from the start to each state."""
+        found: dict[int, tuple[int, ...]] = {}
+        queue: deque[tuple[int, tuple[int, ...]]] = deque()
+        if self.start is not None:
+            queue.append((self.start, ()))
+        while queue:
+            number, choices = queue.popleft()
+            if number in (END, LOST) or number in found:
+                continue
+            found[number] = choices
+            for way, to in self._taken(number):
+                queue.append((to, (*choices, way)))
+        return found
+
+    def _taken(self, number: int) -> Iterator[tuple[int, int]]:
+        ways = self.nodes[number].ways
+        return ((way, to) for way, to in enumerate(ways) if to is not None)
+
+
+def _culprit(path: JudgedPath) -> tuple[int, int] | None:
+    """The state and the way behind which a claim first fails; None: before any choice."""
+    last = len(path.tried.run.trace)
+    findings = path.tried.report.findings
+    first = min(last if finding.event is None else finding.event for finding in findings)
+    before = [one for one in path.passed if one.events <= first]
+    return (before[-1].node, before[-1].taken) if before else None

@@ -1,0 +1,139 @@
+"""A world as `kernel.py` takes it, and what the kernel found, as a `CostRange`.
+
+numba and NumPy are loaded when the first world is searched. They are the extra `fast`.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, NamedTuple
+
+from topo_verify.algorithms import Algorithm
+from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.enhancement_i import PrefixRule
+from topo_verify.algorithms.enhancement_ii import HistoryRule
+from topo_verify.algorithms.motion import overlap, retrace
+from topo_verify.errors import InputError, InternalError
+from topo_verify.robot.percept import Percept
+from topo_verify.robot.simulator import exit_dart, percepts
+from topo_verify.studies.search.states.behind import FULL
+from topo_verify.studies.search.states.script import ChoicePoint
+from topo_verify.world.rooted_map import Dart, World
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from topo_verify.studies.search.states.best import RunOrder, Tables
+
+RULES: tuple[object, ...] = (NoRule, PrefixRule, HistoryRule)
+"""The rules that the kernel knows, in the order of its numbers."""
+
+
+class KernelFound(NamedTuple):
+    """What the kernel found in one world.
+
+    Attributes:
+        wrong: what is wrong in some state, as a number of `behind.py`; 0: nothing.
+        states, choices: as in a `CostRange`.
+        cheapest, dearest: costs in edge traversals.
+        cheap, dear: a run that has them.
+        maps: how many S there are.
+    """
+
+    wrong: int
+    states: int
+    choices: int
+    cheapest: int
+    dearest: int
+    cheap: RunOrder
+    dear: RunOrder
+    maps: int
+
+
+def is_known(algorithm: Algorithm) -> bool:
+    """Whether the kernel knows the rule and the motion of an algorithm."""
+    return algorithm.rule in RULES and algorithm.motion in (overlap, retrace)
+
+
+def require_kernel() -> None:
+    """Raise an InputError unless numba is installed."""
+    if find_spec("numba") is None:
+        raise InputError(
+            "--policies every beyond 4 edges needs numba, which is not installed: install"
+            " topo-verify with the extra `fast`, or ask for --edges 4"
+        )
+
+
+def found_in(
+    world: World, algorithm: Algorithm, seen: Sequence[Percept] | None = None
+) -> KernelFound:
+    """What the kernel finds in a world whose darts are numbered as in its code.
+
+    Args:
+        seen: the percept with each dart as the reference dart; default: the true ones.
+    Raises:
+        InternalError: the world has more states than there is room for.
+    """
+    size, tables = len(world.alpha), _tables()
+    assert world.root == 0, "a world whose darts are numbered as in its code"
+    table = tables.world
+    for dart, percept in enumerate(seen or percepts(world)):
+        table[0, dart], table[1, dart] = world.alpha[dart], world.vertex_of[dart]
+        table[2, dart] = 32 * percept.degree + (-1 if percept.marker is None else percept.marker)
+    for vertex, rotation in enumerate(world.vertices):
+        table[3, vertex], table[4, vertex] = rotation[0], len(rotation)
+    tables.search(size, RULES.index(algorithm.rule), overlap=algorithm.motion is overlap)
+    wrong, states, choices, least, most, maps = (int(tables.found[place]) for place in range(6))
+    if wrong == FULL:
+        raise InternalError(f"{world.text} has too many states for the kernel")
+    cheap, dear = ((), ()) if wrong else (tables.order(0), tables.order(1))
+    return KernelFound(wrong, states, choices, least, most, cheap, dear, maps)
+
+
+@cache
+def _tables() -> Tables:
+    from topo_verify.studies.search.states.best import Tables
+
+    return Tables()
+
+
+class Ordered:
+    """Makes the choices of an `RunOrder` in its world, for one run of the mapper."""
+
+    def __init__(self, world: World, order: RunOrder) -> None:
+        self._world, self._order = world, order
+
+    def __call__(self, moment: ChoicePoint) -> int:
+        """The place of the dart that the order says; the first where it says none."""
+        darts = world_darts(moment.chart, self._world)
+        if darts is None:
+            return 0
+        settled = sum(other is not None for other in moment.chart.alpha) // 2
+        e, *tried = self._order[settled]
+        ways = [darts[dart] for dart in moment.ways]
+        wanted = [e] if moment.e is None else tried
+        return next((ways.index(dart) for dart in wanted if dart in ways), 0)
+
+
+def world_darts(chart: Chart, world: World) -> list[Dart] | None:
+    """The dart of the world that each dart of S is; None if S is no part of the world."""
+    assert world.root is not None, "the world has an edge"
+    darts: list[Dart | None] = [None] * len(chart.alpha)
+    entries = {0: world.root}
+    for v, _, back in chart.outward(0):
+        if back is not None:
+            up = chart.across(back)
+            left = darts[up]
+            assert left is not None, "the search goes outward"
+            entries[v] = exit_dart(world, world.alpha[left], chart.first[v] - back)
+        if world.degrees[world.vertex_of[entries[v]]] != chart.degree[v]:
+            return None
+        for door, dart in enumerate(chart.darts(v)):
+            darts[dart] = exit_dart(world, entries[v], door)
+    found = [dart for dart in darts if dart is not None]
+    if len(set(found)) < len(darts):  # a vertex is out of reach, or stands in S twice
+        return None
+    pairs = ((found[d], other) for d, other in enumerate(chart.alpha) if other is not None)
+    return found if all(world.alpha[dart] == found[other] for dart, other in pairs) else None
