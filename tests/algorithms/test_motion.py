@@ -8,16 +8,9 @@ from hypothesis import strategies as st
 
 from tests.helpers import any_world, cited, of_type, sketch, trace_of, variant, worlds
 from topo_verify import World, examine
+from topo_verify.algorithms import motion
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.motion import (
-    Executed,
-    Hypothesis,
-    Pilot,
-    common_prefix,
-    overlap,
-    retrace,
-)
 from topo_verify.robot.events import Confirm, Reject
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot
@@ -25,32 +18,32 @@ from topo_verify.robot.simulator import SimulatedRobot
 words = st.lists(st.integers(0, 15), min_size=1, max_size=6)
 
 
-def hypothesis_with(*doors: int) -> Hypothesis:
+def hypothesis_with(*doors: int) -> motion.Hypothesis:
     """A hypothesis of which only the way home matters."""
     chart = Chart(Percept(1, 0))
-    hypothesis = Hypothesis(0, chart, chart.tree(0))
+    hypothesis = motion.Hypothesis(0, chart, chart.tree(0))
     vars(hypothesis)["doors"] = doors
     return hypothesis
 
 
-def executed(*doors: int) -> Executed:
+def executed(*doors: int) -> motion.Executed:
     """A sequence of which only the doors matter."""
-    return Executed(doors, (Percept(16, None),) * (len(doors) + 1))
+    return motion.Executed(doors, (Percept(16, None),) * (len(doors) + 1))
 
 
 def test_retrace_takes_the_first_and_shares_nothing_even_where_all_was_executed() -> None:
     row = [hypothesis_with(3, 1), hypothesis_with(2, 1, 3)]
-    assert retrace(row, executed(2, 1, 3)) == (row[0], 0)
+    assert motion.retrace(row, executed(2, 1, 3)) == (row[0], 0)
 
 
 def test_overlap_takes_the_longest_common_prefix() -> None:
     row = [hypothesis_with(2), hypothesis_with(2, 1, 4), hypothesis_with(1, 1, 3)]
-    assert overlap(row, executed(2, 1, 3)) == (row[1], 2)
+    assert motion.overlap(row, executed(2, 1, 3)) == (row[1], 2)
 
 
 def test_overlap_breaks_ties_in_the_order_of_h() -> None:
     row = [hypothesis_with(1), hypothesis_with(2, 4), hypothesis_with(2, 1)]
-    assert overlap(row, executed(2, 3)) == (row[1], 1)
+    assert motion.overlap(row, executed(2, 3)) == (row[1], 1)
     # In m3/8, taking the last of equals instead would walk dart 5 before dart 4: 10 moves, not 8.
     (reject,) = of_type(Reject, trace_of("m3/8", "enhancement-i"))
     assert reject.hypothesis == 3
@@ -59,12 +52,12 @@ def test_overlap_breaks_ties_in_the_order_of_h() -> None:
 
 def test_overlap_with_nothing_executed_takes_the_first() -> None:
     row = [hypothesis_with(2), hypothesis_with(1, 2)]
-    assert overlap(row, None) == (row[0], 0)
+    assert motion.overlap(row, None) == (row[0], 0)
 
 
 def test_a_common_prefix_ends_where_the_shorter_one_ends() -> None:
-    assert common_prefix((1, 2), (1, 2, 3)) == 2
-    assert common_prefix((), (1,)) == 0
+    assert motion.common_prefix((1, 2), (1, 2, 3)) == 2
+    assert motion.common_prefix((), (1,)) == 0
 
 
 def test_overlap_stays_where_the_whole_executed_sequence_is_shared() -> None:
@@ -105,7 +98,7 @@ def test_what_is_executed_already_is_confirmed_without_motion() -> None:
 def test_the_marker_direction_counts_where_the_whole_way_is_executed_already() -> None:
     # Overlap with no rule in between: what the direction excludes is rejected when it is looked at.
     for world in worlds(range(1, 5)):
-        report = examine(variant(NoRule, overlap), world)
+        report = examine(variant(NoRule, motion.overlap), world)
         assert report.ok, str(report)
 
 
@@ -114,7 +107,7 @@ def test_after_going_back_doors_mean_what_they_meant_before(
     world: World, word: list[int], other: list[int], keep: int
 ) -> None:
     robot, fresh = SimulatedRobot(world, 100), SimulatedRobot(world, 100)
-    pilot = Pilot(robot)
+    pilot = motion.Pilot(robot)
     for door in word:
         pilot.forward(door % robot.percept.degree)
     pilot.back(keep)

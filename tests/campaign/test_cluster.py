@@ -23,17 +23,8 @@ import pytest
 
 from tests.studies.search.searching import searched
 from topo_verify import InputError, InternalError, errors
+from topo_verify.campaign import backend, cluster_worker
 from topo_verify.campaign import cluster as clusters
-from topo_verify.campaign import cluster_worker
-from topo_verify.campaign.backend import (
-    MACHINES,
-    SHORT_OF_MEMORY,
-    CampaignJob,
-    _job,
-    _work,
-    clustered,
-    remade,
-)
 from topo_verify.campaign.campaign import Campaign, Shard, ShardMemory, ShardResult
 from topo_verify.campaign.cluster import Cluster, ClusterPool, connected
 from topo_verify.campaign.cluster_worker import ClusterTask, ClusterTaskDone, do
@@ -131,14 +122,14 @@ def on_cluster(
     """A search on a cluster that has gone to its end."""
     mappers = targets(target)
     campaign = search_campaign(mappers, edges=edges, kind=kind)
-    study = Search(campaign, mappers, clustered(cluster), store)
+    study = Search(campaign, mappers, backend.clustered(cluster), store)
     study.work()
     return study
 
 
 def work_of(target: str, edges: int = 2) -> Work[Shard, ShardResult]:
     """What workers are to do in a search."""
-    return _work(_job(campaign_of(target, edges), None))
+    return backend._work(backend._job(campaign_of(target, edges), None))
 
 
 def campaign_of(target: str, edges: int, kind: str = "any") -> Campaign:
@@ -204,7 +195,7 @@ def test_a_world_that_takes_every_worker_with_it_is_undecided_and_convicts_nobod
     assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 8, 9)
     assert found.counterexample is None
     (lost,) = found.lost
-    assert (lost.world.partition("/")[0], lost.how) == ("m3", MACHINES)
+    assert (lost.world.partition("/")[0], lost.how) == ("m3", backend.MACHINES)
 
 
 def test_a_mapper_that_lacks_memory_on_a_worker_alone_is_undecided() -> None:
@@ -215,7 +206,7 @@ def test_a_mapper_that_lacks_memory_on_a_worker_alone_is_undecided() -> None:
     assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 8, 9)
     assert found.counterexample is None
     (lost,) = found.lost
-    assert (lost.world.partition("/")[0], lost.how) == ("m3", SHORT_OF_MEMORY)
+    assert (lost.world.partition("/")[0], lost.how) == ("m3", backend.SHORT_OF_MEMORY)
 
 
 CLIENT = """
@@ -519,6 +510,6 @@ def test_a_bug_of_ours_on_a_worker_is_told_as_such() -> None:
 
 def test_the_work_is_made_again_of_its_job() -> None:
     work = work_of("basic")
-    again = remade(msgspec.json.encode(work.job))
-    assert isinstance(again.job, CampaignJob)
+    again = backend.remade(msgspec.json.encode(work.job))
+    assert isinstance(again.job, backend.CampaignJob)
     assert again.job == work.job

@@ -13,21 +13,9 @@ from typing import Any
 import msgspec
 import pytest
 
+import topo_verify as tv
 from tests.campaign.test_run import WORLD, mistaken, right
 from tests.helpers import EMPTY, path, worlds
-from topo_verify import (
-    CATALOGUE,
-    ClaimFailed,
-    ClaimUndecided,
-    InputError,
-    Limits,
-    Robot,
-    World,
-    assert_maps,
-    examine,
-    explore,
-    families,
-)
 from topo_verify.algorithms import Policies
 from topo_verify.campaign.judge import Report, judge, judge_trace, replay_line, world_argument
 from topo_verify.campaign.targets import one_target
@@ -39,17 +27,17 @@ from topo_verify.robot.simulator import SimulatedRobot
 
 
 def test_a_report_says_how_much_of_what_holds() -> None:
-    report = examine("enhancement-i", WORLD)
+    report = tv.examine("enhancement-i", WORLD)
     n = len(report.claims)
     assert report.ok
     assert str(report) == f"enhancement-i in m2/5, 2 edge traversals: {n} of {n} claims hold"
-    assert str(examine("basic", World.from_id("m1/0"))).startswith(
+    assert str(tv.examine("basic", tv.World.from_id("m1/0"))).startswith(
         "basic in m1/0, 1 edge traversal: "
     )
 
 
 def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
-    report = examine(mistaken, WORLD)
+    report = tv.examine(mistaken, WORLD)
     lines = str(report).splitlines()
     assert lines[0].startswith("tests.campaign.test_run:mistaken in m2/5, 0 edge traversals: ")
     assert " fail, " in lines[0]
@@ -65,13 +53,13 @@ def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
 
 
 def test_the_text_of_a_report_shows_the_walk() -> None:
-    report = examine(lambda robot: robot.move(9), World.from_id("m3/8"))
+    report = tv.examine(lambda robot: robot.move(9), tv.World.from_id("m3/8"))
     assert "asked for door 9 at a vertex with 1 door" in str(report)
     assert "The robot stands at v0:0 (w0:0), a vertex with 1 door:" in str(report).splitlines()
 
 
 def test_the_walk_stays_with_a_report_and_is_no_part_of_its_data() -> None:
-    report = examine(lambda robot: robot.move(9), World.from_id("m3/8"))
+    report = tv.examine(lambda robot: robot.move(9), tv.World.from_id("m3/8"))
     fewer = report.with_findings(report.findings[:1])
     assert fewer.run is report.run
     assert "_run" not in json.loads(report.to_json())
@@ -81,7 +69,7 @@ def test_the_walk_stays_with_a_report_and_is_no_part_of_its_data() -> None:
 
 
 def test_a_report_is_one_json_object() -> None:
-    report = examine(mistaken, WORLD, where="corner.json")
+    report = tv.examine(mistaken, WORLD, where="corner.json")
     told = json.loads(report.to_json())
     assert list(told) == ["world", "target", "ok", "cost", "claims", "findings", "judgements"]
     assert set(told["findings"][0]) >= {
@@ -92,10 +80,10 @@ def test_a_report_is_one_json_object() -> None:
 
 
 def test_the_replay_line_names_a_target_that_finds_the_mapper_again() -> None:
-    (finding, *_) = examine(mistaken, WORLD).findings
+    (finding, *_) = tv.examine(mistaken, WORLD).findings
     words = shlex.split(finding.replay)
     assert words[:2] == ["topo-verify", "replay"]
-    assert World.from_id(words[2]).code == WORLD.code
+    assert tv.World.from_id(words[2]).code == WORLD.code
     assert one_target(words[words.index("--target") + 1]).mapper is mistaken
 
 
@@ -142,30 +130,30 @@ def test_the_replay_line_carries_policies_limits_and_odd_names() -> None:
     assert replay_line("a b.json", "basic", Policies("last", "random(3)")) == (
         "topo-verify replay 'a b.json' --target basic --pick last --order 'random(3)'"
     )
-    lazy_limits = Limits(budget=1)
-    (finding, *_) = examine("basic", WORLD, pick="first", limits=lazy_limits).findings
+    lazy_limits = tv.Limits(budget=1)
+    (finding, *_) = tv.examine("basic", WORLD, pick="first", limits=lazy_limits).findings
     assert finding.replay == ("topo-verify replay m2/5 --target basic --pick first --budget 1")
 
 
 def test_a_large_world_is_named_by_a_file() -> None:
     assert world_argument(path(300, marker=0)) == "world.json"
-    lattice = families.lattice(12, 12)
+    lattice = tv.families.lattice(12, 12)
     assert world_argument(lattice) == f"{lattice.name}.json"
     assert world_argument(WORLD) == "m2/5"
 
 
 def test_a_trace_from_elsewhere_is_judged_like_a_run() -> None:
-    run = explore(WORLD, "basic")
+    run = tv.explore(WORLD, "basic")
     report = judge_trace(WORLD, run.trace, target="basic")
-    assert report == judge(run) == examine("basic", WORLD)
+    assert report == judge(run) == tv.examine("basic", WORLD)
     assert isinstance(report, Report)
     again = judge_trace(WORLD, run.trace[:-1], target="basic", replay_command="look at it")
     assert {finding.replay for finding in again.findings} == {"look at it"}
 
 
 def test_every_algorithm_maps_the_empty_world() -> None:
-    for name in CATALOGUE:
-        report = examine(name, EMPTY)
+    for name in tv.CATALOGUE:
+        report = tv.examine(name, EMPTY)
         assert (report.ok, report.cost) == (True, 0)
 
 
@@ -173,26 +161,28 @@ def test_every_algorithm_maps_the_empty_world() -> None:
 
 
 def test_assert_maps_lets_a_right_mapper_pass() -> None:
-    assert_maps(right, WORLD)
-    assert_maps("enhancement-ii", WORLD, pick="last", order="oldest", limits=Limits(budget=50))
+    tv.assert_maps(right, WORLD)
+    tv.assert_maps(
+        "enhancement-ii", WORLD, pick="last", order="oldest", limits=tv.Limits(budget=50)
+    )
 
 
 def test_assert_maps_fails_like_an_assertion_with_the_report_as_its_text() -> None:
     with pytest.raises(AssertionError) as failed:
-        assert_maps(mistaken, WORLD)
-    assert isinstance(failed.value, ClaimFailed)
-    assert str(failed.value) == str(examine(mistaken, WORLD))
+        tv.assert_maps(mistaken, WORLD)
+    assert isinstance(failed.value, tv.ClaimFailed)
+    assert str(failed.value) == str(tv.examine(mistaken, WORLD))
     assert failed.value.__cause__ is None
 
 
 def test_assert_maps_shows_the_mappers_own_exception_as_the_cause() -> None:
     mine = KeyError("dart 7")
 
-    def fail(_robot: Robot) -> object:
+    def fail(_robot: tv.Robot) -> object:
         raise mine
 
-    with pytest.raises(ClaimFailed) as failed:
-        assert_maps(fail, WORLD)
+    with pytest.raises(tv.ClaimFailed) as failed:
+        tv.assert_maps(fail, WORLD)
     assert failed.value.__cause__ is mine
 
 
@@ -203,29 +193,29 @@ def test_assert_maps_does_not_pass_what_is_undecided(monkeypatch: pytest.MonkeyP
 
     monkeypatch.setattr("topo_verify.campaign.judge.check", half_decided)
     with pytest.raises(AssertionError) as raised:
-        assert_maps(right, WORLD)
-    assert isinstance(raised.value, ClaimUndecided)
+        tv.assert_maps(right, WORLD)
+    assert isinstance(raised.value, tv.ClaimUndecided)
     assert "decisions-entailed is not decided: " in str(raised.value)
-    with pytest.raises(ClaimFailed):  # what fails weighs more
-        assert_maps(mistaken, WORLD)
+    with pytest.raises(tv.ClaimFailed):  # what fails weighs more
+        tv.assert_maps(mistaken, WORLD)
 
 
 def test_assert_maps_refuses_what_is_no_mapper() -> None:
-    with pytest.raises(InputError, match="no algorithm 'nobody'"):
-        assert_maps("nobody", WORLD)
+    with pytest.raises(tv.InputError, match="no algorithm 'nobody'"):
+        tv.assert_maps("nobody", WORLD)
 
 
 def test_the_witness_is_run_with_the_limits_of_the_run() -> None:
     runs = iter([FAULTS["confirms-what-is-alone"]])
 
-    def mapper(robot: Robot) -> object:
+    def mapper(robot: tv.Robot) -> object:
         lucky = next(runs, None)
         if lucky is not None:
             return lucky(robot)
         while True:
             robot.move(0)
 
-    report = examine(mapper, World.from_id("m2/1"), limits=Limits(budget=7))
+    report = tv.examine(mapper, tv.World.from_id("m2/1"), limits=tv.Limits(budget=7))
     (told,) = [f.message for f in report.findings if f.claim == "map-entailed"]
     assert told.endswith("run there, the mapper asked for more than 7 moves")
 
@@ -239,10 +229,10 @@ def test_no_text_that_a_mapper_brings_controls_a_terminal() -> None:
     def raises(_robot: object) -> None:
         raise ValueError(HOSTILE)
 
-    run = explore(WORLD, raises)
+    run = tv.explore(WORLD, raises)
     report = judge(run, where=HOSTILE)
-    with pytest.raises(ClaimFailed) as failed:
-        assert_maps(raises, WORLD)
+    with pytest.raises(tv.ClaimFailed) as failed:
+        tv.assert_maps(raises, WORLD)
     texts = [str(run.stopped), *(finding.message for finding in report.findings)]
     texts += [*str(report).splitlines(), *str(failed.value).splitlines()]
     assert all(text.isprintable() for text in texts)
@@ -252,7 +242,7 @@ def test_no_text_that_a_mapper_brings_controls_a_terminal() -> None:
 def test_no_name_of_a_file_controls_a_terminal(tmp_path: Path) -> None:
     file = tmp_path / "a\x1b[31m.py"
     file.write_text("def explore(robot): return None\n")
-    report = examine(f"{file}:explore", WORLD)
+    report = tv.examine(f"{file}:explore", WORLD)
     assert all(line.isprintable() for line in str(report).splitlines())
     (replay,) = {finding.replay for finding in report.findings}
     assert f"{file}:explore" in shlex.split(replay)  # for scripts it is the line itself
@@ -262,8 +252,8 @@ def test_no_sentence_about_bad_input_controls_a_terminal(tmp_path: Path) -> None
     file = tmp_path / "a\x1b[31m.py"
     file.touch()
     for bad in (f"{file}:explore", f"{file}x:explore", "a\x1b[31m", "a\x1b[31m:explore"):
-        with pytest.raises(InputError) as refused:
-            examine(bad, WORLD)
+        with pytest.raises(tv.InputError) as refused:
+            tv.examine(bad, WORLD)
         assert str(refused.value).isprintable()
 
 
@@ -281,10 +271,10 @@ def all_hold(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("topo_verify.campaign.judge.check", check)
 
 
-def steps(world: World, moves: int) -> Mapper:
+def steps(world: tv.World, moves: int) -> Mapper:
     """A mapper that is given the map, and walks this much of a cheapest walk that proves it."""
 
-    def walk(robot: Robot) -> object:
+    def walk(robot: tv.Robot) -> object:
         for door in world.proof_tour()[:moves]:
             robot.move(door)
         return world
@@ -296,7 +286,7 @@ def steps(world: World, moves: int) -> Mapper:
 def test_no_run_is_right_below_the_least_cost_of_a_proof() -> None:
     for world in worlds([1, 2, 3]):
         least = world.least_cost()
-        report = examine(steps(world, least - 1), world)
+        report = tv.examine(steps(world, least - 1), world)
         (wrong,) = report.findings
         assert not report.ok
         assert (wrong.claim, wrong.expected, wrong.seen) == (
@@ -312,13 +302,13 @@ def test_no_run_is_right_below_the_least_cost_of_a_proof() -> None:
 
 @pytest.mark.usefixtures("all_hold")
 def test_an_algorithm_of_the_catalogue_below_it_is_a_bug_of_ours_in_a_named_world() -> None:
-    world = World.from_id("m3/14")
+    world = tv.World.from_id("m3/14")
     cheap = Target("basic", steps(world, 3))
     why = f"m3/14, basic: no claim fails at a cost of 3, and .* is {world.least_cost()}"
     with pytest.raises(InternalError, match=why):
-        examine(cheap, world)
+        tv.examine(cheap, world)
 
 
 def test_a_run_at_the_least_cost_of_a_proof_is_right() -> None:
     for world in (EMPTY, *worlds([1, 2, 3])):
-        assert examine(steps(world, world.least_cost()), world).ok
+        assert tv.examine(steps(world, world.least_cost()), world).ok

@@ -10,32 +10,18 @@ from hypothesis import strategies as st
 
 from tests.helpers import PAPER, any_world, trace_of
 from topo_verify import World
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Evidence,
-    Finish,
-    MapData,
-    Move,
-    Pose,
-    Record,
-    Reject,
-    RuleName,
-    Start,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
 integers = st.integers(0, 9) | st.sampled_from([-1, -10, 10, 1000, 2**63 - 1, -(2**63)])
 percepts = st.builds(Percept, integers, st.none() | integers)
 rows = st.lists(integers, max_size=4).map(tuple)
-rules = st.sampled_from([rule for rule in get_args(RuleName) if rule != "folding"])
+rules = st.sampled_from([rule for rule in get_args(ev.RuleName) if rule != "folding"])
 """Not `folding`, whose rejections are judged by folding the history: see test_folding.py."""
 
-records = st.builds(Record, integers, rows)
+records = st.builds(ev.Record, integers, rows)
 evidences = st.builds(
-    Evidence,
+    ev.Evidence,
     integers,
     percepts,
     percepts,
@@ -44,7 +30,7 @@ evidences = st.builds(
     record=st.none() | records,
 )
 maps = st.builds(
-    MapData,
+    ev.MapData,
     st.lists(rows, max_size=4).map(tuple),
     st.lists(rows, max_size=4).map(tuple),
     st.none() | integers,
@@ -77,24 +63,24 @@ FIELDS: dict[str, st.SearchStrategy[Any]] = {
 """What each field of an event may be changed into. Other fields are not judged."""
 
 decisions = st.one_of(
-    st.builds(Pose, integers, rows),
-    st.builds(Reject, integers, integers, rules, evidences),
-    st.builds(Confirm, integers, integers, rules),
-    st.builds(Augment, integers, FIELDS["kind"], integers, integers),
-    st.builds(Move, integers, percepts),
+    st.builds(ev.Pose, integers, rows),
+    st.builds(ev.Reject, integers, integers, rules, evidences),
+    st.builds(ev.Confirm, integers, integers, rules),
+    st.builds(ev.Augment, integers, FIELDS["kind"], integers, integers),
+    st.builds(ev.Move, integers, percepts),
 )
 
 
-finishes = st.builds(Finish, st.none() | integers, maps)
-starts = st.builds(Start, percept=percepts)
+finishes = st.builds(ev.Finish, st.none() | integers, maps)
+starts = st.builds(ev.Start, percept=percepts)
 
 
 class Doctored(NamedTuple):
     """A trace in the world where it should have happened."""
 
     world: World
-    real: Trace
-    trace: Trace
+    real: ev.Trace
+    trace: ev.Trace
 
 
 @st.composite
@@ -109,7 +95,7 @@ def doctored(draw: st.DrawFn, *, max_edges: int = 5, changes: int = 3) -> Doctor
     return Doctored(world, real, tuple(trace))
 
 
-def edit(draw: st.DrawFn, trace: list[Event]) -> None:
+def edit(draw: st.DrawFn, trace: list[ev.Event]) -> None:
     """Change one field of one event, or of what stands in it."""
     index = draw(st.integers(0, len(trace) - 1))
     trace[index] = _edited(draw, trace[index])
@@ -119,7 +105,7 @@ def _edited(draw: st.DrawFn, struct: Any) -> Any:
     names = [name for name in struct.__struct_fields__ if name in FIELDS]
     name = draw(st.sampled_from(names))
     value = getattr(struct, name)
-    if isinstance(value, Evidence | Record | MapData | Percept) and draw(st.booleans()):
+    if isinstance(value, ev.Evidence | ev.Record | ev.MapData | Percept) and draw(st.booleans()):
         return msgspec.structs.replace(struct, **{name: _edited(draw, value)})
     return msgspec.structs.replace(struct, **{name: draw(_near(name, value))})
 
@@ -135,18 +121,18 @@ def _near(name: str, value: object) -> st.SearchStrategy[Any]:
     return FIELDS[name]
 
 
-def drop(draw: st.DrawFn, trace: list[Event]) -> None:
+def drop(draw: st.DrawFn, trace: list[ev.Event]) -> None:
     """Leave one event out."""
     if len(trace) > 1:
         del trace[draw(st.integers(1, len(trace) - 1))]
 
 
-def insert(draw: st.DrawFn, trace: list[Event]) -> None:
+def insert(draw: st.DrawFn, trace: list[ev.Event]) -> None:
     """Put something in that never happened."""
     trace.insert(draw(st.integers(1, len(trace) - _over(trace))), draw(decisions))
 
 
-def repeat(draw: st.DrawFn, trace: list[Event]) -> None:
+def repeat(draw: st.DrawFn, trace: list[ev.Event]) -> None:
     """Let something happen again, somewhere else."""
     inner = range(1, len(trace) - _over(trace))
     if inner:
@@ -154,7 +140,7 @@ def repeat(draw: st.DrawFn, trace: list[Event]) -> None:
         trace.insert(draw(st.integers(1, len(trace) - _over(trace))), event)
 
 
-def swap(draw: st.DrawFn, trace: list[Event]) -> None:
+def swap(draw: st.DrawFn, trace: list[ev.Event]) -> None:
     """Exchange two neighbours."""
     inner = range(1, len(trace) - _over(trace) - 1)
     if inner:
@@ -162,15 +148,15 @@ def swap(draw: st.DrawFn, trace: list[Event]) -> None:
         trace[index : index + 2] = trace[index + 1], trace[index]
 
 
-def cut(draw: st.DrawFn, trace: list[Event]) -> None:
+def cut(draw: st.DrawFn, trace: list[ev.Event]) -> None:
     """Let the trace end early."""
     del trace[draw(st.integers(1, len(trace))) :]
 
 
-def reject_more(draw: st.DrawFn, trace: list[Event]) -> None:
+def reject_more(draw: st.DrawFn, trace: list[ev.Event]) -> None:
     """Give the evidence of one rejection for another hypothesis, or at another time."""
-    rejects = [event for event in trace if isinstance(event, Reject)]
-    poses = [event for event in trace if isinstance(event, Pose) and event.hypotheses]
+    rejects = [event for event in trace if isinstance(event, ev.Reject)]
+    poses = [event for event in trace if isinstance(event, ev.Pose) and event.hypotheses]
     if rejects and poses:
         pose = draw(st.sampled_from(poses))
         lie = msgspec.structs.replace(
@@ -181,11 +167,11 @@ def reject_more(draw: st.DrawFn, trace: list[Event]) -> None:
         trace.insert(draw(st.integers(1, len(trace) - _over(trace))), lie)
 
 
-def _over(trace: Sequence[Event]) -> int:
+def _over(trace: Sequence[ev.Event]) -> int:
     """1 if the trace is finished: nothing comes after that."""
-    return isinstance(trace[-1], Finish)
+    return isinstance(trace[-1], ev.Finish)
 
 
-CHANGES: list[Callable[[st.DrawFn, list[Event]], None]] = [
+CHANGES: list[Callable[[st.DrawFn, list[ev.Event]], None]] = [
     edit, edit, edit, drop, insert, repeat, swap, cut, reject_more,
 ]  # fmt: skip

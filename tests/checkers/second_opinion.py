@@ -14,35 +14,23 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from topo_verify import World
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Evidence,
-    Finish,
-    MapData,
-    Move,
-    Pose,
-    Record,
-    Reject,
-    Start,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
 Doors = tuple[int, ...]
 
 
-def failing_claims(world: World, trace: Sequence[Event]) -> set[str]:
+def failing_claims(world: World, trace: Sequence[ev.Event]) -> set[str]:
     """The names of the claims 1-8 that do not hold (of those that the mapper let be judged)."""
     play = Play(world)
     for event in trace:
-        if not play.lost and (isinstance(event, Move) or not play.spoiled):
+        if not play.lost and (isinstance(event, ev.Move) or not play.spoiled):
             play.take(event)
     wrong = set(play.wrong)
-    cost = sum(isinstance(event, Move) for event in trace)
+    cost = sum(isinstance(event, ev.Move) for event in trace)
     n, m = len(world.vertices), len(world.edges)
     finish = trace[-1]
-    if isinstance(finish, Finish):
+    if isinstance(finish, ev.Finish):
         explored = 0 if play.spoiled or play.lost else len(play.joined)
         if not isomorphic(finish.map, world) or (explored and explored != len(play.phi)):
             wrong.add("map-isomorphic")
@@ -54,12 +42,12 @@ def failing_claims(world: World, trace: Sequence[Event]) -> set[str]:
         wrong.add("map-isomorphic")
     if cost > (m if n == 1 else m * (n + (2 * m - 1) * 2 * (n - 1))):
         wrong.add("cost-within-bound")
-    posed, kinds = any(isinstance(e, Pose) for e in trace), {type(e) for e in trace}
+    posed, kinds = any(isinstance(e, ev.Pose) for e in trace), {type(e) for e in trace}
     if not posed and m:
         wrong.discard("true-hypothesis-posed")
-        if Reject not in kinds:
+        if ev.Reject not in kinds:
             wrong -= {"true-hypothesis-kept", "rejection-justified"}
-        if Confirm not in kinds:
+        if ev.Confirm not in kinds:
             wrong.discard("no-false-confirm")
     return wrong
 
@@ -74,7 +62,7 @@ class Play:
     spoiled: bool = False  # S is no map of this world any more
     phi: list[int] = field(default_factory=list[int])  # dart of S -> dart of the world
     joined: dict[int, int] = field(default_factory=dict[int, int])  # alpha of S where explored
-    pose: Pose | None = None
+    pose: ev.Pose | None = None
     crossed: set[int] = field(default_factory=set[int])  # darts of the world, both of each edge
     late: bool = False  # was the last pose made elsewhere than behind its edge?
     stack: list[int] = field(default_factory=list[int])  # the reference darts of the excursion
@@ -85,34 +73,34 @@ class Play:
     waiting: dict[int, list[int]] = field(default_factory=dict[int, list[int]])
     wrong: set[str] = field(default_factory=set[str])
 
-    def take(self, event: Event) -> None:
+    def take(self, event: ev.Event) -> None:
         """Play one event, and note which claims it breaks."""
         match event:
-            case Start():
+            case ev.Start():
                 if self.world.root is not None:
                     self.at = self.world.root
                     self.phi += self.rotation(self.at)
                 self.say("percepts-true", event.percept == self.seen(self.at))
-            case Move():
+            case ev.Move():
                 self.move(event)
-            case Pose():
+            case ev.Pose():
                 self.say("true-hypothesis-posed", self.fair(event))
                 self.pose, self.stack, self.sequences = event, [self.at], []
                 self.late = not self.unexplored(event.edge) or self.at != self.beyond(event.edge)
                 if self.unexplored(event.edge):
                     self.waiting.setdefault(event.edge, []).extend(event.hypotheses)
-            case Reject():
+            case ev.Reject():
                 self.say("true-hypothesis-kept", self.truth(event.edge) != event.hypothesis)
                 self.say("rejection-justified", self.justified(event))
                 self.account(event)
                 if event.rule == "motion" and len(self.stack) > 1:
                     self.sequences.append(list(self.stack))
-            case Confirm():
+            case ev.Confirm():
                 self.say("no-false-confirm", self.truth(event.edge) == event.hypothesis)
                 self.account(event)
-            case Augment():
+            case ev.Augment():
                 self.grow(event)
-            case Finish():
+            case ev.Finish():
                 pass
 
     def say(self, claim: str, holds: bool) -> None:
@@ -140,7 +128,7 @@ class Play:
         """Which door of a reference dart is an exit."""
         return self.rotation(dart).index(exit_dart)
 
-    def move(self, event: Move) -> None:
+    def move(self, event: ev.Move) -> None:
         """Play a move."""
         if self.world.root is None or not 0 <= event.door < self.seen(self.at).degree:
             self.wrong.add("percepts-true")
@@ -172,14 +160,14 @@ class Play:
         end = self.world.alpha[self.phi[e]] if self.unexplored(e) else None
         return self.phi.index(end) if end in self.phi else None
 
-    def fair(self, pose: Pose) -> bool:
+    def fair(self, pose: ev.Pose) -> bool:
         """Was e crossed, and are these unexplored darts of S, the true one among them?"""
         if not all(map(self.unexplored, (pose.edge, *pose.hypotheses))):
             return False
         truth = self.truth(pose.edge)
         return self.phi[pose.edge] in self.crossed and (truth is None or truth in pose.hypotheses)
 
-    def grow(self, event: Augment) -> None:
+    def grow(self, event: ev.Augment) -> None:
         """Let S grow, if that is true."""
         e, posed = event.edge, self.pose is not None and self.pose.edge == event.edge
         self.say("true-hypothesis-posed", posed)
@@ -206,7 +194,7 @@ class Play:
             self.record(event.dart, sequence)
         self.pose, self.sequences = None, []
 
-    def account(self, event: Reject | Confirm) -> None:
+    def account(self, event: ev.Reject | ev.Confirm) -> None:
         """Take a hypothesis off the list of those that wait for a decision."""
         waiting = self.waiting.get(event.edge, [])
         waiting[:] = [h for h in waiting if h != event.hypothesis]
@@ -236,7 +224,7 @@ class Play:
             if left is not None:
                 self.records[dart, left] = steps[length - 1][1]
 
-    def justified(self, event: Reject) -> bool:
+    def justified(self, event: ev.Reject) -> bool:
         """Does the evidence disagree?"""
         evidence, pose = event.evidence, self.pose
         if pose is None or event.edge != pose.edge or event.hypothesis not in pose.hypotheses:
@@ -271,17 +259,17 @@ class Play:
             if at == dart:
                 return
 
-    def expected(self, hypothesis: int, doors: Doors, evidence: Evidence) -> Percept | None:
+    def expected(self, hypothesis: int, doors: Doors, evidence: ev.Evidence) -> Percept | None:
         """What is seen behind doors if the hypothesis is true, and the evidence says whence."""
         dart, left = self.trace(hypothesis, doors)
         if evidence.at not in (None, dart):
             return None
         if left is None:
             return self.seen(self.phi[dart]) if evidence.record is None else None
-        return self.records.get((dart, left)) if evidence.record == Record(dart, left) else None
+        return self.records.get((dart, left)) if evidence.record == ev.Record(dart, left) else None
 
 
-def isomorphic(drawn: MapData, world: World) -> bool:
+def isomorphic(drawn: ev.MapData, world: World) -> bool:
     """Is this the world? Both are walked through at once, from the marker on."""
     sigma = {d: r[i - len(r) + 1] for r in drawn.vertices for i, d in enumerate(r)}
     if any(len(edge) != 2 for edge in drawn.edges):
@@ -292,7 +280,7 @@ def isomorphic(drawn: MapData, world: World) -> bool:
     if sorted(darts) != sorted(ends) or len(set(darts)) != len(darts) or len(alpha) != len(ends):
         return False
     if world.root is None:
-        return drawn == MapData(((),), (), None)
+        return drawn == ev.MapData(((),), (), None)
     if drawn.marker not in sigma or () in drawn.vertices or len(darts) != len(world.alpha):
         return False
     twin = {drawn.marker: world.root}

@@ -4,44 +4,22 @@ from __future__ import annotations
 
 import pytest
 
+from tests import helpers
 from tests.checkers.example import LOOP, TRACE, WORLD, inserted
-from tests.helpers import (
-    EIGHT,
-    EMPTY,
-    PAPER,
-    edited,
-    failing,
-    fits,
-    place,
-    statuses,
-    trace_of,
-    worlds,
-)
 from topo_verify import CATALOGUE, InputError, World
 from topo_verify.checkers import CLAIMS, Finding, check
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.replayed_trace import ReplayedTrace
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Evidence,
-    Finish,
-    Move,
-    Pose,
-    Reject,
-    Start,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
 
 @pytest.mark.no_cover
 @pytest.mark.parametrize("edges", range(1, 5))
 def test_no_claim_fails_for_any_algorithm_on_any_world(edges: int) -> None:
-    for world in worlds([edges]):
-        for name in (name for name in CATALOGUE if fits(name, world)):
-            verdict = statuses(world, trace_of(world, name))
+    for world in helpers.worlds([edges]):
+        for name in (name for name in CATALOGUE if helpers.fits(name, world)):
+            verdict = helpers.statuses(world, helpers.trace_of(world, name))
             assert set(verdict.values()) == {"ok"}, (world, name, verdict)
 
 
@@ -58,17 +36,19 @@ def test_no_claim_fails_for_any_algorithm_on_any_world(edges: int) -> None:
 )
 def test_no_claim_fails_where_evidence_comes_from_far(world_id: str) -> None:
     world = World.from_id(world_id)
-    for name in PAPER:
-        assert set(statuses(world, trace_of(world, name)).values()) == {"ok"}
+    for name in helpers.PAPER:
+        assert set(helpers.statuses(world, helpers.trace_of(world, name)).values()) == {"ok"}
 
 
 def test_the_numbers_of_the_worlds_own_darts_do_not_matter() -> None:
     other = WORLD.renumbered([9, 3, 0, 5, 1, 7, 2, 8, 6, 4])
     assert other.root == 9
-    trace = trace_of(other, "enhancement-iii-all")
+    trace = helpers.trace_of(other, "enhancement-iii-all")
     assert trace == TRACE
-    assert set(statuses(other, trace).values()) == {"ok"}
-    assert failing(other, edited(trace, 4, door=2)) == failing(WORLD, edited(TRACE, 4, door=2))
+    assert set(helpers.statuses(other, trace).values()) == {"ok"}
+    assert helpers.failing(other, helpers.edited(trace, 4, door=2)) == helpers.failing(
+        WORLD, helpers.edited(TRACE, 4, door=2)
+    )
 
 
 def test_the_claims_are_those_of_the_semantics_in_their_order() -> None:
@@ -78,11 +58,11 @@ def test_the_claims_are_those_of_the_semantics_in_their_order() -> None:
     ]  # fmt: skip
     assert list(CLAIMS)[:8] == names
     assert [judgement.claim for judgement in check(WORLD, TRACE)] == list(CLAIMS)
-    assert set(names) == EIGHT
+    assert set(names) == helpers.EIGHT
 
 
 def test_a_finding_names_the_claim_the_event_and_what_should_be_there() -> None:
-    (finding,) = check(WORLD, edited(TRACE, 1, percept=Percept(6, None)))[0].findings
+    (finding,) = check(WORLD, helpers.edited(TRACE, 1, percept=Percept(6, None)))[0].findings
     assert finding == Finding(
         "percepts-true", 1, Percept(7, None), Percept(6, None),
         "the trace says (degree 6, no marker) where the world shows (degree 7, no marker)",
@@ -90,7 +70,7 @@ def test_a_finding_names_the_claim_the_event_and_what_should_be_there() -> None:
 
 
 def test_what_was_found_is_not_changed_afterwards() -> None:
-    judgement = check(WORLD, edited(TRACE, 1, percept=Percept(6, None)))[0]
+    judgement = check(WORLD, helpers.edited(TRACE, 1, percept=Percept(6, None)))[0]
     with pytest.raises(AttributeError, match="immutable"):
         judgement.status = "ok"  # type: ignore[misc]  # pyright: ignore[reportAttributeAccessIssue]
     with pytest.raises(AttributeError, match="immutable"):
@@ -108,21 +88,21 @@ def test_what_was_found_is_not_changed_afterwards() -> None:
         (TRACE[0], TRACE[-1], *TRACE[1:]),
     ],
 )
-def test_events_in_no_such_order_are_refused(trace: Trace) -> None:
+def test_events_in_no_such_order_are_refused(trace: ev.Trace) -> None:
     with pytest.raises(InputError, match="'start'"):
         check(WORLD, trace)
 
 
 def test_decisions_that_were_not_declared_are_not_called_ok() -> None:
-    moves = tuple(e for e in TRACE if isinstance(e, Start | Move | Finish))
-    verdict = statuses(WORLD, moves)
+    moves = tuple(e for e in TRACE if isinstance(e, ev.Start | ev.Move | ev.Finish))
+    verdict = helpers.statuses(WORLD, moves)
     assert verdict["percepts-true"] == verdict["map-isomorphic"] == verdict["cost-honest"] == "ok"
-    for claim in EIGHT:
+    for claim in helpers.EIGHT:
         assert (verdict[claim] == "not-declared") == bool(CLAIMS[claim][1])
 
 
 def test_in_the_empty_world_there_is_nothing_to_declare_and_all_is_ok() -> None:
-    assert set(statuses(EMPTY, trace_of(EMPTY)).values()) == {"ok"}
+    assert set(helpers.statuses(helpers.EMPTY, helpers.trace_of(helpers.EMPTY)).values()) == {"ok"}
 
 
 SEEN = Percept(0, None)
@@ -132,18 +112,20 @@ SEEN = Percept(0, None)
 @pytest.mark.parametrize(
     ("event", "claim"),
     [
-        (Move(0, SEEN), "percepts-true"),
-        (Pose(0, ()), "true-hypothesis-posed"),
-        (Confirm(0, 0, "motion"), "no-false-confirm"),
-        (Augment(0, "new", 0, 0), "map-isomorphic"),
+        (ev.Move(0, SEEN), "percepts-true"),
+        (ev.Pose(0, ()), "true-hypothesis-posed"),
+        (ev.Confirm(0, 0, "motion"), "no-false-confirm"),
+        (ev.Augment(0, "new", 0, 0), "map-isomorphic"),
         (
-            Reject(0, 0, "motion", Evidence(0, Percept(1, 0), Percept(0, None))),
+            ev.Reject(0, 0, "motion", ev.Evidence(0, Percept(1, 0), Percept(0, None))),
             "rejection-justified",
         ),
     ],
 )
-def test_in_the_empty_world_every_event_is_a_lie(event: Event, claim: str) -> None:
-    assert claim in failing(EMPTY, inserted(trace_of(EMPTY), 1, event))
+def test_in_the_empty_world_every_event_is_a_lie(event: ev.Event, claim: str) -> None:
+    assert claim in helpers.failing(
+        helpers.EMPTY, inserted(helpers.trace_of(helpers.EMPTY), 1, event)
+    )
 
 
 def test_a_replayed_trace_knows_where_the_robot_was_and_what_s_was() -> None:
@@ -159,7 +141,7 @@ def test_a_replayed_trace_knows_where_the_robot_was_and_what_s_was() -> None:
 
 
 def test_a_trace_with_a_door_that_is_not_there_is_no_history() -> None:
-    run = ReplayedTrace(WORLD, edited(TRACE, place(TRACE, Move), door=99))
+    run = ReplayedTrace(WORLD, helpers.edited(TRACE, helpers.place(TRACE, ev.Move), door=99))
     assert run.false_percepts == []
     assert not run.is_history
 
@@ -167,11 +149,13 @@ def test_a_trace_with_a_door_that_is_not_there_is_no_history() -> None:
 @pytest.mark.parametrize("degree", [-1, 0, 2**62])
 @pytest.mark.parametrize("index", [0, 1])
 def test_false_percepts_prove_nothing_and_are_not_even_folded(index: int, degree: int) -> None:
-    lie = edited(TRACE, index, percept=Percept(degree, None))
-    assert failing(WORLD, lie) == {"percepts-true", "map-entailed", "decisions-entailed"}
+    lie = helpers.edited(TRACE, index, percept=Percept(degree, None))
+    assert helpers.failing(WORLD, lie) == {"percepts-true", "map-entailed", "decisions-entailed"}
 
 
 def test_false_percepts_justify_no_rejection_by_folding() -> None:
-    trace = trace_of(WORLD, "folding")
-    assert not failing(WORLD, trace)
-    assert "rejection-justified" in failing(WORLD, edited(trace, 0, percept=Percept(2**62, 0)))
+    trace = helpers.trace_of(WORLD, "folding")
+    assert not helpers.failing(WORLD, trace)
+    assert "rejection-justified" in helpers.failing(
+        WORLD, helpers.edited(trace, 0, percept=Percept(2**62, 0))
+    )

@@ -11,16 +11,7 @@ from tests.checkers.example import said
 from tests.helpers import edited, failing, of_type, trace_of
 from topo_verify import World
 from topo_verify.checkers import decision_conclusions
-from topo_verify.robot.events import (
-    Augment,
-    Evidence,
-    Move,
-    Record,
-    Reject,
-    RuleName,
-    Start,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
 CLASH = "two degrees, or the marker and its absence, at one place"
@@ -31,43 +22,45 @@ FACE = "it lies on another face than e"
 
 WORLD = World.from_id("m5/434")
 TRACE = trace_of(WORLD, "folding")
-FIRST = next(i for i, e in enumerate(TRACE) if isinstance(e, Reject) and e.rule == "folding")
+FIRST = next(i for i, e in enumerate(TRACE) if isinstance(e, ev.Reject) and e.rule == "folding")
 
-NONSENSE = Evidence(999, Percept(424242, None), Percept(424242, None))
+NONSENSE = ev.Evidence(999, Percept(424242, None), Percept(424242, None))
 
 
-def renamed(trace: Trace, evidence: Evidence | None, rule: RuleName = "folding") -> Trace:
+def renamed(
+    trace: ev.Trace, evidence: ev.Evidence | None, rule: ev.RuleName = "folding"
+) -> ev.Trace:
     """The trace with every rejection under another label."""
     return tuple(
         msgspec.structs.replace(event, rule=rule, evidence=evidence or event.evidence)
-        if isinstance(event, Reject)
+        if isinstance(event, ev.Reject)
         else event
         for event in trace
     )
 
 
-def citing(**changes: Any) -> Trace:
+def citing(**changes: Any) -> ev.Trace:
     """The trace with other evidence in its first rejection."""
     event = TRACE[FIRST]
-    assert isinstance(event, Reject)
+    assert isinstance(event, ev.Reject)
     return edited(TRACE, FIRST, evidence=msgspec.structs.replace(event.evidence, **changes))
 
 
 @pytest.mark.parametrize("rule", ["folding", "planar"])
-@pytest.mark.parametrize("evidence", [NONSENSE, None, Evidence(0)])
+@pytest.mark.parametrize("evidence", [NONSENSE, None, ev.Evidence(0)])
 def test_another_label_does_not_excuse_from_evidence(
-    rule: RuleName, evidence: Evidence | None
+    rule: ev.RuleName, evidence: ev.Evidence | None
 ) -> None:
     lie = renamed(trace_of(WORLD, "basic"), evidence, rule)
     assert failing(WORLD, lie) == {"rejection-justified"}
-    assert len(said(lie, "rejection-justified", WORLD)) == len(of_type(Reject, lie)) > 1
+    assert len(said(lie, "rejection-justified", WORLD)) == len(of_type(ev.Reject, lie)) > 1
 
 
 def test_ours_cite_the_contradiction_and_no_percepts() -> None:
-    for reject in of_type(Reject, TRACE):
+    for reject in of_type(ev.Reject, TRACE):
         if reject.rule == "folding":
             told = reject.evidence.contradiction
-            assert reject.evidence == Evidence(0, contradiction=told)
+            assert reject.evidence == ev.Evidence(0, contradiction=told)
             assert told in (CLASH, TURNED, OWN, TWO)
     assert not failing(WORLD, TRACE)
 
@@ -87,7 +80,7 @@ def test_percepts_may_stand_where_they_are_those_at_the_two_ends() -> None:
         ({"step": 1}, "it rests on no step of a sequence, and cites one"),
         ({"sequence": 0}, "it rests on no step"),
         ({"at": 0}, "it rests on no step"),
-        ({"record": Record(3, ())}, "it rests on no step"),
+        ({"record": ev.Record(3, ())}, "it rests on no step"),
         ({"contradiction": None}, "it does not follow that None"),
         ({"contradiction": "because"}, "it does not follow that 'because'"),
         ({"contradiction": TURNED}, "it does not follow that 'a vertex would be itself, turned'"),
@@ -113,17 +106,17 @@ def test_every_kind_of_contradiction_that_follows_may_be_cited_and_no_other(
 ) -> None:
     world = World.from_id(place)
     trace = trace_of(world, "folding")
-    index = next(i for i, e in enumerate(trace) if isinstance(e, Reject) and e.rule == "folding")
+    index = next(i for i, e in enumerate(trace) if isinstance(e, ev.Reject) and e.rule == "folding")
     for kind in (CLASH, TURNED, OWN, TWO):
-        cites = edited(trace, index, evidence=Evidence(0, contradiction=kind))
+        cites = edited(trace, index, evidence=ev.Evidence(0, contradiction=kind))
         assert (kind in kinds) == (not failing(world, cites))
 
 
 def test_percepts_that_disagree_need_no_contradiction_and_may_cite_none() -> None:
     trace = trace_of(WORLD, "basic")
-    index = next(i for i, event in enumerate(trace) if isinstance(event, Reject))
+    index = next(i for i, event in enumerate(trace) if isinstance(event, ev.Reject))
     event = trace[index]
-    assert isinstance(event, Reject)
+    assert isinstance(event, ev.Reject)
     evidence = msgspec.structs.replace(event.evidence, contradiction=CLASH)
     (message,) = said(edited(trace, index, evidence=evidence), "rejection-justified", WORLD)
     assert message.endswith("rule 'motion' rests on two percepts, and cites a contradiction")
@@ -132,9 +125,9 @@ def test_percepts_that_disagree_need_no_contradiction_and_may_cite_none() -> Non
 @pytest.mark.parametrize("part", ["expected", "observed"])
 def test_percepts_that_disagree_must_stand_there(part: str) -> None:
     trace = trace_of(WORLD, "basic")
-    index = next(i for i, event in enumerate(trace) if isinstance(event, Reject))
+    index = next(i for i, event in enumerate(trace) if isinstance(event, ev.Reject))
     event = trace[index]
-    assert isinstance(event, Reject)
+    assert isinstance(event, ev.Reject)
     evidence = msgspec.structs.replace(event.evidence, **{part: None})
     (message,) = said(edited(trace, index, evidence=evidence), "rejection-justified", WORLD)
     assert message.endswith(", not None")
@@ -143,17 +136,17 @@ def test_percepts_that_disagree_must_stand_there(part: str) -> None:
 def test_the_planar_rule_must_say_what_it_rests_on() -> None:
     world = World.from_id("m3/50")
     trace = trace_of(world, "folding+planar")
-    index = next(i for i, e in enumerate(trace) if isinstance(e, Reject) and e.rule == "planar")
+    index = next(i for i, e in enumerate(trace) if isinstance(e, ev.Reject) and e.rule == "planar")
     assert not failing(world, trace)
     for told in (None, CLASH, "because"):
-        lie = edited(trace, index, evidence=Evidence(0, contradiction=told))
+        lie = edited(trace, index, evidence=ev.Evidence(0, contradiction=told))
         assert failing(world, lie) == {"rejection-justified"}
 
 
 def test_only_a_rejection_that_cites_a_contradiction_meets_it() -> None:
     for conclusion in decision_conclusions(TRACE):
         event = TRACE[conclusion.when]
-        assert conclusion.met is (isinstance(event, Reject) and event.rule == "folding")
+        assert conclusion.met is (isinstance(event, ev.Reject) and event.rule == "folding")
     assert not any(
         conclusion.met for conclusion in decision_conclusions(renamed(TRACE, None, "history"))
     )
@@ -163,8 +156,13 @@ def test_only_a_rejection_that_cites_a_contradiction_meets_it() -> None:
 
 def test_a_rejection_that_does_not_follow_proves_no_new_vertex() -> None:
     far = Percept(3, None)
-    walk = (Start(percept=Percept(2, 0)), Move(0, far), Augment(0, "new", 2, 3), Move(1, far))
-    lie = (*walk, Reject(3, 4, "history", Evidence(0)), Augment(3, "new", 5, 3))
+    walk = (
+        ev.Start(percept=Percept(2, 0)),
+        ev.Move(0, far),
+        ev.Augment(0, "new", 2, 3),
+        ev.Move(1, far),
+    )
+    lie = (*walk, ev.Reject(3, 4, "history", ev.Evidence(0)), ev.Augment(3, "new", 5, 3))
     *_, rejected, grown = decision_conclusions(lie)
     assert "the edge may well lead there" in rejected.why
     assert "the edge may well lead there" in grown.why

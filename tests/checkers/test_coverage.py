@@ -11,20 +11,7 @@ from tests.helpers import EMPTY, edited, fits, place, trace_of, worlds
 from topo_verify import CATALOGUE, World, families
 from topo_verify.algorithms.chart import Survey
 from topo_verify.checkers import CLAIMS, Judgement, check
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Decision,
-    Event,
-    Evidence,
-    Finish,
-    Move,
-    Pose,
-    Reject,
-    Robot,
-    Start,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
 LATTICE = families.lattice(4, 4)
@@ -42,27 +29,27 @@ DECISIONS = (
 
 
 @cache
-def lattice_trace() -> Trace:
+def lattice_trace() -> ev.Trace:
     return trace_of(LATTICE, "basic")
 
 
-def told(world: World, trace: Trace) -> dict[str, Judgement]:
+def told(world: World, trace: ev.Trace) -> dict[str, Judgement]:
     """The judgement of each claim."""
     return {judgement.claim: judgement for judgement in check(world, trace)}
 
 
-def only(trace: Trace, keeps: Callable[[Decision], bool]) -> Trace:
+def only(trace: ev.Trace, keeps: Callable[[ev.Decision], bool]) -> ev.Trace:
     """The trace without the decisions that `keeps` does not want."""
-    return tuple(e for e in trace if isinstance(e, Start | Move | Finish) or keeps(e))
+    return tuple(e for e in trace if isinstance(e, ev.Start | ev.Move | ev.Finish) or keeps(e))
 
 
-def shares(world: World, trace: Trace) -> dict[str, tuple[str, int, int]]:
+def shares(world: World, trace: ev.Trace) -> dict[str, tuple[str, int, int]]:
     """The status of each claim on decisions, and how much it rests on."""
     judgements = told(world, trace)
     return {c: (judgements[c].status, judgements[c].judged, judgements[c].of) for c in DECISIONS}
 
 
-def number(trace: Trace, kind: type[Event]) -> int:
+def number(trace: ev.Trace, kind: type[ev.Event]) -> int:
     return sum(isinstance(event, kind) for event in trace)
 
 
@@ -77,10 +64,10 @@ def test_the_algorithms_of_the_catalogue_are_judged_in_full() -> None:
 
 def test_what_is_counted_for_each_claim() -> None:
     trace = lattice_trace()
-    rejects, confirms = number(trace, Reject), number(trace, Confirm)
-    posed = sum(len(event.hypotheses) for event in trace if isinstance(event, Pose))
+    rejects, confirms = number(trace, ev.Reject), number(trace, ev.Confirm)
+    posed = sum(len(event.hypotheses) for event in trace if isinstance(event, ev.Pose))
     expected = {
-        "percepts-true": 1 + number(trace, Move),
+        "percepts-true": 1 + number(trace, ev.Move),
         "true-hypothesis-posed": 24,
         "true-hypothesis-kept": posed,
         "no-false-confirm": confirms,
@@ -98,8 +85,8 @@ def test_what_is_counted_for_each_claim() -> None:
 def test_one_pose_and_one_trivial_rejection_are_not_the_whole_run() -> None:
     silent = only(lattice_trace(), lambda _: False)
     # The vertex behind the marked dart has degree 3; so dart 1 of v0, which has 2, is not its end.
-    evidence = Evidence(0, Percept(2, 1), Percept(3, None))
-    trace = (*silent[:2], Pose(0, (1,)), Reject(0, 1, "motion", evidence), *silent[2:])
+    evidence = ev.Evidence(0, Percept(2, 1), Percept(3, None))
+    trace = (*silent[:2], ev.Pose(0, (1,)), ev.Reject(0, 1, "motion", evidence), *silent[2:])
     assert shares(LATTICE, trace) == {
         "true-hypothesis-posed": ("partial", 1, 24),
         "true-hypothesis-kept": ("partial", 1, 1 + 24),
@@ -111,7 +98,7 @@ def test_one_pose_and_one_trivial_rejection_are_not_the_whole_run() -> None:
 
 def test_decisions_on_the_first_edges_alone_are_partial() -> None:
     trace = lattice_trace()
-    early = trace[: place(trace, Augment, 3) + 1]  # to three new vertices, and one known
+    early = trace[: place(trace, ev.Augment, 3) + 1]  # to three new vertices, and one known
     assert shares(LATTICE, only(trace, lambda event: event in early)) == {
         "true-hypothesis-posed": ("partial", 4, 24),
         "true-hypothesis-kept": ("partial", 2, 2 + 20),
@@ -123,9 +110,9 @@ def test_decisions_on_the_first_edges_alone_are_partial() -> None:
 
 def test_an_edge_that_is_still_in_question_counts_once_whatever_is_left_of_it() -> None:
     trace = lattice_trace()
-    posed = place(trace, Pose, 12)
+    posed = place(trace, ev.Pose, 12)
     event = trace[posed]
-    assert isinstance(event, Pose)
+    assert isinstance(event, ev.Pose)
     assert len(event.hypotheses) > 1
     whole = trace[: posed + 1]
     one_left = edited(whole, posed, hypotheses=event.hypotheses[:1])
@@ -135,20 +122,20 @@ def test_an_edge_that_is_still_in_question_counts_once_whatever_is_left_of_it() 
 
 def test_a_loop_that_was_not_confirmed_is_not_judged_by_claim_4() -> None:
     trace = lattice_trace()
-    assert shares(LATTICE, only(trace, lambda event: not isinstance(event, Confirm))) == {
+    assert shares(LATTICE, only(trace, lambda event: not isinstance(event, ev.Confirm))) == {
         "true-hypothesis-posed": ("ok", 24, 24),
         "true-hypothesis-kept": ("ok", POSED, POSED),
         "no-false-confirm": ("not-declared", 0, 9),
         "rejection-justified": ("ok", 28, 28),
         "decisions-entailed": ("ok", 28 + 24, 28 + 24),
     }
-    first = next(event for event in trace if isinstance(event, Confirm))
-    some = only(trace, lambda event: not isinstance(event, Confirm) or event == first)
+    first = next(event for event in trace if isinstance(event, ev.Confirm))
+    some = only(trace, lambda event: not isinstance(event, ev.Confirm) or event == first)
     assert shares(LATTICE, some)["no-false-confirm"] == ("partial", 1, 9)
 
 
 def test_a_mapper_that_declares_augmentations_alone_is_judged_on_all_of_them() -> None:
-    augments = only(lattice_trace(), lambda event: isinstance(event, Augment))
+    augments = only(lattice_trace(), lambda event: isinstance(event, ev.Augment))
     assert shares(LATTICE, augments) == {
         "true-hypothesis-posed": ("not-declared", 0, 24),
         "true-hypothesis-kept": ("not-declared", 0, 24),
@@ -161,8 +148,8 @@ def test_a_mapper_that_declares_augmentations_alone_is_judged_on_all_of_them() -
 @pytest.mark.parametrize("every", [1, 2])
 def test_a_hypothesis_without_a_fate_is_a_finding_of_claim_3(every: int) -> None:
     trace = lattice_trace()
-    behind_new = {e.edge for e in trace if isinstance(e, Augment) and e.kind == "new"}
-    rejects = [e for e in trace if isinstance(e, Reject) and e.edge in behind_new]
+    behind_new = {e.edge for e in trace if isinstance(e, ev.Augment) and e.kind == "new"}
+    rejects = [e for e in trace if isinstance(e, ev.Reject) and e.edge in behind_new]
     dropped = rejects[::every]
     judgements = told(LATTICE, only(trace, lambda event: event not in dropped))
     kept = judgements["true-hypothesis-kept"]
@@ -170,24 +157,24 @@ def test_a_hypothesis_without_a_fate_is_a_finding_of_claim_3(every: int) -> None
     finding = kept.findings[0]
     assert (finding.expected, finding.seen) == ("each rejected", [dropped[0].hypothesis])
     assert "hypotheses are left" in finding.message
-    assert isinstance(trace[-1], Finish)
+    assert isinstance(trace[-1], ev.Finish)
     assert judgements["rejection-justified"].of == 28
 
 
 STAR = World.from_rotations([(0, 1, 2), (3,), (4,), (5,)], [(0, 3), (1, 4), (2, 5)], 0)
 
 
-def comes_back(robot: Robot, again: tuple[int, ...]) -> Survey:
+def comes_back(robot: ev.Robot, again: tuple[int, ...]) -> Survey:
     """Maps the star. Poses dart 1 behind dart 0, and goes to dart 1 before it decides."""
     robot.move(0)
-    robot.declare(Pose(0, (1,)))
+    robot.declare(ev.Pose(0, (1,)))
     at = 0  # the dart of v0 that is the reference dart there
     for edge, hypotheses, dart in ((1, (), 3), (0, again, 4), (2, (), 5)):
         robot.move(0)
         robot.move((edge - at) % 3)
         at = edge
-        robot.declare(Pose(edge, hypotheses))
-        robot.declare(Augment(edge, "new", dart, 1))
+        robot.declare(ev.Pose(edge, hypotheses))
+        robot.declare(ev.Augment(edge, "new", dart, 1))
     return Survey(((0, 1, 2), (3,), (4,), (5,)), ((1, 3), (0, 4), (2, 5)), 0, 7)
 
 
@@ -206,8 +193,8 @@ def test_a_hypothesis_that_is_posed_later_needs_its_rejection() -> None:
 
 def test_what_is_posed_again_must_be_rejected_again() -> None:
     trace = lattice_trace()
-    at = place(trace, Reject)
-    pose = next(event for event in trace if isinstance(event, Pose) and event.hypotheses)
+    at = place(trace, ev.Reject)
+    pose = next(event for event in trace if isinstance(event, ev.Pose) and event.hypotheses)
     again = (*trace[: at + 1], pose, *trace[at + 1 :])
     (finding,) = told(LATTICE, again)["true-hypothesis-kept"].findings
     assert finding.seen == list(pose.hypotheses)
@@ -227,10 +214,10 @@ def test_a_run_that_delivers_no_map_leaves_claim_9_nothing_to_judge() -> None:
 
 def test_after_a_door_that_is_not_there_no_percept_is_judged() -> None:
     trace = lattice_trace()
-    index = place(trace, Move, 3)
+    index = place(trace, ev.Move, 3)
     percepts = told(LATTICE, edited(trace, index, door=9))["percepts-true"]
     assert (percepts.status, percepts.judged) == ("failed", 4)
-    assert percepts.of == 1 + number(trace, Move)
+    assert percepts.of == 1 + number(trace, ev.Move)
 
 
 def test_a_cost_that_is_not_reported_is_not_judged() -> None:
@@ -240,10 +227,10 @@ def test_a_cost_that_is_not_reported_is_not_judged() -> None:
 
 def test_a_pose_of_an_explored_edge_hides_nothing_of_what_follows() -> None:
     trace = lattice_trace()
-    at = place(trace, Augment)
+    at = place(trace, ev.Augment)
     augment = trace[at]
-    assert isinstance(augment, Augment)
-    explored = Pose(augment.edge, ())
+    assert isinstance(augment, ev.Augment)
+    explored = ev.Pose(augment.edge, ())
     found = told(LATTICE, (*trace[: at + 1], explored, *trace[at + 1 :]))
     assert found["true-hypothesis-posed"].status == "failed"
     for claim in DECISIONS[:-1]:

@@ -19,18 +19,7 @@ from topo_verify.campaign.judge import Report
 from topo_verify.checkers import check, claims, decision_conclusions
 from topo_verify.checkers.entailment import map_conclusion
 from topo_verify.faults import FAULTS
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Decision,
-    Evidence,
-    Finish,
-    Move,
-    Reject,
-    Robot,
-    Start,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import first_percept
 
@@ -44,13 +33,13 @@ class TheRestIsNew(NoRule):
         if not sequences:
             return None
         percept = chart.percepts[hypothesis.dart]
-        return Refutation("history", Evidence(0, percept, percept))
+        return Refutation("history", ev.Evidence(0, percept, percept))
 
 
 class Mute:
     """A robot that keeps to itself what its mapper declares."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: ev.Robot) -> None:
         self.robot = robot
         self.move = robot.move
 
@@ -58,15 +47,15 @@ class Mute:
     def percept(self) -> Percept:
         return self.robot.percept
 
-    def declare(self, event: Decision) -> None:
+    def declare(self, event: ev.Decision) -> None:
         """Nobody is told."""
 
 
 class Tactful(Mute):
     """A robot that is told how the map grows, and nothing else."""
 
-    def declare(self, event: Decision) -> None:
-        if isinstance(event, Augment):
+    def declare(self, event: ev.Decision) -> None:
+        if isinstance(event, ev.Augment):
             self.robot.declare(event)
 
 
@@ -131,7 +120,7 @@ def test_a_silent_guess_is_convicted_by_its_history_alone() -> None:
 def test_a_place_taken_for_new_too_early_is_convicted_though_the_map_is_proved(place: str) -> None:
     """In six worlds with five edges, and in none with fewer, it was merely lucky."""
 
-    def guesser(robot: Robot) -> object:
+    def guesser(robot: ev.Robot) -> object:
         return variant(TheRestIsNew)(Tactful(robot))
 
     report = examine(guesser, World.from_id(place))
@@ -148,18 +137,20 @@ def test_a_mapper_that_declares_nothing_is_still_convicted_of_guessing() -> None
         w for w in worlds([3, 4]) if lucky(r := examine(GUESSERS["elimination"], w)) and not r.ok
     )
     silent = [
-        e for e in trace_of(world, GUESSERS["elimination"]) if isinstance(e, Start | Move | Finish)
+        e
+        for e in trace_of(world, GUESSERS["elimination"])
+        if isinstance(e, ev.Start | ev.Move | ev.Finish)
     ]
     claims = {j.claim: j.status for j in check(world, silent)}
     assert claims["map-entailed"] == "failed"
     assert claims["decisions-entailed"] == "not-declared"
 
 
-def why(trace: Trace) -> list[str]:
+def why(trace: ev.Trace) -> list[str]:
     return [conclusion.why for conclusion in decision_conclusions(trace) if conclusion.why]
 
 
-def doctored(trace: Trace, kind: type, **fields: object) -> Trace:
+def doctored(trace: ev.Trace, kind: type, **fields: object) -> ev.Trace:
     """The trace with fields of its first event of a kind replaced."""
     place = next(i for i, event in enumerate(trace) if isinstance(event, kind))
     event = msgspec.structs.replace(trace[place], **fields)
@@ -169,7 +160,7 @@ def doctored(trace: Trace, kind: type, **fields: object) -> Trace:
 def test_a_decision_made_too_early_does_not_follow() -> None:
     trace = trace_of("m4/300")
     early = [
-        e for e in trace if not isinstance(e, Move) or e.purpose not in ("validate", "retrace")
+        e for e in trace if not isinstance(e, ev.Move) or e.purpose not in ("validate", "retrace")
     ]
     assert why(tuple(early))
 
@@ -177,27 +168,27 @@ def test_a_decision_made_too_early_does_not_follow() -> None:
 @pytest.mark.parametrize(
     ("kind", "fields", "message"),
     [
-        (Augment, {"degree": 9}, "another vertex"),
-        (Augment, {"edge": 99}, "not an unexplored dart"),
-        (Augment, {"dart": 99}, "not an unexplored dart"),
-        (Confirm, {"hypothesis": -1}, "not an unexplored dart"),
-        (Reject, {"hypothesis": 99}, "not an unexplored dart"),
+        (ev.Augment, {"degree": 9}, "another vertex"),
+        (ev.Augment, {"edge": 99}, "not an unexplored dart"),
+        (ev.Augment, {"dart": 99}, "not an unexplored dart"),
+        (ev.Confirm, {"hypothesis": -1}, "not an unexplored dart"),
+        (ev.Reject, {"hypothesis": 99}, "not an unexplored dart"),
     ],
 )
 def test_nonsense_is_a_finding(kind: type, fields: dict[str, object], message: str) -> None:
     world = next(
         w
         for w in worlds([4])
-        if {Confirm, Reject} <= {type(e) for e in trace_of(w)}
-        and next(e for e in trace_of(w) if isinstance(e, Augment)).kind == "new"
+        if {ev.Confirm, ev.Reject} <= {type(e) for e in trace_of(w)}
+        and next(e for e in trace_of(w) if isinstance(e, ev.Augment)).kind == "new"
     )
     assert message in " ".join(why(doctored(trace_of(world), kind, **fields)))
 
 
 def test_an_edge_that_was_never_crossed_proves_no_new_vertex() -> None:
     for degree in (1, 2):
-        start = Start(percept=first_percept(World.from_id("m2/0")))
-        told = [*decision_conclusions((start, Augment(0, "new", 1, degree)))]
+        start = ev.Start(percept=first_percept(World.from_id("m2/0")))
+        told = [*decision_conclusions((start, ev.Augment(0, "new", 1, degree)))]
         assert told[0].why == "the edge was never crossed"
         assert told[0].witness is not None
         assert told[0].witness.degrees[1] != degree
@@ -205,7 +196,7 @@ def test_an_edge_that_was_never_crossed_proves_no_new_vertex() -> None:
 
 def test_a_history_that_no_world_shows_is_a_finding_and_no_crash() -> None:
     at_home = first_percept(World.from_id("m4/300"))
-    trace = doctored(trace_of("m4/300"), Move, percept=at_home)
+    trace = doctored(trace_of("m4/300"), ev.Move, percept=at_home)
     assert "no world shows this history" in map_conclusion(trace).why
     assert "no world shows this history" in " ".join(why(trace))
 

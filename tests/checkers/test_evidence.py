@@ -11,25 +11,15 @@ from tests.checkers.example import LOOP, TRACE, WORLD, inserted, said, wrong
 from tests.helpers import edited, failing, place, trace_of
 from topo_verify import World
 from topo_verify.checkers import check
-from topo_verify.robot.events import (
-    Augment,
-    Evidence,
-    Move,
-    Pose,
-    Record,
-    Reject,
-    RuleName,
-    Start,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
-BY_MOTION = place(TRACE, Reject, 0)
-BY_RECORD = next(i for i, e in enumerate(TRACE) if isinstance(e, Reject) and e.rule == "records")
+BY_MOTION = place(TRACE, ev.Reject, 0)
+BY_RECORD = next(i for i, e in enumerate(TRACE) if isinstance(e, ev.Reject) and e.rule == "records")
 
 KNOWN = World.from_id("m4/41")
 KNOWN_TRACE = trace_of(KNOWN, "enhancement-ii")
-BY_HISTORY = place(KNOWN_TRACE, Reject, 1)
+BY_HISTORY = place(KNOWN_TRACE, ev.Reject, 1)
 """Dart 4 is rejected because tracing leads to dart 6, where S shows another degree."""
 
 DEEP = World.from_id("m7/20231")
@@ -37,14 +27,14 @@ DEEP_TRACE = trace_of(DEEP, "enhancement-iii-all")
 BY_DEEP_RECORD = next(
     i
     for i, e in enumerate(DEEP_TRACE)
-    if isinstance(e, Reject) and e.evidence.record is not None and e.evidence.record.doors
+    if isinstance(e, ev.Reject) and e.evidence.record is not None and e.evidence.record.doors
 )
 
 
-def with_evidence(trace: Trace, index: int, **changes: Any) -> Trace:
+def with_evidence(trace: ev.Trace, index: int, **changes: Any) -> ev.Trace:
     """The trace with other evidence in one rejection."""
     event = trace[index]
-    assert isinstance(event, Reject)
+    assert isinstance(event, ev.Reject)
     return edited(trace, index, evidence=msgspec.structs.replace(event.evidence, **changes))
 
 
@@ -64,7 +54,7 @@ SEEN, OTHER = Percept(7, None), Percept(3, None)
         ({"observed": Percept(1, 0)}, "observed is (degree 7, no marker)"),
         ({"sequence": 0}, "step 1 of sequence 0 was not executed"),
         ({"at": 3}, "tracing ends at dart 0 of S"),
-        ({"record": Record(3, ())}, "tracing ends at dart 0 of S"),
+        ({"record": ev.Record(3, ())}, "tracing ends at dart 0 of S"),
     ],
 )  # fmt: skip
 def test_false_evidence_from_motion_is_caught(changes: dict[str, Any], why: str) -> None:
@@ -93,9 +83,9 @@ def test_false_evidence_from_motion_is_caught(changes: dict[str, Any], why: str)
         {"at": 2},
         {"at": -1},
         {"record": None},
-        {"record": Record(4, ())},
-        {"record": Record(3, (0,))},
-        {"record": Record(-1, ())},
+        {"record": ev.Record(4, ())},
+        {"record": ev.Record(3, (0,))},
+        {"record": ev.Record(-1, ())},
     ],
 )
 def test_false_evidence_from_a_record_is_caught(changes: dict[str, Any]) -> None:
@@ -111,9 +101,9 @@ def test_a_record_that_is_not_cited_is_named_by_where_tracing_left_s() -> None:
 @pytest.mark.parametrize(
     "changes",
     [
-        {"record": Record(10, ())},
-        {"record": Record(10, (2,))},
-        {"record": Record(10, (3, 3))},
+        {"record": ev.Record(10, ())},
+        {"record": ev.Record(10, (2,))},
+        {"record": ev.Record(10, (3, 3))},
         {"step": 1},
         {"expected": Percept(1, None)},
         {"sequence": 0},
@@ -132,7 +122,7 @@ def test_false_evidence_from_a_deeper_record_is_caught(changes: dict[str, Any]) 
         {"at": 5},
         {"expected": OTHER},
         {"observed": Percept(2, None)},
-        {"record": Record(6, ())},
+        {"record": ev.Record(6, ())},
         {"step": 0, "expected": Percept(5, None)},
     ],
 )
@@ -151,10 +141,10 @@ def test_a_record_of_what_was_seen_only_in_this_round_is_caught() -> None:
     # degree 6 behind it, but it cannot know that this was dart 3 before it knows where it began.
     world = World.from_id("m4/54")
     trace = trace_of(world, "enhancement-iii-all")
-    evidence = Evidence(
-        1, Percept(6, None), Percept(1, None), sequence=0, at=3, record=Record(3, ())
+    evidence = ev.Evidence(
+        1, Percept(6, None), Percept(1, None), sequence=0, at=3, record=ev.Record(3, ())
     )
-    lie = inserted(trace, 10, Reject(2, 5, "records", evidence))
+    lie = inserted(trace, 10, ev.Reject(2, 5, "records", evidence))
     assert wrong(lie, world) == {"rejection-justified"}
     assert "nothing is recorded behind dart 3" in said(lie, "rejection-justified", world)[0]
 
@@ -171,7 +161,7 @@ def test_rejecting_after_the_map_has_grown_is_caught() -> None:
 
 
 def test_rejecting_what_is_no_unexplored_dart_is_caught_even_if_it_was_posed() -> None:
-    posed = edited(TRACE, place(TRACE, Pose, 1), hypotheses=(3, 4, 5, 6, 7, 99))
+    posed = edited(TRACE, place(TRACE, ev.Pose, 1), hypotheses=(3, 4, 5, 6, 7, 99))
     lie = edited(posed, BY_MOTION, hypothesis=99)
     assert wrong(lie) == {"true-hypothesis-posed", "rejection-justified"}
     assert "the two are not unexplored darts of S" in said(lie, "rejection-justified")[0]
@@ -180,11 +170,11 @@ def test_rejecting_what_is_no_unexplored_dart_is_caught_even_if_it_was_posed() -
 def test_the_planar_rule_may_reject_what_lies_on_another_face_and_nothing_else() -> None:
     world = World.from_id("m3/50")
     trace = trace_of(world, "folding+planar")
-    (reject,) = [e for e in trace if isinstance(e, Reject) and e.rule == "planar"]
+    (reject,) = [e for e in trace if isinstance(e, ev.Reject) and e.rule == "planar"]
     assert (reject.edge, reject.hypothesis) == (1, 4)
     assert wrong(trace, world) == set()
     # Behind dart 2 of the other world nothing is explored yet: all its darts lie on one face.
-    told = Evidence(0, contradiction="it lies on another face than e")
+    told = ev.Evidence(0, contradiction="it lies on another face than e")
     lie = edited(TRACE, BY_MOTION, rule="planar", evidence=told)
     assert wrong(lie) == {"rejection-justified"}
     message = "it does not follow that 'it lies on another face than e'"
@@ -192,11 +182,11 @@ def test_the_planar_rule_may_reject_what_lies_on_another_face_and_nothing_else()
 
 
 @pytest.mark.parametrize("rule", ["motion", "folding"])
-def test_an_edge_that_is_explored_is_in_question_no_more(rule: RuleName) -> None:
+def test_an_edge_that_is_explored_is_in_question_no_more(rule: ev.RuleName) -> None:
     world = World.from_rotations([[0, 1], [2], [3]], [(0, 2), (1, 3)], 0)
     behind, marked = Percept(1, None), Percept(2, 1)
-    evidence = Evidence(0, marked, behind)  # the two percepts do disagree
-    history = (Start(percept=Percept(2, 0)), Move(0, behind), Augment(0, "new", 2, 1))
-    lie = (*history, Pose(0, (1,)), Reject(0, 1, rule, evidence))
+    evidence = ev.Evidence(0, marked, behind)  # the two percepts do disagree
+    history = (ev.Start(percept=Percept(2, 0)), ev.Move(0, behind), ev.Augment(0, "new", 2, 1))
+    lie = (*history, ev.Pose(0, (1,)), ev.Reject(0, 1, rule, evidence))
     findings = {one.claim: one.findings for one in check(world, lie)}["rejection-justified"]
     assert ["the two are not unexplored darts of S" in one.message for one in findings] == [True]

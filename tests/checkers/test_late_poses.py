@@ -13,29 +13,17 @@ from topo_verify.checkers import check
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.folding import Fold, Place
 from topo_verify.checkers.map_on_fold import MapOnFold
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Decision,
-    Evidence,
-    Finish,
-    MapData,
-    Move,
-    Pose,
-    Reject,
-    Start,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot
 
 
-def walked(world: World) -> tuple[Trace, Fold]:
+def walked(world: World) -> tuple[ev.Trace, Fold]:
     """The start and the moves of the world's proof tour, and what they prove."""
     robot = SimulatedRobot(world, world.cost_bound)
-    start, moves, fold = Start(percept=robot.percept), list[Move](), Fold(robot.percept)
+    start, moves, fold = ev.Start(percept=robot.percept), list[ev.Move](), Fold(robot.percept)
     for door in world.proof_tour():
-        moves.append(Move(door, robot.move(door)))
+        moves.append(ev.Move(door, robot.move(door)))
         fold.move(door, robot.percept)
     return (start, *moves), fold
 
@@ -48,40 +36,40 @@ class Decider(MapOnFold):
         node, _ = self.fold.find(place)
         return self.fold.degree(node), node == self.fold.find((0, 0))[0]
 
-    def decisions(self) -> Iterator[Decision]:
+    def decisions(self) -> Iterator[ev.Decision]:
         """The poses, least dart first, each with its rejections or its confirmation; S grows."""
         while darts := [d for d in range(self.size) if self.is_open(d)]:
             yield from self.decided(KnownDart(darts[0]))
 
-    def decided(self, e: KnownDart) -> Iterator[Decision]:
+    def decided(self, e: KnownDart) -> Iterator[ev.Decision]:
         """What is declared of one edge."""
         end = self.fold.partner(self.place(e))
         assert end is not None
         alike = [h for h in self.others(e) if self.look(self.place(h)) == self.look(end)]
-        yield Pose(e, tuple(alike))
+        yield ev.Pose(e, tuple(alike))
         true = [h for h in alike if self.fold.find(self.place(h)) == self.fold.find(end)]
         if true:
-            yield Confirm(e, true[0], "folding")
-            grown = Augment(e, "loop", true[0], self.look(end)[0])
+            yield ev.Confirm(e, true[0], "folding")
+            grown = ev.Augment(e, "loop", true[0], self.look(end)[0])
         else:
             for h in alike:
                 met = self.fold.contradictions(self.place(e), self.place(h), self.entries)
-                yield Reject(e, h, "folding", Evidence(0, contradiction=next(met)[0]))
-            grown = Augment(e, "new", self.size, self.look(end)[0])
+                yield ev.Reject(e, h, "folding", ev.Evidence(0, contradiction=next(met)[0]))
+            grown = ev.Augment(e, "new", self.size, self.look(end)[0])
         yield grown
         self.grow(grown)
 
 
-def decided_at_the_end(world: World) -> Trace:
+def decided_at_the_end(world: World) -> ev.Trace:
     """The trace of a robot that walks the proof tour, and then declares every decision."""
     log, fold = walked(world)
     decisions = [*Decider(fold).decisions()] if world.alpha else []
-    grown = of_type(Augment, decisions)
+    grown = of_type(ev.Augment, decisions)
     firsts = [(0, world.degrees[world.marker_vertex])]
     firsts += [(one.dart, one.degree) for one in grown if one.kind == "new"]
     vertices = tuple(tuple(range(first, first + degree)) for first, degree in firsts)
     edges = tuple((one.edge, one.dart) for one in grown)
-    return (*log, *decisions, Finish(len(log) - 1, MapData(vertices, edges, 0)))
+    return (*log, *decisions, ev.Finish(len(log) - 1, ev.MapData(vertices, edges, 0)))
 
 
 def test_every_claim_holds_and_is_fully_judged_of_what_is_decided_at_the_end() -> None:
@@ -101,40 +89,40 @@ LATTICE = families.lattice(4, 4)
 LATE = decided_at_the_end(LATTICE)
 
 
-def wrong(trace: Trace) -> set[str]:
+def wrong(trace: ev.Trace) -> set[str]:
     """The claims that fail in the lattice."""
     return {judgement.claim for judgement in check(LATTICE, trace) if judgement.findings}
 
 
 def test_an_edge_is_not_posed_before_it_is_crossed() -> None:
-    last = place(LATE, Move, -1)
-    pose = place(LATE, Pose, -1)
+    last = place(LATE, ev.Move, -1)
+    pose = place(LATE, ev.Pose, -1)
     early = (*LATE[:last], LATE[pose], *LATE[last:pose], *LATE[pose + 1 :])
     assert "true-hypothesis-posed" in wrong(early)
 
 
 def test_the_true_hypothesis_is_not_left_out_of_a_late_pose() -> None:
-    when = place(LATE, Confirm) - 1
+    when = place(LATE, ev.Confirm) - 1
     pose = LATE[when]
-    assert isinstance(pose, Pose)
+    assert isinstance(pose, ev.Pose)
     assert wrong(edited(LATE, when, hypotheses=())) == {"true-hypothesis-posed"}
 
 
 def test_moves_after_a_late_pose_are_no_moves_behind_its_edge() -> None:
     """The robot goes on and cites what it sees there as if it had walked there from the edge."""
-    reject = place(LATE, Reject)
+    reject = place(LATE, ev.Reject)
     event = LATE[reject]
-    assert isinstance(event, Reject)
+    assert isinstance(event, ev.Reject)
     robot = SimulatedRobot(LATTICE, LATTICE.cost_bound)
-    for move in of_type(Move, LATE):
+    for move in of_type(ev.Move, LATE):
         robot.move(move.door)
     seen = robot.move(0)
     for expected in (Percept(1, None), Percept(2, None), Percept(3, None), Percept(4, None)):
-        evidence = Evidence(1, expected, seen)
+        evidence = ev.Evidence(1, expected, seen)
         lie = (
             *LATE[:reject],
-            Move(0, seen),
-            Reject(event.edge, event.hypothesis, "motion", evidence),
+            ev.Move(0, seen),
+            ev.Reject(event.edge, event.hypothesis, "motion", evidence),
             *LATE[reject + 1 : -1],
             edited(LATE, len(LATE) - 1, cost=LATTICE.least_cost() + 1)[-1],
         )

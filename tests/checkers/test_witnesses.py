@@ -13,30 +13,17 @@ from topo_verify import World, certify
 from topo_verify.checkers import check, claims, decision_conclusions
 from topo_verify.checkers.entailment import Conclusion, fold_history, map_conclusion
 from topo_verify.checkers.replayed_trace import ReplayedTrace
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Evidence,
-    Finish,
-    MapData,
-    Move,
-    Pose,
-    Reject,
-    RuleName,
-    Start,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import first_percept
 
 
-def delivering(history: Sequence[Event], world: World) -> Trace:
+def delivering(history: Sequence[ev.Event], world: World) -> ev.Trace:
     """The history, and at its end the map of this world."""
-    return (*history, Finish(None, MapData(world.vertices, world.edges, world.marker)))
+    return (*history, ev.Finish(None, ev.MapData(world.vertices, world.edges, world.marker)))
 
 
-def unproved(trace: Trace) -> list[Conclusion]:
+def unproved(trace: ev.Trace) -> list[Conclusion]:
     """The conclusions that do not follow."""
     return [conclusion for conclusion in decision_conclusions(trace) if conclusion.why]
 
@@ -47,7 +34,7 @@ def unproved(trace: Trace) -> list[Conclusion]:
 @pytest.mark.no_cover
 def test_while_a_dart_is_open_neither_of_the_two_worlds_is_proved() -> None:
     for world in worlds(range(1, 4)):
-        trace = [e for e in trace_of(world) if isinstance(e, Start | Move)]
+        trace = [e for e in trace_of(world) if isinstance(e, ev.Start | ev.Move)]
         for length in range(1, len(trace)):
             history = trace[:length]
             fold, _ = fold_history(history)
@@ -72,9 +59,9 @@ def test_the_witness_against_another_map_than_the_proved_one_is_the_proved_one()
 def test_what_is_no_map_and_a_history_of_no_world_are_named_at_their_event() -> None:
     trace = trace_of("m3/14")
     assert map_conclusion(trace[:-1]) == Conclusion(0, "no map was delivered")
-    when, why, *_ = map_conclusion(edited(trace, -1, map=MapData((), (), None)))
+    when, why, *_ = map_conclusion(edited(trace, -1, map=ev.MapData((), (), None)))
     assert (when, why[:32]) == (len(trace) - 1, "the delivered value is not a map")
-    third = place(trace, Move, 2)
+    third = place(trace, ev.Move, 2)
     when, why, *_ = map_conclusion(edited(trace, third, door=99))
     assert (when, why[:28]) == (third, "no world shows this history:")
 
@@ -85,9 +72,9 @@ def test_what_is_no_map_and_a_history_of_no_world_are_named_at_their_event() -> 
 def test_at_the_start_nothing_is_seen_but_the_marker_at_door_0(
     percept: tuple[int, int | None],
 ) -> None:
-    start = Start(percept=Percept(*percept))
+    start = ev.Start(percept=Percept(*percept))
     assert fold_history([start])[1] is not None
-    (conclusion,) = decision_conclusions([start, Augment(0, "new", 2, 2)])
+    (conclusion,) = decision_conclusions([start, ev.Augment(0, "new", 2, 2)])
     assert (conclusion.when, conclusion.why[:28]) == (0, "no world shows this history:")
     (finding,) = certify([start]).findings
     assert finding.event == 0
@@ -95,7 +82,7 @@ def test_at_the_start_nothing_is_seen_but_the_marker_at_door_0(
 
 @pytest.mark.parametrize("marker", [2, 3, -1, -2])
 def test_a_marker_at_a_door_that_is_not_there_proves_nothing(marker: int) -> None:
-    log: Trace = (Start(percept=Percept(2, 0)), Move(0, Percept(2, marker)))
+    log: ev.Trace = (ev.Start(percept=Percept(2, 0)), ev.Move(0, Percept(2, marker)))
     assert fold_history(log)[1] == (1, f"the marker cannot point at door {marker} of 2")
     assert certify(log).map is None
 
@@ -114,38 +101,38 @@ def test_the_witness_against_a_rejection_is_a_world_where_it_rejects_the_truth()
     assert told > 100
 
 
-def rejecting_at_once(trace: Trace, rule: RuleName) -> Trace:
+def rejecting_at_once(trace: ev.Trace, rule: ev.RuleName) -> ev.Trace:
     """The trace, but each hypothesis is rejected as soon as it is posed."""
-    events: list[Event] = []
+    events: list[ev.Event] = []
     for event in trace:
         events.append(event)
-        if isinstance(event, Pose):
+        if isinstance(event, ev.Pose):
             events += rejections(event, rule)
     return tuple(events)
 
 
-def rejections(pose: Pose, rule: RuleName) -> Iterator[Reject]:
-    nothing = Evidence(0, Percept(1, None), Percept(1, None))
+def rejections(pose: ev.Pose, rule: ev.RuleName) -> Iterator[ev.Reject]:
+    nothing = ev.Evidence(0, Percept(1, None), Percept(1, None))
     if rule == "planar":
-        nothing = Evidence(0, contradiction="it lies on another face than e")
+        nothing = ev.Evidence(0, contradiction="it lies on another face than e")
     for hypothesis in pose.hypotheses:
-        yield Reject(pose.edge, hypothesis, rule, nothing)
+        yield ev.Reject(pose.edge, hypothesis, rule, nothing)
 
 
-def assert_wrong_in(witness: World, trace: Trace, when: int) -> None:
+def assert_wrong_in(witness: World, trace: ev.Trace, when: int) -> None:
     """The witness shows the history up to an event, and the rejection there is false in it."""
     event = trace[when]
-    assert isinstance(event, Reject)
-    assert shows(witness, [e for e in trace[:when] if isinstance(e, Start | Move)])
+    assert isinstance(event, ev.Reject)
+    assert shows(witness, [e for e in trace[:when] if isinstance(e, ev.Start | ev.Move)])
     run = ReplayedTrace(witness, trace[: when + 1])
     assert run.map.truth(event.edge, when) == event.hypothesis
 
 
-def renamed(trace: Trace, old: RuleName, new: RuleName) -> Trace:
+def renamed(trace: ev.Trace, old: ev.RuleName, new: ev.RuleName) -> ev.Trace:
     """The trace with another rule in some of its rejections."""
     return tuple(
-        Reject(e.edge, e.hypothesis, new, e.evidence)
-        if isinstance(e, Reject) and e.rule == old
+        ev.Reject(e.edge, e.hypothesis, new, e.evidence)
+        if isinstance(e, ev.Reject) and e.rule == old
         else e
         for e in trace
     )
@@ -187,19 +174,19 @@ def test_a_dart_is_rejected_by_planarity_just_if_the_edge_would_raise_the_genus_
             lie = rejecting_at_once(trace_of(world), "planar")
             unjustified = {f.event for f in check(world, lie)[7].findings}
             for when, event in enumerate(lie):
-                if isinstance(event, Reject) and event.rule == "planar":
+                if isinstance(event, ev.Reject) and event.rule == "planar":
                     raises = not joined(lie[:when], event.edge, event.hypothesis).is_planar
                     assert (when in unjustified) != raises
                     rejected, raised = rejected + 1, raised + raises
     assert (rejected, raised) == (1909, 65)
 
 
-def joined(history: Trace, e: int, h: int) -> World:
+def joined(history: ev.Trace, e: int, h: int) -> World:
     """S with two of its darts joined and a leaf on every other open one, from the augmentations."""
-    assert isinstance(history[0], Start)
+    assert isinstance(history[0], ev.Start)
     vertices = [range(history[0].percept.degree)]
     edges = [(e, h)]
-    for event in of_type(Augment, history):
+    for event in of_type(ev.Augment, history):
         edges.append((event.edge, event.dart))
         if event.kind == "new":
             vertices.append(range(event.dart, event.dart + event.degree))
@@ -215,15 +202,15 @@ def joined(history: Trace, e: int, h: int) -> World:
 
 
 @pytest.mark.parametrize("rule", [None, "planar"])
-def test_a_loop_of_s_is_no_new_vertex_in_any_world(rule: RuleName | None) -> None:
+def test_a_loop_of_s_is_no_new_vertex_in_any_world(rule: ev.RuleName | None) -> None:
     """The world of one vertex on the torus: with the planar prior, no planar world refutes it."""
     world = World.from_id("m2/8")
     assert (len(world.vertices), world.genus) == (1, 1)
     trace = trace_of(world)
-    loop = place(trace, Augment)
+    loop = place(trace, ev.Augment)
     lie = edited(trace, loop, kind="new", dart=4)
     if rule is not None:
-        lie = inserted(lie, loop + 1, *rejections(Pose(1, (3,)), rule))
+        lie = inserted(lie, loop + 1, *rejections(ev.Pose(1, (3,)), rule))
     (*_, (when, why, witness, _)) = decision_conclusions(lie)
     assert (when, why) == (loop, "the edge leads to another vertex")
     assert witness is not None
@@ -240,8 +227,8 @@ def test_a_vertex_of_s_is_no_new_vertex_where_s_has_others_too() -> None:
 def test_behind_an_edge_that_was_never_crossed_stands_the_least_that_was_not_claimed(
     degree: int, witness: str
 ) -> None:
-    start = Start(percept=first_percept(World.from_id("m1/0")))
-    (told,) = decision_conclusions([start, Augment(0, "new", 1, degree)])
+    start = ev.Start(percept=first_percept(World.from_id("m1/0")))
+    (told,) = decision_conclusions([start, ev.Augment(0, "new", 1, degree)])
     assert (told.when, told.why) == (1, "the edge was never crossed")
     assert told.witness is not None
     assert told.witness.code == World.from_id(witness).code
@@ -251,12 +238,12 @@ def test_an_edge_that_s_has_is_not_explored_again() -> None:
     repeated = 0
     for world in worlds([2]):
         trace = trace_of(world)
-        for event in of_type(Augment, trace):
+        for event in of_type(ev.Augment, trace):
             after = trace.index(event) + 1
-            repetitions: Trace = (
-                Augment(event.edge, "loop", event.dart, event.degree),
-                Confirm(event.dart, event.edge, "motion"),
-                *rejections(Pose(event.edge, (event.dart,)), "motion"),
+            repetitions: ev.Trace = (
+                ev.Augment(event.edge, "loop", event.dart, event.degree),
+                ev.Confirm(event.dart, event.edge, "motion"),
+                *rejections(ev.Pose(event.edge, (event.dart,)), "motion"),
             )
             for again in repetitions:
                 (*_, last) = decision_conclusions(inserted(trace, after, again))
@@ -268,7 +255,7 @@ def test_an_edge_that_s_has_is_not_explored_again() -> None:
 
 def test_after_an_augmentation_that_does_not_follow_nothing_is_judged() -> None:
     trace = trace_of("m4/300")
-    for when in (i for i, event in enumerate(trace) if isinstance(event, Augment)):
+    for when in (i for i, event in enumerate(trace) if isinstance(event, ev.Augment)):
         (*before, last) = decision_conclusions(edited(trace, when, degree=9))
         assert last.when == when
         assert last.why in (
@@ -276,7 +263,7 @@ def test_after_an_augmentation_that_does_not_follow_nothing_is_judged() -> None:
             "the vertex there has another degree",
         )
         assert last.witness is not None
-        assert shows(last.witness, [e for e in trace[:when] if isinstance(e, Start | Move)])
+        assert shows(last.witness, [e for e in trace[:when] if isinstance(e, ev.Start | ev.Move)])
         assert not any(conclusion.why for conclusion in before)
 
 

@@ -16,17 +16,7 @@ from itertools import islice
 from tests.helpers import of_type, worlds
 from tests.properties.truth import Truth
 from topo_verify import Exploration
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Finish,
-    Move,
-    Pose,
-    Reject,
-    Start,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.rooted_map import Dart, World
 
@@ -35,28 +25,28 @@ def percepts_true(run: Exploration) -> None:
     """What is sensed is what the world shows."""
     truth = Truth(run)
     for event, _ in truth.events():
-        if isinstance(event, Move):
+        if isinstance(event, ev.Move):
             assert event.percept == truth.sensed(truth.at)
 
 
 def true_hypothesis_posed(run: Exploration) -> None:
     """If the edge leads to a known vertex, its dart is among the hypotheses."""
     for event, true_end in Truth(run).events():
-        if isinstance(event, Pose) and true_end is not None:
+        if isinstance(event, ev.Pose) and true_end is not None:
             assert true_end in event.hypotheses
 
 
 def true_hypothesis_kept(run: Exploration) -> None:
     """No rule and no motion rejects the true hypothesis."""
     for event, true_end in Truth(run).events():
-        if isinstance(event, Reject):
+        if isinstance(event, ev.Reject):
             assert event.hypothesis != true_end
 
 
 def no_false_confirm(run: Exploration) -> None:
     """What is confirmed is true."""
     for event, true_end in Truth(run).events():
-        if isinstance(event, Confirm):
+        if isinstance(event, ev.Confirm):
             assert event.hypothesis == true_end
 
 
@@ -64,7 +54,7 @@ def map_isomorphic(run: Exploration) -> None:
     """Every map on the way is a part of the world, the last one all of it."""
     truth = Truth(run)
     for event, true_end in truth.events():
-        if isinstance(event, Augment):
+        if isinstance(event, ev.Augment):
             assert_true_of_world(truth, event, true_end)
     assert run.map is not None
     assert World.from_map(run.map).is_isomorphic(run.world)
@@ -77,8 +67,8 @@ def map_isomorphic(run: Exploration) -> None:
 
 def cost_honest(run: Exploration) -> None:
     """The reported cost is the number of moves."""
-    (finish,) = of_type(Finish, run.trace)
-    assert finish.cost == len(of_type(Move, run.trace)) == run.cost
+    (finish,) = of_type(ev.Finish, run.trace)
+    assert finish.cost == len(of_type(ev.Move, run.trace)) == run.cost
 
 
 def cost_within_bound(run: Exploration) -> None:
@@ -92,7 +82,7 @@ def rejection_justified(run: Exploration) -> None:
     """What was observed is what the world shows, and not what S shows."""
     truth = Truth(run)
     for event, _ in truth.events():
-        if not isinstance(event, Reject) or event.rule == "folding":
+        if not isinstance(event, ev.Reject) or event.rule == "folding":
             continue
         evidence = event.evidence
         assert evidence.expected != evidence.observed
@@ -111,15 +101,15 @@ def others(run: Exploration) -> Iterator[tuple[World, int]]:
         yield world, shown(world, run.trace)
 
 
-def shown(world: World, trace: Trace) -> int:
+def shown(world: World, trace: ev.Trace) -> int:
     """How many events of a trace are as this world shows them, up to the first that is not."""
     robot = SimulatedRobot(world, len(trace))
     for when, event in enumerate(trace):
-        if isinstance(event, Move):
+        if isinstance(event, ev.Move):
             if event.door >= robot.percept.degree:
                 return when
             robot.move(event.door)
-        if isinstance(event, Start | Move) and event.percept != robot.percept:
+        if isinstance(event, ev.Start | ev.Move) and event.percept != robot.percept:
             return when
     return len(trace)
 
@@ -139,13 +129,13 @@ def decisions_entailed(run: Exploration) -> None:
             assert_true_of_world(truth, event, true_end)
 
 
-def assert_true_of_world(truth: Truth, event: Event, true_end: Dart | None) -> None:
+def assert_true_of_world(truth: Truth, event: ev.Event, true_end: Dart | None) -> None:
     """A decision is true of the world in which S is followed."""
-    if isinstance(event, Reject):
+    if isinstance(event, ev.Reject):
         assert event.hypothesis != true_end
-    if isinstance(event, Confirm):
+    if isinstance(event, ev.Confirm):
         assert event.hypothesis == true_end
-    if isinstance(event, Augment):
+    if isinstance(event, ev.Augment):
         assert (event.kind == "new") == (true_end is None)
         assert event.dart == (len(truth.image) if true_end is None else true_end)
         behind = truth.run.world.alpha[truth.image[event.edge]]

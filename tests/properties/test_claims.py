@@ -20,18 +20,7 @@ from tests.properties.worlds import STRATEGIES, runs
 from topo_verify import CATALOGUE, Exploration, World, explore
 from topo_verify.campaign.judge import judge
 from topo_verify.checkers import CLAIMS
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Evidence,
-    Finish,
-    Move,
-    Policies,
-    Pose,
-    Reject,
-    Trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.strategies import observe, policies
 
@@ -83,9 +72,9 @@ def test_every_claim_of_every_algorithm_holds_in_the_worlds_of_every_strategy(
 
 
 @given(chosen=policies(), world=any_world(max_edges=15))
-@example(Policies(), World.from_id("m15/56783627632649097"))
+@example(ev.Policies(), World.from_id("m15/56783627632649097"))
 def test_every_claim_of_folding_holds_whatever_it_meets_first(
-    chosen: Policies, world: World
+    chosen: ev.Policies, world: World
 ) -> None:
     """In the example the fold cites what is met behind a vertex that would be itself, turned."""
     run = explore(world, "folding", pick=chosen.pick, order=chosen.order)
@@ -110,29 +99,29 @@ RUN = explore(World.from_id("m4/300"), "basic")
 """Behind edge 5 darts 1, 2, 3 are posed, and 3 is true; behind edge 2 a walk confirms dart 6."""
 
 
-def other(kind: type[Event], nth: int = 0, **changes: Any) -> Trace:
+def other(kind: type[ev.Event], nth: int = 0, **changes: Any) -> ev.Trace:
     """The trace of the run with other fields in the n-th event of this type."""
     return edited(RUN.trace, place(RUN.trace, kind, nth), **changes)
 
 
-def without_the_last_moves() -> Trace:
+def without_the_last_moves() -> ev.Trace:
     """The trace without the last two moves, from which the last confirmation follows.
 
     Without the last one alone no world with up to one edge more shows that it does not follow.
     """
-    moves = [when for when, event in enumerate(RUN.trace) if isinstance(event, Move)]
+    moves = [when for when, event in enumerate(RUN.trace) if isinstance(event, ev.Move)]
     return tuple(event for when, event in enumerate(RUN.trace) if when not in moves[-2:])
 
 
-LIES: dict[str, Trace] = {
-    "percepts-true": other(Move, percept=Percept(9, None)),
-    "true-hypothesis-posed": other(Pose, 1, hypotheses=(1, 2)),
-    "true-hypothesis-kept": other(Reject, hypothesis=3),
-    "no-false-confirm": other(Confirm, hypothesis=1),
-    "map-isomorphic": other(Augment, 1, dart=2),
-    "cost-honest": other(Finish, cost=RUN.cost - 1),
+LIES: dict[str, ev.Trace] = {
+    "percepts-true": other(ev.Move, percept=Percept(9, None)),
+    "true-hypothesis-posed": other(ev.Pose, 1, hypotheses=(1, 2)),
+    "true-hypothesis-kept": other(ev.Reject, hypothesis=3),
+    "no-false-confirm": other(ev.Confirm, hypothesis=1),
+    "map-isomorphic": other(ev.Augment, 1, dart=2),
+    "cost-honest": other(ev.Finish, cost=RUN.cost - 1),
     "rejection-justified": other(
-        Reject, evidence=Evidence(0, expected=Percept(4, 1), observed=Percept(4, 1))
+        ev.Reject, evidence=ev.Evidence(0, expected=Percept(4, 1), observed=Percept(4, 1))
     ),
     "map-entailed": without_the_last_moves(),
     "decisions-entailed": without_the_last_moves(),

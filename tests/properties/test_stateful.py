@@ -9,16 +9,8 @@ from __future__ import annotations
 from collections import deque
 
 import pytest
-from hypothesis import Phase, settings
+from hypothesis import Phase, settings, stateful
 from hypothesis import strategies as st
-from hypothesis.stateful import (
-    RuleBasedStateMachine,
-    initialize,
-    invariant,
-    precondition,
-    rule,
-    run_state_machine_as_test,
-)
 
 from topo_verify import World
 from topo_verify.algorithms.chart import Chart
@@ -28,10 +20,10 @@ from topo_verify.robot.simulator import SimulatedRobot, exit_dart, percepts
 from topo_verify.strategies import worlds
 
 
-class Exploration(RuleBasedStateMachine):
+class Exploration(stateful.RuleBasedStateMachine):
     """S beside the world. `image` is the dart of the world that each dart of S is."""
 
-    @initialize(world=worlds(min_edges=1, max_edges=12))
+    @stateful.initialize(world=worlds(min_edges=1, max_edges=12))
     def begin(self, world: World) -> None:
         self.world = world
         self.robot = SimulatedRobot(world, budget=10**6)
@@ -45,8 +37,8 @@ class Exploration(RuleBasedStateMachine):
         degree = self.world.degrees[self.world.vertex_of[entry]]
         self.image += [exit_dart(self.world, entry, door) for door in range(degree)]
 
-    @precondition(lambda self: self.chart.unexplored)
-    @rule(data=st.data())
+    @stateful.precondition(lambda self: self.chart.unexplored)
+    @stateful.rule(data=st.data())
     def explore_an_edge(self, data: st.DataObject) -> None:
         """Walk to any unexplored dart and cross it; join it with what is truly there."""
         e = data.draw(st.sampled_from(list(self.chart.unexplored)))
@@ -59,7 +51,7 @@ class Exploration(RuleBasedStateMachine):
         self.at = self.image.index(arrival)
         self.chart.join(e, self.at)
 
-    @rule(data=st.data())
+    @stateful.rule(data=st.data())
     def walk_to_a_vertex(self, data: st.DataObject) -> None:
         """By a shortest way on S."""
         v = data.draw(st.sampled_from(range(len(self.chart.first))))
@@ -69,7 +61,7 @@ class Exploration(RuleBasedStateMachine):
         assert self.chart.vertex[self.at] == v
         assert self.robot.cost - before == shortest
 
-    @rule(data=st.data())
+    @stateful.rule(data=st.data())
     def go_out_and_come_back(self, data: st.DataObject) -> None:
         """Any excursion, retraced, ends where it began, turned by what `turned` says."""
         doors = data.draw(st.lists(st.integers(0, 7), min_size=1, max_size=5))
@@ -81,8 +73,8 @@ class Exploration(RuleBasedStateMachine):
         assert self.robot.cost - before == 2 * len(doors)
         self.at = self.chart.turn(self.at, self.pilot.turned)
 
-    @precondition(lambda self: self.chart.unexplored)
-    @rule(data=st.data())
+    @stateful.precondition(lambda self: self.chart.unexplored)
+    @stateful.rule(data=st.data())
     def the_way_home_of_a_hypothesis_leads_home(self, data: st.DataObject) -> None:
         """If it is true: from the place of any known dart, by its doors, to what it expects."""
         h = data.draw(st.sampled_from(range(len(self.image))))
@@ -109,12 +101,12 @@ class Exploration(RuleBasedStateMachine):
 
     # ------------------------------------------------------------ what is true at any time
 
-    @invariant()
+    @stateful.invariant()
     def the_robot_stands_where_s_says(self) -> None:
         at = self.image[self.at]
         assert self.robot.percept == percepts(self.world)[at] == self.chart.percepts[self.at]
 
-    @invariant()
+    @stateful.invariant()
     def s_is_a_part_of_the_world(self) -> None:
         assert len(set(self.image)) == len(self.image) == len(self.chart.alpha)
         for dart, other in enumerate(self.chart.alpha):
@@ -124,7 +116,7 @@ class Exploration(RuleBasedStateMachine):
             if other is not None:
                 assert self.world.alpha[self.image[dart]] == self.image[other]
 
-    @invariant()
+    @stateful.invariant()
     def unexplored_is_what_has_no_other_end(self) -> None:
         open_darts = [dart for dart, other in enumerate(self.chart.alpha) if other is None]
         assert list(self.chart.unexplored) == open_darts
@@ -132,14 +124,14 @@ class Exploration(RuleBasedStateMachine):
             drawn = self.chart.survey(self.robot.cost)
             assert World.from_map(drawn).is_isomorphic(self.world)
 
-    @invariant()
+    @stateful.invariant()
     def every_move_is_on_record(self) -> None:
         moves = [event for event in self.robot.events if isinstance(event, Move)]
         assert len(moves) == self.robot.cost == self.pilot.cost
 
 
 def test_whatever_is_explored_in_whatever_order_s_stays_true() -> None:
-    run_state_machine_as_test(
+    stateful.run_state_machine_as_test(
         Exploration,
         settings=settings(max_examples=settings().max_examples, stateful_step_count=30),
     )
@@ -169,4 +161,4 @@ def test_a_planted_fault_is_seen(
     monkeypatch.setattr(part, name, fault)
     quick = settings(phases=[Phase.generate], stateful_step_count=30, database=None)
     with pytest.raises(AssertionError):
-        run_state_machine_as_test(Exploration, settings=quick)
+        stateful.run_state_machine_as_test(Exploration, settings=quick)

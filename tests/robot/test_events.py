@@ -13,27 +13,12 @@ from hypothesis.vendor.pretty import pretty
 import topo_verify
 from tests.helpers import any_world, trace_of
 from topo_verify import InputError, World
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Evidence,
-    Finish,
-    MapData,
-    Move,
-    Policies,
-    Pose,
-    Record,
-    Reject,
-    Start,
-    read_trace,
-    write_trace,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
-START = Start(algorithm="basic", policies=Policies(), world="m1/0", percept=Percept(1, 0))
+START = ev.Start(algorithm="basic", policies=ev.Policies(), world="m1/0", percept=Percept(1, 0))
 
-EVENTS: list[tuple[Event, dict[str, Any]]] = [
+EVENTS: list[tuple[ev.Event, dict[str, Any]]] = [
     (
         START,
         {
@@ -43,26 +28,26 @@ EVENTS: list[tuple[Event, dict[str, Any]]] = [
         },
     ),
     (
-        Start(percept=Percept(0, None)),
+        ev.Start(percept=Percept(0, None)),
         {
             "type": "start", "format": "topo-verify/trace", "version": 1, "algorithm": None,
             "policies": None, "world": None, "percept": {"degree": 0, "marker": None},
         },
     ),
     (
-        Move(2, Percept(3, None), "cross"),
+        ev.Move(2, Percept(3, None), "cross"),
         {
             "type": "move", "door": 2, "percept": {"degree": 3, "marker": None},
             "purpose": "cross",
         },
     ),
     (
-        Move(0, Percept(3, 1)),
+        ev.Move(0, Percept(3, 1)),
         {"type": "move", "door": 0, "percept": {"degree": 3, "marker": 1}, "purpose": None},
     ),
-    (Pose(4, (5, 6)), {"type": "pose", "edge": 4, "hypotheses": [5, 6]}),
+    (ev.Pose(4, (5, 6)), {"type": "pose", "edge": 4, "hypotheses": [5, 6]}),
     (
-        Reject(4, 5, "motion", Evidence(0, Percept(3, 0), Percept(3, 1))),
+        ev.Reject(4, 5, "motion", ev.Evidence(0, Percept(3, 0), Percept(3, 1))),
         {
             "type": "reject", "edge": 4, "hypothesis": 5, "rule": "motion",
             "evidence": {
@@ -73,9 +58,11 @@ EVENTS: list[tuple[Event, dict[str, Any]]] = [
         },
     ),
     (
-        Reject(
+        ev.Reject(
             4, 5, "records",
-            Evidence(1, Percept(2, None), Percept(3, 1), sequence=0, at=7, record=Record(7, (1,))),
+            ev.Evidence(
+                1, Percept(2, None), Percept(3, 1), sequence=0, at=7, record=ev.Record(7, (1,))
+            ),
         ),
         {
             "type": "reject", "edge": 4, "hypothesis": 5, "rule": "records",
@@ -88,15 +75,15 @@ EVENTS: list[tuple[Event, dict[str, Any]]] = [
         },
     ),
     (
-        Confirm(4, 6, "motion"),
+        ev.Confirm(4, 6, "motion"),
         {"type": "confirm", "edge": 4, "hypothesis": 6, "rule": "motion"},
     ),
     (
-        Augment(4, "loop", 6, 3),
+        ev.Augment(4, "loop", 6, 3),
         {"type": "augment", "edge": 4, "kind": "loop", "dart": 6, "degree": 3},
     ),
     (
-        Finish(5, MapData(((0,), (1,)), ((0, 1),), 0)),
+        ev.Finish(5, ev.MapData(((0,), (1,)), ((0, 1),), 0)),
         {
             "type": "finish", "cost": 5,
             "map": {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0},
@@ -107,9 +94,9 @@ EVENTS: list[tuple[Event, dict[str, Any]]] = [
 
 @pytest.mark.parametrize(("event", "expected"), EVENTS)
 def test_an_event_is_written_with_exactly_these_fields(
-    event: Event, expected: dict[str, Any]
+    event: ev.Event, expected: dict[str, Any]
 ) -> None:
-    written = json.loads(write_trace([event]))
+    written = json.loads(ev.write_trace([event]))
     assert written == expected
     assert list(written) == list(expected)
 
@@ -117,30 +104,30 @@ def test_an_event_is_written_with_exactly_these_fields(
 @pytest.mark.parametrize("rule", ["motion", "prefix", "history", "records", "folding", "planar"])
 def test_a_rule_has_one_of_the_names_of_the_interface(rule: str) -> None:
     line = {"type": "confirm", "edge": 0, "hypothesis": 1, "rule": rule}
-    trace = read_trace(write_trace([START]) + json.dumps(line).encode())
-    assert isinstance(trace[1], Confirm)
+    trace = ev.read_trace(ev.write_trace([START]) + json.dumps(line).encode())
+    assert isinstance(trace[1], ev.Confirm)
     assert trace[1].rule == rule
 
 
 def test_what_was_written_is_read_back_a_line_an_event() -> None:
     trace = (START, *(event for event, _ in EVENTS[2:]))
-    text = write_trace(trace)
+    text = ev.write_trace(trace)
     assert text.count(b"\n") == len(trace)
-    assert read_trace(text) == trace
+    assert ev.read_trace(text) == trace
 
 
 @given(world=any_world(max_edges=5))
 def test_real_traces_survive_the_round_trip(world: World) -> None:
     trace = trace_of(world, "enhancement-iii-all+i")
-    assert read_trace(write_trace(trace)) == trace
+    assert ev.read_trace(ev.write_trace(trace)) == trace
 
 
 def test_a_byte_order_mark_is_passed_over_at_the_begin_and_nowhere_else() -> None:
-    text = write_trace([START, Move(0, Percept(1, None))])
-    assert read_trace(BOM_UTF8 + text) == read_trace(text)
+    text = ev.write_trace([START, ev.Move(0, Percept(1, None))])
+    assert ev.read_trace(BOM_UTF8 + text) == ev.read_trace(text)
     start, move = text.splitlines(keepends=True)
     with pytest.raises(InputError, match="trace, line 2"):
-        read_trace(start + BOM_UTF8 + move)
+        ev.read_trace(start + BOM_UTF8 + move)
 
 
 def test_a_trace_may_hold_only_start_and_moves_without_purposes_and_more_fields() -> None:
@@ -149,9 +136,9 @@ def test_a_trace_may_hold_only_start_and_moves_without_purposes_and_more_fields(
         b'"percept":{"degree":1,"marker":0},"made_by":"hand"}\n\n'
         b'{"type":"move","door":0,"percept":{"degree":1,"marker":null}}\n'
     )
-    assert read_trace(text) == (
-        Start(percept=Percept(1, 0)),
-        Move(0, Percept(1, None)),
+    assert ev.read_trace(text) == (
+        ev.Start(percept=Percept(1, 0)),
+        ev.Move(0, Percept(1, None)),
     )
 
 
@@ -178,19 +165,19 @@ def test_a_trace_may_hold_only_start_and_moves_without_purposes_and_more_fields(
 )
 def test_a_line_that_is_no_event_is_refused_by_its_number(line: bytes) -> None:
     with pytest.raises(InputError, match=r"^t\.jsonl, line 2: expected an event of a trace: "):
-        read_trace(write_trace([START]) + line, name="t.jsonl")
+        ev.read_trace(ev.write_trace([START]) + line, name="t.jsonl")
 
 
-@pytest.mark.parametrize("trace", [[], [Move(0, Percept(1, None))]])
-def test_a_trace_begins_with_start(trace: list[Event]) -> None:
+@pytest.mark.parametrize("trace", [[], [ev.Move(0, Percept(1, None))]])
+def test_a_trace_begins_with_start(trace: list[ev.Event]) -> None:
     with pytest.raises(InputError, match="begins with a line of type 'start'"):
-        read_trace(write_trace(trace))
+        ev.read_trace(ev.write_trace(trace))
 
 
 def test_a_newer_version_is_refused_with_what_to_do() -> None:
-    newer = write_trace([START]).replace(b'"version":1', b'"version":2')
+    newer = ev.write_trace([START]).replace(b'"version":1', b'"version":2')
     with pytest.raises(InputError, match=r"version 2 is newer than 1, .* update it"):
-        read_trace(newer)
+        ev.read_trace(newer)
 
 
 def test_equal_moves_of_a_log_are_one_object() -> None:
@@ -198,7 +185,7 @@ def test_equal_moves_of_a_log_are_one_object() -> None:
         b'{"type": "start", "percept": {"degree": 1, "marker": 0}}',
         b'{"type": "move", "door": 0, "percept": {"degree": 1, "marker": null}}',
     )
-    _, one, other = read_trace(b"\n".join((start, move, move)))
+    _, one, other = ev.read_trace(b"\n".join((start, move, move)))
     assert one is other
 
 
@@ -213,15 +200,15 @@ def test_equal_moves_of_a_log_are_one_object() -> None:
 def test_a_doubled_key_is_refused_by_name(line: bytes, key: str) -> None:
     start = b'{"type": "start", "percept": {"degree": 1, "marker": 0}}\n'
     with pytest.raises(InputError, match=f"line 2: the key '{key}' stands twice"):
-        read_trace(start + line)
+        ev.read_trace(start + line)
 
 
 def test_numbers_of_any_length_in_unknown_fields_are_ignored() -> None:
     start = b'{"type": "start", "x": %s, "percept": {"degree": 1, "marker": 0}}' % (b"7" * 5000)
-    assert read_trace(start) == (Start(percept=Percept(1, 0)),)
+    assert ev.read_trace(start) == (ev.Start(percept=Percept(1, 0)),)
 
 
 def test_policies_print_as_code_that_makes_them_again() -> None:
-    chosen = Policies("last", "random(3)")
+    chosen = ev.Policies("last", "random(3)")
     assert eval(repr(chosen), {"tv": topo_verify}) == chosen  # noqa: S307  as pasted
     assert pretty(chosen) == repr(chosen) == "tv.Policies(pick='last', order='random(3)')"

@@ -8,18 +8,8 @@ import numpy as np
 import pytest
 
 from topo_verify import World
+from topo_verify.robot import events as ev
 from topo_verify.robot import trace_store
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Evidence,
-    Finish,
-    Move,
-    Pose,
-    Reject,
-    Start,
-)
 from topo_verify.robot.limits import BudgetExceeded, MapperStopped, WorldTimeout
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
@@ -34,7 +24,7 @@ def robot() -> SimulatedRobot:
 def test_every_move_costs_one_and_is_recorded_with_what_was_sensed(robot: SimulatedRobot) -> None:
     seen = [robot.move(1, "cross"), robot.move(0)]
     assert robot.cost == 2
-    assert robot.events == [Move(1, seen[0], "cross"), Move(0, seen[1])]
+    assert robot.events == [ev.Move(1, seen[0], "cross"), ev.Move(0, seen[1])]
     assert robot.percept == seen[1] == Percept(3, 2)
 
 
@@ -43,13 +33,13 @@ def test_a_mapper_gets_a_handle_with_three_things_and_no_trace(robot: SimulatedR
     assert [name for name in dir(handle) if name[0] != "_"] == ["declare", "move", "percept"]
     assert handle.percept == robot.percept
     assert handle.move(1, "cross") == robot.percept == handle.percept
-    handle.declare(Pose(0, (1, 2)))
-    assert robot.events == [Move(1, robot.percept, "cross"), Pose(0, (1, 2))]
+    handle.declare(ev.Pose(0, (1, 2)))
+    assert robot.events == [ev.Move(1, robot.percept, "cross"), ev.Pose(0, (1, 2))]
     assert robot.darts == 4
 
 
 def test_looking_and_declaring_cost_nothing(robot: SimulatedRobot) -> None:
-    robot.declare(Pose(0, (1, 2)))
+    robot.declare(ev.Pose(0, (1, 2)))
     assert (robot.cost, robot.percept, robot.stopped) == (0, Percept(3, 0), None)
 
 
@@ -72,7 +62,7 @@ def test_a_door_may_be_any_integer_type_and_is_recorded_as_an_integer() -> None:
     robot.move(np.int8(0))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     robot.move(np.int8(127))  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     assert robot.move(0).marker == (200 - 127 - 127) % 200
-    assert all(type(event.door) is int for event in robot.events if isinstance(event, Move))
+    assert all(type(event.door) is int for event in robot.events if isinstance(event, ev.Move))
 
 
 def star(leaves: int) -> tuple[int, ...]:
@@ -109,7 +99,7 @@ def test_once_stopped_it_does_nothing_more_and_always_says_the_first_reason(
         robot.move(7)
     for attempt in (
         lambda: robot.move(0),
-        lambda: robot.declare(Pose(0, ())),
+        lambda: robot.declare(ev.Pose(0, ())),
         lambda: robot.move(9),
     ):
         with pytest.raises(Misuse) as again:
@@ -123,7 +113,7 @@ def test_a_move_that_a_time_limit_struck_before_it_was_recorded_is_taken_back(
 ) -> None:
     robot.move(0)
 
-    def struck(*_: object) -> Event:
+    def struck(*_: object) -> ev.Event:
         raise WorldTimeout("in the middle of a move")
 
     monkeypatch.setattr(trace_store, "move", struck)
@@ -153,14 +143,14 @@ def test_what_stops_a_mapper_is_no_exception_that_it_would_catch_by_accident() -
 @pytest.mark.parametrize(
     ("told", "meant"),
     [
-        ({"type": "pose", "edge": 0, "hypotheses": [1, 2]}, Pose(0, (1, 2))),
+        ({"type": "pose", "edge": 0, "hypotheses": [1, 2]}, ev.Pose(0, (1, 2))),
         (
             {"type": "confirm", "edge": 0, "hypothesis": 2, "rule": "motion"},
-            Confirm(0, 2, "motion"),
+            ev.Confirm(0, 2, "motion"),
         ),
         (
             {"type": "augment", "edge": 0, "kind": "loop", "dart": 2, "degree": 3},
-            Augment(0, "loop", 2, 3),
+            ev.Augment(0, "loop", 2, 3),
         ),
         (
             {
@@ -171,12 +161,12 @@ def test_what_stops_a_mapper_is_no_exception_that_it_would_catch_by_accident() -
                     "observed": {"degree": 3, "marker": 1},
                 },
             },
-            Reject(0, 1, "motion", Evidence(0, Percept(3, 2), Percept(3, 1))),
+            ev.Reject(0, 1, "motion", ev.Evidence(0, Percept(3, 2), Percept(3, 1))),
         ),
     ],
 )  # fmt: skip
 def test_a_decision_may_be_declared_as_an_event_or_as_its_json(
-    robot: SimulatedRobot, told: dict[str, Any], meant: Pose
+    robot: SimulatedRobot, told: dict[str, Any], meant: ev.Pose
 ) -> None:
     robot.declare(told)
     robot.declare(meant)
@@ -186,8 +176,8 @@ def test_a_decision_may_be_declared_as_an_event_or_as_its_json(
 def test_the_darts_of_a_decision_may_be_of_any_integer_type(robot: SimulatedRobot) -> None:
     robot.declare({"type": "pose", "edge": np.int64(0), "hypotheses": (np.int8(1), 2)})
     (pose,) = robot.events
-    assert pose == Pose(0, (1, 2))
-    assert isinstance(pose, Pose)
+    assert pose == ev.Pose(0, (1, 2))
+    assert isinstance(pose, ev.Pose)
     assert type(pose.edge) is int
 
 
@@ -207,11 +197,11 @@ def test_the_darts_of_a_decision_may_be_of_any_integer_type(robot: SimulatedRobo
         {"type": "pose", "edge": 0, "hypotheses": [object()]},
         {"type": "confirm", "edge": 0, "hypothesis": 1, "rule": "instinct"},
         {"type": "move", "door": 0, "percept": {"degree": 3, "marker": 0}},
-        Move(0, Percept(3, 0)),
-        Start(percept=Percept(3, 0)),
-        Pose(0, None),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
-        Pose("0", ()),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
-        Finish,
+        ev.Move(0, Percept(3, 0)),
+        ev.Start(percept=Percept(3, 0)),
+        ev.Pose(0, None),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+        ev.Pose("0", ()),  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+        ev.Finish,
     ],
 )
 def test_what_is_no_decision_stops_the_robot(robot: SimulatedRobot, nonsense: Any) -> None:

@@ -9,17 +9,7 @@ from hypothesis.strategies import SearchStrategy
 
 from tests.strategies import features
 from tests.strategies.features import Condition
-from topo_verify import World
-from topo_verify.strategies import (
-    dense_worlds,
-    lattices,
-    nonplanar_worlds,
-    planar_worlds,
-    symmetric_worlds,
-    tree_worlds,
-    uniform_worlds,
-    worlds,
-)
+from topo_verify import World, strategies
 
 FEATURES: dict[str, Condition] = {
     "loop": features.has_loop,
@@ -33,14 +23,17 @@ FEATURES: dict[str, Condition] = {
 }
 
 STRATEGIES: dict[str, tuple[SearchStrategy[World], set[str]]] = {
-    "worlds": (worlds(), set()),
-    "planar_worlds": (planar_worlds(), {"genus 1", "genus 2"}),
-    "nonplanar_worlds": (nonplanar_worlds(), {"genus 0"}),
-    "tree_worlds": (tree_worlds(), set(FEATURES) - {"bridge", "genus 0", "equal signatures"}),
-    "dense_worlds": (dense_worlds(), set()),
-    "lattices": (lattices(), {"loop", "parallel edges", "genus 1", "genus 2"}),
-    "symmetric_worlds": (symmetric_worlds(), set()),
-    "uniform_worlds": (uniform_worlds(edges=7), {"closing at distance 3"}),
+    "worlds": (strategies.worlds(), set()),
+    "planar_worlds": (strategies.planar_worlds(), {"genus 1", "genus 2"}),
+    "nonplanar_worlds": (strategies.nonplanar_worlds(), {"genus 0"}),
+    "tree_worlds": (
+        strategies.tree_worlds(),
+        set(FEATURES) - {"bridge", "genus 0", "equal signatures"},
+    ),
+    "dense_worlds": (strategies.dense_worlds(), set()),
+    "lattices": (strategies.lattices(), {"loop", "parallel edges", "genus 1", "genus 2"}),
+    "symmetric_worlds": (strategies.symmetric_worlds(), set()),
+    "uniform_worlds": (strategies.uniform_worlds(edges=7), {"closing at distance 3"}),
 }
 """Each strategy, and what its worlds cannot have.
 
@@ -68,14 +61,20 @@ def test_a_hundred_examples_have_all_that_there_can_be(name: str) -> None:
 
 
 TIGHT: dict[str, SearchStrategy[World]] = {
-    "cubic of genus 2, as small as can be": worlds(min_genus=2, max_degree=3, max_edges=9),
-    "cubic of genus 3": nonplanar_worlds(genus=3, max_degree=3, max_edges=18),
-    "simple of genus 1, as small as can be": worlds(simple=True, min_genus=1, max_edges=5),
-    "simple of genus 2": nonplanar_worlds(genus=2, simple=True, max_degree=4, max_edges=12),
-    "a leaf and genus 2": worlds(marker="leaf", min_genus=2, max_degree=4, max_edges=9),
-    "dense, simple, nonplanar": dense_worlds(simple=True, min_genus=1, max_edges=10),
-    "simple necklaces": symmetric_worlds(simple=True, marker="leaf", max_degree=4),
-    "a lattice with 23 edges": lattices(min_edges=23, max_edges=23),
+    "cubic of genus 2, as small as can be": strategies.worlds(
+        min_genus=2, max_degree=3, max_edges=9
+    ),
+    "cubic of genus 3": strategies.nonplanar_worlds(genus=3, max_degree=3, max_edges=18),
+    "simple of genus 1, as small as can be": strategies.worlds(
+        simple=True, min_genus=1, max_edges=5
+    ),
+    "simple of genus 2": strategies.nonplanar_worlds(
+        genus=2, simple=True, max_degree=4, max_edges=12
+    ),
+    "a leaf and genus 2": strategies.worlds(marker="leaf", min_genus=2, max_degree=4, max_edges=9),
+    "dense, simple, nonplanar": strategies.dense_worlds(simple=True, min_genus=1, max_edges=10),
+    "simple necklaces": strategies.symmetric_worlds(simple=True, marker="leaf", max_degree=4),
+    "a lattice with 23 edges": strategies.lattices(min_edges=23, max_edges=23),
 }
 
 

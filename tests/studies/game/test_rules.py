@@ -12,23 +12,15 @@ from tests.helpers import worlds
 from topo_verify.checkers import Fold
 from topo_verify.errors import InternalError
 from topo_verify.robot.percept import Percept
+from topo_verify.studies.game import folds
 from topo_verify.studies.game.class_game import ClassRules
 from topo_verify.studies.game.drawn import DrawnWorld
 from topo_verify.studies.game.endings import is_closed, is_planar, is_single_of_vertices
-from topo_verify.studies.game.folds import (
-    ABSENT,
-    OPEN,
-    FoldCode,
-    crossed,
-    first_fold,
-    open_darts,
-    quotients,
-)
 from topo_verify.studies.game.proof_game import GameEnding, ProofRules
 from topo_verify.studies.game.search import Solver
 from topo_verify.world.rooted_map import World
 
-Bound = Callable[[DrawnWorld, FoldCode, int], int]
+Bound = Callable[[DrawnWorld, folds.FoldCode, int], int]
 
 PROOF = GameEnding(is_closed, DrawnWorld.proof_bound)
 
@@ -43,7 +35,7 @@ def total(ending: GameEnding, edges: int = 2, *, mean: bool = True) -> int:
     return int(sum(values) if mean else max(values))
 
 
-def with_leaves(code: FoldCode) -> World:
+def with_leaves(code: folds.FoldCode) -> World:
     """The fold as a world, with a leaf on every open dart."""
     degrees, alpha = code
     vertices, edges, count = list[tuple[int, ...]](), list[tuple[int, int]](), 0
@@ -51,7 +43,7 @@ def with_leaves(code: FoldCode) -> World:
         vertices.append(tuple(range(count, count + degree)))
         count += degree
     for dart, end in enumerate(alpha):
-        if end == OPEN:
+        if end == folds.OPEN:
             vertices.append((count,))
             edges.append((dart, count))
             count += 1
@@ -65,7 +57,7 @@ def test_a_fold_is_that_of_the_trusted_checkers_on_every_walk() -> None:
     for world in worlds([1, 2, 3]):
         robot = DrawnWorld(world.code)
         dart, (degree, _) = 0, robot.sight(0)
-        ours, at = first_fold(degree), 0
+        ours, at = folds.first_fold(degree), 0
         theirs = Fold(Percept(degree, 0))
         for _ in range(8):
             door = rng.randrange(robot.sight(dart)[0])
@@ -74,9 +66,11 @@ def test_a_fold_is_that_of_the_trusted_checkers_on_every_walk() -> None:
             )
             dart = robot.alpha[robot.turned(dart, door)]
             degree, marker = robot.sight(dart)
-            theirs.move(door, Percept(degree, None if marker == ABSENT else marker))
+            theirs.move(door, Percept(degree, None if marker == folds.ABSENT else marker))
             end = ours[1][here]
-            ours, at = (ours, end) if end != OPEN else crossed(ours, here, (degree, marker))
+            ours, at = (
+                (ours, end) if end != folds.OPEN else folds.crossed(ours, here, (degree, marker))
+            )
             assert robot.placed(ours)[at] == dart
             assert with_leaves(ours).code == theirs.world().code
             assert is_closed(ours) == (theirs.open_darts() == 0)
@@ -84,7 +78,7 @@ def test_a_fold_is_that_of_the_trusted_checkers_on_every_walk() -> None:
                 assert ours == world.code
 
 
-def _turns(robot: DrawnWorld, code: FoldCode, at: int) -> list[tuple[int, int]]:
+def _turns(robot: DrawnWorld, code: folds.FoldCode, at: int) -> list[tuple[int, int]]:
     """The darts of the robot's vertex in the fold, each with the dart of the world that it is."""
     images = robot.placed(code)
     vertex = next(v for v in with_leaves(code).vertices if at in v)
@@ -101,7 +95,7 @@ def test_with_the_map_in_hand_the_game_costs_the_least_cost_of_a_proof(edges: in
             assert solver.value(start._replace(open=(number,))) == least
 
 
-def one_a_move(_world: DrawnWorld, _code: FoldCode, _at: int) -> int:
+def one_a_move(_world: DrawnWorld, _code: folds.FoldCode, _at: int) -> int:
     """The bound that needs no argument: the game is not over."""
     return 1
 
@@ -144,7 +138,7 @@ def test_what_moves_cannot_tell_apart_is_bounded_below(edges: int) -> None:
 
 
 def test_a_planted_bound_that_is_too_high_is_seen() -> None:
-    def too_high(world: DrawnWorld, code: FoldCode, at: int) -> int:
+    def too_high(world: DrawnWorld, code: folds.FoldCode, at: int) -> int:
         return world.proof_bound(code, at) + 1
 
     with pytest.raises(InternalError, match="below its bound"):
@@ -152,8 +146,8 @@ def test_a_planted_bound_that_is_too_high_is_seen() -> None:
 
 
 def test_a_planted_end_that_comes_too_early_is_seen() -> None:
-    def too_early(code: FoldCode) -> bool:
-        return len(open_darts(code)) <= 1
+    def too_early(code: folds.FoldCode) -> bool:
+        return len(folds.open_darts(code)) <= 1
 
     with pytest.raises(InternalError, match="which proves one"):
         total(GameEnding(too_early, one_a_move))
@@ -161,12 +155,12 @@ def test_a_planted_end_that_comes_too_early_is_seen() -> None:
 
 # ---------------------------------------------------------------- quotients
 
-TWO_ALIKE: FoldCode = ((2, 2, 2), (2, 4, 0, OPEN, 1, OPEN))
+TWO_ALIKE: folds.FoldCode = ((2, 2, 2), (2, 4, 0, folds.OPEN, 1, folds.OPEN))
 """The marker between two vertices of degree 2 that may be one."""
 
 
 def test_the_quotients_of_a_path_of_three() -> None:
-    assert set(quotients(TWO_ALIKE)) == {TWO_ALIKE, ((2, 2), (2, 3, 0, 1))}
+    assert set(folds.quotients(TWO_ALIKE)) == {TWO_ALIKE, ((2, 2), (2, 3, 0, 1))}
 
 
 def test_three_vertices_leave_one_world_and_two_leave_one_and_four_do_not() -> None:
@@ -181,7 +175,7 @@ def test_planar_folds_are_those_of_genus_0(edges: int) -> None:
 
 
 def test_leaves_change_nothing_about_genus() -> None:
-    handle: FoldCode = ((5,), (2, 3, 0, 1, OPEN))
+    handle: folds.FoldCode = ((5,), (2, 3, 0, 1, folds.OPEN))
     assert not is_planar(handle)
     assert is_planar(TWO_ALIKE)
     assert with_leaves(TWO_ALIKE).is_planar

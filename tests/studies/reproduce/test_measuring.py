@@ -15,23 +15,15 @@ from topo_verify.campaign.store import Store
 from topo_verify.faults import FAULTS
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.by_mapper import MapperCampaign
+from topo_verify.studies.reproduce import figures
 from topo_verify.studies.reproduce import measuring
-from topo_verify.studies.reproduce.figures import (
-    LATTICE,
-    PAIRS,
-    REFERENCE,
-    Figure,
-    FigureExtent,
-    PolicyPair,
-    Setting,
-)
 from topo_verify.studies.reproduce.measuring import PlannedRun, line_campaigns, runs_of
 from topo_verify.world.resolve import resolve_world
 
 WORLD = "family:lattice(4,4,holes=0.2,seed=3)"
-SMALL = Setting("lattice", "side", LATTICE.family, (4,), (4,))
-FIGURE = Figure("3", "a test", SMALL, ("basic", "enhancement-ii"), {})
-EXTENT = FigureExtent(graphs=2)
+SMALL = figures.Setting("lattice", "side", figures.LATTICE.family, (4,), (4,))
+FIGURE = figures.Figure("3", "a test", SMALL, ("basic", "enhancement-ii"), {})
+EXTENT = figures.FigureExtent(graphs=2)
 
 
 def made(campaigns: list[MapperCampaign], workers: int = 0) -> dict[PlannedRun, Row]:
@@ -62,12 +54,12 @@ def test_workers_make_the_same_rows(tmp_path: Path) -> None:
 
 
 def test_every_pair_of_policies_is_a_run_and_another_call_goes_on(tmp_path: Path) -> None:
-    alone = FigureExtent(graphs=1, policies=(REFERENCE,))
-    every = replace(alone, policies=PAIRS)
+    alone = figures.FigureExtent(graphs=1, policies=(figures.REFERENCE,))
+    every = replace(alone, policies=figures.PAIRS)
     with Store(tmp_path / "runs.db") as store:
         made(line_campaigns([FIGURE], alone, "reference", store))
         rows = made(line_campaigns([FIGURE], every, "reference", store))
-        assert {PolicyPair(run.pick, run.order) for run in rows} == {*PAIRS}
+        assert {figures.PolicyPair(run.pick, run.order) for run in rows} == {*figures.PAIRS}
         assert len({row.cost for row in rows.values()}) > 5
         run = PlannedRun(WORLD.replace("3)", "0)"), "basic", "last", "newest")
         assert rows[run].cost == measured(run).cost
@@ -110,5 +102,5 @@ def test_a_run_out_of_time_convicts_no_algorithm(
 def test_a_lost_worker_leaves_every_pair_undecided() -> None:
     world = resolve_world(WORLD)
     row = lost_row(world, 0, WORLD, "basic", Limits(), "signal 9", external=True)
-    assert [run[2:] for run in runs_of(row)] == [(pair.pick, pair.order) for pair in PAIRS]
+    assert [run[2:] for run in runs_of(row)] == [(pair.pick, pair.order) for pair in figures.PAIRS]
     assert row.undecided == "signal 9"
