@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from topo_verify.cli import main, runs
+from topo_verify.cli import SHORT_HELPS, main, runs
 
 Call = Callable[..., Any]
 COMMANDS = (
@@ -141,6 +141,26 @@ def test_help_lists_the_commands_in_order_with_a_line_each(call: Call) -> None:
     lines = done.stdout.split("Commands:\n")[1].split("\n\n")[0].splitlines()
     assert [line.split()[0] for line in lines] == list(COMMANDS) == list(main.commands)
     assert not [line for line in lines if line.endswith("...")]
+
+
+def test_each_command_has_the_name_and_the_line_that_the_table_gives_it() -> None:
+    commands = main.commands.items()
+    assert all(command.name == name for name, command in commands)
+    assert {name: one.get_short_help_str() for name, one in commands} == SHORT_HELPS
+
+
+@pytest.mark.parametrize("option", ["--help", "--version"])
+def test_no_command_is_imported_for_the_help_page_and_the_version(option: str) -> None:
+    code = f"""
+import sys
+from topo_verify.cli import SHORT_HELPS, main
+try:
+    main(["{option}"])
+finally:
+    print([n for n in [*SHORT_HELPS, "options"] if f"topo_verify.cli.{{n}}" in sys.modules])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.stdout.endswith("[]\n"), done.stderr
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS, *(leaf for leaf in LEAVES if " " in leaf)])

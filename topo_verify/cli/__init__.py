@@ -10,6 +10,8 @@ reporting.py  --report, --junit, --badge; accounts.py: what results come to, for
 walks.py      the walks and worlds of counterexamples
 progress.py   the bar on stderr
 failures.py   exit codes, and the sentences that go with them
+
+The module of a command is imported when the command is called.
 """
 
 from __future__ import annotations
@@ -17,29 +19,14 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from importlib import import_module
 from typing import Any, NoReturn, TextIO
 
 import click
 from click.shell_completion import shell_complete
 
-from topo_verify.cli import options
-from topo_verify.cli.arena import arena
-from topo_verify.cli.certify import certify
-from topo_verify.cli.compare import compare
-from topo_verify.cli.conform import conform
-from topo_verify.cli.explore import explore
-from topo_verify.cli.failures import ExitCode, explain, say, silence, version
-from topo_verify.cli.faults import faults
-from topo_verify.cli.play import play
-from topo_verify.cli.prove import prove
-from topo_verify.cli.record import record
-from topo_verify.cli.replay import replay
-from topo_verify.cli.reproduce import reproduce
-from topo_verify.cli.search import search
-from topo_verify.cli.tour import tour
-from topo_verify.cli.verify import verify
-from topo_verify.cli.world import world
+from topo_verify.cli.failures import ExitCode, epilog, explain, say, silence, version
 from topo_verify.programs.isolation import own_arguments
 
 __all__ = ["main"]
@@ -48,8 +35,44 @@ _COMPLETE = "_TOPO_VERIFY_COMPLETE"
 """A shell that completes a line sets this environment variable (see click's manual)."""
 
 
+SHORT_HELPS = {
+    "verify": "Check the catalogue, or a mapper of your own, in one report.",
+    "explore": "Run algorithms in given worlds: costs and verdicts.",
+    "world": "Show, list, convert, count, sample and draw worlds.",
+    "search": "Find the smallest counterexample among all worlds of up to N edges.",
+    "prove": "Prove the theorems behind the claims: Z3 and Coq.",
+    "faults": "Show which check finds which mistake, in faulty mappers.",
+    "conform": "Compare an implementation, in any language, with the reference.",
+    "record": "Write a mapper's costs and decisions to a file, for compare.",
+    "compare": "Show what has changed since a baseline was recorded.",
+    "replay": "Show a counterexample again, or judge a trace again.",
+    "play": "Show runs in a browser, step by step, two side by side.",
+    "certify": "Judge a log with no world: is its map proved?",
+    "tour": "Print the cheapest walk that proves the map of a known world.",
+    "arena": "Rank mappers by cost, only sound ones.",
+    "reproduce": "The paper's figures, side by side with its numbers.",
+}
+"""The commands, most important first, with their lines in --help."""
+
+
+class Commands(Mapping[str, click.Command]):
+    """The commands by name. The module of one is imported when the command is asked for."""
+
+    def __getitem__(self, name: str) -> click.Command:
+        short_help = SHORT_HELPS[name]
+        command: click.Command = getattr(import_module(f"topo_verify.cli.{name}"), name)
+        command.short_help = short_help
+        return command
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(SHORT_HELPS)
+
+    def __len__(self) -> int:
+        return len(SHORT_HELPS)
+
+
 class CommandLine(click.Group):
-    """The group of all commands, most important first; it maps how one ends to an exit code.
+    """The group of all commands; it maps how one ends to an exit code.
 
     It replaces click's own `main`, which exits 1 on an interrupt or a closed pipe. Here only a
     claim that fails exits 1.
@@ -58,6 +81,15 @@ class CommandLine(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002  click's signature
         """The names of the commands, in the order in which they were added."""
         return list(self.commands)
+
+    def format_commands(
+        self,
+        ctx: click.Context,  # noqa: ARG002  click's signature
+        formatter: click.HelpFormatter,
+    ) -> None:
+        """Write the commands into --help, and import none of them."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(SHORT_HELPS.items()))
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -117,7 +149,8 @@ def _flushed(code: int) -> int:
     "topo-verify",
     cls=CommandLine,
     context_settings={"help_option_names": ["-h", "--help"]},
-    epilog=options.epilog("verify", "verify my_mapper.py:explore", "explore nyc"),
+    commands=Commands(),
+    epilog=epilog("verify", "verify my_mapper.py:explore", "explore nyc"),
 )
 @click.version_option(version(), message="%(prog)s %(version)s")
 def main() -> None:
@@ -125,23 +158,3 @@ def main() -> None:
 
     The mapper is not trusted: it runs in a world, and every claim about it is judged on its trace.
     """
-
-
-for command in (
-    verify,
-    explore,
-    world,
-    search,
-    prove,
-    faults,
-    conform,
-    record,
-    compare,
-    replay,
-    play,
-    certify,
-    tour,
-    arena,
-    reproduce,
-):
-    main.add_command(command)

@@ -36,15 +36,11 @@ from topo_verify.studies.arena.match import matches, measure
 from topo_verify.studies.arena.suites import DEFAULT, SUITES, Suite, chosen_suites
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Rank mappers by cost, only sound ones.",
-    epilog=options.epilog(
-        "arena basic,folding",
-        "arena basic,folding my_mapper.py:explore --suite lattices,regular",
-        "arena --game 3",
-        "arena all --cmd './mapper --fast' --suite all --seed 20261 --out league",
-    ),
+@options.command(
+    "arena basic,folding",
+    "arena basic,folding my_mapper.py:explore --suite lattices,regular",
+    "arena --game 3",
+    "arena all --cmd './mapper --fast' --suite all --seed 20261 --out league",
 )
 @click.argument("texts", nargs=-1, metavar="[TARGET]...")
 @click.option(

@@ -142,16 +142,12 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     kernel: KernelCheck | None
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Judge a log with no world: is its map proved?",
-    epilog=options.epilog(
-        "certify log.jsonl",
-        "certify log.jsonl -o map.json",
-        "certify log.jsonl --witness worlds",
-        "certify log.jsonl --kernel",
-        "certify --check certificate_log.cert --log log.jsonl",
-    ),
+@options.command(
+    "certify log.jsonl",
+    "certify log.jsonl -o map.json",
+    "certify log.jsonl --witness worlds",
+    "certify log.jsonl --kernel",
+    "certify --check certificate_log.cert --log log.jsonl",
 )
 @click.argument("traces", nargs=-1, metavar="TRACE...")
 @click.option("-o", "map_file", metavar="MAP", help="Write the proved map (one TRACE only).")

@@ -140,13 +140,9 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
     return value
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Show what has changed since a baseline was recorded.",
-    epilog=options.epilog(
-        "compare baseline.jsonl.gz my_mapper.py:explore",
-        "compare baseline.jsonl.gz my_mapper.py:explore --tolerance 5 --format markdown",
-    ),
+@options.command(
+    "compare baseline.jsonl.gz my_mapper.py:explore",
+    "compare baseline.jsonl.gz my_mapper.py:explore --tolerance 5 --format markdown",
 )
 @click.argument("baseline", metavar="BASELINE")
 @mapper_options

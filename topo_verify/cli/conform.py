@@ -50,15 +50,11 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
     return int(found[1]), int(found[2] or found[1])
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Compare an implementation, in any language, with the reference.",
-    epilog=options.epilog(
-        "conform my_mapper.py:explore",
-        "conform --cmd './mapper --fast' --like enhancement-ii",
-        "conform --cmd ./mapper --worlds 'edges<=5' --worlds nyc --transcript DIR",
-        "conform --cmd ./simulator --batch --worlds generated:10000",
-    ),
+@options.command(
+    "conform my_mapper.py:explore",
+    "conform --cmd './mapper --fast' --like enhancement-ii",
+    "conform --cmd ./mapper --worlds 'edges<=5' --worlds nyc --transcript DIR",
+    "conform --cmd ./simulator --batch --worlds generated:10000",
 )
 @options.target
 @options.program

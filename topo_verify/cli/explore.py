@@ -57,16 +57,12 @@ class _ExploreOptions:
     choices: ListedChoices | None = None
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Run algorithms in given worlds: costs and verdicts.",
-    epilog=options.epilog(
-        "explore nyc",
-        "explore m3/14 --target basic,enhancement-ii --trace FILE",
-        "explore m2/8 --target folding+planar --choices 0,1",
-        "explore nyc --target folding --marker all --svg heat.svg",
-        "explore 'family:lattice(10,10,holes=0.2)' --target my_mapper.py:explore",
-    ),
+@options.command(
+    "explore nyc",
+    "explore m3/14 --target basic,enhancement-ii --trace FILE",
+    "explore m2/8 --target folding+planar --choices 0,1",
+    "explore nyc --target folding --marker all --svg heat.svg",
+    "explore 'family:lattice(10,10,holes=0.2)' --target my_mapper.py:explore",
 )
 @click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
 @options.algorithms(

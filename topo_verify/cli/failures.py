@@ -20,7 +20,6 @@ import traceback
 from collections.abc import Sequence
 from contextlib import suppress
 from enum import IntEnum
-from importlib import metadata
 from pathlib import Path
 from typing import IO
 
@@ -31,11 +30,6 @@ from topo_verify.text import LINE, shown
 
 TRACEBACK = "TOPO_VERIFY_TRACEBACK"
 """If this environment variable is 1, a bug is reported with its whole traceback."""
-
-SUMMARY = """\b
-Exit codes: 0 nothing found; 1 a claim fails; 2 bad usage or input;
-  3 incomplete (time-out, Ctrl-C, memory); 70 a bug of topo-verify."""
-"""The last lines of every --help. (The mark at its head tells click to keep the lines.)"""
 
 
 class ExitCode(IntEnum):
@@ -55,9 +49,22 @@ def exit_code(*, failed: bool, incomplete: bool) -> ExitCode:
     return ExitCode.INCOMPLETE if incomplete else ExitCode.NOTHING_FOUND
 
 
+def epilog(*examples: str) -> str:
+    """The end of a --help: examples, then the exit codes."""
+    # The control character tells click to keep the lines of a paragraph.
+    lines = "\n".join(f"  topo-verify {example}" for example in examples)
+    return f"""\b
+Examples:
+{lines}
+
+\b
+Exit codes: 0 nothing found; 1 a claim fails; 2 bad usage or input;
+  3 incomplete (time-out, Ctrl-C, memory); 70 a bug of topo-verify."""
+
+
 def version() -> str:
-    """The version of the package."""
-    return metadata.version("topo-verify")
+    """The version of the package: to import importlib.metadata takes as long as all of --help."""
+    return str(sys.modules["topo_verify"].__version__)
 
 
 def say(sentence: str) -> None:

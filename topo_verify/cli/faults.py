@@ -38,14 +38,8 @@ WIDTHS = (29, 21, 13, 5, 3)
 """Eighty columns have no room for the part: it is printed above its first fault."""
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Show which check finds which mistake, in faulty mappers.",
-    epilog=options.epilog(
-        "faults",
-        "faults restores-with-the-wrong-sign",
-        "faults --by properties --format markdown",
-    ),
+@options.command(
+    "faults", "faults restores-with-the-wrong-sign", "faults --by properties --format markdown"
 )
 @click.argument("names", nargs=-1, metavar="[NAME...]")
 @click.option(

@@ -15,7 +15,7 @@ from click.shell_completion import CompletionItem
 from topo_verify.campaign.engines import ENGINES
 from topo_verify.campaign.targets import target_text
 from topo_verify.checkers.claims import LARGE
-from topo_verify.cli.failures import SUMMARY
+from topo_verify.cli.failures import epilog
 from topo_verify.errors import InputError
 from topo_verify.robot.limits import MOST_SECONDS, Limits
 from topo_verify.text import shown
@@ -77,10 +77,12 @@ def aliases(option: click.Parameter) -> Sequence[str]:
     return option.opts[1:] if isinstance(option, AliasedOption) else ()
 
 
-def epilog(*examples: str) -> str:
-    """The end of a --help: examples, then the exit codes."""
-    lines = "\n".join(f"  topo-verify {example}" for example in examples)
-    return f"\b\nExamples:\n{lines}\n\n{SUMMARY}"
+def command(
+    *examples: str, group: click.Group | None = None, name: str | None = None
+) -> Callable[[Callable[..., int]], click.Command]:
+    """Make a command, of a group of its own if there is one, whose --help ends with examples."""
+    make = click.command if group is None else group.command
+    return make(name, cls=OnceCommand, epilog=epilog(*examples))
 
 
 def _seconds(_context: click.Context, _option: click.Parameter, value: str) -> float:

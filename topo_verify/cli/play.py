@@ -80,14 +80,10 @@ def write_animation(file: str, world: World, run: PlayedRun) -> None:
     files.write(file, animated_svg(playback, name=run.name))
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Show runs in a browser, step by step, two side by side.",
-    epilog=options.epilog(
-        "play nyc -o nyc.html",
-        "play 'family:lattice(6,6)' --target basic,enhancement-ii -o two.html",
-        "play m5/17 --target my_mapper.py:explore",
-    ),
+@options.command(
+    "play nyc -o nyc.html",
+    "play 'family:lattice(6,6)' --target basic,enhancement-ii -o two.html",
+    "play m5/17 --target my_mapper.py:explore",
 )
 @click.argument("world", metavar="WORLD")
 @options.algorithms("enhancement-ii", "Whose runs to show; of several, two stand side by side.")

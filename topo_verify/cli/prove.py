@@ -156,16 +156,12 @@ class ProveListEntry(msgspec.Struct, frozen=True):
     assumed: tuple[str, ...]
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Prove the theorems behind the claims: Z3 and Coq.",
-    epilog=options.epilog(
-        "prove",
-        "prove --list",
-        "prove percept word-confirm-step --list",
-        "prove --kind inductive --solver cvc5",
-        "prove --kind bounded --certify",
-    ),
+@options.command(
+    "prove",
+    "prove --list",
+    "prove percept word-confirm-step --list",
+    "prove --kind inductive --solver cvc5",
+    "prove --kind bounded --certify",
 )
 @click.argument("names", nargs=-1, metavar="[NAME...]")
 @click.option("--list", "listing", is_flag=True, help="List the theorems and prove nothing.")

@@ -122,13 +122,9 @@ def _opened(
             target.mapper.close()
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Write a mapper's costs and decisions to a file, for compare.",
-    epilog=options.epilog(
-        "record my_mapper.py:explore --out baseline.jsonl.gz",
-        "record basic --worlds 'edges<=5' --worlds nyc --out basic.jsonl.gz",
-    ),
+@options.command(
+    "record my_mapper.py:explore --out baseline.jsonl.gz",
+    "record basic --worlds 'edges<=5' --worlds nyc --out basic.jsonl.gz",
 )
 @click.option("--out", required=True, metavar="FILE", help="Write the baseline to FILE.")
 @click.option(

@@ -53,14 +53,10 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     stopped: str | None
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Show a counterexample again, or judge a trace again.",
-    epilog=options.epilog(
-        "replay m5/17 --target enhancement-ii",
-        "replay m2/9 --target my_mapper.py:explore --all",
-        "replay trace.jsonl",
-    ),
+@options.command(
+    "replay m5/17 --target enhancement-ii",
+    "replay m2/9 --target my_mapper.py:explore --all",
+    "replay trace.jsonl",
 )
 @click.argument("what", metavar="FILE|WORLD")
 @click.option("--target", metavar="TARGET", help="The mapper to run in WORLD.  [default: basic]")

@@ -51,14 +51,10 @@ MATPLOTLIB = (
 _Found = list[tuple[Figure, list[FigurePoint]]]
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="The paper's figures, side by side with its numbers.",
-    epilog=options.epilog(
-        "reproduce --quick",
-        "reproduce --figure 3,6d --out figures",
-        "reproduce --figure 6d --policies --graphs 10 --format json",
-    ),
+@options.command(
+    "reproduce --quick",
+    "reproduce --figure 3,6d --out figures",
+    "reproduce --figure 6d --policies --graphs 10 --format json",
 )
 @click.option(
     "--figure",

@@ -56,16 +56,12 @@ class _SearchOptions:
     in_process: bool
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Find the smallest counterexample among all worlds of up to N edges.",
-    epilog=options.epilog(
-        "search basic --edges 5",
-        "search my_mapper.py:explore --class planar --keep-going",
-        "search enhancement-i --edges 6 --ledger FILE --worst",
-        "search basic --policies every --edges 4 --worst",
-        "search --compare enhancement-ii,enhancement-i --edges 5",
-    ),
+@options.command(
+    "search basic --edges 5",
+    "search my_mapper.py:explore --class planar --keep-going",
+    "search enhancement-i --edges 6 --ledger FILE --worst",
+    "search basic --policies every --edges 4 --worst",
+    "search --compare enhancement-ii,enhancement-i --edges 5",
 )
 @options.target
 @options.program

@@ -64,14 +64,10 @@ class TourEntry(msgspec.Struct, frozen=True):
     against: LogAgainstMap | None
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Print the cheapest walk that proves the map of a known world.",
-    epilog=options.epilog(
-        "tour nyc -o tour.jsonl",
-        "tour 'family:lattice(4,4)' --player tour.html",
-        "tour plan.json --against log.jsonl",
-    ),
+@options.command(
+    "tour nyc -o tour.jsonl",
+    "tour 'family:lattice(4,4)' --player tour.html",
+    "tour plan.json --against log.jsonl",
 )
 @click.argument("world", metavar="WORLD")
 @options.marker

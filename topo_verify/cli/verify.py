@@ -34,11 +34,7 @@ from topo_verify.studies.verify.parts import Part
 from topo_verify.text import plural
 
 
-@click.command(
-    cls=options.OnceCommand,
-    short_help="Check the catalogue, or a mapper of your own, in one report.",
-    epilog=options.epilog("verify", "verify my_mapper.py:explore", "verify --quick --format json"),
-)
+@options.command("verify", "verify my_mapper.py:explore", "verify --quick --format json")
 @options.target
 @options.program
 @options.in_process

@@ -13,6 +13,7 @@ import click
 import msgspec
 
 from topo_verify.cli import options
+from topo_verify.cli.failures import epilog
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.output import options as output_options
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
@@ -36,7 +37,7 @@ FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
 by which a file of it is read again."""
 
 
-@click.group(epilog=options.epilog("world show nyc", "world count --edges 6 --class planar"))
+@click.group(epilog=epilog("world show nyc", "world count --edges 6 --class planar"))
 def world() -> None:
     """Show, list, convert, count, sample and draw worlds."""
 
@@ -76,10 +77,7 @@ class ShowEntry(msgspec.Struct, frozen=True):
     vertex_names: tuple[str, ...]
 
 
-@world.command(
-    cls=options.OnceCommand,
-    epilog=options.epilog("world show nyc", "world show m5/17 --format json"),
-)
+@options.command("world show nyc", "world show m5/17 --format json", group=world)
 @click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
 @options.marker
 @output_options
@@ -181,9 +179,8 @@ class ConvertEntry(msgspec.Struct, frozen=True):
     text: str | None
 
 
-@world.command(
-    cls=options.OnceCommand,
-    epilog=options.epilog("world convert m5/17 --to nx-json", "world convert nyc -o nyc.graphml"),
+@options.command(
+    "world convert m5/17 --to nx-json", "world convert nyc -o nyc.graphml", group=world
 )
 @click.argument("world", metavar="WORLD")
 @click.option(
@@ -261,10 +258,7 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
     return range(first, last + 1)
 
 
-@world.command(
-    cls=options.OnceCommand,
-    epilog=options.epilog("world count --edges 6", "world count --edges 1..5 --class simple"),
-)
+@options.command("world count --edges 6", "world count --edges 1..5 --class simple", group=world)
 @click.option(
     "--edges", callback=_range, required=True, metavar="N", help="Number of edges, or a range A..B."
 )
@@ -299,10 +293,8 @@ class ListEntry(msgspec.Struct, frozen=True):
     kind: str = msgspec.field(name="class")
 
 
-@world.command(
-    "list",
-    cls=options.OnceCommand,
-    epilog=options.epilog("world list --edges 3", "world list --edges 30 --class planar -n 5"),
+@options.command(
+    "world list --edges 3", "world list --edges 30 --class planar -n 5", group=world, name="list"
 )
 @click.option(
     "--edges",
@@ -379,11 +371,10 @@ class SampleEntry(msgspec.Struct, frozen=True):
     file: str | None
 
 
-@world.command(
-    cls=options.OnceCommand,
-    epilog=options.epilog(
-        "world sample --edges 20 -n 5", "world sample --strategy 'nonplanar_worlds(genus=2)' -n 5"
-    ),
+@options.command(
+    "world sample --edges 20 -n 5",
+    "world sample --strategy 'nonplanar_worlds(genus=2)' -n 5",
+    group=world,
 )
 @click.option(
     "--edges", type=click.IntRange(0, options.MAX_EDGES), metavar="N", help="Number of edges."
@@ -512,11 +503,8 @@ class DrawEntry(msgspec.Struct, frozen=True):
     text: str | None
 
 
-@world.command(
-    cls=options.OnceCommand,
-    epilog=options.epilog(
-        "world draw nyc -o nyc.svg", "world draw m5/17 --doors --darts -o m5-17.png"
-    ),
+@options.command(
+    "world draw nyc -o nyc.svg", "world draw m5/17 --doors --darts -o m5-17.png", group=world
 )
 @click.argument("world", metavar="WORLD")
 @click.option(
