@@ -53,7 +53,7 @@ from mutations import Mutant, mutants
 ROOT = Path(__file__).resolve().parent.parent
 MUTATED = ROOT / "topo_verify" / "checkers"
 OPTIONS = ("-x", "-q", "--tb=no", "--assert=plain", "-p", "no:cacheprovider")
-TESTS = ("tests/checkers", "tests/checkers/test_certificate.py", "tests/studies/test_gap.py")
+TESTS = ("tests/checkers", "tests/studies/test_gap.py")
 
 settings.register_profile(
     "mutants",  # the examples of profile ci; but who has failed is not asked for a smaller one

@@ -22,11 +22,12 @@ from hypothesis import HealthCheck, settings
 
 from tests.browser import browser, show
 from tests.long import is_long
+from tests.small_rows import small_rows
 
 if TYPE_CHECKING:
     from topo_verify.proofs.theorem import Theorem
 
-__all__ = ["browser", "show"]  # fixtures, here for all tests: Playwright starts but once
+__all__ = ["browser", "show", "small_rows"]  # fixtures, here for all tests: each made but once
 
 ROOT = Path(__file__).resolve().parent.parent
 TRACED = ("world", "robot", "checkers", "algorithms")

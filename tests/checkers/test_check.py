@@ -6,21 +6,12 @@ import pytest
 
 from tests import helpers
 from tests.checkers.example import LOOP, TRACE, WORLD, inserted
-from topo_verify import CATALOGUE, InputError, World
+from topo_verify import InputError, World
 from topo_verify.checkers import CLAIMS, Finding, check
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
-
-
-@pytest.mark.no_cover
-@pytest.mark.parametrize("edges", range(1, 5))
-def test_no_claim_fails_for_any_algorithm_on_any_world(edges: int) -> None:
-    for world in helpers.worlds([edges]):
-        for name in (name for name in CATALOGUE if helpers.fits(name, world)):
-            verdict = helpers.statuses(world, helpers.trace_of(world, name))
-            assert set(verdict.values()) == {"ok"}, (world, name, verdict)
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.checkers.test_witnesses import assert_wrong_in
-from tests.helpers import trace_of, worlds
+from tests.helpers import trace_of
 from topo_verify import World
 from topo_verify.checkers import check, decision_conclusions, entailment
 from topo_verify.checkers.darts import KnownDart
@@ -92,13 +92,6 @@ def test_without_the_prior_each_of_them_is_refuted_by_the_fold_alone(trace: Trac
     conclusion = told(said)
     assert conclusion.witness is not None
     assert not conclusion.witness.is_planar
-
-
-def test_the_algorithm_with_the_prior_is_decided_in_every_small_planar_world() -> None:
-    for world in worlds(range(1, 4)):
-        if world.is_planar:
-            for judgement in check(world, trace_of(world, "folding+planar")):
-                assert judgement.status == "ok"
 
 
 def test_what_lies_on_another_face_costs_no_folding(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,8 +15,7 @@ from topo_verify.campaign.store import Store
 from topo_verify.faults import FAULTS
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.by_mapper import MapperCampaign
-from topo_verify.studies.reproduce import figures
-from topo_verify.studies.reproduce import measuring
+from topo_verify.studies.reproduce import figures, measuring
 from topo_verify.studies.reproduce.measuring import PlannedRun, line_campaigns, runs_of
 from topo_verify.world.resolve import resolve_world
 
