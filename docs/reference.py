@@ -40,7 +40,7 @@ ENTRIES = {
     "world convert": "world.ConvertEntry",
     "world sample": "world.SampleEntry",
     "world draw": "world.DrawEntry",
-    "search": "searched.SearchEntry",
+    "search": "search.SearchEntry",
     "prove": "prove.ProveEntry prove.ProveListEntry",
     "faults": "faults.Caught",
     "conform": "conform.LevelResult",

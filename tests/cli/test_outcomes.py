@@ -28,7 +28,7 @@ from click.testing import Result
 from topo_verify.campaign import progress
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.output import entry_of
-from topo_verify.cli.progress import ProgressBar
+from topo_verify.cli.output import ProgressBar
 from topo_verify.faults import FAULTS, Fault
 from topo_verify.proofs import catalogue as proofs_catalogue
 from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem, TheoremResult

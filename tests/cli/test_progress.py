@@ -9,8 +9,8 @@ from typing import ClassVar
 
 import pytest
 
-from topo_verify.cli import progress
-from topo_verify.cli.progress import ProgressBar
+from topo_verify.cli import output as progress
+from topo_verify.cli.output import ProgressBar
 
 
 class Terminal(StringIO):

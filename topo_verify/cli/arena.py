@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,13 +13,12 @@ import click
 from topo_verify.campaign.campaign import close
 from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
+from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
-from topo_verify.cli.accounts import arena_account
 from topo_verify.cli.arena_files import REPORT, dearest_exhibits, write_folder
 from topo_verify.cli.arena_game import game_of_catalogue
 from topo_verify.cli.kept_runs import open_store, stored_rows
-from topo_verify.cli.output import Ending, Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Ending, Output, Result, output_options
 from topo_verify.cli.reporting import ReportFiles, report_options, write_reports
 from topo_verify.cli.runs import unjudged
 from topo_verify.cli.walks import FoundRuns
@@ -27,13 +26,14 @@ from topo_verify.errors import InputError
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX
-from topo_verify.report.account import Account, Exhibit
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, PictureBlock, Text
 from topo_verify.report.league import Memory, broken_blocks, ratio_plot, suite_blocks
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import League, LeagueEntry
 from topo_verify.studies.arena.match import matches, measure
 from topo_verify.studies.arena.suites import DEFAULT, SUITES, Suite, chosen_suites
+from topo_verify.text import plural
 
 
 @options.command(
@@ -68,12 +68,7 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, Suite, chosen_suit
     help="Write tables, CSV, JSON, plots, players and a page here, and keep the runs: the same"
     " call goes on.",
 )
-@click.option(
-    "--workers",
-    type=click.IntRange(min=0),
-    metavar="N",
-    help="Number of worker processes; 0: only this one.  [default: one per processor]",
-)
+@options.workers()
 @click.option(
     "--game",
     type=int,
@@ -114,7 +109,7 @@ def arena(  # noqa: PLR0913  an argument an option
     mappers = _loaded(asked, in_process=in_process)
     league = League(mappers, suites, seed)
     _require_players(league)
-    found, dearest = FoundRuns(output), list[Exhibit]()
+    found, dearest = FoundRuns(output), list[acc.Exhibit]()
 
     def entries() -> Iterator[Result[LeagueEntry]]:
         try:
@@ -132,9 +127,9 @@ def arena(  # noqa: PLR0913  an argument an option
         yield from map(_result, table)
         close(mappers)
 
-    def account(table: Sequence[LeagueEntry]) -> Account:
+    def account(table: Sequence[LeagueEntry]) -> acc.Account:
         blocks = _show(league, table, memory=None, pictures=True)
-        return arena_account(table, blocks, found, dearest, exact=all(s.exact for s in suites))
+        return _account(table, blocks, found, dearest, exact=all(s.exact for s in suites))
 
     close(mappers)
     show = partial(_with_walk, league, found=found)
@@ -228,7 +223,7 @@ def _add_page(output: Output, folder: Path) -> None:
     files.check()
     output.exhibits = True
 
-    def both(account: Account, ending: Ending) -> None:
+    def both(account: acc.Account, ending: Ending) -> None:
         write_reports(files, account, ending)
         if others is not None:
             others(account, ending)
@@ -275,3 +270,52 @@ def _plot(league: League, suite: Suite, entries: Sequence[LeagueEntry]) -> Itera
         runs = {entry.mapper: league.runs(entry.mapper, suite) for entry in ranked}
         alt = f"cost / LB against the number of edges in suite {suite.name}"
         yield PictureBlock(ratio_plot(suite, ranked, runs), alt)
+
+
+# ---------------------------------------------------------------- the account
+
+
+def _account(
+    table: Sequence[LeagueEntry],
+    blocks: Iterable[Block],
+    found: FoundRuns,
+    dearest: Sequence[acc.Exhibit],
+    *,
+    exact: bool,
+) -> acc.Account:
+    """The account of `arena`: a suite of worlds and a mapper a suite, a case a claim.
+
+    Args:
+        dearest: the ranked mappers in their dearest worlds.
+        exact: the worlds are all those of finite classes.
+    """
+    mappers = list(dict.fromkeys(entry.mapper for entry in table))
+    broken = {entry.mapper for entry in table if entry.counterexample is not None}
+    runs, planned = sum(e.worlds for e in table), sum(e.total for e in table)
+    verdict: Verdict = "UNKNOWN" if runs < planned else "EXHAUSTED" if exact else "SAMPLED"
+    judged = acc.JudgedExtent(verdict, acc.counted(runs, planned, "runs"))
+    if broken:
+        words = acc.counted(len(broken), len(mappers), "mappers break a claim")
+        judged = acc.JudgedExtent("REFUTED", words)
+    return found.account(
+        mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
+        judged,
+        ((f"{entry.mapper} in {entry.suite}", _cases(entry)) for entry in table),
+        blocks,
+        dearest,
+    )
+
+
+def _cases(entry: LeagueEntry) -> Iterator[acc.JudgedCase]:
+    broken, late = entry.counterexample, entry.worlds < entry.total
+    yield acc.JudgedCase(
+        name="every world of the suite",
+        verdict="REFUTED" if broken else "UNKNOWN" if late else "SAMPLED",
+        outcome="failed" if broken else "undecided" if late else "passed",
+        judged=f"{entry.worlds:,} of {entry.total:,}",
+        message=f"{broken.claim} in {broken.world}: {broken.message}"
+        if broken
+        else "; ".join(entry.why),
+        again=broken.replay if broken else "",
+    )
+    yield from acc.claim_cases(entry.judgements)

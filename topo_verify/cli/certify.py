@@ -15,8 +15,7 @@ import msgspec
 
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, entry_of
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Output, Result, entry_of, output_options
 from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, InternalError
 from topo_verify.proofs.mechanised import certificate_format, certificates, evidence

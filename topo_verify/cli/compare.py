@@ -15,20 +15,12 @@ from topo_verify.campaign.run import explore
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
 from topo_verify.cli.kept_runs import opened, stored_rows
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.record import MapperOpener, mapper_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns, exhibit_of
 from topo_verify.programs.loader import Target
-from topo_verify.report.account import (
-    Account,
-    JudgedCase,
-    JudgedSuite,
-    Outcome,
-    extent,
-    worlds,
-)
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.robot.events import Policies
 from topo_verify.studies.baseline import file
@@ -329,7 +321,7 @@ def _conclusion(entry: CompareEntry) -> str:
 # ---------------------------------------------------------------- for page, JUnit and badge
 
 
-def _account(entries: Sequence[CompareEntry], runs: FoundRuns) -> Account:
+def _account(entries: Sequence[CompareEntry], runs: FoundRuns) -> acc.Account:
     """The account of a comparison: a suite a baseline, a case for each question."""
     checked = sum(entry.worlds - entry.undecided for entry in entries)
     total = sum(entry.worlds for entry in entries)
@@ -337,21 +329,19 @@ def _account(entries: Sequence[CompareEntry], runs: FoundRuns) -> Account:
     verdict: Verdict = "SAMPLED" if checked == total and entries else "UNKNOWN"
     if regressed:
         verdict = "REFUTED"
-    things = f"{worlds(total)} without regression" if verdict == "SAMPLED" else ""
-    said = extent(verdict, checked, total, regressed, things)
+    things = f"{acc.worlds(total)} without regression" if verdict == "SAMPLED" else ""
+    said = acc.extent(verdict, checked, total, regressed, things)
     if regressed:
         said = replace(said, words=f"a regression in {regressed:,} of {checked:,} worlds")
-    return Account(
-        about=", ".join(f"{entry.target} against {entry.baseline.file}" for entry in entries),
-        extent=said,
-        suites=tuple(JudgedSuite(entry.baseline.file, tuple(_cases(entry))) for entry in entries),
-        blocks=tuple(_show(entries)),
-        exhibits=runs.exhibits,
-        left_out=runs.left_out,
+    return runs.account(
+        ", ".join(f"{entry.target} against {entry.baseline.file}" for entry in entries),
+        said,
+        ((entry.baseline.file, _cases(entry)) for entry in entries),
+        _show(entries),
     )
 
 
-def _cases(entry: CompareEntry) -> Iterator[JudgedCase]:
+def _cases(entry: CompareEntry) -> Iterator[acc.JudgedCase]:
     decided = entry.worlds - entry.undecided
     wrong = next((one for one in entry.examples if one.kind == "wrong"), None)
     dearer = next((one for one in entry.examples if one.beyond), None)
@@ -361,8 +351,10 @@ def _cases(entry: CompareEntry) -> Iterator[JudgedCase]:
         (f"no world dearer by over {entry.tolerance} %", entry.beyond, decided, dearer, "failed"),
         ("every world decided", entry.undecided, entry.worlds, late, "undecided"),
     ):
-        outcome: Outcome = "passed" if not number else "failed" if bad == "failed" else "undecided"
-        yield JudgedCase(
+        outcome: acc.Outcome = (
+            "passed" if not number else "failed" if bad == "failed" else "undecided"
+        )
+        yield acc.JudgedCase(
             name=name,
             verdict="ok" if outcome == "passed" else outcome,
             outcome=outcome,

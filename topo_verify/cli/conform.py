@@ -4,30 +4,29 @@ from __future__ import annotations
 
 import re
 import secrets
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import click
 
 from topo_verify.campaign.backend import pooled
 from topo_verify.campaign.campaign import Backend, Campaign, ListedWorlds
 from topo_verify.campaign.corpus import corpus_from
+from topo_verify.campaign.judge import Report, judge
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.targets import each_text, one_target, target_arguments, target_text
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
-from topo_verify.cli.accounts import conform_account
-from topo_verify.cli.differing import exhibits, failing_run
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.reporting import report_options
-from topo_verify.cli.runs import unjudged
-from topo_verify.cli.walks import FoundRuns
+from topo_verify.cli.runs import NamedWorld, judged, unjudged
+from topo_verify.cli.walks import MOST_EXHIBITS, FoundRuns, exhibit_of, target_title
+from topo_verify.player.recording import PlayedRun
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
 from topo_verify.programs.program import PREFIX
-from topo_verify.report.account import Account
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, View
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.conform.batch import batched
@@ -35,6 +34,7 @@ from topo_verify.studies.conform.conform import Conform, LevelResult
 from topo_verify.studies.conform.look import Asked
 from topo_verify.studies.conform.outcome import WorldFinding
 from topo_verify.text import plural
+from topo_verify.world.rooted_map import World
 
 SHOWN = 3
 """The number of findings of a level, and of worlds with costs, that are shown; JSON has more."""
@@ -145,18 +145,15 @@ def conform(  # noqa: PLR0913  an argument an option
     shared: dict[str, Playback] = {}
     found = FoundRuns(output)
     show = partial(_show, shared=shared, found=found)
-    named = list(texts) or ["corpus"]
-    more: dict[str, Any] = {"seed": seed, "corpus": named, "in_process": in_process}
-    account = partial(_account, show=show, found=found)
-    return output.run("conform", standings, show, account=account, **more)
-
-
-def _account(
-    levels: Sequence[LevelResult],
-    show: Callable[[Sequence[LevelResult]], Iterable[Block]],
-    found: FoundRuns,
-) -> Account:
-    return conform_account(levels, show(levels), found)
+    return output.run(
+        "conform",
+        standings,
+        show,
+        account=lambda levels: _account(levels, show(levels), found),
+        seed=seed,
+        corpus=list(texts) or ["corpus"],
+        in_process=in_process,
+    )
 
 
 def _texts(text: str) -> list[str]:
@@ -189,9 +186,9 @@ def _tried(
     levels = tuple(study.level_results())
     batch = backend is batched
     if output.style != "json" and not batch:
-        found.walk(failing_run(study, levels))
+        found.walk(_failing_run(study, levels))
     if output.exhibits:
-        for exhibit in exhibits(study, levels, batch=batch):
+        for exhibit in _exhibits(study, levels, batch=batch):
             found.show(exhibit)
     for level in levels:
         if output.style != "json" or output.exhibits:
@@ -265,11 +262,11 @@ def _numbers(one: LevelResult) -> tuple[str, ...]:
 
 def _findings(level: LevelResult, shared: Mapping[str, Playback]) -> Iterator[Block]:
     """The first world of each kind of finding."""
-    for kind, worlds in level.kinds.items():
+    for kind, number in level.kinds.items():
         found = next(one for one in level.findings if one.kind == kind)
         yield Text("")
         what = f"{level.level}: {kind}" if kind != level.level else kind
-        yield Text(f"{what} in {plural(worlds, 'world')}, first {found.world}:")
+        yield Text(f"{what} in {plural(number, 'world')}, first {found.world}:")
         yield from _difference(found, level, shared)
         yield Command(found.replay, "again: ")
 
@@ -320,3 +317,109 @@ def _costs(level: LevelResult) -> Iterator[Block]:
     chosen = list(dict.fromkeys([*ranked[:SHOWN], *ranked[-SHOWN:]]))
     rows = [(o.world, str(o.mapper), str(o.reference), f"{o.ratio:.3f}") for o in chosen]
     yield TextTable(("world", ">cost", f">{level.like}", ">ratio"), rows)
+
+
+# ---------------------------------------------------------------- the account
+
+
+def _account(
+    levels: Sequence[LevelResult], blocks: Iterable[Block], found: FoundRuns
+) -> acc.Account:
+    """The account of `conform`: a suite a mapper, a case a level and a claim of it."""
+    names = list(dict.fromkeys(level.target for level in levels))
+    verdict = acc.joint_verdict([level.verdict for level in levels])
+    whole = [level for level in levels if level.verdict == verdict]
+    failed = max((level.failed for level in whole), default=0)
+    passed = min((level.passed for level in levels), default=0)
+    total = levels[0].worlds if levels else 0
+    words = acc.counted(passed, total, f"{acc.worlds(total)} conform")
+    if verdict == "REFUTED":
+        words = acc.counted(failed, total, f"{acc.worlds(total)} fail")
+    suites = ((name, _cases([one for one in levels if one.target == name])) for name in names)
+    return found.account(", ".join(names), acc.JudgedExtent(verdict, words), suites, blocks)
+
+
+def _cases(levels: Sequence[LevelResult]) -> Iterator[acc.JudgedCase]:
+    for level in levels:
+        first = level.findings[0] if level.findings else None
+        yield acc.JudgedCase(
+            name=f"level {level.level}",
+            verdict=level.verdict,
+            outcome=acc.outcome_of(level.verdict),
+            judged=f"{level.passed:,} of {level.worlds:,}",
+            message=(level.why or ("",))[0] if first is None else f"{first.world}: {first.message}",
+            again="" if first is None else first.replay,
+        )
+        for case in acc.claim_cases(level.judgements):
+            found = next((one for one in level.findings if one.claim == case.name), None)
+            yield (
+                case if found is None else replace(case, message=found.message, again=found.replay)
+            )
+
+
+# ---------------------------------------------------------------- for the page
+
+
+def _exhibits(
+    study: Conform, levels: Sequence[LevelResult], *, batch: bool
+) -> Iterator[acc.Exhibit]:
+    """The first world of each kind of finding, each world once.
+
+    Args:
+        batch: the program reads worlds and writes runs; it is not asked again.
+    """
+    first: dict[str, list[WorldFinding]] = {}
+    for level in levels:
+        for kind in level.kinds:
+            finding = next(one for one in level.findings if one.kind == kind)
+            first.setdefault(finding.world, []).append(finding)
+    if not first:
+        return
+    worlds = {at.name: at.world for at in study.corpus if at.name in first}
+    for number, (name, findings) in enumerate(first.items()):
+        runs: tuple[PlayedRun, ...] = ()
+        if not batch and number < MOST_EXHIBITS:
+            runs = tuple(_runs_in(study.campaign, worlds[name], findings))
+        notes = dict.fromkeys(f"{one.kind}: {one.message}" for one in findings)
+        yield acc.Exhibit(
+            title=target_title(study.target, name),
+            world=worlds[name],
+            name=name,
+            notes=tuple(notes),
+            runs=runs,
+            again=findings[0].replay,
+        )
+
+
+def _runs_in(
+    campaign: Campaign, world: World, findings: Sequence[WorldFinding]
+) -> Iterator[PlayedRun]:
+    """The run of the implementation, and that of the reference if the two part."""
+    for target in campaign.load():
+        report = judge(explore(world, target, limits=campaign.limits), strict=campaign.strict)
+        exhibit = exhibit_of(report)
+        yield from exhibit.runs if exhibit is not None else ()
+    if any(one.difference is not None for one in findings):
+        asked = Asked(*campaign.asked)
+        yield PlayedRun(asked.name, explore(world, asked.reference).trace)
+
+
+def _failing_run(study: Conform, levels: Sequence[LevelResult]) -> Report | None:
+    """The run in the first world that convicts an implementation by itself, made once more.
+
+    A run that only parts from the reference's is shown where they part. None if there is no other,
+    or if the same claim does not fail again.
+    """
+    convicting = (one for level in levels for one in level.findings if one.difference is None)
+    finding = next(convicting, None)
+    if finding is None:
+        return None
+    campaign = study.campaign
+    world = next(at.world for at in study.corpus if at.name == finding.world)
+    for target in campaign.load():
+        run = explore(world, target, limits=campaign.limits)
+        named = NamedWorld(world, finding.world)
+        report, _ = judged(run, named, campaign.limits, strict=campaign.strict)
+        if any(one.claim == finding.claim for one in report.findings):
+            return report
+    return None

@@ -12,11 +12,8 @@ import click
 from topo_verify.campaign.engines import Engine, on_engine
 from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.campaign.targets import targets
-from topo_verify.cli import markers, options
-from topo_verify.cli.choices import ListedChoices, require_no_policies
-from topo_verify.cli.explored import ExploreEntry, explore_account, explore_result
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli import explored, options
+from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.play import (
     player_option,
     require_one_world,
@@ -54,7 +51,7 @@ class _ExploreOptions:
     svg: str | None
     strict: bool
     gap: bool
-    choices: ListedChoices | None = None
+    choices: explored.ListedChoices | None = None
 
 
 @options.command(
@@ -76,7 +73,7 @@ class _ExploreOptions:
     help="Choose by these numbers, as 0,2,1: which e, which h next (one run only).",
 )
 @options.engine
-@markers.option
+@explored.marker_option
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
 @player_option
 @svg_option
@@ -111,15 +108,17 @@ def explore(  # noqa: PLR0913  an argument an option
     network) or - (world JSON on standard input).
     """
 
-    def runs() -> Iterator[Result[ExploreEntry]]:
+    def runs() -> Iterator[Result[explored.ExploreEntry]]:
         named = chain.from_iterable(
             targets(text, pick=pick, order=order, in_process=in_process) for text in algorithms
         )
         found = on_engine(engine, named, limits)
         if marker == "all":
-            markers.require_alone({"--trace": trace, "--player": player, "--gap": gap})
+            explored.require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
             starts = named_worlds(worlds)
-            return markers.results(output, starts, found, limits, walk, strict=strict, svg=svg)
+            return explored.marker_results(
+                output, starts, found, limits, walk, strict=strict, svg=svg
+            )
         starts = named_worlds(worlds, marker)
         for option, file in (("--trace", trace), ("--svg", svg)):
             if file is not None:
@@ -128,19 +127,19 @@ def explore(  # noqa: PLR0913  an argument an option
         listed = None
         if choices is not None:
             _require_one_run("--choices", choices, found, starts)
-            require_no_policies(choices, pick, order)
-            listed = ListedChoices(found[0], choices)
+            explored.require_no_policies(choices, pick, order)
+            listed = explored.ListedChoices(found[0], choices)
             found = (listed.target,)
         asked = _ExploreOptions(limits, trace, player, svg, strict, gap, listed)
         return _results(output, starts, found, asked, walk)
 
     walk = FoundRuns(output)
-    table = markers.show if marker == "all" else show
+    table = explored.show_markers if marker == "all" else show
     return output.run(
         "explore",
         runs,
         lambda entries: chain(table(entries), walk.blocks()),
-        account=lambda entries: explore_account(entries, table(entries), walk),
+        account=lambda entries: explored.explore_account(entries, table(entries), walk),
         in_process=in_process,
     )
 
@@ -163,7 +162,7 @@ def _results(
     found: Sequence[Target],
     asked: _ExploreOptions,
     walk: FoundRuns,
-) -> Iterator[Result[ExploreEntry]]:
+) -> Iterator[Result[explored.ExploreEntry]]:
     total = len(starts) * len(found)
     played: list[PlayedRun] = []
     try:
@@ -182,7 +181,7 @@ def _results(
             played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
             if asked.svg is not None:
                 write_animation(asked.svg, at.world, played[0])
-            yield explore_result(run, at, report, incomplete=incomplete, gap=asked.gap)
+            yield explored.explore_result(run, at, report, incomplete=incomplete, gap=asked.gap)
     finally:  # an interrupt keeps the runs that are done
         if asked.player is not None and played:
             write_page(asked.player, starts[0].world, starts[0].name, played)
@@ -191,7 +190,7 @@ def _results(
 # ---------------------------------------------------------------- for people
 
 
-def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
+def show(entries: Sequence[explored.ExploreEntry]) -> Iterator[Block]:
     """One table a world; for a single algorithm in many worlds, one table in all."""
     if len(entries) > 1 and len({entry.algorithm for entry in entries}) == 1:
         rows = [(entry.world, str(entry.edges), *_row(entry)) for entry in entries]
@@ -221,7 +220,7 @@ def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
     yield from _gap_table(entries)
 
 
-def _gap_table(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
+def _gap_table(entries: Sequence[explored.ExploreEntry]) -> Iterator[Block]:
     """The table of --gap: hypotheses that were walked although the history refuted them."""
     measured = [(entry, entry.gap) for entry in entries if entry.gap is not None]
     if not measured:
@@ -238,7 +237,7 @@ def _gap_table(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
 _COLUMNS = (">cost", ">of least", ">rejected free", ">moving", "claims")
 
 
-def _row(entry: ExploreEntry) -> tuple[str, ...]:
+def _row(entry: explored.ExploreEntry) -> tuple[str, ...]:
     return (
         str(entry.cost),
         f"{entry.cost / entry.least_cost:.2f}" if entry.least_cost else "-",
@@ -248,13 +247,13 @@ def _row(entry: ExploreEntry) -> tuple[str, ...]:
     )
 
 
-def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
+def _by_world(entries: Sequence[explored.ExploreEntry]) -> Iterator[list[explored.ExploreEntry]]:
     """The runs grouped by world.
 
     Runs come world by world, with the algorithms in the same order each time. Two worlds may have
     one name, so a group ends where the first algorithm comes again, not where the name changes.
     """
-    group: list[ExploreEntry] = []
+    group: list[explored.ExploreEntry] = []
     for entry in entries:
         if group and entry.algorithm == group[0].algorithm:
             yield group
@@ -264,7 +263,7 @@ def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
         yield group
 
 
-def _world_table(group: Sequence[ExploreEntry]) -> TextTable:
+def _world_table(group: Sequence[explored.ExploreEntry]) -> TextTable:
     """The cost of each algorithm in one world, relative to `basic` if that was run."""
     one = group[0]
     size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"

@@ -1,31 +1,41 @@
-"""An entry of `explore`: one run in one world, for scripts; and what all of them come to."""
+"""An entry of `explore`: one run in one world; with --choices; with --marker all.
+
+--choices LIST makes one run whose every choice is told, as in a counterexample of `search`.
+--marker all runs the mapper with the marker at every place, in every direction. Two darts from
+which the world looks the same make one rooted map, so one run serves both: its entry is repeated,
+and `same_as` says so.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from statistics import mean
+from typing import Literal
 
+import click
 import msgspec
 
+from topo_verify.algorithms import Algorithm
 from topo_verify.campaign.judge import Report
 from topo_verify.campaign.run import Exploration
+from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.findings import Verdict
-from topo_verify.cli.output import Result
-from topo_verify.cli.runs import NamedWorld
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.runs import NamedWorld, claims_cell, finding_blocks, judged
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.report.account import (
-    Account,
-    JudgedCase,
-    JudgedExtent,
-    JudgedSuite,
-    claim_cases,
-    counted,
-    joint_verdict,
-    outcome_of,
-)
-from topo_verify.report.blocks import Block
+from topo_verify.errors import InputError
+from topo_verify.programs.loader import Target
+from topo_verify.report import account as acc
+from topo_verify.report.blocks import Block, Text, TextTable
+from topo_verify.robot.limits import Limits
 from topo_verify.studies.gap import gap as measure
+from topo_verify.studies.search.states.every import with_choices
+from topo_verify.studies.search.states.script import Listed, choices_of, scripted
 from topo_verify.text import plural
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import Code
 
 
 class ChosenPolicies(msgspec.Struct, frozen=True):
@@ -145,25 +155,19 @@ def explore_result(
 
 def explore_account(
     entries: Sequence[ExploreEntry], blocks: Iterable[Block], found: FoundRuns
-) -> Account:
+) -> acc.Account:
     """The account of `explore`: a suite a run; the run, and a case a claim."""
     verdicts = [_verdict(entry) for entry in entries]
     failing, decided = verdicts.count("REFUTED"), verdicts.count("SAMPLED")
-    words = counted(decided, len(entries), "runs")
+    words = acc.counted(decided, len(entries), "runs")
     if failing:
-        words = counted(failing, len(entries), "runs fail")
+        words = acc.counted(failing, len(entries), "runs fail")
     mappers = list(dict.fromkeys(entry.algorithm for entry in entries))
-    return Account(
-        about=mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
-        extent=JudgedExtent(joint_verdict(verdicts), words),
-        suites=tuple(
-            JudgedSuite(_run_name(entry), tuple(_run_cases(entry)))
-            for entry in entries
-            if entry.same_as is None
-        ),
-        blocks=tuple(blocks),
-        exhibits=found.exhibits,
-        left_out=found.left_out,
+    return found.account(
+        mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
+        acc.JudgedExtent(acc.joint_verdict(verdicts), words),
+        ((_run_name(entry), _run_cases(entry)) for entry in entries if entry.same_as is None),
+        blocks,
     )
 
 
@@ -176,13 +180,232 @@ def _run_name(entry: ExploreEntry) -> str:
     return f"{entry.algorithm} in {entry.world}{at}"
 
 
-def _run_cases(entry: ExploreEntry) -> Iterator[JudgedCase]:
+def _run_cases(entry: ExploreEntry) -> Iterator[acc.JudgedCase]:
     first, verdict = entry.findings[0] if entry.findings else None, _verdict(entry)
-    yield JudgedCase(
+    yield acc.JudgedCase(
         name="the run as a whole",
         verdict=verdict,
-        outcome=outcome_of(verdict),
+        outcome=acc.outcome_of(verdict),
         message=(entry.stopped or "") if first is None else f"{first.claim}: {first.message}",
         again="" if first is None else first.replay,
     )
-    yield from claim_cases(entry.judgements)
+    yield from acc.claim_cases(entry.judgements)
+
+
+# ---------------------------------------------------------------- --choices LIST
+
+
+def require_no_policies(choices: str, pick: str | None, order: str | None) -> None:
+    """Raise an InputError if policies are given beside the choices."""
+    if pick is not None or order is not None:
+        raise InputError(
+            f"--choices {choices}: the choices are the policies; leave out --pick and --order"
+        )
+
+
+class ListedChoices:
+    """The choices of one run. Life cycle: run `target`, then `made`, then `named`.
+
+    Args:
+        target: an algorithm of the catalogue, or another `Algorithm`.
+        text: the choices, as `0,2,1`.
+    Raises:
+        InputError: the mapper leaves no choices open, or the text is no list.
+    """
+
+    def __init__(self, target: Target, text: str) -> None:
+        if not isinstance(target.mapper, Algorithm):
+            raise InputError(
+                f"--choices {text}: {target.text} leaves no choices open; it is for algorithms of"
+                " the catalogue"
+            )
+        self._choices = choices_of(text)
+        self._listed = Listed(self._choices)
+        self.target = Target(target.text, scripted(target.mapper, self._listed))
+
+    def made(self, run: Exploration) -> Exploration:
+        """The run, if it made each of the choices; it cannot be repeated in a witness world.
+
+        Raises:
+            InputError: there were fewer ways, or fewer choices to be made.
+        """
+        self._listed.require_all()
+        return replace(run, mapper=None)
+
+    def named(self, report: Report, limits: Limits) -> Report:
+        """The report; its findings name the command that makes the same choices."""
+        return with_choices(report, self.target.text, self._choices, limits)
+
+
+# ---------------------------------------------------------------- --marker all
+
+All = Literal["all"]
+
+
+def _dart_or_all(
+    _context: click.Context, _option: click.Parameter, value: str | None
+) -> int | All | None:
+    """The number in the text, or `all`."""
+    if value is None or value == "all":
+        return "all" if value else None
+    try:
+        return int(value)
+    except ValueError:
+        raise click.BadParameter(f"expected a dart (a number) or all, got {value!r}") from None
+
+
+marker_option = click.option(
+    "--marker",
+    callback=_dart_or_all,
+    metavar="DART|all",
+    help="Let the marker point at this DART instead; all: at each dart in turn, best and worst"
+    " named, with --svg as a heat map.",
+)
+
+
+def require_one_marker(others: Mapping[str, object]) -> None:
+    """Raise InputError if one of the options that are for one run is given."""
+    for name, value in others.items():
+        if value:
+            raise InputError(
+                f"{name} is for one marker: leave it out, or name one with --marker DART"
+            )
+
+
+def marker_results(
+    output: Output,
+    starts: Sequence[NamedWorld],
+    found: Sequence[Target],
+    limits: Limits,
+    walk: FoundRuns,
+    *,
+    strict: bool,
+    svg: str | None,
+) -> Iterator[Result[ExploreEntry]]:
+    """An entry for each world, algorithm and dart, in this order.
+
+    Raises:
+        InputError: a world has no dart; or a heat map is asked for, of more than one algorithm.
+    """
+    for at in starts:
+        if not at.world.alpha:
+            raise InputError(f"--marker all: {at.name} has no edge that a marker could point at")
+    if svg is not None and (svg == "-" or len(starts) * len(found) != 1):
+        raise InputError(
+            f"--svg {svg}: expected the name of a file, one WORLD and one algorithm, with"
+            " --target, since a heat map shows one cost for each place"
+        )
+    total = len(found) * sum(len(at.world.alpha) for at in starts)
+    done = 0
+    for at in starts:
+        for target in found:
+            entries: list[ExploreEntry] = []
+            for result in _of_each_dart(at, target, limits, walk, strict=strict):
+                done += 1
+                output.progress(f"{target.text} in {at.name}", done, total)
+                entries.append(result.entry)
+                yield result
+            if svg is None:
+                continue
+            if all(entry.ok for entry in entries):
+                _write_heat(svg, at, entries)
+            else:
+                output.note(f"--svg {svg}: not written, since not every run delivered a true map")
+
+
+def _of_each_dart(
+    at: NamedWorld, target: Target, limits: Limits, walk: FoundRuns, *, strict: bool
+) -> Iterator[Result[ExploreEntry]]:
+    known: dict[Code, Result[ExploreEntry]] = {}
+    for dart in range(len(at.world.alpha)):
+        there = replace(at.world.with_marker(dart), name=at.name)
+        first = known.get(there.code)
+        if first is not None:
+            entry = msgspec.structs.replace(
+                first.entry,
+                marker=dart,
+                place=there.vertex_of[dart],
+                same_as=first.entry.marker,
+            )
+            yield replace(first, entry=entry)
+            continue
+        placed = NamedWorld(there, at.text, dart)
+        run = run_mapper(there, target, limits=limits)
+        report, incomplete = judged(run, placed, limits, strict=strict)
+        walk.keep(report)
+        known[there.code] = explore_result(run, placed, report, incomplete=incomplete)
+        yield known[there.code]
+
+
+def _write_heat(svg: str, at: NamedWorld, entries: Sequence[ExploreEntry]) -> None:
+    from topo_verify.world.drawing.heat import heat_svg
+
+    costs = [entry.cost for entry in entries]
+    files.write(svg, heat_svg(at.world, costs, title=f"{entries[0].algorithm} in {at.name}"))
+
+
+def show_markers(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
+    """A table a world: the best and the worst place for each algorithm."""
+    groups: dict[tuple[str, str], list[ExploreEntry]] = {}
+    for entry in entries:
+        groups.setdefault((entry.world, entry.algorithm), []).append(entry)
+    for number, world in enumerate(dict.fromkeys(entry.world for entry in entries)):
+        of_world = [group for (name, _), group in groups.items() if name == world]
+        if number:
+            yield Text("")
+        yield TextTable(
+            _MARKER_COLUMNS, [_marker_row(group) for group in of_world], _marker_title(of_world[0])
+        )
+    yield Text("")
+    yield Text(
+        "At: the vertex where the marker lies, and the dart that it points at, as the world's file"
+        " numbers them (of equal places the first). Saved: what the best place saves of the mean"
+        " over all darts."
+    )
+    for (world, algorithm), group in groups.items():
+        for entry in group:
+            if entry.findings and entry.same_as is None:
+                about = f"{algorithm} in {world}, marker at dart {entry.marker}"
+                yield from finding_blocks(entry.findings, about)
+            elif entry.stopped is not None and entry.same_as is None:
+                where = f"{algorithm} in {world}, marker at dart {entry.marker}"
+                yield Text(f"{where}, is not decided: {entry.stopped}")
+
+
+_MARKER_COLUMNS = ("algorithm", ">mean", ">best", ">at", ">worst", ">at", ">saved", "claims")
+
+
+def _marker_title(group: Sequence[ExploreEntry]) -> str:
+    one = group[0]
+    size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
+    kinds = sum(entry.same_as is None for entry in group)
+    return (
+        f"{one.world}: {size}, genus {one.genus}, the marker at each of"
+        f" {plural(len(group), 'dart')}, {kinds} of them different"
+    )
+
+
+def _marker_row(group: Sequence[ExploreEntry]) -> tuple[str, ...]:
+    decided = [entry for entry in group if entry.ok]
+    bad = next((entry for entry in group if not entry.ok), None)
+    claims = claims_cell((bad or group[0]).claims, incomplete=bad is not None and not bad.findings)
+    if not decided:
+        return (group[0].algorithm, "-", "-", "-", "-", "-", "-", claims)
+    average = mean(entry.cost for entry in decided)
+    best, worst = (pick(decided, key=_cost) for pick in (min, max))
+    saved = f"{1 - best.cost / average:.0%}" if average else "-"
+    return (
+        group[0].algorithm,
+        f"{average:.0f}",
+        *(str(best.cost), _where(best), str(worst.cost), _where(worst)),
+        saved,
+        claims,
+    )
+
+
+def _cost(entry: ExploreEntry) -> int:
+    return entry.cost
+
+
+def _where(entry: ExploreEntry) -> str:
+    return f"{entry.place}:{entry.marker}"

@@ -11,15 +11,14 @@ from topo_verify.campaign.run import explore
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.output import Live, Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Live, Output, Result, output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.compiled import require
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS, Fault
 from topo_verify.programs.loader import Target
-from topo_verify.report.account import Account, JudgedCase, JudgedExtent, Outcome, counted
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.studies.faults.checks import A_SECOND, EXAMPLES, LARGEST, STRATEGIES
 from topo_verify.studies.faults.detection import (
@@ -50,12 +49,7 @@ WIDTHS = (29, 21, 13, 5, 3)
     metavar="CHECKS",
     help="The checks to run, with commas.",
 )
-@click.option(
-    "--workers",
-    type=click.IntRange(min=0),
-    metavar="N",
-    help="Number of worker processes; 0: only this one.  [default: one per processor]",
-)
+@options.workers()
 @options.engine
 @click.option(
     "--thorough",
@@ -167,31 +161,31 @@ def _checks(text: str) -> list[Check]:
 # ---------------------------------------------------------------- the account
 
 
-def _account(entries: Sequence[Caught], checks: str, found: FoundRuns) -> Account:
+def _account(entries: Sequence[Caught], checks: str, found: FoundRuns) -> acc.Account:
     """The account of `faults`: a suite a part of the mapper, a case a fault."""
-    suites: dict[str, list[JudgedCase]] = {}
+    suites: dict[str, list[acc.JudgedCase]] = {}
     for entry in entries:
         suites.setdefault(_part(entry), []).append(_case(entry, checks))
     asked = [entry for entry in entries if entry.asked]
     mappers = "mapper" if len(asked) == 1 else "mappers"
-    right = counted(sum(e.ok for e in asked), len(asked), f"{mappers} told right from wrong")
+    right = acc.counted(sum(e.ok for e in asked), len(asked), f"{mappers} told right from wrong")
     return found.account(
         plural(len(entries), "faulty mapper"),
-        JudgedExtent("SAMPLED" if asked else "UNKNOWN", right),
-        suites,
+        acc.JudgedExtent("SAMPLED" if asked else "UNKNOWN", right),
+        suites.items(),
         _show(entries),
     )
 
 
-def _case(entry: Caught, checks: str) -> JudgedCase:
-    outcome: Outcome = "passed" if entry.ok else "undecided" if entry.undecided else "failed"
+def _case(entry: Caught, checks: str) -> acc.JudgedCase:
+    outcome: acc.Outcome = "passed" if entry.ok else "undecided" if entry.undecided else "failed"
     words = {"passed": "caught", "failed": "missed", "undecided": "undecided"}
     if entry.harmless:
         words |= {"passed": "not flagged", "failed": "flagged"}
     search, where = entry.search, ""
     if search is not None and search.failing:
         where = f"fails in {plural(search.failing, 'world')} of {plural(search.edges, 'edge')}; "
-    return JudgedCase(
+    return acc.JudgedCase(
         name=entry.name,
         verdict=words[outcome] if entry.asked else "not asked",
         outcome=outcome if entry.asked else "not-judged",

@@ -96,12 +96,12 @@ def _seconds(_context: click.Context, _option: click.Parameter, value: str) -> f
     return seconds
 
 
-def seed(meaning: str) -> Callable[[Callable[..., int]], Callable[..., int]]:
+def seed(meaning: str, default: int = 0) -> Callable[[Callable[..., int]], Callable[..., int]]:
     """Add --seed, whose help says what it is the seed of."""
     return click.option(
         "--seed",
         type=click.IntRange(min=0),
-        default=0,
+        default=default,
         show_default=True,
         metavar="N",
         help=meaning,

@@ -17,21 +17,25 @@ from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass, field, replace
 from functools import wraps
 from pathlib import Path
+from threading import Lock, Timer
 from time import perf_counter
-from typing import IO, Any, Concatenate, Generic, ParamSpec, TypeVar
+from typing import IO, TYPE_CHECKING, Any, Concatenate, Generic, ParamSpec, TypeVar
 
 import click
 import msgspec
 
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.failures import ExitCode, exit_code, say, silence, version
-from topo_verify.cli.progress import ProgressBar
 from topo_verify.errors import InputError
-from topo_verify.report.account import Account, JudgedExtent
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text
 from topo_verify.report.markdown import markdown
 from topo_verify.report.terminal import pretty
 from topo_verify.text import plural
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar
+
 
 P = ParamSpec("P")
 E = TypeVar("E", bound=msgspec.Struct)
@@ -135,7 +139,7 @@ class Output:
 
     def __init__(self, style: str, *, quiet: bool) -> None:
         self.timing: dict[str, Any] = {}
-        self.report: Callable[[Account, Ending], None] | None = None
+        self.report: Callable[[acc.Account, Ending], None] | None = None
         self.exhibits = False
         self.style, self.quiet = style, quiet
         self.stdout: IO[str] = sys.stdout or _nowhere()
@@ -154,7 +158,7 @@ class Output:
         show: Callable[[Sequence[E]], Iterable[Block]],
         *,
         live: Live[E] | None = None,
-        account: Callable[[Sequence[E]], Account] | None = None,
+        account: Callable[[Sequence[E]], acc.Account] | None = None,
         **more: Any,
     ) -> int:
         """Do the command's work, print its results and return the exit code.
@@ -285,7 +289,7 @@ def _with_remark(
 
 
 def _with_verdict(
-    show: Callable[[Sequence[E]], Iterable[Block]], account: Callable[[Sequence[E]], Account]
+    show: Callable[[Sequence[E]], Iterable[Block]], account: Callable[[Sequence[E]], acc.Account]
 ) -> Callable[[Sequence[E]], Iterable[Block]]:
     """Show the verdict on all above the entries: a summary is read from its first line."""
 
@@ -297,7 +301,7 @@ def _with_verdict(
     return shown
 
 
-def _ended(account: Account, command: str, done: _Done[E]) -> Account:
+def _ended(account: acc.Account, command: str, done: _Done[E]) -> acc.Account:
     """The account with the verdict of the exit code, for first line, page, JUnit file and badge.
 
     An account says what its entries are if all of them pass; it knows of no interrupt.
@@ -307,7 +311,7 @@ def _ended(account: Account, command: str, done: _Done[E]) -> Account:
     if not done.finished:
         words += ", interrupted"
     about = account.about or command  # no entry names a mapper
-    return replace(account, about=about, extent=JudgedExtent(verdict, words))
+    return replace(account, about=about, extent=acc.JudgedExtent(verdict, words))
 
 
 _VERDICTS: dict[ExitCode, Verdict] = {
@@ -321,7 +325,7 @@ def _nowhere() -> IO[str]:
     return Path(os.devnull).open("w", encoding="utf-8")
 
 
-def options(command: Callable[Concatenate[Output, P], int]) -> Callable[..., int]:
+def output_options(command: Callable[Concatenate[Output, P], int]) -> Callable[..., int]:
     """Add --format and --quiet; the command gets an `Output` as its first argument."""
 
     @click.option(
@@ -340,3 +344,74 @@ def options(command: Callable[Concatenate[Output, P], int]) -> Callable[..., int
             return command(output, *args, **kwargs)
 
     return wrapper
+
+
+DELAY = 1.0
+"""Seconds of work before the bar appears."""
+
+
+class ProgressBar:
+    """A bar that appears when work takes long, and that leaves no trace on the terminal.
+
+    Life cycle: call it, as a progress callback, while work goes on; `clear` it before anything is
+    printed, since results share the terminal with it. The next call begins anew.
+    """
+
+    def __init__(self, *, quiet: bool) -> None:
+        self._wanted = not quiet and sys.stderr is not None and sys.stderr.isatty()
+        self._state = ("", 0, 0)
+        self._lock = Lock()
+        self._timer: Timer | None = None
+        self._bar: Bar | None = None
+
+    def __call__(self, what: str, done: int, total: int) -> None:
+        """Show what is being done, how much of it is done, and how much there is."""
+        if not self._wanted:
+            return
+        self._state = (what, done, total)
+        if self._timer is None:
+            # A clock of its own: one long run would not call again for a while.
+            self._timer = Timer(DELAY, self._appear)
+            self._timer.daemon = True
+            self._timer.start()
+        with self._lock:
+            self._show()
+
+    def clear(self) -> None:
+        """Remove the bar from the terminal."""
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer.join()  # it may be just about to show the bar
+            self._timer = None
+        if self._bar is not None:
+            self._bar.stop()
+            self._bar = None
+
+    def _appear(self) -> None:
+        with self._lock:
+            self._bar = _bar()
+            self._bar.add_task("")
+            self._show()
+            self._bar.start()
+
+    def _show(self) -> None:
+        if self._bar is not None:
+            what, done, total = self._state
+            self._bar.update(self._bar.task_ids[0], description=what, completed=done, total=total)
+
+
+def _bar() -> Bar:
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    return Bar(
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        console=Console(stderr=True),
+        transient=True,
+        redirect_stdout=False,  # results are printed when the bar is off
+        redirect_stderr=False,
+    )

@@ -10,8 +10,7 @@ import msgspec
 from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.campaign.targets import targets
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.runs import judged, named_world
 from topo_verify.errors import InputError
 from topo_verify.player.recording import PlayedRun

@@ -12,8 +12,7 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.output import Live, Output, Result, entry_of
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Live, Output, Result, entry_of, output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError, InternalError
@@ -22,14 +21,7 @@ from topo_verify.proofs.theorem import (
     Theorem,
     TheoremKind,
 )
-from topo_verify.report.account import (
-    Account,
-    Exhibit,
-    JudgedCase,
-    JudgedExtent,
-    counted,
-    joint_verdict,
-)
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Cell, Text, TextTable
 from topo_verify.report.style import Tone
 from topo_verify.robot.limits import MOST_SECONDS
@@ -258,7 +250,7 @@ def prove(  # noqa: PLR0913  an argument an option
     )
 
 
-def _account(entries: Sequence[ProveEntry], options: str, found: FoundRuns) -> Account:
+def _account(entries: Sequence[ProveEntry], options: str, found: FoundRuns) -> acc.Account:
     """The account of `prove`: a suite a kind, a case a theorem.
 
     Args:
@@ -269,22 +261,24 @@ def _account(entries: Sequence[ProveEntry], options: str, found: FoundRuns) -> A
         found.show(_exhibit(entry))
     positive = [entry.verdict for entry in entries if entry.expected != "REFUTED"]
     things = "theorem" if len(entries) == 1 else "theorems"
-    words = counted(sum(entry.ok for entry in entries), len(entries), f"{things} as expected")
-    suites: dict[str, list[JudgedCase]] = {}
+    words = acc.counted(sum(entry.ok for entry in entries), len(entries), f"{things} as expected")
+    suites: dict[str, list[acc.JudgedCase]] = {}
     for entry in sorted(entries, key=lambda one: KINDS.index(one.kind)):
         suites.setdefault(entry.kind, []).append(_case(entry, options))
     return found.account(
         plural(len(entries), "theorem"),
-        JudgedExtent("PROVED" if joint_verdict(positive) == "PROVED" else "EXHAUSTED", words),
-        suites,
+        acc.JudgedExtent(
+            "PROVED" if acc.joint_verdict(positive) == "PROVED" else "EXHAUSTED", words
+        ),
+        suites.items(),
         _show(entries),
     )
 
 
-def _case(entry: ProveEntry, options: str) -> JudgedCase:
+def _case(entry: ProveEntry, options: str) -> acc.JudgedCase:
     # As the exit code has it: only a definite verdict that is not the expected one fails.
     undecided = entry.verdict in ("UNKNOWN", entry.expected)
-    return JudgedCase(
+    return acc.JudgedCase(
         name=entry.name,
         verdict=entry.verdict,
         outcome="passed" if entry.ok else "undecided" if undecided else "failed",
@@ -300,7 +294,7 @@ def _again(solver: str, timeout: int, seed: int) -> str:
     return "".join(f" {name} {value}" for name, (value, usual) in given.items() if value != usual)
 
 
-def _exhibit(entry: ProveEntry) -> Exhibit | None:
+def _exhibit(entry: ProveEntry) -> acc.Exhibit | None:
     """The world that refutes a statement, and the walk in it that shows it; None if none does."""
     if entry.verdict != "REFUTED" or entry.counterexample is None or entry.history is None:
         return None
@@ -308,7 +302,7 @@ def _exhibit(entry: ProveEntry) -> Exhibit | None:
         world = World.from_id(entry.counterexample)
     except InputError:
         return None  # a structure that is no world
-    return Exhibit(
+    return acc.Exhibit(
         title=f"{entry.name} in {entry.counterexample}",
         world=world,
         name=entry.counterexample,

@@ -19,8 +19,7 @@ from topo_verify.campaign.targets import one_target, target_text
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
 from topo_verify.cli.kept_runs import opened, stored_rows
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.runs import finding_blocks
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program

@@ -15,8 +15,7 @@ from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.campaign.targets import one_target, target_text
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import NamedWorld, judged, named_world, unjudged
 from topo_verify.cli.walks import other_findings, walk_view

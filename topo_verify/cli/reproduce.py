@@ -14,8 +14,7 @@ from topo_verify.campaign.run import explore
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.kept_runs import open_store, stored_rows
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.runs import finding_blocks
 from topo_verify.compiled import require
 from topo_verify.errors import InputError

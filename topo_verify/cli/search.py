@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass
 from functools import partial
 from itertools import chain
 from pathlib import Path
@@ -12,7 +11,7 @@ from pathlib import Path
 import click
 
 from topo_verify.campaign.backend import clustered, here, pooled
-from topo_verify.campaign.campaign import Campaign
+from topo_verify.campaign.campaign import Backend, Campaign
 from topo_verify.campaign.cluster import Cluster, both_given, connected
 from topo_verify.campaign.engines import Engine
 from topo_verify.campaign.identity import Identity, source_hash
@@ -20,40 +19,29 @@ from topo_verify.campaign.store import Store, StoredCampaign
 from topo_verify.campaign.targets import target_text, targets
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
-from topo_verify.cli.accounts import search_account
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.reporting import report_options
-from topo_verify.cli.searched import show as show_entry
+from topo_verify.cli.runs import unjudged
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
-from topo_verify.report.account import Account
-from topo_verify.report.blocks import Block
+from topo_verify.report import account as acc
+from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.search.choices import CHOICES, Choices, reports_of
-from topo_verify.studies.search.search import DONE, Search, SearchEntry, search_campaign
+from topo_verify.studies.search.search import (
+    DONE,
+    ByEdges,
+    CostComparison,
+    EveryCost,
+    FailingClaim,
+    Search,
+    SearchEntry,
+    search_campaign,
+)
+from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass
-
-
-@dataclass(frozen=True)
-class _SearchOptions:
-    """The options of one call."""
-
-    edges: int
-    kind: WorldClass
-    workers: int
-    ledger: str | None
-    depends: tuple[str, ...]
-    seed: int
-    keep_going: bool
-    policies: Choices
-    engine: Engine
-    worst: bool
-    compare: bool
-    limits: Limits
-    in_process: bool
 
 
 @options.command(
@@ -75,12 +63,7 @@ class _SearchOptions:
     help="Worlds of 1 to N edges.",
 )
 @options.world_class
-@click.option(
-    "--workers",
-    type=click.IntRange(min=0),
-    metavar="N",
-    help="Number of worker processes; 0: only this one.  [default: one per processor]",
-)
+@options.workers()
 @click.option(
     "--dask",
     metavar="ADDRESS",
@@ -136,37 +119,44 @@ def search(  # noqa: PLR0913  an argument an option
     """
 
     def searches() -> Iterator[Result[SearchEntry]]:
-        asked = _SearchOptions(
+        campaign_of = partial(
+            search_campaign,
             edges=edges,
-            kind=WorldClass.parse(kind),
-            workers=processors() if workers is None else workers,
-            ledger=ledger,
-            depends=depends,
-            seed=seed,
+            kind=str(WorldClass.parse(kind)),
+            choices=policies,
             keep_going=keep_going,
-            policies=policies,
-            engine=engine,
-            worst=worst,
-            compare=compare is not None,
             limits=limits,
+            seed=seed,
             in_process=in_process,
+            engine=engine,
         )
         _require_files(depends)
         with _cluster(dask, workers) as cluster:
             if ledger is not None:
                 watch()  # before a mapper is loaded, and after Dask has read its settings
+            needed = None if ledger is None else depends
             for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
-                yield from _searched(output, mappers, asked, found, cluster)
+                campaign = campaign_of(mappers)
+                backend = _backend(mappers, workers, cluster, needed)
+                with _opened(output, ledger, depends, campaign, mappers) as store:
+                    study = Search(campaign, mappers, backend, store)
+                    yield from _searched(output, study, found, compare=compare is not None)
 
     def body(entries: Sequence[SearchEntry]) -> Iterator[Block]:
-        return chain.from_iterable(show_entry(entry, worst=worst) for entry in entries)
+        return chain.from_iterable(_shown(entry, worst=worst) for entry in entries)
 
-    def account(entries: Sequence[SearchEntry]) -> Account:
-        return search_account(entries, body(entries), found)
+    def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
+        yield from body(entries)
+        yield from found.blocks()
 
     found = FoundRuns(output)
-    show = partial(_with_walk, body=body, found=found)
-    return output.run("search", searches, show, account=account, in_process=in_process)
+    return output.run(
+        "search",
+        searches,
+        show,
+        account=lambda entries: _account(entries, body(entries), found),
+        in_process=in_process,
+    )
 
 
 def _require_files(depends: Sequence[str]) -> None:
@@ -184,14 +174,17 @@ def _cluster(dask: str | None, workers: int | None) -> AbstractContextManager[Cl
     return connected(dask)
 
 
-def _with_walk(
-    entries: Sequence[SearchEntry],
-    body: Callable[[Sequence[SearchEntry]], Iterable[Block]],
-    found: FoundRuns,
-) -> Iterator[Block]:
-    """What is said of the entries, then the walk of the first counterexample."""
-    yield from body(entries)
-    yield from found.blocks()
+def _backend(
+    mappers: tuple[Target, ...],
+    workers: int | None,
+    cluster: Cluster | None,
+    depends: tuple[str, ...] | None,
+) -> Backend:
+    """What the shards of a search are run on: the cluster, worker processes, or this process."""
+    if cluster is not None:
+        return clustered(cluster, depends)
+    number = processors() if workers is None else workers
+    return pooled(number, depends) if number else here(mappers, depends=depends)
 
 
 def _mappers(
@@ -223,73 +216,245 @@ def _mappers(
 
 def _searched(
     output: Output,
-    mappers: tuple[Target, ...],
-    asked: _SearchOptions,
+    study: Search,
     found: FoundRuns,
-    cluster: Cluster | None,
+    *,
+    compare: bool,
 ) -> Iterator[Result[SearchEntry]]:
     """The result of one search; after Ctrl-C, of the worlds done so far."""
-    campaign = search_campaign(
-        mappers,
-        edges=asked.edges,
-        kind=str(asked.kind),
-        choices=asked.policies,
-        keep_going=asked.keep_going,
-        limits=asked.limits,
-        seed=asked.seed,
-        in_process=asked.in_process,
-        engine=asked.engine,
-    )
-    depends = None if asked.ledger is None else asked.depends
-    backend = pooled(asked.workers, depends) if asked.workers else here(mappers, depends=depends)
-    if cluster is not None:
-        backend = clustered(cluster, depends)
-    with _opened(output, asked, campaign, mappers) as store:
-        study = Search(campaign, mappers, backend, store)
+    campaign = study.campaign
 
-        def result() -> Result[SearchEntry]:
-            entry = study.entry(compare=asked.compare)
-            failed, incomplete = entry.verdict == "REFUTED", entry.verdict not in DONE
-            return Result(entry, failed=failed, incomplete=incomplete)
+    def result() -> Result[SearchEntry]:
+        entry = study.entry(compare=compare)
+        failed, incomplete = entry.verdict == "REFUTED", entry.verdict not in DONE
+        return Result(entry, failed=failed, incomplete=incomplete)
 
-        try:
-            study.work(output.progress)
-            study.run_again(output.progress)
-        except KeyboardInterrupt:
-            # Yield before raising: `Output` prints what it has and then exits 3.
-            yield result()
-            raise
-        if campaign.engine == "compiled":
-            _note_seconds(output, study)
-        entry = study.entry()
-        reports = None if campaign.ways is None else partial(reports_of, campaign)
-        for one in (entry.counterexample, *(claim.smallest for claim in entry.claims)):
-            if one is not None:
-                found.run_again(
-                    mappers, one.world, one.claim, asked.limits, one.message, reports=reports
-                )
+    try:
+        study.work(output.progress)
+        study.run_again(output.progress)
+    except KeyboardInterrupt:
+        # Yield before raising: `Output` prints what it has and then exits 3.
         yield result()
-
-
-def _note_seconds(output: Output, study: Search) -> None:
-    """Enter the processor time of the engine and of the checkers, apart, into `timing`."""
-    known = output.timing.setdefault("engine", {"engine": 0.0, "checkers": 0.0})
-    known["engine"] += study.seconds.engine
-    known["checkers"] += study.seconds.checkers
+        raise
+    if campaign.engine == "compiled":
+        known = output.timing.setdefault("engine", {"engine": 0.0, "checkers": 0.0})
+        known["engine"] += study.seconds.engine
+        known["checkers"] += study.seconds.checkers
+    entry = study.entry()
+    reports = None if campaign.ways is None else partial(reports_of, campaign)
+    for one in (entry.counterexample, *(claim.smallest for claim in entry.claims)):
+        if one is not None:
+            found.run_again(
+                study.mappers,
+                *(one.world, one.claim, campaign.limits, one.message),
+                reports=reports,
+            )
+    yield result()
 
 
 @contextmanager
 def _opened(
-    output: Output, asked: _SearchOptions, campaign: Campaign, mappers: tuple[Target, ...]
+    output: Output,
+    ledger: str | None,
+    depends: tuple[str, ...],
+    campaign: Campaign,
+    mappers: tuple[Target, ...],
 ) -> Generator[StoredCampaign | None]:
     """The store, if one is asked for."""
-    if asked.ledger is None:
+    if ledger is None:
         yield None
         return
-    with Store(asked.ledger) as store:
-        now = Identity(mappers, asked.depends).loaded()
+    with Store(ledger) as store:
+        now = Identity(mappers, depends).loaded()
         known = store.campaign(campaign.identity(source_hash(mappers)), now)
         if known.since is not None:
             output.timing["ledger"] = dict(zip(("first", "last"), known.since, strict=True))
         yield known
         store.require_file()
+
+
+# ---------------------------------------------------------------- the account
+
+
+def _account(
+    entries: Sequence[SearchEntry], blocks: Iterable[Block], found: FoundRuns
+) -> acc.Account:
+    """The account of `search`: a suite a search; its verdict, and a case a claim."""
+    verdict = acc.joint_verdict([entry.verdict for entry in entries])
+    failing = sum(size.failing for entry in entries for size in entry.by_edges)
+    checked, total = sum(e.checked for e in entries), sum(e.total for e in entries)
+    return found.account(
+        ", ".join(entry.target for entry in entries),
+        acc.extent(verdict, checked, total, failing),
+        ((_suite(entry), _cases(entry)) for entry in entries),
+        blocks,
+    )
+
+
+def _suite(entry: SearchEntry) -> str:
+    kind = "" if entry.kind == "any" else f", {entry.kind}"
+    return f"{entry.target}: worlds of 1 to {plural(entry.edges, 'edge')}{kind}"
+
+
+def _cases(entry: SearchEntry) -> Iterator[acc.JudgedCase]:
+    first = entry.counterexample
+    yield acc.JudgedCase(
+        name="every world of the class",
+        verdict=entry.verdict,
+        outcome=acc.outcome_of(entry.verdict),
+        judged=f"{entry.checked:,} of {entry.total:,}",
+        message="" if first is None else f"{first.claim} in {first.world}: {first.message}",
+        again="" if first is None else first.replay,
+    )
+    wrong = {one.claim: one for one in entry.claims}
+    for case in acc.claim_cases(entry.judgements):
+        one = wrong.pop(case.name, None)
+        yield case if one is None else _failing(one)
+    yield from map(_failing, wrong.values())
+
+
+def _failing(one: FailingClaim) -> acc.JudgedCase:
+    where = f"in {plural(one.failing, 'world')}; {one.smallest.message}"
+    return acc.JudgedCase(one.claim, "failed", "failed", message=where, again=one.smallest.replay)
+
+
+# ---------------------------------------------------------------- for people
+
+SHOWN = 3
+"""The number of worlds shown in one cell; JSON has more."""
+
+
+def _shown(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
+    """One search, for people: a table, the verdict, the counterexample."""
+    kind = "" if entry.kind == "any" else f", class {entry.kind}"
+    policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
+    title = f"{_who(entry)}: worlds of 1 to {plural(entry.edges, 'edge')}{kind}{policies}"
+    rows = [
+        (str(e.edges), str(e.checked), str(e.total), str(e.failing), *(_costs(e) if worst else ()))
+        for e in entry.by_edges
+    ]
+    costs = (">max cost", ">mean", ">in worlds", "which") if worst else ()
+    yield TextTable((">edges", ">checked", ">total", ">failing", *costs), rows, title)
+    pairs = [_compared(e.edges, e.compare) for e in entry.by_edges if e.compare is not None]
+    if pairs:
+        yield Text("")
+        yield TextTable(
+            (">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs
+        )
+    yield from _every(entry, worst=worst)
+    yield Text("")
+    yield Text(f"{entry.verdict}: {_conclusion(entry)}")
+    if entry.lost:
+        yield Text(
+            "A worker was lost, which another program may have killed, or lacked memory; tried"
+            " again, nothing failed:"
+        )
+        yield Bullets(tuple(f"{one.world}: {one.how}" for one in entry.lost[:SHOWN]))
+    if entry.run_again is not None and entry.run_again.others:
+        others = entry.run_again.others
+        yield Text(
+            "Run again, alone or in another order, it takes other doors in"
+            f" {_some(others, len(others))}: it draws lots, or keeps something from world to world."
+            " Seed it anew in each world, and the verdict can stand."
+        )
+    if entry.engine != "reference":
+        yield Text(f"judged by {entry.judged_by}: {plural(entry.by_checkers, 'world')}")
+    yield from _counterexamples(entry)
+    if entry.verdict != "REFUTED":
+        yield from unjudged(entry.target, "these worlds", entry.judgements)
+
+
+def _every(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
+    """The states and choices of --policies every; with --worst the range of the costs, too."""
+    sizes = [(e.edges, e.every) for e in entry.by_edges if e.every is not None and e.every.worlds]
+    if not sizes:
+        return
+    rows = [(str(m), str(e.states), str(e.choices), e.decided_by, e.judged_by) for m, e in sizes]
+    yield Text("")
+    yield TextTable((">edges", ">states", ">choices", "decided by", "judged by"), rows)
+    if not worst:
+        return
+    costs = [
+        (str(m), *map(str, (e.cheapest, e.reference, e.dearest)), *_saved(e)) for m, e in sizes
+    ]
+    yield Text("")
+    columns = (">edges", ">cheapest", ">reference", ">dearest", ">saves", ">at most", "in")
+    yield TextTable(columns, costs, "sums of costs: the least, of the reference, the most")
+    low, reference = (sum(getattr(e, name) for _, e in sizes) for name in ("cheapest", "reference"))
+    yield Text("")
+    yield Text(
+        f"No policy of pick and order saves more than {1 - low / reference:.1%} of what the"
+        " reference policies cost in these worlds together."
+    )
+
+
+def _saved(entry: EveryCost) -> tuple[str, ...]:
+    """The share that the cheapest runs save together, and where one saves most."""
+    together = f"{1 - entry.cheapest / entry.reference:.1%}"
+    one = entry.most_saved
+    if one is None or one.reference == one.cheapest:
+        return together, "-", "-"
+    return together, f"{1 - one.cheapest / one.reference:.1%}", one.world
+
+
+def _who(entry: SearchEntry) -> str:
+    if all(e.compare is None for e in entry.by_edges):
+        return entry.target
+    first, _, second = entry.target.partition(",")
+    return f"A {first}, B {second}"
+
+
+def _costs(entry: ByEdges) -> tuple[str, ...]:
+    mean = f"{entry.total_cost / entry.runs:.2f}" if entry.runs else "-"
+    worst = _some(entry.worst, entry.attained)
+    return str(entry.max_cost), mean, str(entry.attained), worst
+
+
+def _compared(edges: int, pair: CostComparison) -> tuple[str, ...]:
+    first = [f"{world.world} ({world.cost}, {world.other})" for world in pair.first]
+    row = map(str, (edges, pair.dearer, pair.most, pair.cheaper))
+    return (*row, _some(first, pair.dearer))
+
+
+def _some(names: Sequence[str], number: int) -> str:
+    """The first names; an ellipsis if there are more."""
+    shown = ", ".join(names[:SHOWN])
+    return f"{shown} …" if number > SHOWN else shown or "-"
+
+
+def _conclusion(entry: SearchEntry) -> str:
+    worlds = f"{entry.checked} of {plural(entry.total, 'world')} checked"
+    if entry.from_ledger:
+        now = sum(size.checked + size.undecided for size in entry.by_edges) - entry.from_ledger
+        worlds += f" ({entry.from_ledger} from the ledger, {now} now)"
+    failing = sum(size.failing for size in entry.by_edges)
+    undecided = sum(size.undecided for size in entry.by_edges)
+    late = f"; {undecided} more not decided (out of time, or declined)" if undecided else ""
+    if entry.verdict == "REFUTED":
+        return f"{worlds}, a claim fails in {failing}{late}"
+    if entry.verdict == "UNKNOWN":
+        return f"{worlds}, no claim failed there{late}"
+    if entry.verdict == "SAMPLED":
+        models = [
+            e for e in entry.by_edges if e.every is not None and e.every.decided_by == "model"
+        ]
+        sizes = " and ".join(str(e.edges) for e in models)
+        return (
+            f"{worlds}, no claim failed{late}; the worlds of {sizes} edges are decided by a model"
+            " of the mapper, which itself made three runs in each"
+        )
+    return f"{worlds}, no claim failed{late}"
+
+
+def _counterexamples(entry: SearchEntry) -> Iterator[Block]:
+    """The smallest counterexample, and the smallest for each claim."""
+    first = entry.counterexample
+    if first is None:
+        return
+    yield Text(f"smallest counterexample: {first.world}")
+    yield Bullets((f"{first.claim}: {first.message}",))
+    yield Command(first.replay, "again: ")
+    if sum(size.failing for size in entry.by_edges) > 1:
+        rows = [(c.claim, str(c.failing), c.smallest.world) for c in entry.claims]
+        yield Text("")
+        yield TextTable(("claim that fails", ">in worlds", "smallest"), rows)

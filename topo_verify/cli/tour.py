@@ -10,8 +10,7 @@ import msgspec
 
 from topo_verify.checkers import check
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import named_world
 from topo_verify.errors import InputError

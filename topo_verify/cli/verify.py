@@ -11,22 +11,12 @@ from topo_verify.campaign.targets import target_text, targets
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.output import Live, Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Live, Output, Result, output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.runs import finding_blocks, unjudged
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.programs.loader import Target
-from topo_verify.report.account import (
-    JudgedCase,
-    JudgedExtent,
-    claim_cases,
-    counted,
-    extent,
-    joint_verdict,
-    outcome_of,
-    worlds,
-)
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify import verify as campaign
@@ -39,14 +29,7 @@ from topo_verify.text import plural
 @options.program
 @options.in_process
 @click.option("--quick", is_flag=True, help="Check smaller worlds, in a few seconds.")
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=campaign.SEED,
-    show_default=True,
-    metavar="N",
-    help="Seed of the sampled and generated worlds.",
-)
+@options.seed("Seed of the sampled and generated worlds.", campaign.SEED)
 @options.limits
 @output_options
 @report_options
@@ -94,7 +77,7 @@ def verify(
         account=lambda entries: found.account(
             _who(mappers),
             _extent(entries),
-            {part.part: cases_of(part) for part in entries},
+            ((part.part, cases_of(part)) for part in entries),
             _show(head, entries, _end),
         ),
         target=text,
@@ -112,39 +95,39 @@ WORLDLESS = ("counts", "proofs")
 """The parts that run no mapper: they count worlds, and theorems."""
 
 
-def cases_of(part: Part) -> Iterator[JudgedCase]:
+def cases_of(part: Part) -> Iterator[acc.JudgedCase]:
     """A case for the part, and one for each claim."""
-    yield JudgedCase(
+    yield acc.JudgedCase(
         name="the part as a whole",
         verdict=part.verdict,
-        outcome=outcome_of(part.verdict),
+        outcome=acc.outcome_of(part.verdict),
         judged=f"{part.checked:,} of {part.total:,}",
         message=part.summary,
         again=part.findings[0].replay if part.findings else "",
     )
-    for case in claim_cases(part.judgements):
+    for case in acc.claim_cases(part.judgements):
         failing = part.claims.get(case.name, {}).get("failed", 0)
         words = f"fails in {plural(failing, 'run')}" if failing else ""
         yield replace(case, message="; ".join(filter(None, (words, case.message))))
 
 
-def _extent(parts: Sequence[Part]) -> JudgedExtent:
+def _extent(parts: Sequence[Part]) -> acc.JudgedExtent:
     """The worlds of the finite class, and the sampled ones; theorems have a table of their own."""
-    verdict = joint_verdict([part.verdict for part in parts])
+    verdict = acc.joint_verdict([part.verdict for part in parts])
     tried = [part for part in parts if part.part not in WORLDLESS]
     failing = sum(part.failing for part in tried)
     if verdict == "REFUTED" and not failing:
         wrong = ", ".join(part.part for part in parts if part.verdict == "REFUTED")
-        return JudgedExtent(verdict, f"{wrong}: see the report")
+        return acc.JudgedExtent(verdict, f"{wrong}: see the report")
     finite = [part for part in tried if part.verdict == "EXHAUSTED"]
     if verdict in ("REFUTED", "UNKNOWN") or not finite:
         verdict = "SAMPLED" if verdict not in ("REFUTED", "UNKNOWN") else verdict
         checked, total = sum(p.checked for p in tried), sum(p.total for p in tried)
-        return extent(verdict, checked, total, failing)
+        return acc.extent(verdict, checked, total, failing)
     number, total = sum(p.checked for p in finite), sum(p.total for p in finite)
     sampled = sum(part.checked for part in tried if part.verdict == "SAMPLED")
-    words = counted(number, total, worlds(number))
-    return JudgedExtent("EXHAUSTED", f"{words}, {sampled:,} sampled" if sampled else words)
+    words = acc.counted(number, total, acc.worlds(number))
+    return acc.JudgedExtent("EXHAUSTED", f"{words}, {sampled:,} sampled" if sampled else words)
 
 
 # ---------------------------------------------------------------- for people

@@ -6,7 +6,7 @@ more, and its walk is shown if the same claim fails again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from topo_verify.campaign.judge import Report
 from topo_verify.campaign.run import explore
@@ -16,7 +16,7 @@ from topo_verify.errors import InputError
 from topo_verify.player import walk
 from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
-from topo_verify.report.account import Account, Exhibit, JudgedCase, JudgedExtent, JudgedSuite
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, View
 from topo_verify.robot.limits import Limits
 from topo_verify.world.resolve import resolve_world
@@ -66,7 +66,7 @@ class FoundRuns:
         self._most = MOST_EXHIBITS if output.exhibits else int(self._people)
         self._alone = output.exhibits
         self._report: Report | None = None
-        self._exhibits: dict[tuple[str, str], Exhibit] = {}
+        self._exhibits: dict[tuple[str, str], acc.Exhibit] = {}
         self._seen: set[tuple[str, str]] = set()
         self._late = False
 
@@ -81,7 +81,7 @@ class FoundRuns:
         if self._people:
             self._report = self._report or report
 
-    def show(self, exhibit: Exhibit | None) -> None:
+    def show(self, exhibit: acc.Exhibit | None) -> None:
         """Keep an exhibit for the page, if there is one."""
         if exhibit is not None:
             place = (exhibit.title, exhibit.name)
@@ -132,10 +132,10 @@ class FoundRuns:
                         self.keep(report)
                         return
         who = ",".join(target.text for target in targets)
-        self.show(Exhibit(target_title(who, world), there, world, (f"{claim}: {message}",)))
+        self.show(acc.Exhibit(target_title(who, world), there, world, (f"{claim}: {message}",)))
 
     @property
-    def exhibits(self) -> tuple[Exhibit, ...]:
+    def exhibits(self) -> tuple[acc.Exhibit, ...]:
         """The counterexamples for the page."""
         return tuple(self._exhibits.values()) if self._alone else ()
 
@@ -147,22 +147,25 @@ class FoundRuns:
     def account(
         self,
         about: str,
-        extent: JudgedExtent,
-        suites: Mapping[str, Iterable[JudgedCase]],
+        extent: acc.JudgedExtent,
+        suites: Iterable[tuple[str, Iterable[acc.JudgedCase]]],
         blocks: Iterable[Block],
-    ) -> Account:
+        others: Iterable[acc.Exhibit] = (),
+    ) -> acc.Account:
         """What the command came to, with its counterexamples.
 
         Args:
-            suites: the cases of each suite, by its name.
+            suites: the name of each suite, and its cases.
+            others: exhibits of runs in which nothing is wrong.
         """
-        return Account(
+        return acc.Account(
             about,
             extent,
-            tuple(JudgedSuite(name, tuple(cases)) for name, cases in suites.items()),
+            tuple(acc.JudgedSuite(name, tuple(cases)) for name, cases in suites),
             tuple(blocks),
             self.exhibits,
             self.left_out,
+            tuple(others),
         )
 
     def blocks(self) -> Iterator[Block]:
@@ -184,7 +187,7 @@ def target_title(target: str, world: str) -> str:
     return f"{target} in {world}"
 
 
-def exhibit_of(report: Report, *others: PlayedRun) -> Exhibit | None:
+def exhibit_of(report: Report, *others: PlayedRun) -> acc.Exhibit | None:
     """A run with its findings, to be looked at; None if the run is not known.
 
     Args:
@@ -193,7 +196,7 @@ def exhibit_of(report: Report, *others: PlayedRun) -> Exhibit | None:
     if report.run is None:
         return None
     run = PlayedRun(report.target, tuple(report.run.trace), report.judgements, report.run.stopped)
-    return Exhibit(
+    return acc.Exhibit(
         title=target_title(report.target, report.world),
         world=report.run.world,
         name=report.world,

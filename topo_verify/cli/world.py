@@ -14,8 +14,7 @@ import msgspec
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import epilog
-from topo_verify.cli.output import Live, Output, Result
-from topo_verify.cli.output import options as output_options
+from topo_verify.cli.output import Live, Output, Result, output_options
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.errors import InputError
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
