@@ -398,8 +398,6 @@ LONG: dict[str, tuple[str, ...]] = {
     ),
     "properties/test_claims.py": (
         r"test_every_claim_of_every_algorithm_holds_in_the_worlds_of_every_strategy\[.*\]",
-        r"test_every_claim_is_true_of_every_run\[dense_worlds-percepts-true\]",
-        r"test_every_claim_is_true_of_every_run\[tree_worlds-map-isomorphic\]",
         r"test_every_claim_of_what_assumes_a_plane_holds_in_planar_worlds\[.*\]",
         r"test_what_a_run_says_of_all_worlds_is_true_of_those_of_about_its_size\[.*\]",
     ),
@@ -505,7 +503,6 @@ LONG: dict[str, tuple[str, ...]] = {
     "world/formats/test_world_json.py": ("test_a_world_comes_back_with_all_that_it_carries",),
     "world/test_least_cost.py": (
         r"test_it_is_what_brute_force_finds\[[34]\]",
-        "test_no_run_costs_less",
         r"test_it_proves_every_world_at_the_least_cost\[5\]",
     ),
     "world/drawing/test_heat.py": (

@@ -91,7 +91,8 @@ class Play:
                     self.waiting.setdefault(event.edge, []).extend(event.hypotheses)
             case ev.Reject():
                 self.say("true-hypothesis-kept", self.truth(event.edge) != event.hypothesis)
-                self.say("rejection-justified", self.justified(event))
+                if event.rule != "folding":  # what rests on folding is not its to say
+                    self.say("rejection-justified", self.justified(event))
                 self.account(event)
                 if event.rule == "motion" and len(self.stack) > 1:
                     self.sequences.append(list(self.stack))

@@ -81,8 +81,7 @@ def test_every_claim_holds_and_is_fully_judged_of_what_is_decided_at_the_end() -
 
 @given(any_world(max_edges=12))
 def test_a_second_opinion_finds_nothing_wrong_either(world: World) -> None:
-    """It does not know how to fold, so what rests on folding is not its to say."""
-    assert failing_claims(world, decided_at_the_end(world)) <= {"rejection-justified"}
+    assert not failing_claims(world, decided_at_the_end(world))
 
 
 LATTICE = families.lattice(4, 4)

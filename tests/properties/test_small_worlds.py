@@ -21,6 +21,7 @@ def test_every_claim_holds_and_is_judged_in_full(name: str, small_rows: SmallRow
         assert row.world == world.id
         if name not in PLANAR or world.is_planar:
             assert len(row.claims) == len(CLAIMS)
+            assert row.cost >= row.least
             for judged in row.claims:
                 assert (judged.status, judged.judged) == ("ok", judged.of), row
 
