@@ -209,7 +209,7 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_a_worker_without_numba_is_named_with_the_mend",
         r"test_results_are_equal_byte_for_byte_to_those_of_workers_here\[.*\]",
     ),
-    "campaign/test_engines.py": (
+    "campaign/test_run_engines.py": (
         r"test_a_seeded_fault_is_found_in_the_same_worlds_by_either_engine\[.*\]",
         "test_both_engines_record_the_same_baseline",
         "test_workers_use_the_engine_that_is_asked_for",
@@ -245,7 +245,7 @@ LONG: dict[str, tuple[str, ...]] = {
         r"test_misbehaviour_is_one_finding_for_its_world\[ignores SIGTERM\]",
         r"test_misbehaviour_is_one_finding_for_its_world\[prints half a line and hangs\]",
     ),
-    "studies/faults/test_detection.py": (
+    "studies/test_faults.py": (
         r"test_a_harmless_difference_is_not_flagged\[(?!reports-no-cost).*\]",
         "test_workers_find_the_same_in_the_same_order",
     ),
@@ -286,7 +286,7 @@ LONG: dict[str, tuple[str, ...]] = {
         r"test_the_way_on_proves_the_map_behind_every_log\[3\]",
         "test_the_way_on_proves_larger_maps_behind_any_log",
     ),
-    "studies/reproduce/test_measuring.py": ("test_workers_make_the_same_rows",),
+    "studies/reproduce/test_points_runs.py": ("test_workers_make_the_same_rows",),
     "studies/reproduce/test_points.py": (
         r"test_the_points_in_docs_are_those_that_this_code_makes\[6.\]",
     ),

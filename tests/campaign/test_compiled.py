@@ -14,13 +14,13 @@ import pytest
 from tests.studies.search.searching import search_of, searched
 from topo_verify import CATALOGUE, Exploration, InputError, InternalError, Limits, explore
 from topo_verify.campaign import compiled as shards
+from topo_verify.campaign.attempt import attempt
 from topo_verify.campaign.backend import here
 from topo_verify.campaign.campaign import Campaign, Interrupted, Ranks, Shard, ShardResult
 from topo_verify.campaign.campaign import examine as examine_by_checkers
 from topo_verify.campaign.compiled import examine_compiled
-from topo_verify.campaign.engines import CompiledAlgorithm, Engine
 from topo_verify.campaign.identity import source_hash
-from topo_verify.campaign.row import attempt
+from topo_verify.campaign.run import CompiledAlgorithm, Engine
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.tally import Tally
 from topo_verify.campaign.targets import targets

@@ -14,7 +14,7 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.robot.events import Augment, Event, Finish, MapData, Move, Start, Trace
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot, exit_dart, first_percept
-from topo_verify.studies.open_doors import open_doors
+from topo_verify.studies.log_report import open_doors
 
 
 def plain(trace: Trace) -> list[Event]:

@@ -13,8 +13,7 @@ from topo_verify.cli import arena_game
 from topo_verify.cli.arena_game import play_game
 from topo_verify.cli.output import Output
 from topo_verify.errors import InputError, InternalError
-from topo_verify.studies.game.mapper_costs import MapperCosts
-from topo_verify.studies.game.values import game_values
+from topo_verify.studies.game.values import MapperCosts, game_values
 
 
 def played(

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from topo_verify.faults import FAULTS, Fault
-from topo_verify.studies.faults import detection as campaign
-from topo_verify.studies.faults.checks import STRATEGIES, Examples, Proof
+from topo_verify.studies import faults as campaign
+from topo_verify.studies.faults import STRATEGIES, Examples, Proof
 
 Call = Callable[..., Any]
 NAME = "restores-with-the-wrong-sign"

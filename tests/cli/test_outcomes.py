@@ -27,13 +27,12 @@ from click.testing import Result
 
 from topo_verify.campaign import progress
 from topo_verify.checkers.findings import Verdict
-from topo_verify.cli.output import entry_of
-from topo_verify.cli.output import ProgressBar
+from topo_verify.cli.output import ProgressBar, entry_of
 from topo_verify.faults import FAULTS, Fault
 from topo_verify.proofs import catalogue as proofs_catalogue
 from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem, TheoremResult
-from topo_verify.studies.faults import detection
-from topo_verify.studies.faults.checks import Proof
+from topo_verify.studies import faults as study
+from topo_verify.studies.faults import Proof
 
 Call = Callable[..., Result]
 
@@ -210,7 +209,7 @@ def test_every_form_of_an_undecided_fault_agrees(
     def proof(_fault: Fault) -> Proof:
         return Proof("planar-keeps", "UNKNOWN")
 
-    monkeypatch.setattr(detection, "proof", proof)
+    monkeypatch.setattr(study, "proof", proof)
     require_agreement(forms(call, "faults assumes-a-plane-world --by proofs"), 3)
 
 

@@ -20,7 +20,7 @@ from topo_verify.campaign.tally import Counts
 from topo_verify.checkers import Finding
 from topo_verify.report.figures.pictures import picture
 from topo_verify.studies.reproduce.figures import PAIRS, REFERENCE
-from topo_verify.studies.reproduce.measuring import PlannedRun
+from topo_verify.studies.reproduce.points import PlannedRun
 
 Call = Callable[..., Any]
 

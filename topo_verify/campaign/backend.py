@@ -21,25 +21,33 @@ import signal
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial, reduce
 from itertools import pairwise
 
 import msgspec
 
+from topo_verify.campaign.attempt import OUTSIDE, Look, lost_row
 from topo_verify.campaign.campaign import (
     Backend,
     Campaign,
     EngineSeconds,
+    NamedWorlds,
     Ranks,
     Shard,
+    ShardMemory,
     ShardResult,
     close,
     examine,
+    listed_shards,
+    results,
 )
 from topo_verify.campaign.cluster import Cluster, ClusterPool
 from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
 from topo_verify.campaign.pool import Pool
-from topo_verify.campaign.row import OUTSIDE, SECOND_TRY, Look, Row, lost_row
+from topo_verify.campaign.progress import Progress
+from topo_verify.campaign.row import SECOND_TRY, Row
+from topo_verify.campaign.run import on_engine
 from topo_verify.campaign.tally import Counts, Tally, notable
 from topo_verify.campaign.work import Division, Loss, Remote, Work
 from topo_verify.campaign.worker import Beat, Handler
@@ -444,3 +452,50 @@ def _passed_later(known: Row, lost: Row) -> Row:
         )
     why = f"its worker was lost ({lost.lost}), {OUTSIDE}"
     return msgspec.structs.replace(known, undecided=why, lost=lost.lost)
+
+
+# ---------------------------------------------------------------- one campaign a mapper
+
+
+@dataclass(frozen=True)
+class MapperCampaign:
+    """The runs of one mapper in a list of worlds.
+
+    Mappers may join later, and each stops at its own first failing world. The store finds a world
+    by its name and its code: other calls may list it in another order, or beside other worlds.
+
+    Attributes:
+        store: where they are kept; None: nowhere.
+        mapper: the mapper, if it is loaded already.
+    """
+
+    campaign: Campaign
+    worlds: NamedWorlds
+    store: ShardMemory | None = None
+    mapper: Target | None = None
+
+    @property
+    def total(self) -> int:
+        """The number of the worlds."""
+        return sum(self.campaign.worlds.totals().values())
+
+    @property
+    def stored(self) -> int:
+        """The number of these worlds that the store knows."""
+        if self.store is None:
+            return 0
+        return sum(self.store.get(shard) is not None for shard in listed_shards(self.worlds))
+
+    def rows(self, workers: int, tell: Progress | None = None) -> Iterator[Row]:
+        """The rows, in the order of the worlds; those that the store lacks are made.
+
+        Args:
+            workers: the number of processes; 0: this one alone.
+        """
+        depends = None if self.store is None else ()
+        backend = pooled(min(workers, self.total), depends)
+        if self.mapper is not None and not workers:
+            mappers = on_engine(self.campaign.engine, (self.mapper,), self.campaign.limits)
+            backend = here(mappers, depends=depends)
+        for _, result in results(self.campaign, backend, self.worlds, store=self.store, tell=tell):
+            yield from result.rows

@@ -31,10 +31,11 @@ from typing import Any, Literal, Protocol
 
 import msgspec
 
+from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
 from topo_verify.campaign.corpus import Corpus, Named
-from topo_verify.campaign.engines import Engine, on_engine
 from topo_verify.campaign.progress import Progress, ProgressRate
-from topo_verify.campaign.row import Attempt, Look, Row, attempt, row_of
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.tally import Counts, Notable, Tally
 from topo_verify.campaign.targets import targets
 from topo_verify.campaign.worker import Beat

@@ -37,8 +37,7 @@ import msgspec
 from topo_verify.campaign import cluster_worker
 from topo_verify.campaign.cluster_worker import ClusterTask, ClusterTaskDone
 from topo_verify.campaign.identity import own_hash
-from topo_verify.campaign.pieces import Piece, Pieces
-from topo_verify.campaign.work import ResultT, TaskT, Work, processors
+from topo_verify.campaign.work import Piece, Pieces, ResultT, TaskT, Work, processors
 from topo_verify.campaign.worker import WorkerFailed
 from topo_verify.errors import InputError, InternalError
 

@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import msgspec
 
+from topo_verify.campaign.attempt import attempt, row_of
 from topo_verify.campaign.campaign import (
     Campaign,
     EngineSeconds,
@@ -37,7 +38,7 @@ from topo_verify.campaign.campaign import (
     ShardResult,
     examine,
 )
-from topo_verify.campaign.row import Row, attempt, row_of
+from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Exploration, explore
 from topo_verify.campaign.tally import KEPT_FAILING, Costs, Counts, Pairs, Tally, notable
 from topo_verify.campaign.worker import Beat

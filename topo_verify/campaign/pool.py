@@ -16,7 +16,7 @@ workers, and finds out over what:
   their own, and end with this process, even if that is killed (`worker.py`).
 
 Results come in the order in which tasks are finished; `in_order` puts them into that of the tasks.
-What the workers do is a `Work` (work.py); pieces.py keeps the pieces of the tasks.
+What the workers do is a `Work` (work.py); it keeps the pieces of the tasks, too.
 
 **Why not a library?** `concurrent.futures` gives the whole pool up (`BrokenProcessPool`) when one
 worker dies, does not say which task was to blame, and cannot end a worker that hangs. `pebble`
@@ -39,8 +39,7 @@ from typing import Generic, Self
 
 import msgspec
 
-from topo_verify.campaign.pieces import Piece, Pieces
-from topo_verify.campaign.work import Loss, ResultT, TaskT, Work
+from topo_verify.campaign.work import Loss, Piece, Pieces, ResultT, TaskT, Work
 from topo_verify.campaign.worker import TaskDone, WorkerFailed, WorkerProcess, WorkerReady
 from topo_verify.errors import InputError, InternalError
 

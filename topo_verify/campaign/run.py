@@ -7,8 +7,9 @@ it raises, returns something else, exceeds its budget or loops without moving, t
     run = explore(world, "enhancement-ii")         # -> Exploration: map, cost, trace
 
 A TARGET's text runs in this process, or, with `in_process=False`, in one of its own. An algorithm
-of the catalogue may be run by the compiled engine (`engines.py`), which is given the world: what it
-delivers is judged like any trace.
+of the catalogue may be run by the compiled engine (`topo_verify.compiled`), some hundred times as
+fast, which is given the world. It is not trusted: what it delivers is judged like the run of any
+mapper, and tests hold it to the reference event by event.
 
 What this does not show: a mapper in the same process can be stopped only if it runs Python code and
 does not catch BaseException in a loop; see `topo_verify.robot.limits`. If it is determined to look,
@@ -17,15 +18,19 @@ it finds world and trace; a mapper in a process of its own does not.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from typing import Literal, get_args
 
 import msgspec
 
-from topo_verify.campaign.engines import ENGINES, CompiledAlgorithm, Engine, on_engine, policies_of
+from topo_verify.algorithms import CATALOGUE, REFERENCE, Algorithm
 from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import check
-from topo_verify.errors import InputError
+from topo_verify.compiled import require
+from topo_verify.compiled.faults import PLANTED
+from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.delivery import Undelivered, deliver
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.misbehaviour import Misbehaved
@@ -37,6 +42,7 @@ from topo_verify.robot.events import (
     Move,
     Policies,
     Reject,
+    Robot,
     Start,
     Trace,
 )
@@ -243,3 +249,84 @@ def _run(
     if isinstance(found, Undelivered):
         return None, found.why, error, None
     return found, None, None, None
+
+
+# ---------------------------------------------------------------- engines
+
+Engine = Literal["reference", "compiled"]
+"""What runs an algorithm of the catalogue."""
+
+ENGINES: tuple[Engine, ...] = get_args(Engine)
+
+
+@dataclass(frozen=True, slots=True)
+class CompiledAlgorithm:
+    """An algorithm of the catalogue, to be run by the compiled engine.
+
+    Attributes:
+        name: as in the catalogue.
+        fault: a mistake that is planted in it, by the name of the seeded fault; empty: none.
+        trace: keep the trace of a run; False: cost and map alone.
+    """
+
+    name: str
+    fault: str = ""
+    trace: bool = True
+
+    @property
+    def policies(self) -> Policies:
+        """Those of the reference; the kernels know no others."""
+        return REFERENCE
+
+    def __call__(self, robot: Robot) -> object:
+        """Raise an InternalError: the engine needs the world, and a robot hides it."""
+        raise InternalError(f"the compiled {self.name} was called with a robot: {robot!r}")
+
+
+def policies_of(target: Target) -> Policies | None:
+    """The policies of an algorithm of the catalogue, whatever runs it; None for other mappers."""
+    mapper = target.mapper
+    return mapper.policies if isinstance(mapper, Algorithm | CompiledAlgorithm) else None
+
+
+def on_engine(engine: Engine, targets: Iterable[Target], limits: Limits) -> tuple[Target, ...]:
+    """The same algorithms, to be run by this engine.
+
+    Raises:
+        InputError: the compiled engine cannot run one of them, or has no such limits; the message
+            says what it can.
+    """
+    found = tuple(targets)
+    if engine == "reference":
+        return found
+    require_compiled(found, limits)
+    return tuple(Target(target.text, CompiledAlgorithm(target.text)) for target in found)
+
+
+def planted(fault: str) -> CompiledAlgorithm | None:
+    """The compiled mapper with the mistake of this seeded fault; None if no kernel has it."""
+    found = PLANTED.get(fault)
+    return None if found is None else CompiledAlgorithm(found[1], fault)
+
+
+def require_compiled(targets: Iterable[Target], limits: Limits) -> None:
+    """Raise an InputError unless the compiled engine can run these mappers under these limits."""
+    require("--engine compiled")
+    for target in targets:
+        if not isinstance(target.mapper, Algorithm):
+            raise InputError(
+                f"--engine compiled runs the algorithms of the catalogue, {', '.join(CATALOGUE)},"
+                f" and {target.text} is none of them: leave --engine out"
+            )
+        if target.mapper != CATALOGUE.get(target.text):
+            chosen = target.mapper.policies
+            raise InputError(
+                f"--engine compiled runs {target.text} with the policies {REFERENCE.pick} and"
+                f" {REFERENCE.order}, got {chosen.pick} and {chosen.order}: leave out --pick and"
+                " --order, or --engine"
+            )
+    if replace(limits, budget=None) != Limits():
+        raise InputError(
+            "--engine compiled cannot stop a run after some seconds, and its runs are bounded by"
+            " the number of moves: leave out --move-timeout and --world-timeout, or --engine"
+        )

@@ -31,7 +31,7 @@ from topo_verify.report.league import broken_blocks, ratio_plot, runs_csv, suite
 from topo_verify.report.markdown import markdown
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import DearestWorld, League, LeagueEntry
-from topo_verify.studies.conform.look import file_name
+from topo_verify.studies.conform.outcome import file_name
 from topo_verify.world.formats import files
 from topo_verify.world.resolve import resolve_world
 

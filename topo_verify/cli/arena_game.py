@@ -12,8 +12,14 @@ from topo_verify.algorithms import NAMED
 from topo_verify.cli.output import Output, Result
 from topo_verify.errors import InputError, InternalError
 from topo_verify.report.blocks import Block, Text, TextTable
-from topo_verify.studies.game.mapper_costs import MapperCosts, least_costs, mapper_costs
-from topo_verify.studies.game.values import MOST_EDGES, GameValue, game_values
+from topo_verify.studies.game.values import (
+    MOST_EDGES,
+    GameValue,
+    MapperCosts,
+    game_values,
+    least_costs,
+    mapper_costs,
+)
 
 
 class CostsOfRobot(msgspec.Struct, frozen=True):

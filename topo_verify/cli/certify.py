@@ -23,9 +23,8 @@ from topo_verify.proofs.mechanised.certificates import CertificateCheck
 from topo_verify.report.blocks import Block, Bullets, Text, TextTable
 from topo_verify.robot.events import Trace, read_events
 from topo_verify.robot.limits import MOST_SECONDS
-from topo_verify.studies.log_report import Certificate
+from topo_verify.studies.log_report import Certificate, OpenDoor, open_doors
 from topo_verify.studies.log_report import certify as judge
-from topo_verify.studies.open_doors import OpenDoor, open_doors
 from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files

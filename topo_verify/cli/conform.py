@@ -31,8 +31,7 @@ from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, 
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.conform.batch import batched
 from topo_verify.studies.conform.conform import Conform, LevelResult
-from topo_verify.studies.conform.look import Asked
-from topo_verify.studies.conform.outcome import WorldFinding
+from topo_verify.studies.conform.outcome import Asked, WorldFinding
 from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 

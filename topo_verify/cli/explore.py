@@ -9,7 +9,7 @@ from typing import Literal
 
 import click
 
-from topo_verify.campaign.engines import Engine, on_engine
+from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.campaign.targets import targets
 from topo_verify.cli import explored, options

@@ -6,8 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import click
 
-from topo_verify.campaign.engines import Engine, planted
-from topo_verify.campaign.run import explore
+from topo_verify.campaign.run import Engine, explore, planted
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
@@ -20,11 +19,14 @@ from topo_verify.faults import FAULTS, Fault
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
-from topo_verify.studies.faults.checks import A_SECOND, EXAMPLES, LARGEST, STRATEGIES
-from topo_verify.studies.faults.detection import (
+from topo_verify.studies.faults import (
+    A_SECOND,
     CHECKS,
+    EXAMPLES,
+    LARGEST,
     LARGEST_HARMLESS,
     LARGEST_THOROUGH,
+    STRATEGIES,
     Caught,
     Check,
     try_faults,

@@ -6,11 +6,11 @@ from collections.abc import Generator, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 
+from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.store import Store
 from topo_verify.cli.output import Output
 from topo_verify.programs.loaded import watch
-from topo_verify.studies.by_mapper import MapperCampaign
 from topo_verify.text import plural
 
 STORE, OLD_STORE = "runs.db", "runs.jsonl"

@@ -12,7 +12,7 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
-from topo_verify.campaign.engines import ENGINES
+from topo_verify.campaign.run import ENGINES
 from topo_verify.campaign.targets import target_text
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import epilog

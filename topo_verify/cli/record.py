@@ -13,8 +13,8 @@ import msgspec
 from topo_verify.algorithms import Algorithm
 from topo_verify.campaign.campaign import CorpusWorlds
 from topo_verify.campaign.corpus import DEFAULT, Corpus, corpus_from
-from topo_verify.campaign.engines import Engine, on_engine
 from topo_verify.campaign.row import Row
+from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.targets import one_target, target_text
 from topo_verify.checkers import Finding
 from topo_verify.cli import options

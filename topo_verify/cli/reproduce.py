@@ -8,9 +8,8 @@ from pathlib import Path
 
 import click
 
-from topo_verify.campaign.engines import Engine
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import explore
+from topo_verify.campaign.run import Engine, explore
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.kept_runs import open_store, stored_rows
@@ -32,12 +31,14 @@ from topo_verify.studies.reproduce.figures import (
     FigureExtent,
     chosen_figures,
 )
-from topo_verify.studies.reproduce.measuring import PlannedRun, line_campaigns, runs_of
 from topo_verify.studies.reproduce.points import (
     FigurePoint,
+    PlannedRun,
     figure_points,
     growth_csv,
+    line_campaigns,
     points_csv,
+    runs_of,
 )
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World

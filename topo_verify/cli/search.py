@@ -13,8 +13,8 @@ import click
 from topo_verify.campaign.backend import clustered, here, pooled
 from topo_verify.campaign.campaign import Backend, Campaign
 from topo_verify.campaign.cluster import Cluster, both_given, connected
-from topo_verify.campaign.engines import Engine
 from topo_verify.campaign.identity import Identity, source_hash
+from topo_verify.campaign.run import Engine
 from topo_verify.campaign.store import Store, StoredCampaign
 from topo_verify.campaign.targets import target_text, targets
 from topo_verify.campaign.work import processors

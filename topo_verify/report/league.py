@@ -23,8 +23,7 @@ from topo_verify.campaign.row import Row
 from topo_verify.report.blocks import Block, Bullets, Cell, Command, Text, TextTable
 from topo_verify.report.html import xml_text
 from topo_verify.report.style import PALETTE
-from topo_verify.studies.arena.interval import MeanInterval
-from topo_verify.studies.arena.league import LeagueBehind, LeagueEntry
+from topo_verify.studies.arena.league import LeagueBehind, LeagueEntry, MeanInterval
 from topo_verify.studies.arena.suites import Suite
 from topo_verify.text import plural
 

@@ -3,13 +3,12 @@
 search/        every world of a class: the smallest counterexample, or EXHAUSTED
 conform/       an implementation against the reference
 baseline/      record and compare
-faults/        the seeded faults, and which check finds which
+faults.py      the seeded faults, and which check finds which
 arena/         mappers in named suites, ranked by cost
 game/          what the best explorer pays, computed
 reproduce/     the paper's figures
 verify/        the main job
-by_mapper.py   one campaign a mapper, all in one store
 gap.py         how far a rule is from the best possible
-log_report.py  a log judged with no world; open_doors.py: what is left to walk
+log_report.py  a log judged with no world; what is left to walk
 map_check.py   a map judged by a log, and the cheapest way to prove it
 """

@@ -8,8 +8,7 @@ from tests.studies.reproduce.rows import made_up, rows_of
 from topo_verify.campaign.row import Row
 from topo_verify.report.figures.words import judged_sentence, page, paragraph
 from topo_verify.studies.reproduce.figures import FIGURES, PAIRS, FigureExtent, PolicyPair
-from topo_verify.studies.reproduce.measuring import PlannedRun
-from topo_verify.studies.reproduce.points import FigurePoint, figure_points
+from topo_verify.studies.reproduce.points import FigurePoint, PlannedRun, figure_points
 
 
 def points(

@@ -14,8 +14,8 @@ import pytest
 from tests.programs.programs import deadly, served
 from tests.studies.baseline.recording import recording
 from topo_verify import CATALOGUE, Robot
+from topo_verify.campaign.attempt import Attempt, row_of
 from topo_verify.campaign.judge import examine
-from topo_verify.campaign.row import Attempt, row_of
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.targets import one_target
 from topo_verify.programs.loader import Mapper

@@ -13,10 +13,9 @@ from topo_verify.checkers import Fold
 from topo_verify.errors import InternalError
 from topo_verify.robot.percept import Percept
 from topo_verify.studies.game import folds
-from topo_verify.studies.game.class_game import ClassRules
 from topo_verify.studies.game.drawn import DrawnWorld
-from topo_verify.studies.game.endings import is_closed, is_planar, is_single_of_vertices
-from topo_verify.studies.game.proof_game import GameEnding, ProofRules
+from topo_verify.studies.game.folds import is_closed, is_planar, is_single_of_vertices
+from topo_verify.studies.game.rules import ClassRules, GameEnding, ProofRules
 from topo_verify.studies.game.search import Solver
 from topo_verify.world.rooted_map import World
 

@@ -11,9 +11,15 @@ import pytest
 import topo_verify as tv
 from tests.studies.game.plain import plain_value
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.studies.game.mapper_costs import mapper_costs
 from topo_verify.studies.game.search import Least
-from topo_verify.studies.game.values import GAMES, DrawnClass, GameValue, Knowledge, game_value
+from topo_verify.studies.game.values import (
+    GAMES,
+    DrawnClass,
+    GameValue,
+    Knowledge,
+    game_value,
+    mapper_costs,
+)
 from topo_verify.world.rooted_map import World
 
 KNOWN = cache(game_value)

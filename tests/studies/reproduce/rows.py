@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from topo_verify.campaign.row import Judged, Row, attempt, row_of
+from topo_verify.campaign.attempt import attempt, row_of
+from topo_verify.campaign.row import Judged, Row
 from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import CLAIMS
 from topo_verify.robot.events import Policies
 from topo_verify.studies.reproduce.figures import Figure, FigureExtent
-from topo_verify.studies.reproduce.measuring import LIMITS, PlannedRun
+from topo_verify.studies.reproduce.points import LIMITS, PlannedRun
 from topo_verify.world.resolve import resolve_world
 
 HELD = tuple(Judged("ok", 3, 3) for _ in CLAIMS)

@@ -12,8 +12,13 @@ from msgspec.structs import replace
 from tests.studies.reproduce.rows import made_up, measured, planned_runs, rows_of
 from topo_verify.campaign.row import Row
 from topo_verify.studies.reproduce.figures import FIGURES, PAIRS, FigureExtent
-from topo_verify.studies.reproduce.measuring import PlannedRun
-from topo_verify.studies.reproduce.points import figure_points, growth, growth_csv, points_csv
+from topo_verify.studies.reproduce.points import (
+    PlannedRun,
+    figure_points,
+    growth,
+    growth_csv,
+    points_csv,
+)
 
 DOCS = Path(__file__).resolve().parents[3] / "docs" / "figures"
 

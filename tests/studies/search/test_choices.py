@@ -8,7 +8,7 @@ import pytest
 
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.policies import ORDERS, PICKS
-from topo_verify.campaign.row import Attempt, attempt
+from topo_verify.campaign.attempt import Attempt, attempt
 from topo_verify.campaign.run import Exploration
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits

@@ -1,7 +1,6 @@
 """The arena: mappers in named suites of worlds, ranked by cost if every claim holds.
 
 suites.py    the named suites: families of worlds with their seeds
-interval.py  means over the families of a suite, with confidence intervals
 league.py    from rows to the table: places, intervals, counterexamples
 match.py     the campaign of each mapper, hidden worlds, memory
 """

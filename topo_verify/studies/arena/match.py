@@ -21,7 +21,8 @@ from pathlib import Path
 import msgspec
 
 from topo_verify.algorithms import NAMED
-from topo_verify.campaign.backend import here
+from topo_verify.campaign.attempt import Attempt
+from topo_verify.campaign.backend import MapperCampaign, here
 from topo_verify.campaign.campaign import (
     Campaign,
     ListedWorlds,
@@ -33,7 +34,6 @@ from topo_verify.campaign.campaign import (
 )
 from topo_verify.campaign.identity import Identity, runs_here, source_hash
 from topo_verify.campaign.progress import Progress
-from topo_verify.campaign.row import Attempt
 from topo_verify.campaign.store import Store
 from topo_verify.errors import InputError
 from topo_verify.programs import serve
@@ -41,7 +41,6 @@ from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import League
-from topo_verify.studies.by_mapper import MapperCampaign
 from topo_verify.world.resolve import resolve_world
 
 

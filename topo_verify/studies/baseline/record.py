@@ -17,19 +17,19 @@ import shlex
 from collections.abc import Iterable, Sequence
 from importlib import metadata
 
+from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.campaign import Campaign, ListedWorlds, NamedWorlds, Stop
 from topo_verify.campaign.corpus import Corpus
-from topo_verify.campaign.engines import Engine, policies_of
 from topo_verify.campaign.identity import Identity, runs_here, source_hash
 from topo_verify.campaign.judge import replay_line
 from topo_verify.campaign.row import Row
+from topo_verify.campaign.run import Engine, policies_of
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import target_arguments
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline.file import Baseline, BaselineEntry, Header
-from topo_verify.studies.by_mapper import MapperCampaign
 from topo_verify.world.rooted_map import World
 
 MAX_TIMEOUTS = 3

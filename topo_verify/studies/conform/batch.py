@@ -25,10 +25,10 @@ from typing import NamedTuple, Self
 
 import msgspec
 
+from topo_verify.campaign.attempt import Attempt, row_of
 from topo_verify.campaign.backend import counted
 from topo_verify.campaign.campaign import Campaign, Shard, ShardResult, function_at
 from topo_verify.campaign.judge import judge
-from topo_verify.campaign.row import Attempt, row_of
 from topo_verify.campaign.run import explore
 from topo_verify.errors import InputError
 from topo_verify.programs import protocol as ms

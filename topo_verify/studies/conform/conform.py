@@ -28,7 +28,7 @@ from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Tally
 from topo_verify.checkers import CLAIMS, Judgement
 from topo_verify.checkers.findings import Verdict
-from topo_verify.studies.conform import look
+from topo_verify.studies.conform import outcome as levels
 from topo_verify.studies.conform.outcome import (
     LEVELS,
     RESULT,
@@ -143,15 +143,15 @@ class Conform:
     """
 
     def __init__(
-        self, campaign: Campaign, corpus: Corpus, asked: look.Asked, again: Sequence[str] = ()
+        self, campaign: Campaign, corpus: Corpus, asked: levels.Asked, again: Sequence[str] = ()
     ) -> None:
-        look.look(*asked)  # before anything is started: the message is then the first
+        levels.look(*asked)  # before anything is started: the message is then the first
         self.campaign = msgspec.structs.replace(
             campaign,
             worlds=ListedWorlds(corpus.total),
             record=bool(asked.transcript),
             stop=Stop(timeouts=MAX_TIMEOUTS),
-            look=f"{look.__name__}:{look.look.__name__}",
+            look=f"{levels.__name__}:{levels.look.__name__}",
             asked=tuple(asked),
         )
         self.corpus, self.asked, self.again = corpus, asked, again

@@ -20,9 +20,9 @@ from typing import Literal, get_args
 
 from topo_verify.algorithms import Algorithm
 from topo_verify.algorithms.policies import ORDERS, PICKS
+from topo_verify.campaign.attempt import Attempt, attempt
 from topo_verify.campaign.campaign import Campaign
 from topo_verify.campaign.judge import Report, world_argument
-from topo_verify.campaign.row import Attempt, attempt
 from topo_verify.errors import InputError
 from topo_verify.programs.loader import Target
 from topo_verify.studies.search.states.every import every_choice, require_edges

@@ -25,9 +25,9 @@ from topo_verify.campaign.campaign import (
     results,
 )
 from topo_verify.campaign.cluster import both_given, connected
-from topo_verify.campaign.engines import Engine, require_compiled
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
+from topo_verify.campaign.run import Engine, require_compiled
 from topo_verify.campaign.tally import (
     KEPT_PAIRS,
     KEPT_WORST,

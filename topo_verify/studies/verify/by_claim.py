@@ -18,10 +18,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.corpus import corpus_from
 from topo_verify.campaign.judge import Report, undecided
 from topo_verify.campaign.progress import no_progress
-from topo_verify.campaign.row import Attempt
 from topo_verify.checkers import Finding
 from topo_verify.player import walk
 from topo_verify.programs.loader import Target

@@ -16,8 +16,8 @@ from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis, retrace
+from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.judge import judge
-from topo_verify.campaign.row import Attempt
 from topo_verify.campaign.run import explore
 from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.loader import Mapper, Target

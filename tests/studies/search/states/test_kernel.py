@@ -11,8 +11,8 @@ import pytest
 from tests.studies.search.states.test_graph import searched, worlds
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.motion import Executed, Hypothesis, overlap
+from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.judge import judge
-from topo_verify.campaign.row import Attempt
 from topo_verify.campaign.run import explore
 from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.loader import Target

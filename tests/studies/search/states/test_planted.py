@@ -18,7 +18,7 @@ from topo_verify.algorithms import exploration, policies
 from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.folding import FoldingRule
-from topo_verify.campaign.row import Attempt, attempt
+from topo_verify.campaign.attempt import Attempt, attempt
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.search.choices import Choices, every

@@ -25,8 +25,9 @@ from typing import Literal, NamedTuple, cast
 import msgspec
 
 from topo_verify.algorithms import Algorithm
+from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.judge import Report, world_argument
-from topo_verify.campaign.row import Attempt, PolicyCosts
+from topo_verify.campaign.row import PolicyCosts
 from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits

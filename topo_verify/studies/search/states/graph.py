@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from topo_verify.algorithms import Algorithm
-from topo_verify.campaign.row import Attempt
+from topo_verify.campaign.attempt import Attempt
 from topo_verify.errors import InternalError
 from topo_verify.programs.loader import Mapper
 from topo_verify.studies.search.states.memory import State, state

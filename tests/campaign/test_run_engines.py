@@ -11,24 +11,24 @@ import pytest
 import topo_verify as tv
 from tests.studies.baseline.recording import recording
 from topo_verify import CATALOGUE, InputError, InternalError, Limits, World, explore
-from topo_verify.campaign.engines import (
+from topo_verify.campaign.judge import TRACELESS, judge
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.run import (
     ENGINES,
     CompiledAlgorithm,
     Engine,
     on_engine,
     planted,
 )
-from topo_verify.campaign.judge import TRACELESS, judge
-from topo_verify.campaign.row import Row
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import one_target
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.faults import FAULTS
 from topo_verify.robot.events import MapData
-from topo_verify.studies.faults.checks import smallest
-from topo_verify.studies.reproduce import measuring
+from topo_verify.studies.faults import smallest
+from topo_verify.studies.reproduce import points
 from topo_verify.studies.reproduce.figures import FIGURES, LATTICE, FigureExtent
-from topo_verify.studies.reproduce.measuring import line_campaigns
+from topo_verify.studies.reproduce.points import line_campaigns
 
 pytest.importorskip("numba")
 
@@ -140,7 +140,7 @@ def test_a_large_world_is_judged_by_its_map_and_cost(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = rows(tmp_path, "compiled")
-    monkeypatch.setattr(measuring, "LARGE", 10)
+    monkeypatch.setattr(points, "LARGE", 10)
     (tmp_path / "compiled.db").unlink()
     brief = rows(tmp_path, "compiled")
     assert [(row.cost, row.least, row.edges, row.map) for row in brief] == [

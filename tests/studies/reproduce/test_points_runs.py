@@ -10,13 +10,14 @@ import pytest
 
 from tests.studies.reproduce.rows import measured
 from topo_verify import InputError, explore
-from topo_verify.campaign.row import Row, lost_row
+from topo_verify.campaign.attempt import lost_row
+from topo_verify.campaign.backend import MapperCampaign
+from topo_verify.campaign.row import Row
 from topo_verify.campaign.store import Store
 from topo_verify.faults import FAULTS
 from topo_verify.robot.limits import Limits
-from topo_verify.studies.by_mapper import MapperCampaign
-from topo_verify.studies.reproduce import figures, measuring
-from topo_verify.studies.reproduce.measuring import PlannedRun, line_campaigns, runs_of
+from topo_verify.studies.reproduce import figures, points
+from topo_verify.studies.reproduce.points import PlannedRun, line_campaigns, runs_of
 from topo_verify.world.resolve import resolve_world
 
 WORLD = "family:lattice(4,4,holes=0.2,seed=3)"
@@ -89,7 +90,7 @@ def test_a_seeded_fault_is_a_finding(tmp_path: Path, monkeypatch: pytest.MonkeyP
 def test_a_run_out_of_time_convicts_no_algorithm(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(measuring, "LIMITS", Limits(world_timeout=1e-4))
+    monkeypatch.setattr(points, "LIMITS", Limits(world_timeout=1e-4))
     large = replace(FIGURE, setting=replace(SMALL, sizes=(30,)), lines=("basic",))
     with Store(tmp_path / "runs.db") as store:
         (campaign,) = line_campaigns([large], EXTENT, "reference", store)

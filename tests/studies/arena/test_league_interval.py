@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from topo_verify.studies.arena.interval import FamilySample, mean_interval, student
+from topo_verify.studies.arena.league import FamilySample, mean_interval, student
 
 VALUES = [1.0, 2.0, 4.0, 7.0]
 

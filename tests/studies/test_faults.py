@@ -15,24 +15,25 @@ from topo_verify.faults import FAULTS, Fault
 from topo_verify.proofs.catalogue import catalogue
 from topo_verify.robot.events import Augment, Robot
 from topo_verify.robot.limits import Limits
-from topo_verify.studies.faults import checks
-from topo_verify.studies.faults.checks import (
+from topo_verify.studies import faults as study
+from topo_verify.studies.faults import (
     Examples,
     Proof,
     Smallest,
+    entry_of,
     examples,
     examples_to_detection,
     fails,
     proof,
     smallest,
+    try_faults,
 )
-from topo_verify.studies.faults.detection import entry_of, try_faults
 from topo_verify.world.rooted_map import World
 
 UNTURNED = FAULTS["restores-with-the-wrong-sign"]
 LUCKY = FAULTS["confirms-what-is-alone"]
 SILENT = FAULTS["declares-nothing"]
-ANY, STREETS = checks.STRATEGIES
+ANY, STREETS = study.STRATEGIES
 
 
 def test_search_tells_the_smallest_size_and_how_many_worlds_fail() -> None:
@@ -127,7 +128,7 @@ def test_the_latest_faults_fail_in_worlds_of_six_and_seven_edges(name: str, worl
 def test_beyond_five_edges_the_search_ends_at_the_first_failing_world(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(checks, "COUNTED", 2)
+    monkeypatch.setattr(study, "COUNTED", 2)
     found = smallest(UNTURNED)
     assert (found.edges, found.failing, found.checked, found.total) == (3, 1, 9, 74)
     assert smallest(UNTURNED, thorough=True).failing == 2
@@ -151,7 +152,7 @@ def _fault(mapper: Callable[[Robot], object], claim: str | None) -> Fault:
 
 
 def test_a_run_out_of_time_is_undecided_and_no_fault(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(checks, "A_SECOND", Limits(move_timeout=0.1, world_timeout=0.1))
+    monkeypatch.setattr(study, "A_SECOND", Limits(move_timeout=0.1, world_timeout=0.1))
     still = _fault(_stands_still, None)
     assert fails(still, World.from_id("m1/0")) is None
     found, drawn = smallest(still, largest=1), examples(still, seeds=[0], most=2)

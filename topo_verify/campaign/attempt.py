@@ -1,0 +1,249 @@
+"""An attempt: a mapper runs in a world, every claim is judged, and a row is made of it.
+
+    attempt(world, target, ...)    runs the mapper and judges the run     -> Attempt
+    row_of(attempt, ...)           the same as data                       -> Row
+    lost_row(...)                  the run that took its process with it  -> Row
+
+**The second try.** A program, or a mapper in a process of its own, may be killed by what it does or
+by something else: a system without memory sends SIGKILL. So the world is tried again. If the mapper
+fails again, the first run counts. If it passes, a crash is still a finding, and SIGKILL leaves the
+world undecided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import msgspec
+
+from topo_verify.campaign.judge import Report, judge, replay_line, undecided
+from topo_verify.campaign.row import SECOND_TRY, Judged, PolicyCosts, Row, hashed
+from topo_verify.campaign.run import Exploration, explore
+from topo_verify.checkers import Finding
+from topo_verify.errors import InputError
+from topo_verify.programs.loader import Target
+from topo_verify.programs.program import Program, TranscriptLine
+from topo_verify.robot import events as ev
+from topo_verify.robot.limits import Limits
+from topo_verify.robot.stopwatch import Stopwatch
+from topo_verify.world.enumeration import rank_order
+from topo_verify.world.rooted_map import World
+
+OUTSIDE = "perhaps for a reason outside; the second try passed"
+"""What is said of a run that was lost once."""
+
+KEPT_FINDINGS = 5
+"""The most findings of each claim that a row keeps."""
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """A run of a mapper in a world, and its judgement.
+
+    Attributes:
+        seconds: processor time of mapper and robot.
+        lines: the transcript of a program that records one.
+        lost: the signal that ended an earlier try, perhaps by nothing that the mapper did.
+        choices: as in a `Row`.
+    """
+
+    run: Exploration
+    report: Report
+    seconds: float = 0.0
+    lines: tuple[TranscriptLine, ...] | None = None
+    lost: str | None = None
+    choices: PolicyCosts | None = None
+
+
+Look = Callable[[Attempt], Any]
+"""What a study notes about a run beside what every row has: JSON."""
+
+
+def attempt(
+    world: World,
+    target: Target,
+    limits: Limits,
+    *,
+    where: str,
+    strict: bool = False,
+    witness: bool = True,
+    beat: Callable[[], None] = lambda: None,
+) -> Attempt:
+    """Run a mapper in a world, again if its process was killed, and judge the run.
+
+    Args:
+        where: the world, as the command line names it.
+        strict: judge claim 10 also in worlds with more than 2,000 edges.
+        witness: also run the mapper in the witness world of a wrong map.
+        beat: called before each run and each judgement.
+    """
+
+    def once() -> Attempt:
+        beat()
+        if program is not None:
+            program.start()  # the seconds of a run are not those of a start
+        clock = Stopwatch()
+        run = explore(world, target, limits=limits)
+        seconds = clock.seconds()
+        lines = tuple(program.lines) if program is not None and program.record else None
+        beat()
+        asked = run if witness else replace(run, mapper=None)
+        report = judge(asked, where=where, options=limits.options, strict=strict)
+        if program is not None:
+            program.settle()  # it may have been run in a witness world, too
+        return Attempt(run, report, seconds, lines)
+
+    program = target.mapper if isinstance(target.mapper, Program) else None
+    first = once()
+    signal = first.run.misbehaved and first.run.misbehaved.signal
+    if signal is None:
+        return first
+    second = once()
+    if not second.report.ok:
+        return first
+    if signal == "SIGKILL":
+        return replace(second, lost=signal)
+    run = replace(first.run, stopped=f"{first.run.stopped}{SECOND_TRY}")
+    return replace(first, run=run, report=judge(run, where=where, options=limits.options))
+
+
+def row_of(made: Attempt, where: str, place: int, turn: int = 0, look: Look | None = None) -> Row:
+    """The row of a run.
+
+    Args:
+        where: the world, as the command line names it.
+        place: its rank among the worlds of its size, or its place in a list.
+        turn: the number of runs in the same world before this one.
+        look: what the study notes.
+    """
+    run, report = made.run, made.report
+    why = None
+    if made.lost is not None:
+        why = f"its process was ended by {made.lost}, {OUTSIDE}"
+    if undecided(run, report):
+        open_claims = [name for name, status in report.claims.items() if status == "undecided"]
+        why = run.stopped or f"undecided: {', '.join(open_claims)}"
+    doors, decisions, rejected, free, confirmed = _counted(run.trace)
+    row = Row(
+        world=where,
+        vertices=len(run.world.vertices),
+        edges=len(run.world.edges),
+        place=place,
+        turn=turn,
+        least=run.world.least_cost(),
+        mapper=run.algorithm,
+        policies=run.policies,
+        cost=run.cost,
+        free=free,
+        moving=rejected - free,
+        confirmed=confirmed,
+        claims=tuple([Judged(j.status, j.judged, j.of) for j in report.judgements]),
+        findings=_first(report.findings),
+        undecided=why,
+        ended=_ended(run),
+        stopped=run.stopped,
+        lost=made.lost,
+        moves=hashed(doors),
+        decisions=hashed(decisions) if decisions else None,
+        map=_map(run, report),
+        timed_out=run.limit in ("move-timeout", "world-timeout"),
+        seconds=made.seconds,
+        note=None if look is None else look(made),
+        choices=made.choices,
+    )
+    if row.findings or row.note is not None:  # only these hold what a mapper made
+        return _decoder.decode(msgspec.json.encode(row, enc_hook=repr))
+    return row
+
+
+_decoder = msgspec.json.Decoder(Row)
+
+
+def lost_row(
+    world: World, place: int, where: str, mapper: str, limits: Limits, cause: str, *, external: bool
+) -> Row:
+    """The row of a run that took its process with it.
+
+    Args:
+        cause: what became of the process, in words.
+        external: the mapper may have had no part in it; then the world is undecided.
+    """
+    bare = Row(
+        world=where,
+        vertices=len(world.vertices),
+        edges=len(world.edges),
+        place=place,
+        least=world.least_cost(),
+        mapper=mapper,
+        ended="worker-lost",
+        stopped=cause,
+    )
+    if external:
+        return msgspec.structs.replace(bare, undecided=cause, lost=cause)
+    replay = replay_line(where, mapper, None, limits.options)
+    message = f"no map was delivered: {cause}"
+    finding = Finding("map-isomorphic", None, "a map", None, message, None, where, replay)
+    return msgspec.structs.replace(bare, findings=(finding,))
+
+
+def _first(findings: Sequence[Finding]) -> tuple[Finding, ...]:
+    """The first findings of each claim."""
+    numbers: dict[str, int] = {}
+    kept: list[Finding] = []
+    for finding in findings:
+        numbers[finding.claim] = numbers.get(finding.claim, 0) + 1
+        if numbers[finding.claim] <= KEPT_FINDINGS:
+            kept.append(finding)
+    return tuple(kept)
+
+
+def _ended(run: Exploration) -> str:
+    if run.map is not None:
+        return "map"
+    return run.misbehaved.kind if run.misbehaved is not None else run.limit or "no-map"
+
+
+def _counted(trace: Sequence[ev.Event]) -> tuple[list[int], list[object], int, int, int]:
+    """Doors; declared decisions; how many rejections, and how many without motion; confirmations.
+
+    A decision counts with the number of moves before it: edge, hypotheses, rule, kind, dart. The
+    evidence of a rejection and the purpose of a move say why, not what, and are left out.
+    """
+    doors: list[int] = []
+    decisions: list[object] = []
+    rejected = free = confirmed = 0
+    before: type[ev.Event] = ev.Start
+    for event in trace:  # by type: `match` takes three times as long
+        kind = type(event)
+        if isinstance(event, ev.Move):
+            doors.append(event.door)
+        elif isinstance(event, ev.Pose):
+            decisions.append((len(doors), "pose", event.edge, event.hypotheses))
+        elif isinstance(event, ev.Reject):
+            rejected += 1
+            free += before is not ev.Move
+            decisions.append((len(doors), "reject", event.edge, event.hypothesis, event.rule))
+        elif isinstance(event, ev.Confirm):
+            confirmed += 1
+            decisions.append((len(doors), "confirm", event.edge, event.hypothesis, event.rule))
+        elif isinstance(event, ev.Augment):
+            grown = (event.edge, event.kind, event.dart, event.degree)
+            decisions.append((len(doors), "augment", *grown))
+        before = kind
+    return doors, decisions, rejected, free, confirmed
+
+
+def _map(run: Exploration, report: Report) -> str | None:
+    """The id of the delivered map, or a hash of its code; None without a valid one."""
+    if run.map is None:
+        return None
+    try:
+        # If no claim fails the map is the world, so there is nothing to build.
+        drawn = run.world if report.ok else World.from_map(run.map)
+    except InputError:
+        return None
+    # The id is canonical, so the mapper's numbering of darts does not matter.
+    small = len(drawn.edges) <= rank_order.MAX_ID_EDGES
+    return drawn.id if small else f"sha256:{hashed(drawn.code)}"

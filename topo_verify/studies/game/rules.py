@@ -1,0 +1,231 @@
+"""The rules of two games: the history proves the map among all worlds, or among those of a class.
+
+In the first (`ProofRules`) the history has to prove the map among worlds of any size.
+
+    state       the fold of the history, where the robot stands in it, the worlds that are open
+    choice      an open dart: to walk there along crossed edges, the shortest way, and cross it
+    answer      the percept behind it
+    the end     `GameEnding`: one world fits
+
+Only at an open dart can something be seen that is not known. What is known of the worlds that are
+open besides the fold (that they have m edges, say) may guide the robot, but ends no game.
+
+In the second (`ClassRules`) the robot knows a finite class of worlds, such as all with m edges.
+
+    state       the worlds of the class in which the history happens, the robot's dart in each
+    choice      a door
+    answer      the percept behind it
+    the end     one world of the class is left
+
+Where the robot stands is a dart of each world that is left, so this says all that a history says
+of the class. Two histories with the same state are equally good.
+
+**Bound.** Two darts that stay apart for k moves whatever the doors (partition refinement: they look
+alike, and so do, door by door, the darts behind them) need k moves to be told apart. A world is
+told from all others at the end, so from the one that is hardest to tell from it.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import accumulate, count
+from typing import NamedTuple
+
+from topo_verify.errors import InternalError
+from topo_verify.studies.game.drawn import DrawnWorld
+from topo_verify.studies.game.folds import (
+    FoldCode,
+    Sight,
+    crossed,
+    distances,
+    first_fold,
+    open_darts,
+    vertices,
+)
+from topo_verify.studies.game.search import GameChoice
+
+
+class FoldState(NamedTuple):
+    """A state of the game.
+
+    Attributes:
+        code: the fold of the history.
+        at: the reference dart of the robot there.
+        open: the numbers of the worlds that are open, ascending.
+    """
+
+    code: FoldCode
+    at: int
+    open: tuple[int, ...]
+
+
+class GameEnding(NamedTuple):
+    """How a game ends.
+
+    Attributes:
+        is_proved: whether a fold leaves one world only.
+        bound: for a world, a fold that is not proved and a dart of it: the moves to go, at least.
+    """
+
+    is_proved: Callable[[FoldCode], bool]
+    bound: Callable[[DrawnWorld, FoldCode, int], int]
+
+
+class ProofRules:
+    """The rules of this game (`search.Rules`).
+
+    Args:
+        worlds: those that the robot may be in.
+        ending: how the game ends.
+    """
+
+    def __init__(self, worlds: Sequence[DrawnWorld], ending: GameEnding) -> None:
+        self._worlds, self._ending = worlds, ending
+        self._proved = dict[FoldCode, bool]()
+        self._crossed = dict[tuple[FoldCode, int, Sight], tuple[FoldCode, int]]()
+
+    def starts(self) -> list[FoldState]:
+        """The states after the first percept."""
+        seen = defaultdict[int, list[int]](list)
+        for number, world in enumerate(self._worlds):
+            seen[world.degrees[0]].append(number)
+        return list(self._open((first_fold(degree), 0, held) for degree, held in seen.items()))
+
+    def choices(self, state: FoldState) -> Iterator[GameChoice[FoldState]]:
+        """Each open dart of the fold."""
+        _, vertex = vertices(state.code[0])
+        far = distances(state.code, vertex[state.at])
+        for dart in open_darts(state.code):
+            yield GameChoice(far[vertex[dart]] + 1, tuple(self._open(self._answers(state, dart))))
+
+    def worlds(self, state: FoldState) -> int:
+        """How many worlds are open."""
+        return len(state.open)
+
+    def parts(self, state: FoldState) -> list[FoldState]:
+        """Two parts: the worlds whose numbers have the first bit that differs, and the others."""
+        held = state.open
+        if len(held) == 1:
+            return []
+        bit = 1 << (held[0] ^ held[-1]).bit_length() - 1
+        cut = sum(not number & bit for number in held)
+        return [state._replace(open=held[:cut]), state._replace(open=held[cut:])]
+
+    def bounds(self, state: FoldState) -> Iterator[int]:
+        """The bound of the ending."""
+        for number in state.open:
+            yield self._ending.bound(self._worlds[number], state.code, state.at)
+
+    def _answers(self, state: FoldState, dart: int) -> Iterator[tuple[FoldCode, int, list[int]]]:
+        """What may be seen behind an open dart: the fold then, where the robot is, the worlds."""
+        seen = defaultdict[Sight, list[int]](list)
+        for number in state.open:
+            world = self._worlds[number]
+            seen[world.sight(world.alpha[world.placed(state.code)[dart]])].append(number)
+        for sight, held in seen.items():
+            key = state.code, dart, sight
+            if key not in self._crossed:
+                self._crossed[key] = crossed(*key)
+            yield *self._crossed[key], held
+
+    def _open(self, answers: Iterable[tuple[FoldCode, int, list[int]]]) -> Iterator[FoldState]:
+        """The answers that do not end the game, as states."""
+        for code, at, held in answers:
+            if code not in self._proved:
+                self._proved[code] = self._ending.is_proved(code)
+            if not self._proved[code]:
+                yield FoldState(code, at, tuple(held))
+            elif len(held) > 1:
+                raise InternalError(f"{len(held)} worlds fit the fold {code}, which proves one")
+
+
+# ---------------------------------------------------------------- a finite class
+
+ClassState = tuple[tuple[int, int], ...]
+"""A state: the numbers of the worlds that are left, ascending, each with the robot's dart in it."""
+
+
+class ClassRules:
+    """The rules of this game (`search.Rules`).
+
+    Args:
+        worlds: the class.
+        counted: the numbers of those whose costs count: all, or the robot is in one of them and
+            does not know it.
+    """
+
+    def __init__(self, worlds: Sequence[DrawnWorld], counted: frozenset[int]) -> None:
+        self._worlds, self._counted = worlds, counted
+        self._looks = _refined(worlds)
+        self._first = list(accumulate((len(world.alpha) for world in worlds), initial=0))
+
+    def starts(self) -> list[ClassState]:
+        """The states after the first percept."""
+        return self._open([(number, 0) for number in range(len(self._worlds))])
+
+    def choices(self, state: ClassState) -> Iterator[GameChoice[ClassState]]:
+        """Each door by which the robot can leave."""
+        number, dart = state[0]
+        degree, _ = self._worlds[number].sight(dart)
+        for door in range(degree):
+            behind = [(number, self._behind(number, dart, door)) for number, dart in state]
+            yield GameChoice(1, tuple(self._open(behind)))
+
+    def worlds(self, state: ClassState) -> int:
+        """How many of the worlds that are left count."""
+        return sum(number in self._counted for number, _ in state)
+
+    def parts(self, _state: ClassState) -> list[ClassState]:
+        """None: the bounds are as good."""
+        return []
+
+    def bounds(self, state: ClassState) -> Iterator[int]:
+        """For each world that counts, the moves to tell it from the one hardest to tell from it."""
+        darts = [self._first[number] + dart for number, dart in state]
+        held = [
+            dart for dart, (number, _) in zip(darts, state, strict=True) if number in self._counted
+        ]
+        left = dict.fromkeys(held, 0)
+        for moves, looks in enumerate(self._looks, start=1):
+            alike = Counter(looks[dart] for dart in darts)
+            if not (twins := [dart for dart in held if alike[looks[dart]] > 1]):
+                break
+            left.update(dict.fromkeys(twins, moves))
+        yield from left.values()
+
+    def _behind(self, number: int, dart: int, door: int) -> int:
+        world = self._worlds[number]
+        return world.alpha[world.turned(dart, door)]
+
+    def _open(self, places: Sequence[tuple[int, int]]) -> list[ClassState]:
+        """The places by what is seen there; without those that are single, or do not count."""
+        seen = defaultdict[Sight, list[tuple[int, int]]](list)
+        for number, dart in places:
+            seen[self._worlds[number].sight(dart)].append((number, dart))
+        states = map(tuple, seen.values())
+        return [state for state in states if len(state) > 1 and self.worlds(state)]
+
+
+def _refined(worlds: Sequence[DrawnWorld]) -> list[list[int]]:
+    """For k = 0, 1, … the class of each dart: equal just if k moves cannot tell the two apart.
+
+    The darts of all worlds are numbered one world after the other. The last list is stable.
+    """
+    first = list(accumulate((len(world.alpha) for world in worlds), initial=0))
+    behind = [
+        [
+            first[number] + world.alpha[world.turned(dart, door)]
+            for door in range(world.sight(dart)[0])
+        ]
+        for number, world in enumerate(worlds)
+        for dart in range(len(world.alpha))
+    ]
+    names = defaultdict[object, int](count().__next__)
+    looks = [[names[w.sight(dart)] for w in worlds for dart in range(len(w.alpha))]]
+    while len(looks) < 2 or len(set(looks[-1])) > len(set(looks[-2])):
+        last, names = looks[-1], defaultdict[object, int](count().__next__)
+        looks.append(
+            [names[last[dart], *(last[b] for b in behind[dart])] for dart in range(len(last))]
+        )
+    return looks
