@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from topo_verify.programs import loaded, values
+from topo_verify.programs import loaded
 from topo_verify.programs.loaded import Loaded
 
 
@@ -144,9 +144,9 @@ WAYS = (closing_over, defaulting_to, by_keyword, partly, bound, made_of)
 @pytest.mark.parametrize("way", WAYS)
 def test_what_a_mapper_is_made_with_counts(way: Callable[[object], Any]) -> None:
     made = [True, False, 1, 1.0, "1", b"1", None, (1,), [1], {1}, {1: 2}, {"a", "b"}, int, len, sys]
-    hashes = [values.values_hash(way(value)) for value in made]
+    hashes = [loaded.values_hash(way(value)) for value in made]
     assert len(set(hashes)) == len(made)
-    assert hashes == [values.values_hash(way(value)) for value in made]
+    assert hashes == [loaded.values_hash(way(value)) for value in made]
 
 
 def test_code_counts() -> None:
@@ -156,13 +156,13 @@ def test_code_counts() -> None:
         lambda text: text.upper(),
         lambda text: text.lower(),
     ]
-    assert len({values.values_hash(one) for one in made}) == len(made)
+    assert len({loaded.values_hash(one) for one in made}) == len(made)
 
 
 def test_the_order_in_which_a_set_was_filled_does_not_count() -> None:
     one, other = {0, 8}, {8, 0}
     assert list(one) != list(other)  # for both have the same place in its table
-    assert values.values_hash(one) == values.values_hash(other)
+    assert loaded.values_hash(one) == loaded.values_hash(other)
 
 
 def test_values_in_a_circle_and_too_many_of_them_have_an_end(
@@ -170,9 +170,9 @@ def test_values_in_a_circle_and_too_many_of_them_have_an_end(
 ) -> None:
     circle: list[object] = []
     circle.append(circle)
-    assert values.values_hash(circle) == values.values_hash(circle)
-    monkeypatch.setattr(values, "MOST_VALUES", 10)
-    assert values.values_hash([[n] for n in range(100)]) == values.values_hash(
+    assert loaded.values_hash(circle) == loaded.values_hash(circle)
+    monkeypatch.setattr(loaded, "MOST_VALUES", 10)
+    assert loaded.values_hash([[n] for n in range(100)]) == loaded.values_hash(
         [[n] for n in range(50)] + [[-n] for n in range(50)]
     )
 
@@ -181,6 +181,6 @@ def test_an_empty_cell_is_no_obstacle() -> None:
     def inner() -> object:
         return later
 
-    before = values.values_hash(inner)
+    before = loaded.values_hash(inner)
     later = 1
-    assert before != values.values_hash(inner)
+    assert before != loaded.values_hash(inner)

@@ -23,10 +23,9 @@ from topo_verify import World, examine, explore
 from topo_verify.campaign.targets import target_arguments, target_text, targets
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
-from topo_verify.programs.child import Child, Silent
+from topo_verify.programs.child import Child, ReaperProcess, Silent
 from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
-from topo_verify.programs.reaper_process import ReaperProcess
 from topo_verify.robot.events import Move
 from topo_verify.robot.limits import Limits
 from topo_verify.robot.simulator import SimulatedRobot

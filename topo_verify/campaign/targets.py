@@ -40,8 +40,7 @@ from types import ModuleType
 from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, Algorithm, Steered
 from topo_verify.errors import InputError
 from topo_verify.programs.foreign import Foreign
-from topo_verify.programs.hints import close_name, missing_attribute
-from topo_verify.programs.loader import Mapper, Target, load
+from topo_verify.programs.loader import Mapper, Target, close_name, load, missing_attribute
 from topo_verify.programs.program import PREFIX, Program, split
 from topo_verify.text import is_utf8
 

@@ -3,16 +3,14 @@
 protocol.py         protocol 1 and the batch format: every message as a type, and its JSON Schema
 child.py            a program as a child process: its lines in and out, and its end
 process.py          its processor, how it ended, and what it writes on standard error
-reaper.py           kills the programs whose parent was killed; reaper_process.py starts it
+reaper.py           kills the programs whose parent was killed
 isolation.py        keeps worlds from other processes; starts Python processes of our own
 launcher.py         starts those that no other program can look into, not even at first
 program.py          a program behind protocol 1 as a mapper, called with a robot
 misbehaviour.py     what a program does instead of delivering a map
 loader.py           a mapper by module:attribute or file.py:attribute
 delivery.py         calls a mapper and reads what it returns
-serve.py            a Python mapper behind protocol 1
+serve.py            a Python mapper behind protocol 1; each world in a fork of its own, if asked
 foreign.py          a Python mapper that is not ours, in a process of its own
-values.py           a hash of what a mapper was made with
-serve_fresh.py      serves it, each world in a fork of its own
-loaded.py           the files and distributions that a mapper's process has loaded
+loaded.py           the files and distributions that a mapper's process has loaded; its values
 """

@@ -23,11 +23,13 @@ import os
 import select
 import signal
 import subprocess
+import sys
 import termios
 from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
 from math import inf
+from pathlib import Path
 from secrets import token_hex
 from time import monotonic, sleep
 
@@ -36,7 +38,6 @@ from topo_verify.programs import launcher, reaper
 from topo_verify.programs.isolation import sleep_briefly
 from topo_verify.programs.process import ExitStatus, SharedProcessor, StandardError, exit_status
 from topo_verify.programs.protocol import LIMIT
-from topo_verify.programs.reaper_process import ReaperProcess
 from topo_verify.robot.limits import TICK
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
@@ -400,3 +401,40 @@ class Child:
         until = monotonic() + seconds
         while self._status() is None and monotonic() < until:
             sleep(0.002)
+
+
+# ---------------------------------------------------------------- the reaper
+
+
+class ReaperProcess:
+    """The process of reaper.py; one serves any number of programs. Lives until `close`."""
+
+    def __init__(self) -> None:
+        self._process = subprocess.Popen(  # noqa: S603  our own file
+            [sys.executable, "-I", "-S", str(Path(reaper.__file__))],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+            bufsize=0,
+        )
+
+    def started(self, group: int, mark: str) -> None:
+        """Put a program on the list of those to kill."""
+        self._write(f"+ {group} {mark}\n")
+
+    def ended(self, group: int, mark: str) -> None:
+        """Take a program off the list."""
+        self._write(f"- {group} {mark}\n")
+
+    def _write(self, line: str) -> None:
+        assert self._process.stdin is not None
+        with suppress(OSError):
+            self._process.stdin.write(line.encode())
+
+    def close(self) -> None:
+        """End the reaper, which first kills every program that is still on its list."""
+        assert self._process.stdin is not None
+        with suppress(OSError):
+            self._process.stdin.close()
+        self._process.wait()

@@ -23,13 +23,12 @@ import msgspec
 
 from topo_verify.errors import InputError
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.child import Child, Ended, Silent, TooLong
+from topo_verify.programs.child import Child, Ended, ReaperProcess, Silent, TooLong
 from topo_verify.programs.isolation import python_command
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.programs.misbehaviour import Misbehaved, crash_report, decoded
 from topo_verify.programs.program import Program
-from topo_verify.programs.reaper_process import ReaperProcess
 from topo_verify.robot.limits import Limits, MapperStopped, helped_by, within
 from topo_verify.robot.simulator import EXPECTED
 
@@ -86,7 +85,7 @@ class Foreign(Program):
     longest: ClassVar[int] = LONGEST
 
     def __init__(self, text: str, *, fresh: bool = False) -> None:
-        served = "serve_fresh:fresh" if fresh else "serve:child"
+        served = "serve:fresh" if fresh else "serve:child"
         super().__init__(python_command(f"topo_verify.programs.{served}", text))
         self.text = text
         self._decode = _decoded

@@ -2,13 +2,16 @@
 
     watch()       from now on note every file that is opened for reading
     loaded()      -> Loaded: each file and its hash, each installed distribution and its version
+    values_hash() of what a mapper was made with, which the text of its files does not say: the
+                  arguments of partials, the contents of closures, defaults, and the attributes of
+                  callable objects; read before the mapper runs, for some may change then
 
 A file counts if a module was loaded from it, or if Python opened it for reading after `watch`. Left
 out are the standard library, installed distributions (they count by their versions) and topo_verify
 itself. Files are hashed when `loaded` is called.
 
 What this does not show: files that C code or another process opens; what comes from the
-environment, a network or a clock.
+environment, a network or a clock; what C code holds; values beyond the first `MOST_VALUES`.
 """
 
 from __future__ import annotations
@@ -17,12 +20,13 @@ import os
 import stat
 import sys
 import sysconfig
-from collections.abc import Iterable, Mapping
-from functools import cache
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache, partial
 from hashlib import sha256
 from importlib import metadata
 from pathlib import Path
-from typing import Any
+from types import CodeType, FunctionType, MethodType, ModuleType
+from typing import Any, cast
 
 import msgspec
 
@@ -42,7 +46,7 @@ class Loaded(msgspec.Struct, frozen=True):
     Attributes:
         files: the SHA-256 of each file, by its absolute path.
         distributions: the version of each installed distribution that it imported, by its name.
-        values: a hash of what the mapper was made with (values.py); empty: not known.
+        values: a hash of what the mapper was made with (`values_hash`); empty: not known.
         modules: the file of each module among them, by the module's name.
     Raises:
         InputError: the name of a file is not UTF-8, so no store can keep it.
@@ -187,3 +191,65 @@ def _installing(top: str) -> tuple[tuple[str, str], ...]:
 @cache
 def _distributions() -> Mapping[str, list[str]]:
     return metadata.packages_distributions()
+
+
+# ---------------------------------------------------------------- values
+
+
+MOST_VALUES = 10_000
+"""The most values that are read."""
+
+
+def values_hash(mapper: object) -> str:
+    """A hash of what a mapper was made with; call this before it runs."""
+    text = repr(list(_described(mapper, {})))
+    return sha256(text.encode(errors="backslashreplace")).hexdigest()
+
+
+def _described(value: object, seen: dict[int, object]) -> Iterator[str]:
+    """A value as words that are the same in every process."""
+    if isinstance(value, bool | int | float | complex | str | bytes | None):
+        yield f"{type(value).__name__} {value!r}"
+        return
+    yield f"{type(value).__module__}.{type(value).__qualname__}"
+    if id(value) in seen or len(seen) >= MOST_VALUES:
+        return
+    seen[id(value)] = value  # kept, so that no other value gets its id
+    if isinstance(value, set | frozenset):
+        whole = cast("frozenset[object]", value)
+        yield from sorted(" ".join(_described(one, dict(seen))) for one in whole)
+        return
+    for part in _parts(value):
+        yield from _described(part, seen)
+    yield "."  # where the parts end
+
+
+def _parts(value: object) -> Iterator[object]:
+    """What a value is made of."""
+    if isinstance(value, list | tuple):
+        yield from cast("list[object]", value)
+    elif isinstance(value, Mapping):
+        for pair in cast("Mapping[object, object]", value).items():
+            yield from pair
+    elif isinstance(value, partial):
+        made = cast("partial[object]", value)
+        yield from (made.func, made.args, made.keywords)
+    elif isinstance(value, MethodType):
+        yield from (value.__func__, value.__self__)
+    elif isinstance(value, FunctionType):
+        yield from (value.__qualname__, value.__code__, value.__defaults__, value.__kwdefaults__)
+        yield from (_content(cell) for cell in value.__closure__ or ())
+        yield dict(value.__dict__)
+    elif isinstance(value, CodeType):
+        yield from (value.co_code, value.co_names, value.co_consts, value.co_freevars)
+    elif isinstance(value, type | ModuleType):
+        yield value.__name__
+    else:
+        yield dict(getattr(value, "__dict__", {}))
+
+
+def _content(cell: Any) -> object:
+    try:
+        return cell.cell_contents
+    except ValueError:  # it is empty
+        return None

@@ -29,7 +29,7 @@ import msgspec
 from topo_verify.errors import InputError
 from topo_verify.programs import isolation
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.child import GRACE, Child, Ended, TooLong
+from topo_verify.programs.child import GRACE, Child, Ended, ReaperProcess, TooLong
 from topo_verify.programs.loader import Target
 from topo_verify.programs.misbehaviour import (
     Misbehaved,
@@ -38,7 +38,6 @@ from topo_verify.programs.misbehaviour import (
     seen,
     silence_report,
 )
-from topo_verify.programs.reaper_process import ReaperProcess
 from topo_verify.robot.events import Finish, Robot
 from topo_verify.robot.limits import BudgetExceeded, TimeLimitExceeded, helped_by
 from topo_verify.robot.simulator import Misuse, SimulatedRobot

@@ -14,6 +14,8 @@ Source: docs/semantics.md, section 15.
 from __future__ import annotations
 
 import faulthandler
+import os
+import signal
 import sys
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -28,7 +30,6 @@ from topo_verify.programs import isolation, loaded
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.delivery import Undelivered, deliver, finish_of
 from topo_verify.programs.loader import Mapper, load
-from topo_verify.programs.values import values_hash
 from topo_verify.robot.events import Decision
 from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.percept import Door, Percept, Purpose
@@ -77,8 +78,7 @@ class RemoteRobot:
         # An exception may strike anywhere below: the recursion limit, a signal handler. Then this
         # robot does not know whether it moved. `serve` passes over the percept that may come yet.
         self._is_under_way = True
-        self._writer.write(_encode(ms.MoveMessage(number, purpose)) + b"\n")
-        self._writer.flush()
+        _send(self._writer, ms.MoveMessage(number, purpose))
         line = self._reader.readline()
         if not line:
             raise MapperStopped("the harness is gone")
@@ -141,8 +141,12 @@ def serve(
         # First what the mapper printed: it belongs to the world that ends now.
         with suppress(OSError, ValueError):
             sys.stdout.flush()
-        writer.write(_encode(answer) + b"\n")
-        writer.flush()
+        _send(writer, answer)
+
+
+def _send(writer: BinaryIO, message: object) -> None:
+    writer.write(_encode(message) + b"\n")
+    writer.flush()
 
 
 def _listed(values: str) -> ms.FromStock:
@@ -175,13 +179,6 @@ def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
     return ms.DoneMessage(found.map, found.cost)
 
 
-def play_once(mapper: Mapper, start: ms.StartMessage, reader: BinaryIO, writer: BinaryIO) -> None:
-    """Play one world for `Foreign`, whose start has been read."""
-    answer = _as_child(mapper, RemoteRobot(start.percept, reader, writer))
-    writer.write(_encode(answer) + b"\n")
-    writer.flush()
-
-
 def _words(text: str) -> str:
     """The text as it can be sent: cut, and without half characters."""
     return text[:WORDS].encode(errors="backslashreplace").decode()
@@ -202,13 +199,64 @@ def child(text: str) -> None:
     try:
         mapper = load(text)
     except InputError as error:
-        writer.write(_encode(ms.RefusedMessage(_words(str(error)))) + b"\n")
-        writer.flush()
+        _send(writer, ms.RefusedMessage(_words(str(error))))
         return
-    made = values_hash(mapper)  # before it runs: a default may change then
-    writer.write(_encode(ms.ReadyMessage()) + b"\n")
-    writer.flush()
+    made = loaded.values_hash(mapper)  # before it runs: a default may change then
+    _send(writer, ms.ReadyMessage())
     serve(mapper, reader, writer, _as_child, made)
+
+
+# ---------------------------------------------------------------- a process for each world
+
+
+def fresh(text: str) -> None:
+    """Serve the mapper of a TARGET for `Foreign`, each world in a fork of this process.
+
+    This process loads all that a mapper needs but the mapper: a fork takes some milliseconds, to
+    start Python anew a few hundred. What a fork does to itself it does to nobody else; if a signal
+    ends it, this process ends itself by the same.
+
+    What this does not show: that nothing is left of an earlier world on the disk or in the
+    environment. All forks have the same hash seed.
+    """
+    reader, writer = isolation.private_pipes()
+    _send(writer, ms.ReadyMessage())
+    for line in reader:
+        message = _to_child.decode(line)
+        if isinstance(message, LATE):
+            continue
+        if not isinstance(message, ms.StartMessage):
+            return
+        played = os.fork()
+        if played == 0:
+            _play_and_end(text, message, reader, writer)
+        _, status = os.waitpid(played, 0)
+        _end_likewise(os.waitstatus_to_exitcode(status))
+
+
+def _play_and_end(text: str, start: ms.StartMessage, reader: BinaryIO, writer: BinaryIO) -> None:
+    """Play one world and end this process."""
+    code = 1
+    try:
+        try:
+            mapper = load(text)
+        except InputError as error:
+            answer: object = ms.UndeliveredMessage("no-map", str(error))
+        else:
+            answer = _as_child(mapper, RemoteRobot(start.percept, reader, writer))
+        _send(writer, answer)
+        code = 0
+    finally:
+        os._exit(code)
+
+
+def _end_likewise(code: int) -> None:
+    """End this process as the one that played ended, unless that was done with its world."""
+    if code < 0:
+        signal.signal(-code, signal.SIG_DFL) if -code != signal.SIGKILL else None
+        os.kill(os.getpid(), -code)
+    elif code > 0:
+        os._exit(code)
 
 
 if __name__ == "__main__":

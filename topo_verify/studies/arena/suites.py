@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 
 from topo_verify.errors import InputError
-from topo_verify.programs.hints import close_name
+from topo_verify.programs.loader import close_name
 from topo_verify.world.enumeration import rank_order
 
 DEFAULT = "default"

@@ -32,11 +32,10 @@ from topo_verify.campaign.judge import judge
 from topo_verify.campaign.run import explore
 from topo_verify.errors import InputError
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.child import GRACE, Child, Ended, Silent, TooLong
+from topo_verify.programs.child import GRACE, Child, Ended, ReaperProcess, Silent, TooLong
 from topo_verify.programs.loader import Target
 from topo_verify.programs.misbehaviour import Misbehaved, crash_report, decoded, shown_line
 from topo_verify.programs.program import PREFIX, TranscriptLine, split
-from topo_verify.programs.reaper_process import ReaperProcess
 from topo_verify.robot.events import Robot
 from topo_verify.robot.simulator import Misuse
 from topo_verify.world.formats import world_json
