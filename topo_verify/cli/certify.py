@@ -155,13 +155,13 @@ class CertifyEntry(msgspec.Struct, frozen=True):
 @click.option("--kernel", "proving", is_flag=True, help="Write a certificate for Coq and check it.")
 @click.option("--check", "received", metavar="CERTIFICATE", help="Check a certificate with Coq.")
 @click.option("--log", "about", metavar="LOG", help="With --check: it must be about this log.")
-@click.option(
+@options.number(
     "--timeout",
-    type=click.IntRange(1, MOST_SECONDS),
+    least=1,
+    most=MOST_SECONDS,
     default=600,
-    show_default=True,
     metavar="SECONDS",
-    help="Time limit of each program that checks a certificate.",
+    meaning="Time limit of each program that checks a certificate.",
 )
 @output_options
 def certify(  # noqa: PLR0913  an argument an option

@@ -96,27 +96,40 @@ def _seconds(_context: click.Context, _option: click.Parameter, value: str) -> f
     return seconds
 
 
-def seed(meaning: str, default: int = 0) -> Callable[[Callable[..., int]], Callable[..., int]]:
-    """Add --seed, whose help says what it is the seed of."""
+def number(
+    *names: str,
+    meaning: str,
+    least: int = 0,
+    most: int | None = None,
+    metavar: str = "N",
+    default: int | None = None,
+    shows_default: bool = True,
+    required: bool = False,
+) -> Callable[[Callable[..., int]], Callable[..., int]]:
+    """Add an option that is an integer."""
     return click.option(
-        "--seed",
-        type=click.IntRange(min=0),
+        *names,
+        type=click.IntRange(least, most),
+        metavar=metavar,
         default=default,
-        show_default=True,
-        metavar="N",
+        show_default=default is not None and shows_default,
+        required=required,
         help=meaning,
     )
+
+
+def seed(meaning: str, default: int = 0) -> Callable[[Callable[..., int]], Callable[..., int]]:
+    """Add --seed, whose help says what it is the seed of."""
+    return number("--seed", meaning=meaning, default=default)
 
 
 def limits(command: Callable[..., int]) -> Callable[..., int]:
     """Add the limits of a run in one world; the command gets them as `limits`."""
     usual = Limits()
 
-    @click.option(
+    @number(
         "--budget",
-        type=click.IntRange(min=0),
-        metavar="N",
-        help="Most moves in one world.  [default: the bound of claim cost-within-bound]",
+        meaning="Most moves in one world.  [default: the bound of claim cost-within-bound]",
     )
     @click.option(
         "--move-timeout",
@@ -280,13 +293,8 @@ def algorithms(default: str, meaning: str) -> Callable[[Callable[..., int]], Cal
 def workers(default: int | None = None) -> Callable[[Callable[..., int]], Callable[..., int]]:
     """Add --workers; without a default, None stands for one worker per processor."""
     usual = "one per processor" if default is None else default
-    return click.option(
-        "--workers",
-        type=click.IntRange(min=0),
-        default=default,
-        metavar="N",
-        help=f"Number of worker processes; 0: only this one.  [default: {usual}]",
-    )
+    meaning = f"Number of worker processes; 0: only this one.  [default: {usual}]"
+    return number("--workers", meaning=meaning, default=default, shows_default=False)
 
 
 store = click.option(

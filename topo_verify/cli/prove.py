@@ -164,12 +164,7 @@ class ProveListEntry(msgspec.Struct, frozen=True):
     type=click.Choice(KINDS),
     help="Only theorems of this kind.",
 )
-@click.option(
-    "--edges",
-    type=click.IntRange(min=1),
-    metavar="N",
-    help="Bounded theorems only up to worlds of N edges.",
-)
+@options.number("--edges", least=1, meaning="Bounded theorems only up to worlds of N edges.")
 @click.option(
     "--solver",
     type=click.Choice(["z3", "cvc5"]),
@@ -177,13 +172,13 @@ class ProveListEntry(msgspec.Struct, frozen=True):
     show_default=True,
     help="cvc5: ask cvc5 every question as well.",
 )
-@click.option(
+@options.number(
     "--timeout",
-    type=click.IntRange(1, MOST_SECONDS),
+    least=1,
+    most=MOST_SECONDS,
     default=60,
-    show_default=True,
     metavar="SECONDS",
-    help="Time limit of each question to a solver.",
+    meaning="Time limit of each question to a solver.",
 )
 @click.option("--deep", is_flag=True, help="Include the theorems that take minutes.")
 @click.option("--certify", is_flag=True, help="Make and check certificates of bounded theorems.")

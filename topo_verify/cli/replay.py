@@ -67,12 +67,11 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     "--world", "world_text", metavar="WORLD", help="The world in which the trace was recorded."
 )
 @click.option("--all", "everything", is_flag=True, help="Show the whole walk.")
-@click.option(
+@options.number(
     "--from",
     "first",
-    type=click.IntRange(min=0),
     metavar="K",
-    help="Show the walk from event K on.  [default: the last moves before the first finding]",
+    meaning="Show the walk from event K on.  [default: the last moves before the first finding]",
 )
 @player_option
 @options.strict

@@ -71,11 +71,11 @@ _Found = list[tuple[Figure, list[FigurePoint]]]
     is_flag=True,
     help=f"Run {len(PAIRS)} pairs of pick and order policies, and show the spread of the means.",
 )
-@click.option(
+@options.number(
     "--graphs",
-    type=click.IntRange(1, SEEDS),
-    metavar="N",
-    help=f"Graphs a point.  [default: {GRAPHS}, as in the paper]",
+    least=1,
+    most=SEEDS,
+    meaning=f"Graphs a point.  [default: {GRAPHS}, as in the paper]",
 )
 @click.option(
     "--out",
@@ -86,12 +86,7 @@ _Found = list[tuple[Figure, list[FigurePoint]]]
 )
 @options.seed("Of the graphs.")
 @options.engine
-@click.option(
-    "--workers",
-    type=click.IntRange(min=1),
-    metavar="N",
-    help="Processes.  [default: all processors]",
-)
+@options.number("--workers", least=1, meaning="Processes.  [default: all processors]")
 @output_options
 def reproduce(  # noqa: PLR0913  an argument an option
     output: Output,

@@ -54,14 +54,7 @@ from topo_verify.world.enumeration.classes import WorldClass
 @options.target
 @options.program
 @options.in_process
-@click.option(
-    "--edges",
-    type=click.IntRange(min=1),
-    default=5,
-    show_default=True,
-    metavar="N",
-    help="Worlds of 1 to N edges.",
-)
+@options.number("--edges", least=1, default=5, meaning="Worlds of 1 to N edges.")
 @options.world_class
 @options.workers()
 @click.option(

@@ -295,20 +295,10 @@ class ListEntry(msgspec.Struct, frozen=True):
 @options.command(
     "world list --edges 3", "world list --edges 30 --class planar -n 5", group=world, name="list"
 )
-@click.option(
-    "--edges",
-    type=click.IntRange(0, MAX_ID_EDGES),
-    required=True,
-    metavar="N",
-    help="Number of edges.",
-)
+@options.number("--edges", most=MAX_ID_EDGES, required=True, meaning="Number of edges.")
 @options.world_class
-@click.option(
-    "-n",
-    "number",
-    type=click.IntRange(1, MOST_LISTED),
-    metavar="N",
-    help="The first N worlds only.  [default: all]",
+@options.number(
+    "-n", "number", least=1, most=MOST_LISTED, meaning="The first N worlds only.  [default: all]"
 )
 @output_options
 def list_worlds(output: Output, *, edges: int, kind: str, number: int | None) -> int:
@@ -375,9 +365,7 @@ class SampleEntry(msgspec.Struct, frozen=True):
     "world sample --strategy 'nonplanar_worlds(genus=2)' -n 5",
     group=world,
 )
-@click.option(
-    "--edges", type=click.IntRange(0, options.MAX_EDGES), metavar="N", help="Number of edges."
-)
+@options.number("--edges", most=options.MAX_EDGES, meaning="Number of edges.")
 @options.world_class
 @click.option(
     "--strategy",
@@ -515,11 +503,10 @@ class DrawEntry(msgspec.Struct, frozen=True):
 )
 @click.option("--doors", is_flag=True, help="Number the doors of each vertex, clockwise from 0.")
 @click.option("--darts", is_flag=True, help="Write the number of each dart beside it.")
-@click.option(
+@options.number(
     "--around",
-    type=click.IntRange(min=0),
     metavar="VERTEX",
-    help="Of a world that is too large to be shown whole: show what is near this vertex."
+    meaning="Of a world that is too large to be shown whole: show what is near this vertex."
     "  [default: that of the marker]",
 )
 @options.marker
