@@ -51,6 +51,7 @@ ENTRIES = {
     "certify": "certify.CertifyEntry certify.CertificateEntry",
     "tour": "tour.TourEntry",
     "arena": "arena.LeagueEntry arena_game.ValueEntry arena_game.MapperEntry",
+    "header": "header.HeaderEntry",
     "reproduce": "reproduce.FigurePoint",
 }
 """The records that each command prints, by their modules in topo_verify/cli/."""

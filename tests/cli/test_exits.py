@@ -34,6 +34,7 @@ COMMANDS = (
     "certify",
     "tour",
     "arena",
+    "header",
     "reproduce",
 )
 LEAVES = (

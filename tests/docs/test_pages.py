@@ -26,6 +26,7 @@ DONE = [
     "start/own-mapper.md",
     "start/find-a-mistake.md",
     "tutorials/any-language.md",
+    "tutorials/native.md",
     "tutorials/robot-log.md",
     "tutorials/reading-a-proof.md",
     "explanation/least-cost.md",

@@ -18,6 +18,8 @@ RUN_BY = {
     "mapper_python/short.py": ("tests/studies/conform/test_conform.py", "'short.py'"),
     "mapper_python/test_mapper.py": ("tests/examples/test_every_example.py", "mapper_folder"),
     "mapper_python/wrong.py": ("tests/studies/conform/test_conform.py", "'wrong.py'"),
+    "native_c/mapper.c": ("docs/tutorials/native.md", "examples/native_c/mapper.c"),
+    "native_rust/mapper.rs": ("tests/programs/test_library.py", '"native_rust" / "mapper.rs"'),
     "own_mapper/declared.py": ("docs/start/find-a-mistake.md", "own_mapper/declared.py:explore"),
     "own_mapper/mapper.py": ("docs/start/find-a-mistake.md", "own_mapper/mapper.py:explore"),
     "own_mapper/mended.py": ("docs/start/find-a-mistake.md", "own_mapper/mended.py:explore"),

@@ -284,7 +284,7 @@ def test_one_target_is_named_and_not_two() -> None:
     assert target_text("basic", None) == "basic"
     assert target_text(None, "./mapper  --fast") == "--cmd ./mapper --fast"
     for target, command in ((None, None), ("basic", "./mapper")):
-        with pytest.raises(InputError, match="one of the two"):
+        with pytest.raises(InputError, match="one of them"):
             target_text(target, command)
 
 

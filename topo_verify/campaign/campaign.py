@@ -43,7 +43,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
-from topo_verify.programs.program import PREFIX, Program
+from topo_verify.programs.program import OPTIONS, Program
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
@@ -264,7 +264,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
             chosen |= {"class": worlds["kind"], "shard": str(worlds["shard"])}
         for name in ("drawn", "keep", "record"):  # they change which rows come when, not the rows
             del known[name]
-        if not any(":" in text and not text.startswith(PREFIX) for text in self.mappers):
+        if not any(":" in text and not text.startswith(OPTIONS) for text in self.mappers):
             del known["in_process"]  # it is about a user's mapper in Python alone
         return chosen | {
             name.replace("_", "-"): value

@@ -30,6 +30,7 @@ from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.errors import InputError
 from topo_verify.programs import loaded
 from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.library import LIBRARY, library_file
 from topo_verify.programs.loaded import Loaded, values_hash
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX, Program, split
@@ -61,7 +62,9 @@ def own_hash() -> str:
 
 
 def named_files(text: str) -> list[str]:
-    """The files that a TARGET names: of a program, or of a Python mapper."""
+    """The files that a TARGET names: of a program, of a library, or of a Python mapper."""
+    if text.startswith(LIBRARY):
+        return [library_file(text)[0]]
     if text.startswith(PREFIX):
         words = split(text.removeprefix(PREFIX))
         return [shutil.which(words[0]) or words[0], *words[1:]]

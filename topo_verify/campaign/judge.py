@@ -16,12 +16,12 @@ import msgspec
 
 from topo_verify.algorithms import NAMED
 from topo_verify.campaign.run import Exploration, explore
-from topo_verify.campaign.targets import is_found_again
+from topo_verify.campaign.targets import is_found_again, target_arguments
 from topo_verify.checkers import CLAIMS, Finding, Judgement, Status, check
 from topo_verify.checkers.claims import LARGE
 from topo_verify.errors import ClaimFailed, ClaimUndecided, InputError, InternalError
 from topo_verify.programs.loader import Mapper, Target
-from topo_verify.programs.program import PREFIX
+from topo_verify.programs.program import OPTIONS
 from topo_verify.robot.events import Event, MapData, Move, Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.text import LINE, plural, shown
@@ -413,11 +413,11 @@ def replay_line(
     where: str, target: str, policies: Policies | None = None, options: Sequence[str] = ()
 ) -> str:
     """The command line that shows a run again; empty if no command line finds the mapper."""
-    if not (target.startswith(PREFIX) or is_found_again(target)):
+    own_option = target.startswith(OPTIONS)
+    if not (own_option or is_found_again(target)):
         return ""
     words = ["topo-verify", "replay", where]
-    program = target.startswith(PREFIX)
-    words += ["--cmd", target.removeprefix(PREFIX)] if program else ["--target", target]
+    words += target_arguments(target) if own_option else ("--target", target)
     for name, default in (("pick", "nearest"), ("order", "shortest")):
         value = getattr(policies, name, default)
         words += [f"--{name}", value] if value != default else []

@@ -4,8 +4,9 @@
     package.module:attribute    a callable of an importable module, in this process or its own
     path/file.py:attribute      a callable of a file, likewise
     --cmd program args          a program behind protocol 1, started when it plays its first world
+    --library file.so:symbol    a function of a shared library, in a process of its own
     all                         the algorithms of the catalogue that are right in every world
-    basic,path/file.py:name     several of these, but for programs
+    basic,path/file.py:name     several of these, but for programs and libraries
 
 The other way round, `text_of` gives the text by which a command line finds a callable again that
 was handed over in Python:
@@ -19,8 +20,8 @@ was handed over in Python:
 
 No replay command is printed for the last kind.
 
-A program's text is `--cmd` and its command in one text, so that workers, ledgers and baselines keep
-every mapper as one text.
+The text of a program or a library is the option and its value in one text, so that workers, ledgers
+and baselines keep every mapper as one text.
 
 Source: docs/semantics.md, section 16.
 """
@@ -40,8 +41,9 @@ from types import ModuleType
 from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, Algorithm, Steered
 from topo_verify.errors import InputError
 from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target, close_name, load, missing_attribute
-from topo_verify.programs.program import PREFIX, Program, split
+from topo_verify.programs.program import OPTIONS, PREFIX, Program, split
 from topo_verify.text import is_utf8
 
 
@@ -69,7 +71,7 @@ def each_text(text: str) -> tuple[str, ...]:
     # The prefix comes first: a command may well hold a comma, a module path never begins with `--`.
     place = text.rpartition(":")[0]
     named = "," in place and os.path.isfile(place)  # noqa: PTH113  Path.is_file raises if a list is longer than a file name
-    if named or text.startswith(PREFIX):
+    if named or text.startswith(OPTIONS):
         return (text,)
     general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
     parts = (part.strip() for part in text.split(","))
@@ -108,8 +110,9 @@ def _target(text: str, *, in_process: bool) -> Target:
         )
     if text.startswith(PREFIX):
         return Program(text.removeprefix(PREFIX)).target
-    if ":" in text:
-        if in_process:
+    native = text.startswith(LIBRARY)
+    if native or ":" in text:
+        if in_process and not native:  # native code shares no process with a checker
             return Target(text, load(text))
         foreign = Foreign(text)
         foreign.start()  # now, so that a text that names no mapper is refused before all else
@@ -120,7 +123,8 @@ def _target(text: str, *, in_process: bool) -> Target:
         raise InputError(
             f"no algorithm {text!r}{close_name(text, NAMED) or ':'} there are"
             f" {', '.join(NAMED)} and all; a mapper of your own is"
-            " package.module:attribute, path/file.py:attribute or --cmd 'program args'"
+            " package.module:attribute, path/file.py:attribute, --cmd 'program args' or"
+            " --library path/file.so"
         )
     return Target(text, NAMED[text])
 
@@ -143,27 +147,32 @@ def _with_policies(target: Target, pick: str | None, order: str | None) -> Targe
 
 
 def target_text(target: str | None, command: str | None, default: str | None = None) -> str:
-    """The text of the TARGET that is given as an argument or by `--cmd`.
+    """The text of the TARGET that is given as an argument, by `--cmd` or by `--library`.
 
     Args:
+        command: the command of a program, or the whole text of a library.
         default: the text if neither is given.
     Raises:
         InputError: both are given; or neither, and there is no default.
     """
     if command is not None and target is None:
+        if command.startswith(LIBRARY):
+            return command
         return PREFIX + shlex.join(split(command))
     if command is None and target is None:
         target = default
     if command is not None or target is None:
         raise InputError(
-            "name a TARGET, or a program with --cmd 'program args': one of the two, not both"
+            "name a TARGET, a program with --cmd 'program args', or a native mapper with --library"
+            " FILE: one of them, not two"
         )
     return target
 
 
 def target_arguments(text: str) -> tuple[str, ...]:
     """The arguments of a command line that name this TARGET."""
-    return ("--cmd", text.removeprefix(PREFIX)) if text.startswith(PREFIX) else (text,)
+    option = next((option for option in OPTIONS if text.startswith(option)), None)
+    return (text,) if option is None else (option.strip(), text.removeprefix(option))
 
 
 # ---------------------------------------------------------------- the text of a callable

@@ -2,7 +2,7 @@
 
 verify.py, explore.py (explored.py), world.py, search.py, prove.py, faults.py,
 conform.py, record.py, compare.py, replay.py, play.py, certify.py, tour.py,
-arena.py (arena_files.py, arena_game.py), reproduce.py  the commands
+arena.py (arena_files.py, arena_game.py), header.py, reproduce.py  the commands
 runs.py       worlds as the user names them, findings as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown; the bar on stderr
@@ -50,6 +50,7 @@ SHORT_HELPS = {
     "certify": "Judge a log with no world: is its map proved?",
     "tour": "Print the cheapest walk that proves the map of a known world.",
     "arena": "Rank mappers by cost, only sound ones.",
+    "header": "Print the C interface of native mappers, topo_verify.h.",
     "reproduce": "The paper's figures, side by side with its numbers.",
 }
 """The commands, most important first, with their lines in --help."""

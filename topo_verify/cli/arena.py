@@ -23,6 +23,7 @@ from topo_verify.cli.reporting import ReportFiles, report_options, write_reports
 from topo_verify.cli.runs import unjudged
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
+from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX
@@ -52,6 +53,13 @@ from topo_verify.text import plural
     multiple=True,
     metavar="'PROGRAM ARGS'",
     help="Let this program take part, without a shell; may be repeated; see docs/arena.md.",
+)
+@click.option(
+    "--library",
+    "libraries",
+    multiple=True,
+    metavar="FILE[:SYMBOL]",
+    help="Let this native mapper take part; may be repeated.",
 )
 @options.in_process
 @click.option(
@@ -85,6 +93,7 @@ def arena(  # noqa: PLR0913  an argument an option
     texts: tuple[str, ...],
     named: tuple[str, ...],
     commands: tuple[str, ...],
+    libraries: tuple[str, ...],
     in_process: bool,
     suite: str,
     seed: int,
@@ -102,7 +111,7 @@ def arena(  # noqa: PLR0913  an argument an option
     if game is not None:
         return game_of_catalogue(output, game, [*texts, *named])
     suites = tuple(chosen_suites(suite))
-    asked = _asked(texts, named, commands)
+    asked = _asked(texts, named, commands, libraries)
     folder = None if out is None else options.make_folder(out, "--out")
     if folder is not None:
         _add_page(output, folder)
@@ -139,13 +148,16 @@ def arena(  # noqa: PLR0913  an argument an option
     )
 
 
-def _asked(texts: Sequence[str], named: Sequence[str], commands: Sequence[str]) -> list[str]:
-    """The TARGETs of the command line, the programs last."""
+def _asked(
+    texts: Sequence[str], named: Sequence[str], commands: Sequence[str], libraries: Sequence[str]
+) -> list[str]:
+    """The TARGETs of the command line, programs and libraries last."""
     if texts and named:
         raise InputError(
             f"expected TARGETs in one way, got {texts[0]!r} and --target {named[0]}; leave one out"
         )
     asked = [*(texts or named), *(PREFIX + command for command in commands)]
+    asked += [LIBRARY + library for library in libraries]
     if not asked:
         raise InputError("name the TARGETs that take part, or programs with --cmd 'program args'")
     return asked

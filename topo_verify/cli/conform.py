@@ -25,7 +25,7 @@ from topo_verify.cli.walks import MOST_EXHIBITS, FoundRuns, exhibit_of, target_t
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
-from topo_verify.programs.program import PREFIX
+from topo_verify.programs.program import OPTIONS
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, View
 from topo_verify.robot.limits import Limits
@@ -159,7 +159,7 @@ def _texts(text: str) -> list[str]:
     """Each TARGET of a text. A mapper of the user's is loaded by the process that runs it."""
     asked = each_text(text)
     for name in asked:
-        if not (name.startswith(PREFIX) or ":" in name):
+        if not (name.startswith(OPTIONS) or ":" in name):
             one_target(name)  # refuses a name that is not in the catalogue
     return list(asked)
 

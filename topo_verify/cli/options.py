@@ -17,6 +17,7 @@ from topo_verify.campaign.targets import target_text
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import epilog
 from topo_verify.errors import InputError
+from topo_verify.programs.library import LIBRARY
 from topo_verify.robot.limits import MOST_SECONDS, Limits
 from topo_verify.text import shown
 
@@ -251,12 +252,33 @@ def one_of(target: str | None, named: str | None) -> str | None:
     return named if target is None else target
 
 
-program = click.option(
-    "--cmd",
-    "command",
-    metavar="'PROGRAM ARGS'",
-    help="Run this program as the TARGET, without a shell; see docs/oracle.md.",
-)
+def program(run: Callable[..., int]) -> Callable[..., int]:
+    """Add --cmd and --library; the command gets what `target_text` takes as `command`."""
+
+    @click.option(
+        "--cmd",
+        "command",
+        metavar="'PROGRAM ARGS'",
+        help="Run this program as the TARGET, without a shell; see docs/oracle.md.",
+    )
+    @click.option(
+        "--library",
+        metavar="FILE[:SYMBOL]",
+        help="Run this native mapper as the TARGET; see docs/tutorials/native.md."
+        "  [default SYMBOL: map_world]",
+    )
+    @wraps(run)
+    def wrapper(*args: Any, command: str | None, library: str | None, **kwargs: Any) -> int:
+        if library is not None:
+            if command is not None:
+                raise InputError(
+                    f"expected one TARGET, got --cmd {command} and --library {library}; leave one"
+                    " out"
+                )
+            command = LIBRARY + library
+        return run(*args, command=command, **kwargs)
+
+    return wrapper
 
 
 def algorithms(default: str, meaning: str) -> Callable[[Callable[..., int]], Callable[..., int]]:

@@ -1,4 +1,4 @@
-"""Loading of a mapper by its text, `package.module:attribute` or `path/file.py:attribute`.
+"""Loading of a mapper by its text: `package.module:attribute`, `path/file.py:attribute`, a library.
 
 Source: docs/semantics.md, section 16.
 """
@@ -19,6 +19,7 @@ from types import CodeType
 from typing import cast
 
 from topo_verify.errors import InputError
+from topo_verify.programs.library import LIBRARY, load_library
 from topo_verify.robot.events import Robot
 
 Mapper = Callable[[Robot], object]
@@ -34,13 +35,15 @@ class Target:
 
 
 def load(text: str) -> Mapper:
-    """The mapper at `package.module:attribute` or `path/file.py:attribute`.
+    """The mapper at `package.module:attribute`, `path/file.py:attribute` or `--library PATH`.
 
     The attribute may be dotted. A key of a mapping counts as its attribute.
 
     Raises:
         InputError: there is no such module, file or attribute, or it cannot be called.
     """
+    if text.startswith(LIBRARY):
+        return load_library(text)
     place, _, attribute = text.rpartition(":")
     found = _load_file(Path(place), text) if place.endswith(".py") else _load_module(place, text)
     for name in attribute.split("."):

@@ -30,6 +30,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs import isolation
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import GRACE, Child, Ended, ReaperProcess, TooLong
+from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Target
 from topo_verify.programs.misbehaviour import (
     Misbehaved,
@@ -54,6 +55,9 @@ Every pair of darts of the world may be a hypothesis that is rejected.
 
 PREFIX = "--cmd "
 """The beginning of a TARGET that is a program."""
+
+OPTIONS = (PREFIX, LIBRARY)
+"""The beginnings of TARGETs that a command line names by an option of their own."""
 
 
 TranscriptLine = tuple[Literal[">", "<"], bytes]

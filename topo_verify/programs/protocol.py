@@ -128,9 +128,12 @@ class RefusedMessage(_Message, frozen=True):
 
 
 class UndeliveredMessage(_Message, frozen=True):
-    """From our child: the mapper raised, returned no map, or misused the robot. Ends the world."""
+    """From our child: the mapper raised, returned no map, or misused the robot. Ends the world.
 
-    kind: Literal["no-map", "bad-door", "bad-declaration"]
+    Or it skips the world, as a native mapper may.
+    """
+
+    kind: Literal["no-map", "bad-door", "bad-declaration", "skip"]
     why: str
 
 
@@ -154,7 +157,7 @@ FromLoading = ReadyMessage | RefusedMessage
 FromStock = LoadedMessage | RefusedMessage
 """From our child in answer to `stock`."""
 FromChild = MoveMessage | DeclareMessage | DoneMessage | UndeliveredMessage
-"""From our child in a world. A mapper in Python has no way to skip one or to give it up."""
+"""From our child in a world. A mapper in Python has no way to give one up."""
 
 
 # ---------------------------------------------------------------- batch

@@ -29,6 +29,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs import isolation, loaded
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.delivery import Undelivered, deliver, finish_of
+from topo_verify.programs.library import Skipped
 from topo_verify.programs.loader import Mapper, load
 from topo_verify.robot.events import Decision
 from topo_verify.robot.limits import MapperStopped
@@ -169,6 +170,8 @@ def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
     """Play for `Foreign`, which is told what kept the mapper from delivering a map."""
     try:
         found = deliver(mapper, robot, alone=True)
+    except Skipped as stop:
+        return ms.UndeliveredMessage("skip", _words(str(stop)))
     except MapperStopped as stop:
         found = Undelivered(str(stop))
     if robot.misuse is not None:

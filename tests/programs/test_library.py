@@ -1,0 +1,105 @@
+"""A native mapper behind the pipe: the same runs as the reference, and what becomes of misdeeds."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.programs.natives import ROOT, built, hostile
+from topo_verify import InputError, World, examine, explore
+from topo_verify.campaign.targets import one_target, target_arguments, target_text
+from topo_verify.programs.library import header_text, library_file
+from topo_verify.studies.search.search import search
+
+MISDEEDS = {
+    "crash": "SIGSEGV",
+    "leave": "exit code 0",
+    "walk": "more than 2 moves",
+    "overflow": "SIGSEGV",
+    "write_world": "SIGSEGV",
+    "write_robot": "SIGSEGV",
+    "double_itself": "SIGABRT",
+    "close_all": "exit code 1",
+}
+"""Each misdeed of hostile.c, and what is said of it behind the pipe."""
+
+
+def test_the_example_makes_the_events_of_basic(tmp_path: Path) -> None:
+    target = one_target(built(tmp_path))
+    for name in ("m1/0", "m2/5", "m3/14", "m4/700", "m8/1000000"):
+        world = World.from_id(name)
+        assert explore(world, target).trace[1:] == explore(world, "basic").trace[1:]
+
+
+def test_the_wrong_example_is_found_out(tmp_path: Path) -> None:
+    found = search(built(tmp_path, "-DWRONG"), edges=3, engine="reference").counterexample
+    assert found is not None
+    assert found.world == "m3/5"
+    assert "--library" in found.replay
+
+
+def test_a_silent_mapper_is_judged_on_its_map(tmp_path: Path) -> None:
+    report = examine(one_target(built(tmp_path, "-DSILENT")), World.from_id("m3/14"))
+    assert report.ok
+    assert report.claims["true-hypothesis-kept"] == "not-declared"
+
+
+@pytest.mark.parametrize("deed", MISDEEDS)
+def test_a_misdeed_is_a_finding_in_its_world(deed: str, tmp_path: Path) -> None:
+    target = one_target(hostile(tmp_path, deed))
+    assert examine(target, World.from_id("m1/1")).ok
+    assert MISDEEDS[deed] in str(explore(World.from_id("m2/9"), target).stopped)
+    assert examine(target, World.from_id("m1/1")).ok
+
+
+def test_a_world_that_is_skipped_is_neither_right_nor_wrong(tmp_path: Path) -> None:
+    run = explore(World.from_id("m1/0"), one_target(hostile(tmp_path, "nothing")))
+    assert run.declined
+    assert run.stopped == "the mapper skips this world: several vertices"
+
+
+def test_the_texts_of_a_library(tmp_path: Path) -> None:
+    (tmp_path / "a:b.so").write_text("")
+    assert library_file("--library ./m.so") == ("./m.so", "map_world")
+    assert library_file("--library ./m.so:go") == ("./m.so", "go")
+    assert library_file(f"--library {tmp_path}/a:b.so") == (f"{tmp_path}/a:b.so", "map_world")
+    assert target_text(None, "--library ./m.so") == "--library ./m.so"
+    assert target_arguments("--library ./m.so:go") == ("--library", "./m.so:go")
+
+
+def test_what_is_no_library_is_refused(tmp_path: Path) -> None:
+    path = built(tmp_path).removeprefix("--library ")
+    text = tmp_path / "text.so"
+    text.write_text("no library")
+    for place, words in (
+        (tmp_path / "none.so", "there is no file"),
+        (text, "cannot open it"),
+        (f"{path}:explore", "no function 'explore'"),
+    ):
+        with pytest.raises(InputError, match=words):
+            one_target(f"--library {place}")
+
+
+def test_the_header_is_read_by_c_and_by_c_plus_plus(tmp_path: Path) -> None:
+    (tmp_path / "topo_verify.h").write_text(header_text(), encoding="utf-8")
+    for compiler, name in (("cc", "a.c"), ("c++", "a.cpp")):
+        if shutil.which(compiler) is None:
+            continue
+        (tmp_path / name).write_text('#include "topo_verify.h"\n#include "topo_verify.h"\n')
+        line = [compiler, "-Wall", "-Wextra", "-Werror", "-pedantic", "-fsyntax-only", name]
+        subprocess.run(line, cwd=tmp_path, check=True)
+
+
+def test_the_sketch_in_rust_maps_what_it_does_not_skip(tmp_path: Path) -> None:
+    if shutil.which("rustc") is None:
+        pytest.skip("rustc is not installed")
+    source = ROOT / "examples" / "native_rust" / "mapper.rs"
+    line = ["rustc", "-O", "--crate-type", "cdylib", "-o", f"{tmp_path}/mapper.so", str(source)]
+    if subprocess.run(line, capture_output=True, check=False).returncode:
+        pytest.skip("rustc makes no library here")
+    target = one_target(f"--library {tmp_path / 'mapper.so'}")
+    assert examine(target, World.from_id("m2/9")).ok
+    assert explore(World.from_id("m1/0"), target).declined

@@ -1,0 +1,57 @@
+"""`topo-verify header`: the C interface of native mappers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import click
+import msgspec
+
+from topo_verify.cli import options
+from topo_verify.cli.output import Output, Result, output_options
+from topo_verify.programs.library import VERSION, header_text
+from topo_verify.report.blocks import Block, Raw, TextTable
+from topo_verify.world.formats import files
+
+
+class HeaderEntry(msgspec.Struct, frozen=True):
+    """The interface of native mappers: the one entry of `results`.
+
+    Attributes:
+        interface: its version, `TV_VERSION`.
+        file: where the header was written; null: it is `text`.
+        text: the header; null with -o.
+    """
+
+    interface: int
+    file: str | None
+    text: str | None
+
+
+@options.command("header", "header -o topo_verify.h")
+@click.option("-o", "file", metavar="FILE", help="Write the header to FILE.")
+@output_options
+def header(output: Output, *, file: str | None) -> int:
+    """Print topo_verify.h, the C interface of native mappers.
+
+    A native mapper is a function of a shared library, in C or any language that can be called from
+    it. Commands that take a TARGET run one with --library ./mapper.so.
+    """
+
+    def made() -> Iterator[Result[HeaderEntry]]:
+        text = header_text()
+        if file is None or file == "-":
+            yield Result(HeaderEntry(VERSION, None, text.rstrip("\n")))
+        else:
+            files.write(file, text)
+            yield Result(HeaderEntry(VERSION, file, None))
+
+    return output.run("header", made, _show)
+
+
+def _show(entries: Sequence[HeaderEntry]) -> Iterator[Block]:
+    for entry in entries:
+        if entry.text is not None:
+            yield Raw(entry.text)
+        else:
+            yield TextTable(("interface", "file"), [(str(entry.interface), str(entry.file))])

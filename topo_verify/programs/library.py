@@ -1,0 +1,297 @@
+"""A native mapper: a function of a shared library, which is given a robot by `topo_verify.h`.
+
+    mapper = load_library("./mapper.so:map_world")     # a mapper like any other
+
+The robot of the header is a row of callbacks; here they hand on to a robot in Python. After a
+refusal they do nothing, until the function returns: then what stopped the robot is raised.
+
+`search` calls the same function much faster, from the compiled engine (campaign/compiled.py). Both
+refuse the same things, so that a mapper makes the same run in either way.
+
+What this does not show: that the function keeps to its own memory. It runs in a process of its own
+(foreign.py), where there is nothing to find.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import resource
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, get_args
+
+from topo_verify.errors import InputError
+from topo_verify.robot.events import Robot, RuleName
+from topo_verify.robot.limits import MapperStopped
+from topo_verify.robot.percept import PURPOSES, Percept
+from topo_verify.text import shown
+
+LIBRARY = "--library "
+"""The beginning of a TARGET that is a native mapper."""
+
+SYMBOL = "map_world"
+"""The name of the function if none is given."""
+
+VERSION = 1
+"""The version of the interface: `TV_VERSION`."""
+
+MEMORY = 4 << 30
+"""The most bytes of address space that a process with a native mapper may take beyond its own."""
+
+MOST_DARTS = 1 << 20
+"""The most vertices, and darts, that are read of a delivered map."""
+
+REFUSED = -1
+
+CONTRADICTIONS = (
+    None,
+    "two degrees, or the marker and its absence, at one place",
+    "a vertex would be itself, turned",
+    "a dart would be its own other end",
+    "two vertices of S would be one",
+    "it lies on another face than e",
+)
+"""What `TV_UNLIKE` and so on mean; docs/semantics.md, section 13."""
+
+_RULES = get_args(RuleName)
+_KINDS = (None, "new", "loop")
+
+_int = ctypes.c_int64
+_row = ctypes.POINTER(ctypes.c_int64)
+_world = ctypes.c_void_p
+_TYPES: dict[str, Any] = {
+    "look": (),
+    "move": (_int, _int),
+    "pose": (_int, _int, _row),
+    "reject": (_int, _int, _int, _row, _int, _row),
+    "confirm": (_int, _int, _int),
+    "augment": (_int, _int, _int, _int),
+    "deliver": (_int, _row, _row, _int, _int),
+    "skip": (ctypes.c_char_p,),
+}
+_CALLBACKS: dict[str, Any] = {
+    name: ctypes.CFUNCTYPE(_int, _world, *types) for name, types in _TYPES.items()
+}
+
+
+class _NativeRobot(ctypes.Structure):
+    """`tv_robot`. It has no world: this process knows none."""
+
+    _fields_ = [("version", _int), ("world", _world), *_CALLBACKS.items()]
+
+
+class Skipped(MapperStopped):
+    """The mapper declines this world."""
+
+
+def header_text() -> str:
+    """The text of `topo_verify.h`."""
+    return (Path(__file__).parent / "topo_verify.h").read_text(encoding="utf-8")
+
+
+def library_file(text: str) -> tuple[str, str]:
+    """The file and the symbol that a TARGET `--library PATH[:SYMBOL]` names."""
+    place = text.removeprefix(LIBRARY)
+    path, _, symbol = place.rpartition(":")
+    return (path, symbol) if path and not os.path.isfile(place) else (place, SYMBOL)  # noqa: PTH113
+
+
+def native_function(text: str) -> Any:
+    """The function of a native mapper, as ctypes has it. Whoever opens a library runs its code.
+
+    Raises:
+        InputError: there is no such library or symbol.
+    """
+    path, symbol = library_file(text)
+    where = f"--library {text.removeprefix(LIBRARY)}"
+    if not os.path.isfile(path):  # noqa: PTH113
+        raise InputError(f"{where}: there is no file {path!r}: name a shared library")
+    try:
+        library = ctypes.CDLL(os.path.abspath(path))  # noqa: PTH100
+    except OSError as error:
+        raise InputError(
+            f"{where}: cannot open it ({error}): build it with cc -shared -fPIC"
+        ) from error
+    try:
+        function = library[symbol]
+    except AttributeError:
+        raise InputError(
+            f"{where}: it has no function {symbol!r}: name one that it exports, as in"
+            f" --library {path}:SYMBOL"
+        ) from None
+    function.restype, function.argtypes = None, (ctypes.c_void_p,)
+    return function
+
+
+def confine() -> None:
+    """Let this process take a limited amount of memory, leave no core file, and never be doubled.
+
+    A process that a native mapper doubled by `fork` would speak twice; it is ended instead.
+    """
+    used = int(_first_word("/proc/self/statm")) * resource.getpagesize()
+    _, most = resource.getrlimit(resource.RLIMIT_AS)
+    wanted = used + MEMORY
+    limit = wanted if most == resource.RLIM_INFINITY else min(wanted, most)
+    resource.setrlimit(resource.RLIMIT_AS, (limit, most))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    register = getattr(ctypes.CDLL(None), "__register_atfork", None)  # of the GNU library
+    if register is not None and not _before_fork:
+        _before_fork.append(ctypes.CFUNCTYPE(None)(_end_before_fork))
+        register(_before_fork[0], None, None, None)
+
+
+_before_fork: list[Any] = []
+"""The callback, which has to live as long as the process."""
+
+
+def _end_before_fork() -> None:
+    os.write(2, b"the mapper called fork\n")
+    os.abort()
+
+
+def _first_word(path: str) -> str:
+    try:
+        return Path(path).read_text(encoding="ascii").split()[0]
+    except OSError:
+        return "0"
+
+
+def load_library(text: str) -> Callable[[Robot], object]:
+    """The native mapper of a TARGET.
+
+    Raises:
+        InputError: there is no such library or symbol.
+    """
+    confine()
+    return _NativeMapper(native_function(text))
+
+
+class _NativeMapper:
+    """A native mapper. Called once at a time, as its function is."""
+
+    def __init__(self, function: Any) -> None:
+        self._function = function
+        self._flush = ctypes.CDLL(None).fflush
+        self._callbacks = {
+            name: kind(self._guarded(getattr(self, f"_{name}")))
+            for name, kind in _CALLBACKS.items()
+        }
+
+    def __call__(self, robot: Robot) -> object:
+        self._robot = robot
+        self._stopped: BaseException | None = None
+        self._map: dict[str, object] | None = None
+        given = _NativeRobot(VERSION, None, *self._callbacks.values())
+        self._function(ctypes.byref(given))
+        self._flush(None)  # what it printed
+        if self._stopped is not None:
+            raise self._stopped
+        return self._map
+
+    def _guarded(self, work: Callable[..., int]) -> Callable[..., int]:
+        """The callback, which raises nothing and does nothing once the run is over."""
+
+        def called(_world: int | None, *given: Any) -> int:
+            if self._stopped is not None or self._map is not None:
+                return REFUSED
+            try:
+                return work(*given)
+            except BaseException as why:  # noqa: BLE001  it cannot pass through native code
+                self._stopped = why
+                return REFUSED
+
+        return called
+
+    # ------------------------------------------------------------ the callbacks, as in the header
+
+    def _look(self) -> int:
+        return _word(self._robot.percept)
+
+    def _move(self, door: int, purpose: int) -> int:
+        meant = PURPOSES[purpose] if 0 <= purpose < len(PURPOSES) else None
+        return _word(self._robot.move(door, meant))
+
+    def _pose(self, edge: int, count: int, hypotheses: Any) -> int:
+        return self._declare("pose", edge, hypotheses=_words(hypotheses, count))
+
+    def _reject(
+        self, edge: int, hypothesis: int, rule: int, words: Any, count: int, doors: Any
+    ) -> int:
+        step, expected, observed, sequence, at, record, contradiction = words[:7]
+        evidence: dict[str, object] = {
+            "step": step,
+            "expected": _seen(expected),
+            "observed": _seen(observed),
+            "sequence": None if sequence == REFUSED else sequence,
+            "at": None if at == REFUSED else at,
+            "contradiction": _named(CONTRADICTIONS, contradiction),
+        }
+        way = _words(doors, count)
+        if record != REFUSED:
+            evidence["record"] = {"dart": record, "doors": way}
+        named = _named(_RULES, rule)
+        return self._declare("reject", edge, hypothesis=hypothesis, rule=named, evidence=evidence)
+
+    def _confirm(self, edge: int, hypothesis: int, rule: int) -> int:
+        return self._declare("confirm", edge, hypothesis=hypothesis, rule=_named(_RULES, rule))
+
+    def _augment(self, edge: int, kind: int, dart: int, degree: int) -> int:
+        named = _named(_KINDS, kind)
+        return self._declare("augment", edge, kind=named, dart=dart, degree=degree)
+
+    def _declare(self, event_type: str, edge: int, **fields: object) -> int:
+        event: Any = {"type": event_type, "edge": edge, **fields}
+        self._robot.declare(event)
+        return 0
+
+    def _deliver(self, vertices: int, degrees: Any, ends: Any, marker: int, cost: int) -> int:
+        if not 0 <= vertices <= MOST_DARTS:
+            raise InputError(f"the mapper delivered a map of {vertices} vertices")
+        rows: list[list[int]] = []
+        darts = 0
+        for degree in degrees[:vertices]:
+            if not 0 <= degree <= MOST_DARTS - darts:
+                raise InputError(f"the mapper delivered a map with a vertex of degree {degree}")
+            rows.append(list(range(darts, darts + degree)))
+            darts += degree
+        others = ends[:darts]
+        for dart, other in enumerate(others):
+            if not 0 <= other < darts or other == dart or others[other] != dart:
+                raise InputError(
+                    f"the mapper delivered {other} as the other end of dart {dart}: expected"
+                    " another dart, whose other end that one is"
+                )
+        self._map = {
+            "vertices": rows,
+            "edges": [(d, o) for d, o in enumerate(others) if d < o],
+            "marker": None if marker == REFUSED else marker,
+            "cost": None if cost < 0 else cost,
+        }
+        return 0
+
+    def _skip(self, why: bytes | None) -> int:
+        said = shown((why or b"").decode(errors="backslashreplace"))
+        raise Skipped(f"the mapper skips this world{f': {said}' if said else ', and says no why'}")
+
+
+def _word(percept: Percept) -> int:
+    """A percept as one word: `tv_word`."""
+    return percept.degree * 65536 + (0 if percept.marker is None else percept.marker + 1)
+
+
+def _seen(word: int) -> dict[str, int | None] | None:
+    """The percept of a word; None: there is none."""
+    if word == REFUSED:
+        return None
+    return {"degree": word >> 16, "marker": (word & 65535) - 1 if word & 65535 else None}
+
+
+def _words(row: Any, count: int) -> list[int] | None:
+    """So many words; None if there cannot be so many."""
+    return None if not 0 <= count <= MOST_DARTS else row[:count] if count else []
+
+
+def _named(names: tuple[str | None, ...], number: int) -> str | None:
+    """The name with this number; another text if there is none."""
+    return names[number] if 0 <= number < len(names) else f"number {number}"
