@@ -16,7 +16,7 @@ import topo_verify
 import topo_verify.algorithms
 from tests.helpers import PAPER, trace_of
 from topo_verify import CATALOGUE, Algorithm
-from topo_verify.algorithms import REFERENCE, Policies, algorithm
+from topo_verify.algorithms import NAMED, REFERENCE, Policies, algorithm
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_i import PrefixRule
@@ -78,8 +78,9 @@ def test_other_policies_leave_the_catalogue_as_it_is() -> None:
     assert CATALOGUE["basic"].policies == REFERENCE
 
 
-def test_the_same_world_gives_the_same_run() -> None:
-    assert trace_of("m7/20231", "basic") == trace_of("m7/20231", "basic")
+@pytest.mark.parametrize("name", NAMED)
+def test_the_same_world_gives_the_same_run(name: str) -> None:
+    assert trace_of("m7/20231", name) == trace_of("m7/20231", name)
 
 
 def test_the_package_refuses_to_be_imported_under_its_short_name() -> None:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
-from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -64,12 +62,6 @@ def assert_complete(world: World) -> None:
         robot = SimulatedRobot(witness, budget=when)
         history: list[Event] = [x for x in trace[:when] if isinstance(x, Move)]
         assert all(isinstance(x, Move) and robot.move(x.door) == x.percept for x in history)
-
-
-def test_the_reference_costs_are_met() -> None:
-    golden = json.loads((Path(__file__).parents[1] / "data/golden.json").read_text())
-    for case in golden["cases"]:
-        assert explore(World.from_map(case["world"]), "folding").cost == case["cost"]["folding"]
 
 
 def test_what_is_kept_has_a_witness_in_every_small_world() -> None:
@@ -155,14 +147,6 @@ def test_the_two_foldings_agree_on_a_walk_with_one_lie(
 def test_all_claims_hold_in_every_world_with_five_edges() -> None:
     for world in worlds([5]):
         assert set(examine("folding", world).claims.values()) == {"ok"}
-
-
-@pytest.mark.no_cover
-@given(any_world(max_edges=40))
-def test_all_claims_hold_in_larger_worlds(world: World) -> None:
-    report = examine("folding", world)
-    assert report.ok, str(report)
-    assert set(report.claims.values()) == {"ok"}
 
 
 def test_it_concludes_without_motion_what_is_left_alone() -> None:

@@ -102,11 +102,6 @@ def test_silly_doors_break_no_claim_in_any_small_world(name: str) -> None:
         assert every_claim_holds(report), str(report)
 
 
-def test_the_world_without_an_edge_is_its_own_map() -> None:
-    for mapper in STEERED.values():
-        assert explore(World((), (), None), mapper).cost == 0
-
-
 # ---------------------------------------------------------------- it ends
 
 
@@ -255,9 +250,3 @@ def test_the_compiled_engine_has_no_twin_of_them() -> None:
 def test_they_have_no_policies_to_choose() -> None:
     with pytest.raises(InputError, match="homing has no policies"):
         targets("homing", pick="last")
-
-
-def test_a_run_is_the_same_again() -> None:
-    world = families.lattice(4, 4, seed=2)
-    for name in STEERED:
-        assert explore(world, name).trace == explore(world, name).trace

@@ -10,6 +10,7 @@ import pytest
 
 from tests.helpers import EMPTY, PAPER, doors, of_type, sketch, trace_of
 from topo_verify import World
+from topo_verify.algorithms import NAMED
 from topo_verify.algorithms.chart import Chart
 from topo_verify.robot.events import Augment, Finish, Pose, Reject
 from topo_verify.robot.percept import Percept
@@ -95,7 +96,7 @@ def test_new_darts_are_numbered_from_the_entry_dart_on() -> None:
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("name", PAPER)
+@pytest.mark.parametrize("name", NAMED)
 def test_the_empty_world_is_its_own_map_and_costs_nothing(name: str) -> None:
     (_, finish) = trace_of(EMPTY, name)
     assert isinstance(finish, Finish)

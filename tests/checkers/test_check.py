@@ -92,10 +92,6 @@ def test_decisions_that_were_not_declared_are_not_called_ok() -> None:
         assert (verdict[claim] == "not-declared") == bool(CLAIMS[claim][1])
 
 
-def test_in_the_empty_world_there_is_nothing_to_declare_and_all_is_ok() -> None:
-    assert set(helpers.statuses(helpers.EMPTY, helpers.trace_of(helpers.EMPTY)).values()) == {"ok"}
-
-
 SEEN = Percept(0, None)
 """What the empty world shows."""
 

@@ -71,7 +71,7 @@ def test_every_claim_of_every_algorithm_holds_in_the_worlds_of_every_strategy(
     assert judged(run) == dict.fromkeys(CLAIMS, "ok")
 
 
-@given(chosen=policies(), world=any_world(max_edges=15))
+@given(chosen=policies(), world=any_world(max_edges=40))
 @example(ev.Policies(), World.from_id("m15/56783627632649097"))
 def test_every_claim_of_folding_holds_whatever_it_meets_first(
     chosen: ev.Policies, world: World

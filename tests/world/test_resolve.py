@@ -202,21 +202,6 @@ def test_arguments_that_do_not_fit_are_told_which_do(arguments: str, sentence: s
     assert str(refusal.value).isprintable()
 
 
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        ("family:lattice(3,3,holes=1)", "lattice: holes is 1"),
-        ("family:lattice(1e9,3)", "lattice: rows is 1000000000.0, expected an integer"),
-        ("family:lattice(1e999,3)", "lattice: rows is inf"),
-        ("family:lattice(-3,3)", "lattice: rows is -3"),
-        ("family:lattice(99999999999999999999,3)", "lattice: so large a world"),
-    ],
-)
-def test_arguments_out_of_range_are_the_familys_to_refuse(text: str, sentence: str) -> None:
-    with pytest.raises(InputError, match=sentence):
-        resolve_world(text)
-
-
 @given(
     name=st.sampled_from([*families.FAMILIES, "", "sphere"]),
     arguments=st.text(alphabet="0123.,-+e=seedholes()*_' \n", max_size=12),

@@ -229,23 +229,6 @@ def test_a_program_that_is_killed_is_tried_again(
     assert (second.failed, second.undecided) == (failed, undecided)
 
 
-@pytest.mark.parametrize(
-    ("deed", "once", "failed", "undecided"),
-    [
-        ("os.kill(os.getpid(), 9)", True, (), True),
-        ("os.kill(os.getpid(), 9)", False, (), True),
-        ("os._exit(3)", True, ("map-isomorphic",), False),
-    ],
-)
-def test_a_worker_that_is_lost_is_tried_again(
-    tmp_path: Path, deed: str, once: bool, failed: tuple[str, ...], undecided: bool
-) -> None:
-    target = one_target(deadly(tmp_path, deed, once=once))
-    first, second = recording(target, "edges<=1", workers=1).entries
-    assert first.right
-    assert (second.failed, second.undecided) == (failed, undecided)
-
-
 def test_a_finding_of_a_program_is_shown_again_by_conform() -> None:
     with Program("./mapper --fast") as program:
         line = replay_command(program.target, "m3/13", Limits(budget=9))

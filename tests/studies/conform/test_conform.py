@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.programs.programs import compiled, conforming, deadly, javascript, misbehaving, served
+from tests.programs.programs import compiled, conforming, javascript, misbehaving, served
 from topo_verify.campaign.backend import pooled
 from topo_verify.campaign.corpus import corpus_from
 from topo_verify.errors import InputError
@@ -107,61 +107,6 @@ def test_a_python_mapper_that_ends_its_worker_is_a_finding(tmp_path: Path) -> No
     assert found["result"].kinds == {"worker-lost": 1}
     assert found["result"].passed == 2
     assert "exit code 9" in found["result"].findings[0].message
-
-
-@pytest.mark.parametrize(
-    ("deed", "verdict", "words"),
-    [
-        (
-            "os.kill(os.getpid(), 9)",
-            "UNKNOWN",
-            "its worker was lost (signal 9), perhaps for a reason outside; the second try passed",
-        ),
-        ("os.abort()", "REFUTED", "it ended its process (signal 6); at the second try it deliver"),
-    ],
-)
-def test_a_worker_that_is_lost_once_is_tried_again(
-    tmp_path: Path, deed: str, verdict: str, words: str
-) -> None:
-    found = standings(deadly(tmp_path, deed, once=True), "edges<=1", workers=1)
-    assert verdicts(found)[0] == verdict
-    assert (found["result"].passed, found["claims"].verdict) == (
-        1,
-        "UNKNOWN" if verdict == "UNKNOWN" else "EXHAUSTED",
-    )
-    told = [*found["result"].why, *(one.message for one in found["result"].findings)]
-    assert len(told) == 1
-    assert words in told[0]
-
-
-@pytest.mark.parametrize(
-    ("deed", "verdict", "words"),
-    [
-        (
-            "os.kill(os.getpid(), 9)",
-            "UNKNOWN",
-            "its process was ended by SIGKILL, perhaps for a reason outside; the second try passed",
-        ),
-        ("os.abort()", "REFUTED", "ended by SIGABRT before it delivered a map"),
-    ],
-)
-def test_a_program_that_is_killed_once_is_tried_again(
-    tmp_path: Path, deed: str, verdict: str, words: str
-) -> None:
-    target = served(deadly(tmp_path, deed, once=True))
-    found = standings(target, "edges<=1")
-    assert verdicts(found)[0] == verdict
-    told = [*found["result"].why, *(one.message for one in found["result"].findings)]
-    assert len(told) == 1
-    assert words in told[0]
-    assert "the second try" in told[0]
-
-
-def test_a_worker_that_is_killed_each_time_convicts_nobody(tmp_path: Path) -> None:
-    target = deadly(tmp_path, "os.kill(os.getpid(), 9)", once=False)
-    found = standings(target, "edges<=1", workers=1)
-    assert verdicts(found) == ["UNKNOWN"] * 3
-    assert found["result"].why == ("m1/1: its worker was killed each time (signal 9)",)
 
 
 def test_after_many_time_outs_the_rest_is_not_tried() -> None:

@@ -9,7 +9,7 @@ import msgspec
 import pytest
 
 from tests.studies.reproduce.rows import measured
-from topo_verify import InputError, explore
+from topo_verify import explore
 from topo_verify.campaign.attempt import lost_row
 from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.row import Row
@@ -65,15 +65,6 @@ def test_every_pair_of_policies_is_a_run_and_another_call_goes_on(tmp_path: Path
         assert rows[run].cost == measured(run).cost
         grown = line_campaigns([FIGURE], EXTENT, "reference", store)
         assert [one.stored for one in grown] == [1, 1]
-
-
-def test_a_store_never_mixes_engines(tmp_path: Path) -> None:
-    pytest.importorskip("numba")
-    with Store(tmp_path / "runs.db") as store:
-        line_campaigns([FIGURE], EXTENT, "reference", store)
-        words = "another campaign of basic: its engine is reference, now it is compiled"
-        with pytest.raises(InputError, match=words):
-            line_campaigns([FIGURE], EXTENT, "compiled", store)
 
 
 def test_a_seeded_fault_is_a_finding(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,6 @@ import pytest
 
 from topo_verify.errors import InputError
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.counts import MAX_EDGES, MAX_NARROW_EDGES, count_graphs
 
 SIMPLE = (1, 1, 2, 6, 23, 108, 596, 3790, 27339, 220918)
@@ -26,18 +25,6 @@ def test_the_known_numbers_of_loopless_worlds_come_out(edges: int, number: int) 
 @pytest.mark.parametrize("edges", range(11))
 def test_without_a_property_all_worlds_are_counted(edges: int) -> None:
     assert count_graphs(edges) == rank_order.count(edges)
-
-
-@pytest.mark.parametrize("edges", range(7))
-@pytest.mark.parametrize(
-    "text", ["max-degree:1", "max-degree:2", "max-degree:4", "simple,max-degree:3",
-             "loopless,max-degree:4"]
-)  # fmt: skip
-def test_the_numbers_are_those_of_the_list(text: str, edges: int) -> None:
-    kind = WorldClass.parse(text)
-    assert count_graphs(
-        edges, most_degree=kind.most_degree, loopless=kind.loopless, simple=kind.simple
-    ) == sum(map(kind.admits, rank_order.tables(edges)))
 
 
 def test_paths_and_cycles_are_counted_at_any_size() -> None:

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.world.formats.worlds import sentence_of
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.enumeration import rank_order
@@ -48,14 +49,8 @@ def dressed_worlds(draw: st.DrawFn) -> World:
 
 
 def refusal_of(text: str | bytes) -> str:
-    """The one sentence that refuses the text."""
-    with pytest.raises(InputError) as refusal:
-        World.from_json(text)
-    sentence = str(refusal.value)
-    assert sentence.isprintable()
-    assert sentence.startswith("world JSON")
-    assert len(sentence) < 600
-    return sentence
+    """The one sentence that refuses it."""
+    return sentence_of(lambda: World.from_json(text), "world JSON")
 
 
 def doctored(**fields: Any) -> str:

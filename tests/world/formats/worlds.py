@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
+
+import pytest
 
 import topo_verify as tv
+from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.resolve import resolve_world
 
@@ -23,6 +27,26 @@ def every_kind() -> Iterator[World]:
     yield named()
     # Vertices in another order than their darts, each beginning elsewhere than at its least dart.
     yield World.from_rotations([[5, 2, 4], [1, 3, 0]], [[0, 5], [1, 2], [3, 4]], 4)
+
+
+@contextmanager
+def a_world_or_one_sentence() -> Generator[None]:
+    """What is refused is refused with a sentence; to be read is as good an outcome."""
+    try:
+        yield
+    except InputError as refusal:
+        assert str(refusal).isprintable()  # noqa: PT017
+
+
+def sentence_of(read: Callable[[], object], start: str) -> str:
+    """The one sentence that refuses what is read."""
+    with pytest.raises(InputError) as refusal:
+        read()
+    sentence = str(refusal.value)
+    assert sentence.isprintable()
+    assert sentence.startswith(start)
+    assert len(sentence) < 600
+    return sentence
 
 
 def named(names: tuple[str, ...] = HOSTILE) -> World:
