@@ -57,14 +57,13 @@ class ClaimResults:
         if seen["failed"]:
             return "fails"
         # The numbers of one claim add up to fewer runs than worlds if a run was undecided.
-        cut = self.part.checked < self.part.total or sum(seen.values()) < self.part.checked
-        if cut or seen["undecided"]:
+        if sum(seen.values()) < self.part.total or seen["undecided"]:
             return "undecided"
-        return "holds" if seen["ok"] == self.part.checked else "not-declared"
+        return "holds" if seen["ok"] == self.part.total else "not-declared"
 
     def text(self, claim: str) -> str:
         """The verdict in words: in how many worlds, first in which, why, and the replay command."""
-        seen, checked = self.part.claims[claim], self.part.checked
+        seen, worlds = self.part.claims[claim], self.part.total
         match self.verdict(claim):
             case "fails":
                 return self._failure(claim, seen["failed"])
@@ -73,10 +72,10 @@ class ClaimResults:
             case "not-declared" if not seen["ok"] + seen["partial"]:
                 return f"{claim}: not judged, since the mapper declares none of its decisions"
             case "not-declared":
-                some = f"in {seen['ok']:,} of {checked:,} worlds, where it holds"
+                some = f"in {seen['ok']:,} of {worlds:,} worlds, where it holds"
                 return f"{claim}: the mapper declares its decisions {some}, and not all in others"
             case "holds":
-                return f"{claim} holds in {checked:,} worlds of 1 to {self.edges} edges"
+                return f"{claim} holds in {worlds:,} worlds of 1 to {self.edges} edges"
 
     def properties(self, target: str) -> list[tuple[str, object]]:
         """The results that the report of a test carries to another process and to a JUnit file."""

@@ -60,7 +60,7 @@ class Part(msgspec.Struct, frozen=True):
         verdict: PROVED: of worlds of any size. EXHAUSTED: every world of a finite class, `checked`
             equals `total`.
         ok: there is no finding, and every world was judged.
-        checked, total: the worlds that were judged, and all worlds of the part.
+        checked, total: the worlds that were decided, and all worlds of the part.
         summary: one sentence.
         failing: in how many of the checked worlds a claim fails.
         claims: for each claim, the number of runs with each status.

@@ -110,6 +110,11 @@ class Trials:
         kept = list(first.values())[:KEPT_FAILING]
         return tuple(finding for row in kept for finding in row.findings[:KEPT_FINDINGS])
 
+    @property
+    def checked(self) -> int:
+        """The number of worlds that were decided."""
+        return self.tally.worlds - self.tally.undecided
+
     def part(self, *, interrupted: bool = False) -> Part:
         """The part's result so far."""
         tally = self.tally
@@ -124,7 +129,7 @@ class Trials:
             part=self.name,
             verdict=verdict,
             ok=whole and verdict != "REFUTED",
-            checked=tally.worlds,
+            checked=self.checked,
             total=self.total,
             summary=self._summary(claims, interrupted=interrupted),
             failing=tally.failing,
@@ -136,7 +141,7 @@ class Trials:
     def _summary(self, claims: dict[str, dict[str, int]], *, interrupted: bool) -> str:
         tally = self.tally
         mappers = f" × {len(self.targets)} mappers" if len(self.targets) > 1 else ""
-        words = f"{tally.worlds} of {plural(self.total, 'world')}{self.about}{mappers}: "
+        words = f"{self.checked} of {plural(self.total, 'world')}{self.about}{mappers}: "
         words += self._failures(claims) if tally.failing else claims_in_words(claims)
         words += self._cut_off()
         if interrupted:
