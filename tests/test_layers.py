@@ -64,7 +64,7 @@ LATE = {
     ("world", "World._repr_svg_"): "player",
     ("campaign", "Exploration._repr_html_"): "player",
     ("campaign", "Report.playback"): "player",
-    ("campaign", "Report.__str__"): "player",
+    ("campaign", "Report.walk"): "player",
     ("campaign", "Report._repr_html_"): "player",
 }
 """The exceptions: an object is asked for its picture or its text, and the player makes them."""

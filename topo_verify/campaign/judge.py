@@ -83,6 +83,14 @@ class Report(msgspec.Struct, frozen=True, dict=True):
             return None
         return Playback(self.run.world, self.run.trace, self.judgements, self.run.stopped)
 
+    def walk(self) -> list[str]:
+        """The lines of the walk to the first finding; none if nothing is wrong, or `run` is None."""
+        from topo_verify.player import walk
+
+        if not self.findings or self.playback is None:
+            return []
+        return ["", *walk.lines(self.playback), ""]
+
     def of(self, run: JudgedRun | None) -> Report:
         """This report, with the run that it judges."""
         # No field: JSON and equality leave it out, and the trace may be long.
@@ -118,15 +126,12 @@ class Report(msgspec.Struct, frozen=True, dict=True):
         return cards.report_card(self.head, self.judgements, playback, again)
 
     def __str__(self) -> str:
-        from topo_verify.player import walk
-
         lines = [self.head]
         lines += [f"  {line}" for line in shortfalls(self.judgements)]
         for finding in self.findings:
             place = "" if finding.event is None else f" (event {finding.event})"
             lines.append(f"  {finding.claim}{place}: {finding.message}")
-        if self.findings and self.playback is not None:
-            lines += ["", *walk.lines(self.playback), ""]
+        lines += self.walk()
         if self.findings and self.findings[0].replay:
             lines.append(f"  again: {self.findings[0].replay}")
         return "\n".join(shown(line, limit=LINE) for line in lines)

@@ -23,7 +23,6 @@ from topo_verify.campaign.corpus import corpus_from
 from topo_verify.campaign.judge import Report, undecided
 from topo_verify.campaign.progress import no_progress
 from topo_verify.checkers import Finding
-from topo_verify.player import walk
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify.parts import Part
@@ -103,8 +102,7 @@ class ClaimResults:
         if finding.world in self.raised:
             lines.append(f"  raised at: {self.raised[finding.world]}")
         lines.append(f"  world: {finding.world}")
-        playback = self.reports[finding.world].playback
-        lines += ["", *walk.lines(playback), ""] if playback is not None else []
+        lines += self.reports[finding.world].walk()
         lines += [f"  again: {finding.replay}"] * bool(finding.replay)
         return "\n".join(shown(line, limit=LINE) for line in lines)
 
