@@ -84,7 +84,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
         return Playback(self.run.world, self.run.trace, self.judgements, self.run.stopped)
 
     def walk(self) -> list[str]:
-        """The lines of the walk to the first finding; none if nothing is wrong, or `run` is None."""
+        """The lines of the walk to the first finding; none without a finding or a `run`."""
         from topo_verify.player import walk
 
         if not self.findings or self.playback is None:
