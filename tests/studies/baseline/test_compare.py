@@ -8,9 +8,10 @@ import msgspec
 import pytest
 
 from tests.studies.baseline.recording import recording
-from topo_verify import CATALOGUE, Robot
+from topo_verify import Robot
 from topo_verify.campaign.targets import one_target
 from topo_verify.errors import InputError
+from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline.compare import EXAMPLES, KINDS, BaselineWorlds, Comparison
@@ -89,24 +90,15 @@ def test_other_policies_are_other_decisions_where_the_cost_is_the_same(basic: Ba
     assert first.replay.endswith("--pick last")
 
 
-def silent(robot: Robot) -> object:
-    class Mute:
-        percept = property(lambda _self: robot.percept)
-        move = staticmethod(robot.move)
-
-        def declare(self, event: object) -> None:
-            pass
-
-    return CATALOGUE["basic"](Mute())  # pyright: ignore[reportArgumentType]  a robot as far as it needs one
-
-
 def test_a_mapper_that_declares_nothing_is_compared_by_its_moves(basic: Baseline) -> None:
-    assert kinds(compare(basic, one_target(silent))) == {"equal": 89}
+    assert kinds(compare(basic, one_target(FAULTS["declares-nothing"]))) == {"equal": 89}
     assert compare(basic, one_target("enhancement-i")).kinds["equal"] == 86
 
 
 def test_other_moves_are_seen_where_nothing_is_declared() -> None:
-    found = compare(recorded(one_target("basic", pick="last")), one_target(silent))
+    found = compare(
+        recorded(one_target("basic", pick="last")), one_target(FAULTS["declares-nothing"])
+    )
     assert found.kinds["other_decisions"] > 0
     assert {c.message for c in found.examples if c.kind == "other_decisions"} == {"other moves"}
 

@@ -12,6 +12,7 @@ from topo_verify import CATALOGUE, Robot, World
 from topo_verify.campaign.targets import one_target, targets
 from topo_verify.checkers import CLAIMS, Judgement, Status, check
 from topo_verify.errors import InputError
+from topo_verify.faults import FAULTS
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify.by_claim import ClaimResults, by_claim
 
@@ -65,18 +66,8 @@ def test_what_is_not_declared_is_neither_holding_nor_failing() -> None:
 
 def declares_at_leaves(robot: Robot) -> object:
     """Right; it declares its decisions only where the marker lies at a leaf."""
+    silent = FAULTS["declares-nothing"]
     return CATALOGUE["basic"](robot) if robot.percept.degree == 1 else silent(robot)
-
-
-def silent(robot: Robot) -> object:
-    class Mute:
-        percept = property(lambda _self: robot.percept)
-        move = staticmethod(robot.move)
-
-        def declare(self, event: object) -> None:
-            pass
-
-    return CATALOGUE["basic"](Mute())  # pyright: ignore[reportArgumentType]  a robot as far as it needs one
 
 
 def test_what_is_declared_in_some_worlds_only_is_told_apart() -> None:
