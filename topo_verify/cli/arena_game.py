@@ -9,7 +9,7 @@ import msgspec
 from click.core import ParameterSource
 
 from topo_verify.algorithms import NAMED
-from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.errors import InputError, InternalError
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.studies.game.values import (
@@ -140,14 +140,12 @@ def _results(output: Output, edges: int, mappers: Sequence[str]) -> Iterator[Res
 def _value_entry(value: GameValue) -> ValueEntry:
     least = least_costs(value.edges, value.drawn)
     worst, total = value.worst, value.total
-    return ValueEntry(
+    return entry_of(
+        ValueEntry,
+        value,
         game=value.edges,
-        knows=value.knows,
-        drawn=value.drawn,
-        worlds=value.worlds,
         value=CostsOfRobot(worst.cost, value.mean, worst.is_value, total.is_value),
         least=CostsOfRobot(max(least), sum(least) / len(least)),
-        states=value.states,
     )
 
 
@@ -158,16 +156,13 @@ def _mapper_entry(costs: MapperCosts, best: CostsOfRobot | None) -> MapperEntry:
             f"{costs.mapper} costs less than the value of the game with {costs.edges} edges, and"
             " every claim holds"
         )
-    return MapperEntry(
+    return entry_of(
+        MapperEntry,
+        costs,
         game=costs.edges,
-        mapper=costs.mapper,
-        knows=costs.knows,
-        drawn=costs.drawn,
-        worlds=costs.worlds,
         worst=costs.worst if is_sound else None,
         mean=costs.mean if is_sound else None,
         value=best,
-        failing=costs.failing,
     )
 
 

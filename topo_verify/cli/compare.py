@@ -15,7 +15,7 @@ from topo_verify.campaign.run import explore
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
 from topo_verify.cli.kept_runs import opened, stored_rows
-from topo_verify.cli.output import Output, Result, output_options
+from topo_verify.cli.output import Output, Result, entry_of, output_options
 from topo_verify.cli.record import MapperOpener, mapper_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns, exhibit_of
@@ -213,9 +213,7 @@ def _entry(
         tolerance=tolerance,
         beyond=found.beyond,
         cost=CostChange(found.before, found.after),
-        baseline=BaselineSummary(
-            name, header.target, header.tool, header.policies, header.corpus, header.digest
-        ),
+        baseline=entry_of(BaselineSummary, header, file=name),
         groups=found.groups,
         examples=found.examples,
     )

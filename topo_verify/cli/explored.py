@@ -22,7 +22,7 @@ from topo_verify.campaign.run import Exploration
 from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.findings import Verdict
-from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.runs import NamedWorld, claims_cell, finding_blocks, judged
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError
@@ -124,28 +124,19 @@ def explore_result(
     if gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:
         found = measure(run.trace)
         measured = MeasuredGap(*found, share=found.share)
-    policies = run.policies
-    entry = ExploreEntry(
+    entry = entry_of(
+        ExploreEntry,
+        run,
+        report,
         world=at.name,
-        algorithm=run.algorithm,
-        policies=ChosenPolicies(policies.pick, policies.order)
-        if policies
-        else ChosenPolicies(None, None),
+        policies=run.policies or ChosenPolicies(None, None),
         vertices=len(at.world.vertices),
         edges=len(at.world.edges),
         genus=at.world.genus,
-        cost=run.cost,
         least_cost=at.world.least_cost(),
         isomorphic=report.claims["map-isomorphic"] == "ok",
         entailed=report.claims["map-entailed"] == "ok",
         ok=not report.findings and not incomplete,
-        findings=report.findings,
-        rejected_free=run.rejected_free,
-        rejected_moving=run.rejected_moving,
-        confirmed=run.confirmed,
-        claims=report.claims,
-        judgements=report.judgements,
-        stopped=run.stopped,
         gap=measured,
         marker=at.world.root,
         place=0 if at.world.root is None else at.world.vertex_of[at.world.root],

@@ -108,14 +108,16 @@ def number(
     required: bool = False,
 ) -> Callable[[Callable[..., int]], Callable[..., int]]:
     """Add an option that is an integer."""
+    # To click a default of None is a default, with which no option is missing.
+    given: dict[str, Any] = {} if default is None else {"default": default}
     return click.option(
         *names,
         type=click.IntRange(least, most),
         metavar=metavar,
-        default=default,
-        show_default=default is not None and shows_default,
+        show_default=shows_default and bool(given),
         required=required,
         help=meaning,
+        **given,
     )
 
 

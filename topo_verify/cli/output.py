@@ -115,13 +115,13 @@ def entry_of(kind: type[E], *sources: object, **more: object) -> E:
     Raises:
         msgspec.ValidationError: a field is missing or of another type.
     """
-    fields = {
-        name: getattr(source, name)
-        for name in kind.__struct_fields__
-        for source in reversed(sources)
-        if name not in more and hasattr(source, name)
-    }
-    return msgspec.convert(fields | more, kind, from_attributes=True)
+    fields = dict(more)
+    for name in kind.__struct_fields__:
+        for source in () if name in more else sources:
+            if (value := getattr(source, name, fields)) is not fields:
+                fields[name] = value
+                break
+    return msgspec.convert(fields, kind, from_attributes=True)
 
 
 class _ReaderGone(Exception):

@@ -16,11 +16,7 @@ from topo_verify.cli.output import Live, Output, Result, entry_of, output_option
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError, InternalError
-from topo_verify.proofs.theorem import (
-    Budget,
-    Theorem,
-    TheoremKind,
-)
+from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem, TheoremKind
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Cell, Text, TextTable
 from topo_verify.report.style import Tone
@@ -41,25 +37,6 @@ class ReplayCount(msgspec.Struct, frozen=True):
 
     replayed: int
     total: int
-
-
-class ProofCheck(msgspec.Struct, frozen=True):
-    """A certificate and what its checker said.
-
-    Attributes:
-        format: of the certificate.
-        checker: what checked it.
-        checked: whether it was accepted.
-        clauses, steps: how long it is.
-        why: the reason, if it was not accepted.
-    """
-
-    format: str
-    checker: str
-    checked: bool
-    clauses: int
-    steps: int
-    why: str
 
 
 class SecondOpinion(msgspec.Struct, frozen=True):
@@ -105,7 +82,7 @@ class ProveEntry(msgspec.Struct, frozen=True):
     replayed: ReplayCount | None
     solver: str
     edges: int | None
-    certificate: ProofCheck | None
+    certificate: RefutationCertificate | None
     checked: int | None
     total: int | None
     counterexample: str | None

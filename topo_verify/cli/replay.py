@@ -15,7 +15,7 @@ from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.campaign.targets import one_target, target_text
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, output_options
+from topo_verify.cli.output import Output, Result, entry_of, output_options
 from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import NamedWorld, judged, named_world, unjudged
 from topo_verify.cli.walks import other_findings, walk_view
@@ -251,17 +251,8 @@ def _ran(
 def _result(
     report: Report, trace: str | None, stopped: str | None, *, incomplete: bool = False
 ) -> Result[ReplayEntry]:
-    entry = ReplayEntry(
-        world=report.world,
-        target=report.target,
-        ok=not report.findings and not incomplete,
-        cost=report.cost,
-        findings=report.findings,
-        trace=trace,
-        claims=report.claims,
-        judgements=report.judgements,
-        stopped=stopped,
-    )
+    ok = not report.findings and not incomplete
+    entry = entry_of(ReplayEntry, report, ok=ok, trace=trace, stopped=stopped)
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
 

@@ -10,7 +10,7 @@ import msgspec
 
 from topo_verify.checkers import check
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, output_options
+from topo_verify.cli.output import Output, Result, entry_of, output_options
 from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import named_world
 from topo_verify.errors import InputError
@@ -138,14 +138,7 @@ def _against(world: World, log: str) -> tuple[Trace, Sequence[Event], LogAgainst
     except InputError as error:
         raise InputError(f"{name}: {error}") from error
     walked = tuple(event for event in seen if isinstance(event, Start | Move))
-    against = LogAgainstMap(
-        log=log,
-        verdict=found.verdict,
-        event=found.event,
-        message=found.message,
-        moves=len(walked) - 1,
-        unproved=found.unproved,
-    )
+    against = entry_of(LogAgainstMap, found, log=log, moves=len(walked) - 1)
     trace = seen if found.verdict == "REFUTED" else (*walked, *found.onward)
     return trace, found.onward, against
 

@@ -14,7 +14,7 @@ import msgspec
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import epilog
-from topo_verify.cli.output import Live, Output, Result, output_options
+from topo_verify.cli.output import Live, Output, Result, entry_of, output_options
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.errors import InputError
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
@@ -92,24 +92,20 @@ def show(output: Output, *, worlds: tuple[str, ...], marker: int | None) -> int:
 
 def _shown(at: NamedWorld) -> ShowEntry:
     world = at.world
-    return ShowEntry(
+    return entry_of(
+        ShowEntry,
+        world,
         name=at.name,
         id=_id(world),
         vertices=len(world.vertices),
         edges=len(world.edges),
         faces=len(world.faces),
-        genus=world.genus,
-        degrees=world.degrees,
         simple=world.is_simple,
         loopless=world.is_loopless,
         planar=world.is_planar,
-        marker=world.marker,
         least_cost=world.least_cost(),
-        source=world.source,
-        licence=world.licence,
         rotation=world.vertices,
         edge_darts=world.edges,
-        vertex_names=world.vertex_names,
     )
 
 
