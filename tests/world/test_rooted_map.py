@@ -272,8 +272,12 @@ def test_its_text_brings_it_back_whatever_its_size() -> None:
     assert World.from_text(large.text) == large
 
 
-def test_it_is_printed_by_pretty_printers_as_anywhere() -> None:
+def test_pretty_printers_as_hypothesis_has_one_say_what_makes_it_up_to_200_edges() -> None:
     assert pretty(PATH) == repr(PATH)
+    street = families.lattice(8, 8)
+    assert repr(street) == "<World 'lattice(8,8)': 64 vertices, 112 edges, genus 0>"
+    assert pretty(street) == f"tv.World.from_id({street.id!r})"
+    assert pretty(families.path(300)) == repr(families.path(300))
 
 
 def test_a_world_shows_itself_and_writes_its_picture(tmp_path: Path) -> None:

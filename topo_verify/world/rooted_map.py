@@ -376,7 +376,7 @@ class World:
         return hash((self.alpha, self.sigma, self.root))
 
     def __repr__(self) -> str:
-        if len(self.edges) <= rank_order.MAX_ID_EDGES:
+        if len(self.edges) <= 30:  # one short line
             return f"tv.World.from_id({self.id!r})"
         size = f"{len(self.vertices)} vertices, {len(self.edges)} edges, genus {self.genus}"
         return f"<World {self.name!r}: {size}>"
@@ -396,4 +396,5 @@ class World:
         return self.draw()
 
     def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
-        printer.text(repr(self))
+        small = len(self.edges) <= rank_order.MAX_ID_EDGES
+        printer.text(f"tv.World.from_id({self.id!r})" if small else repr(self))
