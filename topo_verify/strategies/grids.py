@@ -132,9 +132,9 @@ def _take_out(grid: Grid, node: Node, least: int) -> None:
             grid[other].remove(node)
 
 
-def _are_joined(grid: Grid, nodes: list[Node], *, without: Node | None = None) -> bool:
+def _are_joined(grid: Grid, nodes: list[Node], *, without: Node) -> bool:
     """Do paths lead from the first of these nodes to the others, none through `without`?"""
-    seen = {nodes[0]} if without is None else {nodes[0], without}
+    seen = {nodes[0], without}
     queue = [nodes[0]]
     for node in queue:  # grows as it goes
         fresh = [other for other in grid[node] if other not in seen]
@@ -148,16 +148,20 @@ def _thin(grid: Grid, bound: int, turn: int) -> None:
     streets = [(u, v) for u, exits in grid.items() for v in exits if u < v]
     spare = len(streets) - bound
     turn = scaled(len(streets), turn)
-    for u, v in streets[turn:] + streets[:turn]:
-        if spare <= 0:
-            return
-        before = grid[u], grid[v]
-        grid[u] = [w for w in grid[u] if w != v]
-        grid[v] = [w for w in grid[v] if w != u]
-        if _are_joined(grid, [u, v]):  # else the edge is a bridge and goes back
-            spare -= 1
+    streets = streets[turn:] + streets[:turn]
+    # An edge is a bridge when its turn comes exactly if the later edges do not join its ends.
+    part = {node: {node} for node in grid}
+    spared: list[tuple[Node, Node]] = []
+    for u, v in reversed(streets):
+        if part[u] is part[v]:
+            spared.append((u, v))
         else:
-            grid[u], grid[v] = before
+            part[u] |= part[v]
+            part |= dict.fromkeys(part[v], part[u])
+    for u, v in spared[::-1][: max(0, spare)]:
+        grid[u].remove(v)
+        grid[v].remove(u)
+        spare -= 1
     for _ in range(spare):  # a tree by now: take out its last dead end
         _take_out(grid, next(u for u in reversed(grid) if len(grid[u]) == 1), 0)
 
