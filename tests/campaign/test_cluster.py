@@ -8,12 +8,10 @@ from __future__ import annotations
 import os
 import shutil
 import signal
-import sqlite3
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Generator, Iterator
-from contextlib import closing, contextmanager
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,7 +19,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.studies.search.searching import searched
+from tests.studies.search.searching import json, searched, shards_in, wait_for
 from topo_verify import InputError, InternalError, errors
 from topo_verify.campaign import backend, cluster_worker
 from topo_verify.campaign import cluster as clusters
@@ -108,10 +106,6 @@ def worker(
             process.kill()
 
 
-def json(entry: SearchEntry) -> bytes:
-    return msgspec.json.encode(entry)
-
-
 def on_cluster(
     target: str,
     edges: int,
@@ -134,14 +128,6 @@ def work_of(target: str, edges: int = 2) -> Work[Shard, ShardResult]:
 
 def campaign_of(target: str, edges: int, kind: str = "any") -> Campaign:
     return search_campaign(targets(target), edges=edges, kind=kind)
-
-
-def wait_for(there: Callable[[], bool]) -> None:
-    for _ in range(6000):
-        if there():
-            return
-        time.sleep(0.01)
-    raise AssertionError("nothing came of it in 60 s")
 
 
 # ---------------------------------------------------------------- the same results
@@ -243,18 +229,6 @@ def test_a_client_that_is_killed_resumes_from_its_store(address: str, folder: Pa
     alone = searched(target, edges=4, kind="simple")
     assert study.tallies == alone.tallies
     assert (study.entry().verdict, study.entry().checked) == ("EXHAUSTED", 32)
-
-
-def shards_in(store: Path) -> int:
-    """How many shards are in the store of a search at work: read without its lock, from a copy."""
-    if not store.exists():
-        return 0
-    Path("copy").write_bytes(store.read_bytes())
-    with closing(sqlite3.connect("copy")) as base:
-        try:
-            return int(base.execute("SELECT count(*) FROM shards").fetchone()[0])
-        except sqlite3.Error:  # in the middle of a transaction
-            return 0
 
 
 def test_a_lost_scheduler_ends_the_search_with_a_sentence(folder: Path) -> None:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +15,8 @@ import pytest
 pytest.importorskip("numba")
 pytest.importorskip("distributed")
 
-from tests.campaign.test_cluster import json, started, wait_for, worker
-from tests.studies.search.searching import searched
+from tests.campaign.test_cluster import address, started, worker
+from tests.studies.search.searching import json, searched, wait_for
 from topo_verify import InputError
 from topo_verify.campaign import backend
 from topo_verify.campaign.backend import COMPILING, _job, _work, clustered
@@ -40,15 +39,11 @@ def small_shards(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
+__all__ = ["address"]  # a fixture
+
+
 def compiled() -> Campaign:
     return search_campaign(targets("basic"), edges=4, engine="compiled", keep_going=True)
-
-
-@pytest.fixture(scope="module")
-def address() -> Iterator[str]:
-    """A cluster of two workers."""
-    with started(2) as made:
-        yield made
 
 
 @pytest.mark.parametrize(

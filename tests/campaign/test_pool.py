@@ -10,14 +10,14 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from itertools import chain
 from pathlib import Path
 
 import msgspec
 import pytest
 
-from tests.studies.search.searching import search_of
+from tests.studies.search.searching import json, search_of, wait_for
 from topo_verify import InputError, InternalError, Limits
 from topo_verify.campaign import backend
 from topo_verify.campaign.campaign import Shard, ShardResult
@@ -37,10 +37,6 @@ from topo_verify.world.enumeration.classes import WorldClass
 
 SHORT = Limits(move_timeout=0.2, world_timeout=0.5)
 LOOPED = Limits(move_timeout=0.8, world_timeout=5.0)  # a busy machine holds up no mapper so long
-
-
-def json(entry: SearchEntry) -> bytes:
-    return msgspec.json.encode(entry)
 
 
 @pytest.fixture(autouse=True)
@@ -382,14 +378,6 @@ def test_workers_end_with_their_parent_however_it_ends(
 def pids_in(folder: Path) -> list[int]:
     file = folder / "pids"
     return [*map(int, file.read_text().split())] if file.exists() else []
-
-
-def wait_for(there: Callable[[], bool]) -> None:
-    for _ in range(3000):
-        if there():
-            return
-        time.sleep(0.01)
-    raise AssertionError("nothing came of it in 30 s")
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc to look for processes")

@@ -19,6 +19,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from tests.studies.search.searching import shards_in
 from topo_verify import InputError, Limits
 from topo_verify.campaign import backend
 from topo_verify.campaign import campaign as campaigns
@@ -40,6 +41,7 @@ def planned(target: str = "basic", edges: int = 4, **options: Any) -> Campaign:
 
 
 BASIC = planned()
+STORE = Path("search.db")
 SMALL = planned(edges=3)
 
 
@@ -172,30 +174,16 @@ def test_killed_at_random_moments_it_ends_with_the_same_totals(
         running = subprocess.Popen([sys.executable, "-c", SEARCHER], stderr=subprocess.DEVNULL)
         size = moments.randrange(2, 12)
         for _ in range(3000):
-            if Path("search.db").exists() and _shards() >= known + size:
-                break
-            if running.poll() is not None:
+            if shards_in(STORE) >= known + size or running.poll() is not None:
                 break
             time.sleep(0.01)
         time.sleep(moments.random() / 20)
         running.send_signal(signal.SIGKILL)
         running.wait()
-        assert _shards() >= known
-        known = _shards()
+        assert shards_in(STORE) >= known
+        known = shards_in(STORE)
     assert known > 0
     assert searched(planned(), workers=2) == search("basic", edges=4)
-
-
-def _shards() -> int:
-    """How many shards are in the ledger of a search at work: read without its lock, from a copy."""
-    Path("copy").write_bytes(Path("search.db").read_bytes())
-    base = sqlite3.connect("copy")
-    try:
-        return int(base.execute("SELECT count(*) FROM shards").fetchone()[0])
-    except sqlite3.Error:  # in the middle of a transaction
-        return 0
-    finally:
-        base.close()
 
 
 # ---------------------------------------------------------------- what does not belong in it

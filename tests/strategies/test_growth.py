@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from itertools import product
 from random import Random
 
@@ -10,12 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.helpers import worlds as every_world
 from tests.strategies import features
 from topo_verify import World
 from topo_verify.strategies import growth, worlds
 from topo_verify.strategies.growth import BALANCED, CROWDED, grow
 from topo_verify.strategies.shapes import MANY, Shape
-from topo_verify.world.enumeration import rank_order
 
 SHAPES = [
     Shape(),
@@ -46,11 +45,6 @@ SHAPES = [
 ]
 
 
-@cache
-def all_worlds(edges: int) -> list[World]:
-    return [World.from_code(table) for table in rank_order.tables(edges)]
-
-
 def keeps(world: World, shape: Shape) -> bool:
     """Does the world keep the bounds? Asked of the world, not of the way in which it grew."""
     shape = shape.at(len(world.edges))
@@ -75,7 +69,7 @@ def grown(shape: Shape, steps: bytes, root: int) -> World | None:
 @pytest.mark.parametrize("edges", [1, 2, 3, 4])
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
 def test_every_world_within_the_bounds_grows_and_no_other(shape: Shape, edges: int) -> None:
-    wanted = {world.code for world in all_worlds(edges) if keeps(world, shape)}
+    wanted = {world.code for world in every_world([edges]) if keeps(world, shape)}
     random = Random(edges)
     tries = 60 * len(wanted) if shape.is_possible(edges) else 0
     found = (grown(shape, random.randbytes(edges), random.randrange(8)) for _ in range(tries))
@@ -94,7 +88,7 @@ def test_the_least_number_of_edges_is_right_up_to_five(genus: int, degree: int) 
             leaf=leaf,
         )
         for edges in range(1, 6):
-            exists = any(keeps(world, shape) for world in all_worlds(edges))
+            exists = any(keeps(world, shape) for world in every_world([edges]))
             assert shape.is_possible(edges) == exists, f"{shape}, {edges} edges"
 
 

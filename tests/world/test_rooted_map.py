@@ -10,11 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.vendor.pretty import pretty
 
+from tests.helpers import EMPTY
+from tests.helpers import worlds as every_world
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.enumeration import rank_order
 
-EMPTY = World((), (), None)
 LOOP = World((1, 0), (1, 0), 0)
 PARALLEL = World.from_rotations([[0, 2, 4], [5, 3, 1]], [[0, 1], [2, 3], [4, 5]], 0)
 PATH = World.from_rotations([[0], [1, 2], [3]], [[0, 1], [2, 3]], 0)
@@ -24,12 +25,6 @@ ranks = st.integers(0, 12).flatmap(
     lambda edges: st.tuples(st.just(edges), st.integers(0, rank_order.count(edges) - 1))
 )
 worlds = ranks.map(lambda pair: World.from_code(rank_order.unrank(*pair)))
-
-
-def all_worlds(most_edges: int) -> list[World]:
-    """Every world with at most this many edges."""
-    tables = (table for edges in range(most_edges + 1) for table in rank_order.tables(edges))
-    return [World.from_code(table) for table in tables]
 
 
 def shuffled(world: World, seed: int) -> World:
@@ -104,7 +99,7 @@ def test_a_square_seen_from_above_has_its_exits_clockwise() -> None:
 
 
 def test_eulers_formula_holds_in_every_world_up_to_four_edges() -> None:
-    for world in all_worlds(4):
+    for world in every_world(range(5)):
         characteristic = len(world.vertices) - len(world.edges) + len(world.faces)
         assert characteristic == 2 - 2 * world.genus
         assert world.genus >= 0
@@ -115,7 +110,7 @@ def test_eulers_formula_holds_in_every_world_up_to_four_edges() -> None:
 
 
 def test_the_smallest_nonplanar_world_is_two_loops_that_cross() -> None:
-    assert [world.id for world in all_worlds(2) if world.genus] == ["m2/8"]
+    assert [world.id for world in every_world(range(3)) if world.genus] == ["m2/8"]
     assert World.from_id("m2/8").code == ((4,), (2, 3, 0, 1))
 
 
@@ -143,7 +138,7 @@ def test_the_mirror_image_of_the_mirror_image_is_the_world(world: World) -> None
 
 
 def test_a_mirror_image_may_be_another_world() -> None:
-    images = {world.id: world.mirror().id for world in all_worlds(2)}
+    images = {world.id: world.mirror().id for world in every_world(range(3))}
     others = {name: image for name, image in images.items() if name != image}
     assert others == {"m2/4": "m2/5", "m2/5": "m2/4", "m2/7": "m2/9", "m2/9": "m2/7"}
 

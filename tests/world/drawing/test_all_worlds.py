@@ -10,15 +10,12 @@ from random import Random
 
 import pytest
 
+from tests.helpers import worlds
 from tests.world.drawing.pictures import drawn
 from topo_verify.world import families
 from topo_verify.world.resolve import resolve_world
-from topo_verify.world.rooted_map import World
 
 pytestmark = pytest.mark.no_cover  # drawing is not trusted: it is left out of the measure
-
-WORLDS = {0: 1, 1: 2, 2: 10, 3: 74, 4: 706, 5: 8162}
-"""How many worlds there are, by their edges."""
 
 FAMILIES = (
     *("lattice(4,5)", "lattice(5,5,holes=0.3,seed=2)", "king(3,4)", "torus(3,4)", "torus(5,7)"),
@@ -39,19 +36,18 @@ LARGE = (
 )
 
 
-def worlds(edges: int) -> list[World]:
-    return [World.from_id(f"m{edges}/{rank}") for rank in range(WORLDS[edges])]
+SLOW = [pytest.param(edges, marks=pytest.mark.slow) for edges in (4, 5)]
 
 
-@pytest.mark.parametrize("edges", [0, 1, 2])
-def test_every_world_to_two_edges_is_drawn_true(edges: int) -> None:
-    for world in worlds(edges):
+@pytest.mark.parametrize("edges", [0, 1, 2, *SLOW])
+def test_every_world_of_a_size_is_drawn_true(edges: int) -> None:
+    for world in worlds([edges]):
         drawn(world)
 
 
 @pytest.mark.parametrize("part", range(5))
 def test_every_world_of_three_edges_is_drawn_true(part: int) -> None:
-    for world in worlds(3)[part::5]:
+    for world in list(worlds([3]))[part::5]:
         drawn(world)
 
 
@@ -71,13 +67,6 @@ def test_a_sample_of_each_genus_is_drawn_true(genus: int) -> None:
 
 
 # ---------------------------------------------------------------- all of it, nightly
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("edges", [4, 5])
-def test_every_world_of_four_and_of_five_edges_is_drawn_true(edges: int) -> None:
-    for world in worlds(edges):
-        drawn(world)
 
 
 @pytest.mark.slow

@@ -9,13 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.helpers import EMPTY
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.enumeration import classes, rank_order
 from topo_verify.world.enumeration.classes import WorldClass
-
-EMPTY = World((), (), None)
-
 
 # ---------------------------------------------------------------- how they are written
 

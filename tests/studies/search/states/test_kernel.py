@@ -8,7 +8,8 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.studies.search.states.test_graph import searched, worlds
+from tests.helpers import worlds
+from tests.studies.search.states.test_graph import searched
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.motion import Executed, Hypothesis, overlap
 from topo_verify.campaign.attempt import Attempt
@@ -81,7 +82,7 @@ def coarse(moment: ChoicePoint, world: World) -> object:
 def test_it_finds_the_states_the_choices_and_the_costs_that_the_mapper_has(
     name: str, edges: int, counted: Callable[[str, World], tuple[int, ...]]
 ) -> None:
-    for world in worlds(edges):
+    for world in worlds([edges]):
         found = table.found_in(world, CATALOGUE[name])
         assert found.wrong == 0
         assert found[1:5] == counted(name, world)
@@ -108,7 +109,7 @@ def test_it_does_so_where_rules_and_motions_differ(
 def test_the_numbers_in_all_worlds_of_four_edges_are_pinned(
     name: str, totals: tuple[int, ...]
 ) -> None:
-    found = [table.found_in(world, CATALOGUE[name]) for world in worlds(4)]
+    found = [table.found_in(world, CATALOGUE[name]) for world in worlds([4])]
     rows = [(one.states, one.choices, one.cheapest, one.dearest) for one in found]
     assert tuple(map(sum, zip(*rows, strict=True))) == totals
 
@@ -116,7 +117,7 @@ def test_the_numbers_in_all_worlds_of_four_edges_are_pinned(
 @pytest.mark.parametrize("name", KNOWN)
 def test_its_two_runs_cost_the_mapper_what_it_says(name: str) -> None:
     algorithm = CATALOGUE[name]
-    for world in worlds(4)[::10]:
+    for world in list(worlds([4]))[::10]:
         found = table.found_in(world, algorithm)
         for order, cost in ((found.cheap, found.cheapest), (found.dear, found.dearest)):
             run = explore(world, Target(name, scripted(algorithm, table.Ordered(world, order))))
@@ -126,7 +127,7 @@ def test_its_two_runs_cost_the_mapper_what_it_says(name: str) -> None:
 def test_without_the_direction_of_the_marker_it_finds_false_confirmations() -> None:
     # docs/semantics.md, section 10: such worlds have two edges and more.
     found: list[str] = []
-    for world in [*worlds(1), *worlds(2)]:
+    for world in worlds([1, 2]):
         blind = [
             msgspec.structs.replace(seen, marker=None if seen.marker is None else 0)
             for seen in percepts(world)
@@ -224,7 +225,7 @@ def uncompiled(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def seen_in_3_edges(name: str) -> set[int]:
     """What is wrong in the worlds with 3 edges."""
-    return {table.found_in(world, CATALOGUE[name]).wrong for world in worlds(3)[::6]}
+    return {table.found_in(world, CATALOGUE[name]).wrong for world in list(worlds([3]))[::6]}
 
 
 @pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
