@@ -52,7 +52,7 @@ test: $(VENV)/.dev
 	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
 	$(BIN)/coverage report --fail-under=100
 
-# What tests/long.py names; those that need Coq run in make coq.
+# What tests/long.txt names; those that need Coq run in make coq.
 long: $(VENV)/.dev
 	$(PYTEST) $(PARALLEL) -m 'long and not (slow or coq)' $(call report,long)
 
