@@ -125,10 +125,10 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
     tries = iter(range(FURTHER)) if planar else None
     refuted: set[tuple[int, int]] = set()  # for ever: S and the history only grow
     for when, event in enumerate(trace):
-        if why := followed(on_fold.fold, event):
-            yield Conclusion(when, f"no world shows this history: {why}")
-            return
         if not isinstance(event, Concluded):
+            if why := followed(on_fold.fold, event):
+                yield Conclusion(when, f"no world shows this history: {why}")
+                return
             continue
         if why := _unknown_dart(on_fold, event):
             yield Conclusion(when, why)

@@ -132,13 +132,15 @@ class Fold:
         if marker is not None and not 0 <= marker < percept.degree:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
         left = self.find((here, dart + door))
-        known = self._ends.get(*left)
-        self.at = there, entry = self.find(known or (self._visit(percept), 0))
-        self._require_alike(self._seen[there], percept)
-        if known is None:
-            self.join(left, self.at)
+        if known := self._ends.get(*left):
+            self.at = self.find(known)
+            self._require_alike(self._seen[self.at[0]], percept)
+        else:
+            self.at = self._visit(percept), 0
+            self._ends.put(*left, self.at)
+            self._ends.put(*self.at, left)
         if marker is not None:
-            self.identify((there, entry + marker), (0, 0))
+            self.identify((self.at[0], self.at[1] + marker), (0, 0))
 
     def find(self, place: Place) -> Place:
         """The one place that stands for all that are the same dart."""
@@ -192,8 +194,8 @@ class Fold:
     def _behind(self, place: Place, drawn: dict[Place, Looks]) -> Looks:
         """The other ends of a dart: those drawn so far, or the one of the fold, if it has one."""
         if place not in drawn:
-            end = self.partner(place)
-            drawn[place] = {} if end is None else {self._seen[end[0]].signature: end}
+            end = self._ends.get(*place)
+            drawn[place] = {} if end is None else {self._seen[end[0]].signature: self.find(end)}
         return drawn[place]
 
     def contradictions(self, one: Place, other: Place, apart: Sequence[Place]) -> Iterator[Met]:
@@ -225,7 +227,7 @@ class Fold:
             elif one != other:
                 if a == b:
                     yield TURNED, [one, other]
-                for door in range(n := self.degree(a)):
+                for door in range(n := self._seen[a].degree):
                     one, other = find((a, (i + door) % n)), find((b, (j + door) % n))
                     if one != other:
                         same[one] = other

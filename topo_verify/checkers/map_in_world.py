@@ -27,7 +27,7 @@ class MapInWorld:
 
     def __init__(self, world: World) -> None:
         self.world = world
-        self._percepts = percepts(world)
+        self._percepts = percepts(world) or (first_percept(world),)
         self._across = cast("tuple[WorldDart, ...]", world.alpha)
         self._rotation: dict[KnownDart, tuple[KnownDart, ...]] = {}
         self.phi: dict[KnownDart, WorldDart] = {}
@@ -42,7 +42,7 @@ class MapInWorld:
 
     def seen_at(self, dart: WorldDart) -> Percept:
         """What the world shows to a robot with this reference dart."""
-        return self._percepts[dart] if self._percepts else first_percept(self.world)
+        return self._percepts[dart]
 
     def beyond(self, dart: WorldDart, door: Door) -> WorldDart:
         """The reference dart in the world after leaving by a door."""
@@ -81,7 +81,7 @@ class MapInWorld:
     def is_open(self, dart: int, when: int) -> TypeGuard[KnownDart]:
         """Whether this is a dart of S, and unexplored, when event `when` happens."""
         number = KnownDart(dart)
-        return number in self.born and self.born[number] <= when <= self.joined.get(number, when)
+        return self.born.get(number, when + 1) <= when <= self.joined.get(number, when)
 
     def turn(self, dart: KnownDart, door: Door) -> KnownDart:
         """The dart of S that a door means to a robot whose reference dart on S is `dart`."""

@@ -48,7 +48,7 @@ class Fate(NamedTuple):
 
     when: int
     event: ev.Pose | ev.Augment
-    left: frozenset[int]
+    left: set[int]
 
 
 def require_order(trace: Sequence[ev.Event]) -> None:
@@ -69,6 +69,7 @@ class ReplayedTrace:
         stopped: why the mapper ended without a map, if it did.
     Attributes:
         cost: the number of moves.
+        kinds: the types of its events.
         map: S, drawn on the world.
         positions: the reference dart in the world after each event, up to an illegal move.
         followed: the events up to an illegal move.
@@ -84,6 +85,7 @@ class ReplayedTrace:
         require_order(trace)
         self.world, self.trace, self.stopped = world, trace, stopped
         self.cost = sum(isinstance(event, ev.Move) for event in trace)
+        self.kinds = {*map(type, trace)}
         self.map = MapInWorld(world)
         self.records = Records(self.map)
         self.illegal: int | None = None
@@ -106,9 +108,8 @@ class ReplayedTrace:
                 self.crossings.setdefault(self.crossing(at), when)
             elif isinstance(event, ev.Augment) and self.spoiled is None:
                 self.spoiled = None if self.map.grow(when, event) else when
-            seen = self.map.seen_at(at)
-            if isinstance(event, (ev.Start, ev.Move)) and event.percept != seen:
-                self.false_percepts.append((when, event.percept, seen))
+            if isinstance(event, (ev.Start, ev.Move)) and event.percept != self.map.seen_at(at):
+                self.false_percepts.append((when, event.percept, self.map.seen_at(at)))
             self.positions.append(at)
 
     @property
@@ -159,17 +160,14 @@ class ReplayedTrace:
             if not self.map.is_open(event.edge, when):
                 continue
             edge = self.crossing(self.map.end(event.edge))
-            left = fates[edge].left if edge in fates else frozenset[int]()
-            match event:
-                case ev.Pose(_, hypotheses):
-                    fates[edge] = Fate(when, event, left.union(hypotheses))
-                case ev.Augment(_, kind) if pose and when != self.spoiled:
-                    open_ones = (h for h in left if kind == "new" and self.map.is_open(h, when))
-                    fates[edge] = Fate(when, event, frozenset(open_ones))
-                case ev.Reject(_, h) | ev.Confirm(_, h) if edge in fates:
-                    fates[edge] = fates[edge]._replace(left=left - {h})
-                case _:
-                    pass
+            left: set[int] = fates[edge].left if edge in fates else set()
+            if isinstance(event, ev.Pose):
+                fates[edge] = Fate(when, event, left.union(event.hypotheses))
+            elif not isinstance(event, ev.Augment):
+                left.discard(event.hypothesis)
+            elif pose and when != self.spoiled:
+                left = {h for h in left if event.kind == "new" and self.map.is_open(h, when)}
+                fates[edge] = Fate(when, event, left)
         return fates
 
     @cached_property
