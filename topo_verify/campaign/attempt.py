@@ -18,7 +18,7 @@ from typing import Any
 
 import msgspec
 
-from topo_verify.campaign.judge import Report, judge, replay_line, undecided
+from topo_verify.campaign.judge import CheckedTraces, Report, judge, replay_line, undecided
 from topo_verify.campaign.row import SECOND_TRY, Judged, PolicyCosts, Row, hashed
 from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import Finding
@@ -61,7 +61,7 @@ Look = Callable[[Attempt], Any]
 """What a study notes about a run beside what every row has: JSON."""
 
 
-def attempt(
+def attempt(  # noqa: PLR0913  an argument an option
     world: World,
     target: Target,
     limits: Limits,
@@ -69,6 +69,7 @@ def attempt(
     where: str,
     strict: bool = False,
     witness: bool = True,
+    known: CheckedTraces | None = None,
     beat: Callable[[], None] = lambda: None,
 ) -> Attempt:
     """Run a mapper in a world, again if its process was killed, and judge the run.
@@ -77,6 +78,7 @@ def attempt(
         where: the world, as the command line names it.
         strict: judge claim 10 also in worlds with more than 2,000 edges.
         witness: also run the mapper in the witness world of a wrong map.
+        known: traces that were checked before.
         beat: called before each run and each judgement.
     """
 
@@ -90,7 +92,7 @@ def attempt(
         lines = tuple(program.lines) if program is not None and program.record else None
         beat()
         asked = run if witness else replace(run, mapper=None)
-        report = judge(asked, where=where, options=limits.options, strict=strict)
+        report = judge(asked, where=where, options=limits.options, strict=strict, known=known)
         if program is not None:
             program.settle()  # it may have been run in a witness world, too
         return Attempt(run, report, seconds, lines)

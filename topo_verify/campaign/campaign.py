@@ -33,6 +33,7 @@ import msgspec
 
 from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
 from topo_verify.campaign.corpus import Corpus, Named
+from topo_verify.campaign.judge import CheckedTraces
 from topo_verify.campaign.progress import Progress, ProgressRate
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, on_engine
@@ -339,10 +340,11 @@ def examine(
     try:
         for place, name, world in campaign.worlds.worlds(shard):
             met: list[Row] = []
+            several = len(mappers) > 1 or campaign.ways is not None
+            known = CheckedTraces() if several else None
             for target in mappers:
-                once = partial(
-                    _attempt, campaign, world, name, partial(beat, done), ours=target.mapper
-                )
+                told = partial(beat, done)
+                once = partial(_attempt, campaign, world, name, known, told, ours=target.mapper)
                 for made in ways(target, world, once):
                     met.append(row_of(made, name, place, len(met), look))
                 done += 1
@@ -362,6 +364,7 @@ def _attempt(
     campaign: Campaign,
     world: World,
     name: str,
+    known: CheckedTraces | None,
     beat: Callable[[], None],
     target: Target,
     *,
@@ -376,6 +379,7 @@ def _attempt(
         where=name,
         strict=campaign.strict,
         witness=witness,
+        known=known,
         beat=beat,
     )
 

@@ -216,12 +216,43 @@ def assert_maps(
         raise ClaimUndecided(f"nothing is refuted, and {names} is not decided: {report}")
 
 
+class CheckedTraces:
+    """Checks each distinct trace in a world once: mappers in small worlds often leave the same.
+
+    What the checkers say depends on the world, the trace, why it stopped, and `strict`. Of the
+    `start` they read the percept and nothing else, so traces of two mappers may be the same. All of
+    the rest is compared, as bytes; what cannot be written as bytes is checked each time.
+    """
+
+    def __init__(self) -> None:
+        self._known: dict[object, list[Judgement]] = {}
+
+    def __call__(
+        self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
+    ) -> list[Judgement]:
+        """The judgements of `check`; see there."""
+        start, *events = trace
+        kinds = tuple(map(type, trace))
+        try:
+            written = _encoder.encode((getattr(start, "percept", None), events))
+        except (TypeError, ValueError, OverflowError):
+            return check(world, trace, stopped, strict=strict)
+        key = world, kinds, written, stopped, strict
+        if key not in self._known:
+            self._known[key] = check(world, trace, stopped, strict=strict)
+        return self._known[key]
+
+
+_encoder = msgspec.msgpack.Encoder()
+
+
 def judge(
     run: Exploration,
     *,
     where: str | None = None,
     options: Sequence[str] = (),
     strict: bool = False,
+    known: CheckedTraces | None = None,
 ) -> Report:
     """Judge a run by every claim; see `examine`.
 
@@ -231,6 +262,7 @@ def judge(
 
     Args:
         options: the options that the replay command needs besides world and target.
+        known: traces that were checked before.
     """
     where = where or world_argument(run.world)
     words = (*options, *strict_option(run.world, strict=strict))
@@ -245,8 +277,11 @@ def judge(
         where=where,
         replay_command=replay_command,
         strict=strict,
+        known=known,
     )
     report = _with_count(report, run.cost, replay_command)
+    if not report.findings:
+        return report
     return report.with_findings([_with_run_in_witness(finding, run) for finding in report.findings])
 
 
@@ -283,7 +318,7 @@ def _is_map_of(world: World, delivered: MapData) -> bool:
         return False
 
 
-def judge_trace(
+def judge_trace(  # noqa: PLR0913  an argument an option
     world: World,
     trace: Sequence[Event],
     stopped: str | None = None,
@@ -292,6 +327,7 @@ def judge_trace(
     where: str | None = None,
     replay_command: str | None = None,
     strict: bool = False,
+    known: CheckedTraces | None = None,
 ) -> Report:
     """Judge a trace of any origin in its world.
 
@@ -300,13 +336,14 @@ def judge_trace(
         where: the world as the command line names it; default: its id.
         replay_command: the command line that shows the findings again; default: `replay` of the
             target in the world.
+        known: traces that were checked before.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`.
         InternalError: an algorithm of the catalogue is right at a cost below that of any proof.
     """
     where = where or world_argument(world)
     replay_command = replay_command or replay_line(where, target)
-    judgements = check(world, trace, stopped, strict=strict)
+    judgements = (known or check)(world, trace, stopped, strict=strict)
     findings = tuple(
         msgspec.structs.replace(
             finding,
@@ -320,7 +357,9 @@ def judge_trace(
     cost = sum(isinstance(event, Move) for event in trace)
     statuses: dict[str, Status] = {judgement.claim: judgement.status for judgement in judgements}
     report = Report(where, target, not findings, cost, statuses, (), tuple(judgements))
-    report = report.of(JudgedRun(world, trace, stopped)).with_findings(findings)
+    report = report.of(JudgedRun(world, trace, stopped))
+    if findings:
+        report = report.with_findings(findings)
     return _with_least(report, world, replay_command)
 
 
