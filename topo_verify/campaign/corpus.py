@@ -210,13 +210,18 @@ def _generated(text: str, seed: int) -> CorpusPart:
     each, more = divmod(number, len(strategies))
     worlds: list[World] = []
     for place, strategy in enumerate(strategies):
-        worlds += _drawn(text, strategy, each + (place < more), seed)
+        worlds += drawn(f"--worlds {text!r}", strategy, each + (place < more), seed)
     arguments = ("--worlds", text, "--seed", str(seed))
     named = [_named(f"{text}#{i}", world, text, arguments) for i, world in enumerate(worlds)]
     return _listed(text, named)
 
 
-def _drawn(text: str, strategy: str, number: int, seed: int) -> list[World]:
+def drawn(asked: str, strategy: str, number: int, seed: int) -> list[World]:
+    """Worlds of a strategy, given as text; `asked` is the option that asks for them.
+
+    Raises:
+        InputError: there is no such strategy, or it draws no worlds.
+    """
     from hypothesis.errors import HypothesisException
 
     from topo_verify.strategies.sample import resolve_strategy, sample
@@ -226,7 +231,7 @@ def _drawn(text: str, strategy: str, number: int, seed: int) -> list[World]:
     try:
         return sample(resolve_strategy(strategy), number, start=seed)
     except HypothesisException as error:
-        raise InputError(f"--worlds {text!r}: {strategy} draws no worlds: {error}") from error
+        raise InputError(f"{asked}: {strategy} draws no worlds: {error}") from error
 
 
 # ---------------------------------------------------------------- named

@@ -8,12 +8,12 @@ import click
 import msgspec
 from click.core import ParameterSource
 
-from topo_verify.algorithms import NAMED
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.errors import InputError, InternalError
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.studies.game.values import (
     MOST_EDGES,
+    PLAYERS,
     GameValue,
     MapperCosts,
     game_values,
@@ -101,13 +101,13 @@ def game_of_catalogue(output: Output, edges: int, names: Sequence[str]) -> int:
             raise InputError(f"{parameter.opts[0]} means nothing to --game: leave out one of them")
     asked = [name for text in names for name in text.split(",") if name != "all"]
     for name in asked:
-        if name not in NAMED:
-            known = ", ".join(NAMED)
+        if name not in PLAYERS:
+            known = ", ".join(PLAYERS)
             raise InputError(f"target {name!r}: --game plays mappers of the catalogue: {known}")
-    return play_game(output, edges, asked or tuple(NAMED))
+    return play_game(output, edges, asked or PLAYERS)
 
 
-def play_game(output: Output, edges: int, mappers: Sequence[str] = tuple(NAMED)) -> int:
+def play_game(output: Output, edges: int, mappers: Sequence[str] = PLAYERS) -> int:
     """Print the values of the games with 1 to so many edges, and how far the mappers are from them.
 
     Args:

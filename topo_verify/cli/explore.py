@@ -37,6 +37,7 @@ from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.search.states.every import ListedChoices
 from topo_verify.text import plural
 from topo_verify.world.formats import files
 
@@ -51,7 +52,7 @@ class _ExploreOptions:
     svg: str | None
     strict: bool
     gap: bool
-    choices: explored.ListedChoices | None = None
+    choices: ListedChoices | None = None
 
 
 @options.command(
@@ -128,7 +129,7 @@ def explore(  # noqa: PLR0913  an argument an option
         if choices is not None:
             _require_one_run("--choices", choices, found, starts)
             explored.require_no_policies(choices, pick, order)
-            listed = explored.ListedChoices(found[0], choices)
+            listed = ListedChoices(found[0], choices)
             found = (listed.target,)
         asked = _ExploreOptions(limits, trace, player, svg, strict, gap, listed)
         return _results(output, starts, found, asked, walk)

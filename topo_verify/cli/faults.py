@@ -6,17 +6,14 @@ from collections.abc import Iterator, Sequence
 
 import click
 
-from topo_verify.campaign.run import Engine, explore, planted
+from topo_verify.campaign.run import Engine
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
 from topo_verify.cli.output import Live, Output, Result, output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.compiled import require
 from topo_verify.errors import InputError
-from topo_verify.faults import FAULTS, Fault
-from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.studies.faults import (
@@ -29,10 +26,12 @@ from topo_verify.studies.faults import (
     STRATEGIES,
     Caught,
     Check,
+    mapper_of,
+    named_faults,
     try_faults,
+    warm,
 )
 from topo_verify.text import plural
-from topo_verify.world.rooted_map import World
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")
 WIDTHS = (29, 21, 13, 5, 3)
@@ -81,9 +80,9 @@ def faults(
 
     def tried() -> Iterator[Result[Caught]]:
         processes = processors() if workers is None else workers
-        chosen = _named(names)
+        chosen = named_faults(names)
         if engine == "compiled":
-            _warm(chosen)
+            warm(chosen)
         # The first fault may take a minute, and progress is otherwise shown after each.
         output.progress(chosen[0].name, 0, len(chosen))
         entries = try_faults(
@@ -125,29 +124,12 @@ def faults(
 def _run_again(entry: Caught, world: str, found: FoundRuns) -> None:
     """Keep the run of a fault in the smallest world in which it fails."""
     assert entry.search is not None
-    target = Target(entry.target, FAULTS[entry.name].mapper)
     if claim := next(iter(entry.search.claims), None):
-        found.run_again((target,), world, claim, A_SECOND, entry.search.message)
-
-
-def _warm(chosen: Sequence[Fault]) -> None:
-    """Have the kernels with mistakes compiled, before workers look for them in the cache."""
-    require("--engine compiled")
-    if mapper := next(filter(None, (planted(fault.name) for fault in chosen)), None):
-        explore(World.from_id("m1/0"), Target(mapper.name, mapper))
+        found.run_again((mapper_of(entry),), world, claim, A_SECOND, entry.search.message)
 
 
 def _part(entry: Caught) -> str:
     return "harmless" if entry.harmless else entry.part
-
-
-def _named(names: Sequence[str]) -> list[Fault]:
-    unknown = [name for name in names if name not in FAULTS]
-    if unknown:
-        raise InputError(
-            f"expected the name of a fault, got {unknown[0]!r}; the faults are {', '.join(FAULTS)}"
-        )
-    return [FAULTS[name] for name in names] or list(FAULTS.values())
 
 
 def _checks(text: str) -> list[Check]:
@@ -203,7 +185,7 @@ def _case(entry: Caught, checks: str) -> acc.JudgedCase:
 def _head(names: Sequence[str], *, thorough: bool) -> str:
     harmless = LARGEST_THOROUGH if thorough else LARGEST_HARMLESS
     return (
-        f"topo-verify {version()}: {plural(len(_named(names)), 'mapper')};"
+        f"topo-verify {version()}: {plural(len(named_faults(names)), 'mapper')};"
         f" every world up to {LARGEST} edges ({harmless} for the harmless ones),"
         f" {EXAMPLES} examples of {' and of '.join(STRATEGIES)}"
     )

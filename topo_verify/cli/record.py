@@ -10,11 +10,10 @@ from typing import Any
 import click
 import msgspec
 
-from topo_verify.algorithms import Algorithm
 from topo_verify.campaign.campaign import CorpusWorlds
 from topo_verify.campaign.corpus import DEFAULT, Corpus, corpus_from
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import Engine, on_engine
+from topo_verify.campaign.run import Engine, on_engine, policies_of
 from topo_verify.campaign.targets import one_target, target_text
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
@@ -111,7 +110,7 @@ def _opened(
     pick, order = asked
     text = target_text(name, cmd)
     target = one_target(text, pick=pick, order=order, in_process=in_process)
-    if usual is not None and isinstance(target.mapper, Algorithm):
+    if usual is not None and policies_of(target) is not None:
         # Policies on the command line go before those of the baseline.
         target = one_target(target, pick=pick or usual.pick, order=order or usual.order)
     try:

@@ -9,16 +9,16 @@ from pathlib import Path
 import click
 
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import Engine, explore
+from topo_verify.campaign.run import Engine, explore, require_compiled
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.kept_runs import open_store, stored_rows
 from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.runs import finding_blocks
-from topo_verify.compiled import require
 from topo_verify.errors import InputError
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.report.figures.words import PAGE, SHORT, judged_sentence, page, paragraph, stem
+from topo_verify.robot.limits import Limits
 from topo_verify.studies.reproduce.figures import (
     FIGURES,
     GRAPHS,
@@ -140,7 +140,7 @@ def reproduce(  # noqa: PLR0913  an argument an option
 
 def _require_engine(engine: Engine, *, policies: bool) -> None:
     if engine == "compiled":
-        require("--engine compiled")
+        require_compiled((), Limits())
         if policies:
             raise InputError(
                 "--policies with --engine compiled: that engine knows the reference policies only;"

@@ -12,6 +12,7 @@ from typing import Any
 import click
 import msgspec
 
+from topo_verify.campaign.corpus import drawn as worlds_drawn
 from topo_verify.cli import options
 from topo_verify.cli.failures import epilog
 from topo_verify.cli.output import Live, Output, Result, entry_of, output_options
@@ -452,10 +453,7 @@ def _by_strategy(
             f"{given} beside --strategy: a strategy takes its bounds as arguments, as in"
             " --strategy 'worlds(min_edges=5, max_edges=9, simple=True)'"
         )
-    from topo_verify.strategies.sample import resolve_strategy
-    from topo_verify.strategies.sample import sample as drawn
-
-    return iter(drawn(resolve_strategy(text), number, start=seed))
+    return iter(worlds_drawn("--strategy", text, number, seed))
 
 
 def _show_sampled(entries: Sequence[SampleEntry]) -> Iterator[Block]:

@@ -32,13 +32,13 @@ import msgspec
 
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.progress import Progress
-from topo_verify.campaign.run import Engine, explore, planted
+from topo_verify.campaign.run import Engine, explore, planted, require_compiled
 from topo_verify.campaign.work import Loss, Work, in_order
 from topo_verify.campaign.worker import Beat, Handler
 from topo_verify.checkers import CLAIMS
 from topo_verify.checkers.findings import Verdict
 from topo_verify.checkers.replayed_trace import ReplayedTrace
-from topo_verify.errors import InternalError
+from topo_verify.errors import InputError, InternalError
 from topo_verify.faults import FAULTS, Fault
 from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.programs.loader import Target
@@ -78,6 +78,32 @@ class Caught(msgspec.Struct, frozen=True):
     asked: int
     undecided: bool
     ok: bool
+
+
+def named_faults(names: Sequence[str]) -> list[Fault]:
+    """The faults with these names; all, if there are none.
+
+    Raises:
+        InputError: no fault has one of the names.
+    """
+    unknown = [name for name in names if name not in FAULTS]
+    if unknown:
+        raise InputError(
+            f"expected the name of a fault, got {unknown[0]!r}; the faults are {', '.join(FAULTS)}"
+        )
+    return [FAULTS[name] for name in names] or list(FAULTS.values())
+
+
+def mapper_of(entry: Caught) -> Target:
+    """The mapper with the fault that an entry is about."""
+    return Target(entry.target, FAULTS[entry.name].mapper)
+
+
+def warm(faults: Iterable[Fault]) -> None:
+    """Have the kernels with these mistakes compiled, before workers look for them in the cache."""
+    require_compiled((), Limits())
+    if mapper := next(filter(None, (planted(fault.name) for fault in faults)), None):
+        explore(World.from_id("m1/0"), Target(mapper.name, mapper))
 
 
 def try_faults(

@@ -200,6 +200,10 @@ def _after(rules: Rules[S], start: S, *, mean: bool, most_states: float) -> tupl
 # ---------------------------------------------------------------- what the catalogue pays
 
 
+PLAYERS = tuple(NAMED)
+"""The mappers whose costs are set beside the values: the catalogue."""
+
+
 @dataclass(frozen=True)
 class MapperCosts:
     """The costs of a mapper in the worlds of a game.
