@@ -143,7 +143,7 @@ def test_a_changed_baseline_is_refused(call: Call, folder: Path) -> None:
     [
         ("compare nowhere.gz basic", "cannot read nowhere.gz"),
         ("compare mappers.py basic", "expected gzip data"),
-        ("compare basic.gz", "name a TARGET, or a program"),
+        ("compare basic.gz", "name a TARGET, a program"),
         ("compare basic.gz nix", "no algorithm 'nix'"),
         (
             "compare basic.gz basic --tolerance -1",

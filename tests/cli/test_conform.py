@@ -69,8 +69,8 @@ def test_each_of_several_mappers_has_its_own_entries(results: Results) -> None:
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("conform", "name a TARGET, or a program"),
-        ("conform basic --cmd ./mapper", "one of the two"),
+        ("conform", "name a TARGET, a program"),
+        ("conform basic --cmd ./mapper", "one of them, not two"),
         ("conform --cmd /no/such/program --worlds m1/0", "cannot start '/no/such/program'"),
         ('conform --cmd "\'" --worlds m1/0', "quote"),
         ("conform basic --worlds nowhere", "no such world"),

@@ -80,4 +80,4 @@ def test_verify_and_explore_run_programs(results: Call) -> None:
 def test_a_target_and_a_program_are_one_too_many(call: Call, line: str) -> None:
     done = call(f'{line} --cmd "{RIGHT}"')
     assert done.exit_code == 2
-    assert "one of the two, not both" in done.stderr
+    assert "one of them, not two" in done.stderr

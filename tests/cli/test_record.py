@@ -125,8 +125,8 @@ def test_a_program_that_gives_a_world_up_leaves_it_undecided(
     ("line", "message"),
     [
         ("record basic", "'--out'"),
-        ("record --out b", "name a TARGET, or a program"),
-        ("record basic --cmd ./mapper --out b", "one of the two"),
+        ("record --out b", "name a TARGET, a program"),
+        ("record basic --cmd ./mapper --out b", "one of them, not two"),
         ("record all --out b", "names 9 mappers: name one"),
         ("record nix --out b", "no algorithm 'nix'"),
         ("record basic --worlds 'edges<=99' --out b", "'edges<=99'"),
