@@ -147,10 +147,7 @@ def test_the_checkers_together_stay_small_enough_to_trust() -> None:
         (5, "return {i: j for i in x if i if i > 1 for j in i if j}"),
         (2, "return any(i or j for i in x)"),
         (1, "def inner():\n  if x: pass"),
-        (
-            3,
-            "async def g():\n  async for i in x:\n   yield lambda: 1 if i else 2\n return a or b",
-        ),
+        (3, "async def g():\n  async for i in x:\n   yield lambda: 1 if i else 2\n return a or b"),
     ],
 )
 def test_the_counter_of_branches_counts(number: int, body: str) -> None:

@@ -66,8 +66,7 @@ def test_every_claim_of_those_that_steer_holds_in_planar_worlds(name: str, world
 
 @pytest.mark.parametrize("name", STEERED_ON_A_PLANE)
 @pytest.mark.parametrize(
-    ("place", "words"),
-    [("m2/8", "another face of S"), ("m3/8", "two vertices of S would be one")],
+    ("place", "words"), [("m2/8", "another face of S"), ("m3/8", "two vertices of S would be one")]
 )
 def test_elsewhere_those_that_steer_find_out(name: str, place: str, words: str) -> None:
     assert examine(name, World.from_id(place)).findings[-1].message.endswith(words)

@@ -35,12 +35,7 @@ from topo_verify.programs import loaded
 from topo_verify.programs.launcher import prepare
 from topo_verify.robot.stopwatch import tasks_of
 from topo_verify.studies.search.choices import SHARD
-from topo_verify.studies.search.search import (
-    Search,
-    SearchEntry,
-    search,
-    search_campaign,
-)
+from topo_verify.studies.search.search import Search, SearchEntry, search, search_campaign
 from topo_verify.world.enumeration.classes import WorldClass
 
 distributed: Any = pytest.importorskip("distributed")
@@ -107,11 +102,7 @@ def worker(
 
 
 def on_cluster(
-    target: str,
-    edges: int,
-    kind: str,
-    cluster: Cluster,
-    store: ShardMemory | None = None,
+    target: str, edges: int, kind: str, cluster: Cluster, store: ShardMemory | None = None
 ) -> Search:
     """A search on a cluster that has gone to its end."""
     mappers = targets(target)

@@ -12,13 +12,7 @@ from topo_verify import CATALOGUE, InputError
 from topo_verify.campaign import identity
 from topo_verify.campaign.backend import here as in_this_process
 from topo_verify.campaign.backend import pooled
-from topo_verify.campaign.identity import (
-    Identity,
-    merged,
-    named_files,
-    require_equal,
-    source_hash,
-)
+from topo_verify.campaign.identity import Identity, merged, named_files, require_equal, source_hash
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
 from topo_verify.programs.loaded import Loaded, hashes, watch
@@ -180,18 +174,9 @@ def test_processes_that_loaded_other_things_are_refused(other: Loaded, words: st
     ("there", "words"),
     [
         (Loaded(values="w"), "there: the mapper is made with other values there"),
-        (
-            Loaded({"nowhere.py": "1"}),
-            "there: the mapper read nowhere.py, which is not a file here",
-        ),
-        (
-            Loaded({"mapper.py": "1"}),
-            "there: the mapper read mapper.py, which is another file here",
-        ),
-        (
-            Loaded({}, {"msgspec": "0.1"}),
-            "used msgspec 0.1, installed here is [0-9.]*: install the",
-        ),
+        (Loaded({"nowhere.py": "1"}), "the mapper read nowhere.py, which is not a file here"),
+        (Loaded({"mapper.py": "1"}), "the mapper read mapper.py, which is another file here"),
+        (Loaded({}, {"msgspec": "0.1"}), "msgspec 0.1, installed here is [0-9.]*: install the"),
         (Loaded({}, {"no-such": "2"}), "used no-such 2, installed here is none"),
         (Loaded(modules={"m": "/b.py"}), "module m is /a.py in one process and /b.py in another"),
     ],

@@ -99,10 +99,7 @@ def test_progress_is_told_while_workers_work() -> None:
 # ---------------------------------------------------------------- killers
 
 
-@pytest.mark.parametrize(
-    ("name", "how"),
-    [("exits", "exit code 3"), ("segfaults", "signal 11")],
-)
+@pytest.mark.parametrize(("name", "how"), [("exits", "exit code 3"), ("segfaults", "signal 11")])
 @pytest.mark.parametrize("number", [1, 2])
 def test_a_world_that_kills_its_worker_twice_is_a_finding(name: str, how: str, number: int) -> None:
     found = search(f"mappers.py:{name}", edges=3, workers=number)

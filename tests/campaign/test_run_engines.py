@@ -13,13 +13,7 @@ from tests.studies.baseline.recording import recording
 from topo_verify import CATALOGUE, InputError, InternalError, Limits, World, explore
 from topo_verify.campaign.judge import TRACELESS, judge
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import (
-    ENGINES,
-    CompiledAlgorithm,
-    Engine,
-    on_engine,
-    planted,
-)
+from topo_verify.campaign.run import ENGINES, CompiledAlgorithm, Engine, on_engine, planted
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import one_target
 from topo_verify.compiled.faults import PLANTED

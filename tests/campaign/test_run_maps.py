@@ -75,14 +75,8 @@ class Endless(list[Any]):
         ((dart for dart in [1]), "generator has no 'vertices'"),
         (Slotted, "type has no 'vertices'"),
         ({"vertices": (row for row in VERTICES), "edges": EDGES, "marker": 0}, "'vertices'"),
-        (
-            {"vertices": "01", "edges": EDGES, "marker": 0},
-            "expected a list of lists of darts as the map's 'vertices'",
-        ),
-        (
-            {"vertices": 3, "edges": EDGES, "marker": 0},
-            "expected a list of lists of darts as the map's 'vertices'",
-        ),
+        ({"vertices": "01", "edges": EDGES, "marker": 0}, "lists of darts as the map's 'vertices'"),
+        ({"vertices": 3, "edges": EDGES, "marker": 0}, "lists of darts as the map's 'vertices'"),
         ({"vertices": [[0.0, 1, 2], [3]], "edges": EDGES, "marker": 0}, "vertices[0]"),
         ({"vertices": [[0, 1, 2], [None]], "edges": EDGES, "marker": 0}, "vertices[1]"),
         ({"vertices": [[0, True, 2], [3]], "edges": EDGES, "marker": 0}, "vertices[0]"),

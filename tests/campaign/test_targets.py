@@ -140,10 +140,7 @@ def test_a_module_in_the_folder_where_the_user_stands_is_found(folder: Path) -> 
         ("tests.campaign.test_targets:nobody", "has no attribute 'nobody'"),
         ("tests.campaign.test_targets:Mappers.nobody", "has no attribute 'Mappers.nobody'"),
         ("tests.campaign.test_targets:", "has no attribute ''"),
-        (
-            "tests.campaign.test_targets:Mappers.number",
-            "expected a callable .*, got int",
-        ),
+        ("tests.campaign.test_targets:Mappers.number", "expected a callable .*, got int"),
     ],
 )
 def test_what_is_not_there_is_refused_by_name(text: str, why: str) -> None:

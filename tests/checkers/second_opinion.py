@@ -289,10 +289,7 @@ def isomorphic(drawn: ev.MapData, world: World) -> bool:
     while queue:
         dart = queue.popleft()
         there = twin[dart]
-        for mine, theirs in (
-            (sigma[dart], world.sigma[there]),
-            (alpha[dart], world.alpha[there]),
-        ):
+        for mine, theirs in ((sigma[dart], world.sigma[there]), (alpha[dart], world.alpha[there])):
             if mine not in twin:
                 twin[mine] = theirs
                 queue.append(mine)

@@ -94,13 +94,7 @@ def test_false_evidence_of_the_complete_rule_is_caught(changes: dict[str, Any], 
     assert why in message
 
 
-@pytest.mark.parametrize(
-    ("place", "kinds"),
-    [
-        ("m2/4", {TURNED, OWN}),
-        ("m4/36", {CLASH}),
-    ],
-)
+@pytest.mark.parametrize(("place", "kinds"), [("m2/4", {TURNED, OWN}), ("m4/36", {CLASH})])
 def test_every_kind_of_contradiction_that_follows_may_be_cited_and_no_other(
     place: str, kinds: set[str]
 ) -> None:

@@ -114,10 +114,7 @@ CLASSES: dict[str, Callable[[World], bool]] = {
 @pytest.mark.parametrize(
     ("mapper", "smallest"),
     [
-        (
-            undirected,
-            {"any": "m2/5", "loopless": "m3/28", "simple": "m4/183"},
-        ),
+        (undirected, {"any": "m2/5", "loopless": "m3/28", "simple": "m4/183"}),
         (unmarked, {"any": "m2/3", "loopless": "m2/3", "simple": "m3/12"}),
     ],
 )

@@ -42,11 +42,7 @@ def test_it_fails_with_the_world_that_the_page_says(
     test.write_text(test.read_text().replace("max_edges=30", f"max_edges=30{arguments}"))
     (tmp_path / "conftest.py").write_text(PROFILE)
     done = subprocess.run(
-        [*PYTEST, test],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
+        [*PYTEST, test], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert done.returncode == 1
     assert f"world=tv.World.from_id('{world}')" in done.stdout

@@ -136,10 +136,7 @@ def test_a_trace_may_hold_only_start_and_moves_without_purposes_and_more_fields(
         b'"percept":{"degree":1,"marker":0},"made_by":"hand"}\n\n'
         b'{"type":"move","door":0,"percept":{"degree":1,"marker":null}}\n'
     )
-    assert ev.read_trace(text) == (
-        ev.Start(percept=Percept(1, 0)),
-        ev.Move(0, Percept(1, None)),
-    )
+    assert ev.read_trace(text) == (ev.Start(percept=Percept(1, 0)), ev.Move(0, Percept(1, None)))
 
 
 @pytest.mark.parametrize(

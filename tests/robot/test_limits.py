@@ -119,9 +119,7 @@ def test_a_mapper_in_time_notices_nothing(where: Callable[[Callable[[], None]], 
 
 
 @pytest.mark.parametrize("where", [here, elsewhere])
-def test_what_the_mapper_raises_passes_through(
-    where: Callable[[Callable[[], None]], None],
-) -> None:
+def test_what_the_mapper_raises_passes_through(where: Callable[[Callable[[], None]], None]) -> None:
     def fail() -> None:
         raise KeyError("mine")
 

@@ -126,9 +126,7 @@ def test_a_move_that_a_time_limit_struck_before_it_was_recorded_is_taken_back(
     assert robot.cost == 1
 
 
-def test_more_than_one_move_that_is_not_recorded_is_somebody_s_doing(
-    robot: SimulatedRobot,
-) -> None:
+def test_more_than_one_move_that_is_not_recorded_is_somebody_s_doing(robot: SimulatedRobot) -> None:
     robot.move(0)
     robot.move(0)
     robot.events.clear()

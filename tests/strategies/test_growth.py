@@ -81,11 +81,7 @@ def test_every_world_within_the_bounds_grows_and_no_other(shape: Shape, edges: i
 def test_the_least_number_of_edges_is_right_up_to_five(genus: int, degree: int) -> None:
     for (loops, parallel), leaf in product([(MANY, MANY), (0, MANY), (0, 1)], [False, True]):
         shape = Shape(
-            min_genus=genus,
-            max_degree=degree,
-            max_loops=loops,
-            max_parallel=parallel,
-            leaf=leaf,
+            min_genus=genus, max_degree=degree, max_loops=loops, max_parallel=parallel, leaf=leaf
         )
         for edges in range(1, 6):
             exists = any(keeps(world, shape) for world in every_world([edges]))

@@ -92,9 +92,7 @@ def test_outside_of_a_test_of_hypothesis_nothing_is_said(
     assert capsys.readouterr() == ("", "")
 
 
-def test_within_a_test_of_hypothesis_the_same_run_is_noted(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_within_a_test_of_hypothesis_the_same_run_is_noted(monkeypatch: pytest.MonkeyPatch) -> None:
     """The counterpart: what the test above replaces is what would have been called."""
     messages: list[object] = []
     monkeypatch.setattr(notes, "currently_in_test_context", lambda: True)

@@ -27,12 +27,7 @@ NO_WORLDS: list[tuple[Rows, Rows, int | None, str]] = [
     ([], [], None, "'vertices' is empty: give one list a vertex; the smallest world is"),
     ([[0, 1], []], [[0, 1]], 0, r"vertices\[1\] has no dart: the world is not connected"),
     ([[], []], [], None, r"vertices\[0\] has no dart"),
-    (
-        [[0, 1], [1]],
-        [[0, 1]],
-        0,
-        r"dart 1 stands at two places .* vertices\[0\] and vertices\[1",
-    ),
+    ([[0, 1], [1]], [[0, 1]], 0, r"dart 1 stands at two places .* vertices\[0\] and vertices\[1"),
     ([[0, 0]], [[0, 1]], 0, r"dart 0 stands at two places .* vertices\[0\] and vertices\[0\]"),
     ([[0, 1]], [[0]], 0, r"edges\[0\] has 1 dart: an edge is two darts"),
     ([[0, 1]], [[0, 1, 2]], 0, r"edges\[0\] has 3 darts"),

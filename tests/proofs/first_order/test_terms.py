@@ -105,8 +105,7 @@ def test_evaluation_and_solver_agree(
         spelt.append(terms.eq(f(element[place]), element[of_f[place]]))
         spelt.append(p(element[place]) if of_p[place] else terms.neg(p(element[place])))
     structure = terms.of_tables(
-        {"W": 2},
-        {"c": {(): 0}, "f": dict(enumerate_rows(of_f)), "p": dict(enumerate_rows(of_p))},
+        {"W": 2}, {"c": {(): 0}, "f": dict(enumerate_rows(of_f)), "p": dict(enumerate_rows(of_p))}
     )
     possible = finite_models.model([*spelt, formula], {"W": 2}, BUDGET).answer
     assert possible == ("sat" if structure.holds(formula) else "unsat")

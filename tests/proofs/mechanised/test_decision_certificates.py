@@ -13,12 +13,7 @@ from msgspec.structs import replace as replace_struct
 from tests.helpers import edited, fits, of_type, trace_of, worlds
 from tests.helpers import place as place_of
 from tests.proofs.mechanised.conftest import LIMIT
-from tests.proofs.mechanised.test_certificates import (
-    by_coqc,
-    by_program,
-    needs_ocaml,
-    numbers_of,
-)
+from tests.proofs.mechanised.test_certificates import by_coqc, by_program, needs_ocaml, numbers_of
 from tests.proofs.mechanised.test_evidence import BACKWARDS
 from topo_verify import World, families
 from topo_verify.algorithms import CATALOGUE

@@ -27,11 +27,7 @@ def recorded(mapper: Mapper | str | Target, *worlds: str, limits: Limits | None 
 
 
 def compare(
-    baseline: Baseline,
-    target: Target,
-    *,
-    tolerance: Fraction | int = 0,
-    name: str = "baseline",
+    baseline: Baseline, target: Target, *, tolerance: Fraction | int = 0, name: str = "baseline"
 ) -> Comparison:
     """Run the mapper in the baseline's worlds and say what has changed."""
     worlds, limits = BaselineWorlds(baseline, name), baseline.header.limits

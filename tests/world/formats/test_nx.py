@@ -14,11 +14,7 @@ from hypothesis import strategies as st
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.formats.nx import (
-    from_planar_embedding,
-    from_positions,
-    to_planar_embedding,
-)
+from topo_verify.world.formats.nx import from_planar_embedding, from_positions, to_planar_embedding
 from topo_verify.world.resolve import resolve_world
 
 NX: Any = nx

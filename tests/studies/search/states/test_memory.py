@@ -85,8 +85,7 @@ class Kept(Exception):
 
 
 @pytest.mark.parametrize(
-    ("function", "names"),
-    [(used, {"late"}), (loops, {"early", "number"}), (guarded, {"number"})],
+    ("function", "names"), [(used, {"late"}), (loops, {"early", "number"}), (guarded, {"number"})]
 )
 def test_variables_are_kept_that_may_still_be_read(
     function: Callable[[int], int], names: set[str]

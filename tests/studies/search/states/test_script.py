@@ -9,12 +9,7 @@ from topo_verify.campaign.run import Exploration, explore
 from topo_verify.errors import InputError
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Confirm, Pose, Reject
-from topo_verify.studies.search.states.script import (
-    Listed,
-    choices_of,
-    choices_text,
-    scripted,
-)
+from topo_verify.studies.search.states.script import Listed, choices_of, choices_text, scripted
 
 
 def run(world: str, name: str, *choices: int) -> Exploration:
