@@ -22,14 +22,15 @@ from topo_verify.checkers.darts import KnownDart
 from topo_verify.errors import InputError
 from topo_verify.player.detours import SupposedWalk, tested_guesses
 from topo_verify.player.fold_places import FoldPlaces, fold_places
-from topo_verify.player.names import (
+from topo_verify.player.remarks import (
+    Homeward,
     door_words,
+    homeward,
     listed,
     map_place,
     percept_in_brackets,
     world_place,
 )
-from topo_verify.player.remarks import Homeward, homeward
 from topo_verify.player.scenes import Mismatch, Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept

@@ -35,7 +35,6 @@ SCRIPTS = (
     "walk_world.js",
     "walk_model.js",
     "sketch.js",
-    "build.js",
     "walk.js",
     "start.js",
 )

@@ -25,6 +25,24 @@ function html(name, className, parent, text) {
   return element;
 }
 
+/** The robot at the origin: a disc of this radius, its nose to the right. */
+function drawRobot(parent, radius) {
+  const bot = draw('g', { class: 'bot' }, parent);
+  const size = draw('g', { transform: `scale(${radius / 13})` }, bot);
+  draw('circle', { r: 13, class: 'body' }, size);
+  draw('path', { d: 'M2-7L10 0L2 7Z', class: 'nose' }, size);
+  return bot;
+}
+
+/** The marker: an arrow whose shaft goes from one point to another, the tip beyond. */
+function drawMarker(parent, from, to, tip) {
+  const [x, y] = [tip[0] - to[0], tip[1] - to[1]].map((d) => 0.55 * d);
+  const group = draw('g', { class: 'marker' }, parent);
+  draw('path', { class: 'shaft', d: `M${pair(from)}L${pair(to)}` }, group);
+  draw('path', { class: 'tip', d: `M${pair(tip)}L${pair([to[0] - y, to[1] + x])}L${pair([to[0] + y, to[1] - x])}Z` }, group);
+  return group;
+}
+
 /** The points of SVG path data (absolute M, L, Q, C): a list of points for each part. */
 function flattened(data) {
   const parts = [];
@@ -110,6 +128,7 @@ class Trail {
 }
 
 const short = (number) => Math.round(number * 10) / 10;
+const pair = ([x, y]) => `${short(x)} ${short(y)}`;
 const line = (points) => points.map(([x, y], k) => `${k ? 'L' : 'M'}${short(x)} ${short(y)}`).join('');
 
 /** A world with its picture. */

@@ -55,21 +55,14 @@ class Pane {
   marker(parent) {
     const { root } = this.picture;
     if (root === null) return;
-    const [x, y] = this.centre(root);
-    const turned = `translate(${x} ${y}) rotate(${(this.picture.angle(root) * 180) / Math.PI})`;
-    const { R, u } = this;
-    const g = draw('g', { class: 'marker', transform: turned }, parent);
-    draw('title', {}, g, 'The marker: the only thing that the robot can recognise');
-    this.path(`M${R} 0H${R + 12 * u}`, 'shaft', g);
-    this.path(`M${R + 24 * u} 0L${R + 10 * u} ${8 * u}V${-8 * u}Z`, 'tip', g);
+    const [x, y] = this.centre(root), angle = this.picture.angle(root);
+    const ends = [0, 10, 24].map((far) => this.R + far * this.u).map((far) => [x + far * Math.cos(angle), y + far * Math.sin(angle)]);
+    draw('title', {}, drawMarker(parent, ...ends), 'The marker: the only thing that the robot can recognise');
   }
 
   makeRobot() {
     this.tick = this.path('', 'tick', this.robot);
-    this.bot = draw('g', { class: 'bot' }, this.robot);
-    const size = draw('g', { transform: `scale(${Math.max(this.R * 0.95, 9 * this.u) / 13})` }, this.bot);
-    draw('circle', { r: 13, class: 'body' }, size);
-    this.path('M2-7L10 0L2 7Z', 'nose', size);
+    this.bot = drawRobot(this.robot, Math.max(this.R * 0.95, 9 * this.u));
   }
 
   /** Put the robot at a reference dart of the world: the tick shows the dart, the nose looks away. */

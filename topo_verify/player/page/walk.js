@@ -162,20 +162,13 @@ class WalkMode {
       const words = `Door ${door}${door ? '' : ', the way you came'}${door === marker ? ', at which the marker points' : ''}`;
       const group = this.press(svg, `door ${door ? '' : 'in'}`, words, `${door}`, () => this.act(() => this.walk.move(door)));
       draw('path', { d: `M${pair(at(30))}L${pair(at(78))}` }, group);
-      if (door === marker) {
-        const [dx, dy] = [8 * Math.cos(angle + Math.PI / 2), 8 * Math.sin(angle + Math.PI / 2)], [x, y] = at(52);
-        const arrow = draw('g', { class: 'marker' }, group);
-        draw('path', { class: 'shaft', d: `M${pair(at(30))}L${pair(at(54))}` }, arrow);
-        draw('path', { class: 'tip', d: `M${pair(at(74))}L${pair([x + dx, y + dy])}L${pair([x - dx, y - dy])}Z` }, arrow);
-      }
+      if (door === marker) drawMarker(group, at(30), at(58), at(74));
       const [cx, cy] = at(96);
       draw('circle', { cx, cy, r: size }, group);
       draw('text', { x: cx, y: cy }, group, door).style.fontSize = `${1.1 * size}px`;
     }
     draw('g', { class: 'vertex' }, svg).append(draw('circle', { r: 30 }));
-    const bot = draw('g', { class: 'bot', transform: 'rotate(90)' }, svg);
-    draw('circle', { class: 'body', r: 20 }, bot);
-    draw('path', { class: 'nose', d: 'M17 0L3 8V-8Z' }, bot);
+    drawRobot(svg, 20).setAttribute('transform', 'rotate(90)');
   }
 
   /** S as declared, with the robot where it is on it, and the exits where e may end. */
@@ -189,9 +182,7 @@ class WalkMode {
     if (stand !== null || !walk.size) {
       const { x, y } = this.sketch.spots[walk.size ? walk.vertices.indexOf(walk.vertexOf(stand)) : 0];
       const turn = walk.size ? (this.sketch.angle(stand) * 180) / Math.PI : 0;
-      const bot = draw('g', { class: 'bot', transform: `translate(${short(x)} ${short(y)}) rotate(${short(turn)})` }, svg);
-      draw('circle', { class: 'body', r: 11 }, bot);
-      draw('path', { class: 'nose', d: 'M9 0L1.5 4.5V-4.5Z' }, bot);
+      drawRobot(svg, 11).setAttribute('transform', `translate(${pair([x, y])}) rotate(${short(turn)})`);
     }
     if (!walk.pending) return;
     const { group, at } = drawn.stubs.get(walk.pending.edge);
@@ -332,10 +323,8 @@ class WalkMode {
       road.style.strokeWidth = `${(kinds.has(a) || kinds.has(b) ? 5 : 3) * drawn.unit}px`;
     });
     if (drawn.root !== null) {
-      const trail = drawn.trail(drawn.root), [base, tip] = [1.7, 2.5].map((far) => trail.at(Math.min(far * drawn.radius, 0.45 * trail.length)));
-      const [x, y] = [tip.x - base.x, tip.y - base.y].map((d) => 0.55 * d), marker = draw('g', { class: 'marker' }, inside);
-      draw('path', { class: 'shaft', d: trail.piece(0, 1.7 * drawn.radius) }, marker);
-      draw('path', { class: 'tip', d: `M${tip.x} ${tip.y}L${base.x - y} ${base.y + x}L${base.x + y} ${base.y - x}Z` }, marker);
+      const trail = drawn.trail(drawn.root), along = (far) => trail.at(Math.min(far * drawn.radius, 0.45 * trail.length));
+      drawMarker(inside, ...[0, 1.7, 2.5].map(along).map(({ x, y }) => [x, y]));
     }
     for (const [cx, cy] of drawn.centres) draw('g', { class: 'vertex' }, inside).append(draw('circle', { cx, cy, r: drawn.radius }));
   }
