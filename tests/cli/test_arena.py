@@ -11,9 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Call, Results
-from topo_verify.campaign.campaign import Shard, ShardResult
-from topo_verify.campaign.store import StoredCampaign
+from tests.cli.conftest import Call, Refused, Results, require_same_bytes
 from topo_verify.studies.arena.suites import SUITES, Suite, SuiteFamily, drawn, every
 
 FIELDS = {
@@ -79,31 +77,6 @@ def test_a_seeded_fault_and_a_lucky_guesser_have_no_place(call: Call, results: R
     assert "again: topo-verify replay" in broken
 
 
-def test_the_same_bytes_however_many_workers_and_however_often_interrupted(
-    call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    assert call(f"{LINE} --out whole").exit_code == 0
-    assert call(f"{LINE.removesuffix('0')}2 --out two").exit_code == 0
-    real = StoredCampaign.put
-    kept: list[ShardResult] = []
-
-    def cut_off(store: StoredCampaign, shard: Shard, result: ShardResult) -> None:
-        if len(kept) == 3:
-            raise KeyboardInterrupt
-        kept.append(result)
-        real(store, shard, result)
-
-    monkeypatch.setattr(StoredCampaign, "put", cut_off)
-    done = call(f"{LINE} --out parts")
-    assert done.exit_code == 3
-    assert "3 of 8 runs are kept in parts/runs.db; the same command goes on" in done.stderr
-    monkeypatch.setattr(StoredCampaign, "put", real)
-    done = call(f"{LINE} --out parts")
-    assert done.exit_code == 0
-    assert "3 of 8 runs are in parts/runs.db" in done.stderr
-    assert files("whole") == files("two") == files("parts")
-
-
 @pytest.mark.parametrize(("then", "now"), [("--in-process", ""), ("", "--in-process")])
 def test_runs_in_our_process_and_runs_apart_do_not_meet(call: Call, then: str, now: str) -> None:
     """In our process a mapper can replace the checkers: `--in-process` says what a run is worth."""
@@ -143,13 +116,10 @@ def test_a_league_that_is_killed_goes_on_where_it_was(call: Call) -> None:
 
 
 @pytest.mark.parametrize("option", ["--budget 1000", "--world-timeout 61"])
-def test_runs_under_other_limits_do_not_meet(call: Call, option: str) -> None:
+def test_runs_under_other_limits_do_not_meet(call: Call, refused: Refused, option: str) -> None:
     line = "arena basic --suite triangle --workers 0 --out here"
     assert call(line).exit_code == 0
-    done = call(f"{line} {option}")
-    assert done.exit_code == 2
-    assert "holds another campaign of basic: its limits is" in done.stderr
-    assert done.stderr.count("\n") == 1
+    refused(f"{line} {option}", "holds another campaign of basic: its limits is")
 
 
 def test_a_store_of_version_02_is_named_and_left_alone(call: Call) -> None:
@@ -178,16 +148,12 @@ def test_the_seed_of_drawn_worlds_is_out_of_reach(call: Call) -> None:
     assert call(line).exit_code == 0
 
 
-def test_a_mapper_that_has_changed_is_refused(call: Call) -> None:
+def test_a_mapper_that_has_changed_is_refused(call: Call, refused: Refused) -> None:
     line = "arena mappers.py:silent --suite triangle --workers 0 --out here"
     assert call(line).exit_code == 0
     assert call(line).exit_code == 0
     Path("mappers.py").write_text(Path("mappers.py").read_text() + "\n# another\n")
-    done = call(line)
-    assert done.exit_code == 2
-    assert done.stderr.count("\n") == 1
-    assert "campaign of mappers.py:silent" in done.stderr
-    assert "changed" in done.stderr
+    refused(line, "campaign of mappers.py:silent", "changed")
 
 
 def test_a_folder_has_the_page_a_player_and_the_counterexample(call: Call) -> None:
@@ -243,11 +209,8 @@ def test_a_mapper_that_assumes_planar_worlds_is_left_out_of_others(call: Call) -
         ("arena basic --out mappers.py", "--out mappers.py: cannot create this folder"),
     ],
 )
-def test_bad_usage_is_one_sentence(call: Call, line: str, words: str) -> None:
-    done = call(line)
-    assert done.exit_code == 2
-    assert words in done.stderr
-    assert done.stderr.count("\n") == 1
+def test_bad_usage_is_one_sentence(refused: Refused, line: str, words: str) -> None:
+    refused(line, words)
 
 
 ENTRANTS = """
@@ -286,3 +249,8 @@ def test_an_entrant_that_fails_between_two_messages_ends_no_league(
     assert done.exit_code == 1
     assert "1  folding  " in done.stdout
     assert words in done.stdout.replace("\n ", "")
+
+
+@pytest.mark.usefixtures("cut_off")
+def test_the_same_bytes_however_many_workers_and_however_often_interrupted(call: Call) -> None:
+    require_same_bytes(call, LINE[:-2], 8, files)

@@ -112,19 +112,3 @@ def test_the_command_plays_the_game(call: Call) -> None:
     assert done.exit_code == 0
     mappers = [entry.get("mapper") for entry in json.loads(done.stdout)["results"]]
     assert [name for name in mappers if name] == ["folding", "basic"] * 2
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        ("--game 5", "--game 5: expected 1 to 4 edges"),
-        ("--game 0", "--game 0: expected 1 to 4 edges"),
-        ("--game 2 --suite king", "--suite means nothing to --game: leave out one of them"),
-        ("--game 2 --report r.html", "--report means nothing to --game"),
-        ("--game 2 basic,m.py:explore", "target 'm.py:explore': --game plays mappers of the"),
-    ],
-)
-def test_what_is_no_game_is_refused(call: Call, arguments: str, said: str) -> None:
-    done = call(f"arena {arguments}")
-    assert done.exit_code == 2
-    assert said in " ".join(done.stderr.split())

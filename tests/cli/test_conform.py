@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import shlex
 import sys
 from pathlib import Path
 
-import pytest
-
-from tests.cli.conftest import Call, Program, Results
+from tests.cli.conftest import Call, Results
 
 ROOM = Path(__file__).parents[1] / "programs"
 
@@ -64,27 +61,6 @@ def test_each_of_several_mappers_has_its_own_entries(results: Results) -> None:
         for level in ("result", "claims", "cost")
     ]
     assert found["results"][-1]["cost"] == {"mapper": 982, "reference": 1468, "ratio": 0.6689}
-
-
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("conform", "name a TARGET, a program"),
-        ("conform basic --cmd ./mapper", "one of them, not two"),
-        ("conform --cmd /no/such/program --worlds m1/0", "cannot start '/no/such/program'"),
-        ('conform --cmd "\'" --worlds m1/0', "quote"),
-        ("conform basic --worlds nowhere", "no such world"),
-        ("conform basic --like best", "no algorithm 'best'"),
-        ("conform basic --batch --worlds m1/0", "expected a program, got basic"),
-        ("conform nothing --worlds m1/0", "no algorithm 'nothing'"),
-        ("conform basic --seed 1:x", "expected N or N:ORDER, two numbers from 0, got '1:x'"),
-    ],
-)
-def test_bad_input_exits_2_with_one_sentence(call: Call, line: str, words: str) -> None:
-    done = call(line)
-    assert done.exit_code == 2
-    assert words in done.stderr
-    assert done.stdout == ""
 
 
 def test_the_report_shows_where_two_runs_diverge(call: Call) -> None:
@@ -160,16 +136,3 @@ def test_a_program_meets_the_worlds_in_an_order_that_is_drawn_anew(
     assert seeds[2:] == ["0:7", "0:7"]
     results(f"conform listener.py:explore --worlds edges<=3 --workers 0 --seed {seeds[0]}")
     assert (folder / "met").read_text() == met[0]
-
-
-def test_two_runs_differ_in_timing_alone(program: Program) -> None:
-    line = (
-        "conform mappers.py:ignores_direction --like basic --worlds edges<=2 --worlds generated:8"
-    )
-    outs = [
-        program(f"{line} --format json --workers {workers}", PYTHONHASHSEED=seed).stdout
-        for workers, seed in ((0, "1"), (2, "2"))
-    ]
-    one, two = (out.split('"timing"')[0] for out in outs)
-    assert one == two
-    assert json.loads(outs[0])["exit"] == 1

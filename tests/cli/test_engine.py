@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import pytest
 
-Call = Callable[..., Any]
+from tests.cli.conftest import Call, Refused, Results
 
 
-def test_an_entry_says_who_judged_and_both_engines_count_alike(results: Call) -> None:
+def test_an_entry_says_who_judged_and_both_engines_count_alike(results: Results) -> None:
     pytest.importorskip("numba")
     line = "search basic --edges 3 --workers 0 --worst"
     whole = results(f"{line} --engine compiled")
@@ -33,7 +30,7 @@ def test_people_are_told_who_judged(call: Call) -> None:
 
 
 def test_a_counterexample_of_the_compiled_engine_exits_1_and_its_line_shows_it_again(
-    results: Call, call: Call
+    results: Results, call: Call
 ) -> None:
     pytest.importorskip("numba")
     line = "search folding+planar --edges 3 --workers 0"
@@ -43,49 +40,29 @@ def test_a_counterexample_of_the_compiled_engine_exits_1_and_its_line_shows_it_a
     assert call(entry["counterexample"]["replay"].removeprefix("topo-verify ")).exit_code == 1
 
 
-def test_a_local_cluster_gives_the_entry_of_workers_here(results: Call) -> None:
+def test_a_local_cluster_gives_the_entry_of_workers_here(results: Results) -> None:
     pytest.importorskip("numba")
     pytest.importorskip("distributed")
     line = "search basic --edges 3 --engine compiled --keep-going"
     assert results(f"{line} --dask local")["results"] == results(f"{line} --workers 1")["results"]
 
 
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("--dask local --workers 2", "--dask local with --workers 2: expected one of the two"),
-        ("--dask nonsense:xx", "--dask nonsense:xx: expected the address of a Dask scheduler"),
-        ("--engine fast", "invalid value for '--engine'"),
-        ("--engine compiled --policies every", "it knows the reference policies only"),
-        ("--engine compiled --budget 9", "leave out --budget, or --engine"),
-        ("--engine compiled --world-timeout 9", "leave out --move-timeout and --world-timeout"),
-    ],
-)
-def test_what_does_not_go_together_is_refused_in_one_sentence(
-    call: Call, line: str, words: str
-) -> None:
+def test_a_mapper_of_the_users_is_not_for_the_compiled_engine(refused: Refused) -> None:
     pytest.importorskip("numba")
-    pytest.importorskip("distributed")
-    done = call(f"search basic --edges 2 {line}")
-    assert (done.exit_code, done.stdout) == (2, "")
-    assert words in done.stderr
-    assert done.stderr.count("\n") == 1
-
-
-def test_a_mapper_of_the_users_is_not_for_the_compiled_engine(call: Call) -> None:
-    pytest.importorskip("numba")
-    done = call("search mappers.py:guesses --edges 2 --engine compiled")
-    assert done.exit_code == 2
-    assert "mappers.py:guesses is none of them: leave --engine out" in done.stderr
+    refused(
+        "search mappers.py:guesses --edges 2 --engine compiled",
+        "mappers.py:guesses is none of them: leave --engine out",
+    )
 
 
 @pytest.mark.parametrize(
     "line", ["search basic --edges 2", "reproduce --figure 3 --quick", "faults sets-out-unturned"]
 )
 def test_without_numba_the_extra_is_named(
-    call: Call, monkeypatch: pytest.MonkeyPatch, line: str
+    refused: Refused, monkeypatch: pytest.MonkeyPatch, line: str
 ) -> None:
     monkeypatch.setattr("topo_verify.compiled.available", lambda: False)
-    done = call(f"{line} --engine compiled")
-    assert done.exit_code == 2
-    assert "--engine compiled needs numba: pip install 'topo-verify[fast]'" in done.stderr
+    refused(
+        f"{line} --engine compiled",
+        "--engine compiled needs numba: pip install 'topo-verify[fast]'",
+    )

@@ -9,16 +9,13 @@ import shlex
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
+from tests.cli.conftest import Call, Program, interrupted
 from topo_verify.cli import SHORT_HELPS, main, runs
 
-Call = Callable[..., Any]
 COMMANDS = (
     "verify",
     "explore",
@@ -85,53 +82,6 @@ def test_our_bug_exits_70_and_says_how_to_report_it(
         assert word in done.stderr
     monkeypatch.setenv("TOPO_VERIFY_TRACEBACK", "1")
     assert "Traceback (most recent call last)" in call("explore m3/14").stderr
-
-
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("nothing", "no such command 'nothing'"),
-        ("explore", "missing argument 'WORLD...'"),
-        ("explore nowhere.json", "no such world: 'nowhere.json'"),
-        ("explore - -", "expected '-' at most once"),
-        ("explore m3/14 --algorithm best", "no algorithm 'best'"),
-        ("explore m3/14 --algorithm mappers.py:nothing", "has no attribute 'nothing'"),
-        ("explore m3/14 --algorithm gone.py:f", "there is no file 'gone.py'"),
-        ("explore m3/14 --pick farthest", "no pick policy 'farthest'"),
-        ("explore m3/14 --algorithm mappers.py:right --pick last", "has no policies"),
-        ("explore m3/14 --marker 6", "--marker 6 in m3/14"),
-        ("explore m3/14 --trace t", "expected one run, got 9"),
-        ("explore m3/14 m3/15 --algorithm basic --trace t", "expected one run, got 2"),
-        ("explore m3/14 --algorithm basic --trace -", "name a file"),
-        ("explore m3/14 --algorithm basic --trace no/folder/t", "cannot write no/folder/t"),
-        ("explore m3/14 --budget -1", "invalid value for '--budget'"),
-        ("explore m3/14 --move-timeout 0", "expected seconds in (0, 1000000], got '0'"),
-        ("explore m3/14 --move-timeout nan", "expected seconds in (0, 1000000], got 'nan'"),
-        ("explore m3/14 --world-timeout soon", "expected seconds in (0, 1000000], got 'soon'"),
-        ("explore m3/14 --format xml", "invalid value for '--format'"),
-        ("verify all basic", "unexpected extra argument"),
-        ("verify --seed -1", "invalid value for '--seed'"),
-        ("world convert m3/14 --to svg", "'svg' is not one of 'json', 'planar_code'"),
-        ("world convert m3/14 -o no/folder/w.json", "cannot write no/folder/w.json"),
-        ("world count", "missing option '--edges'"),
-        (
-            "world count --edges six",
-            "expected a number of edges as 6 or a range as 1..6, got 'six'",
-        ),
-        ("world count --edges 3..1", "expected ascending numbers of edges"),
-        ("world count --edges 3 --class tidy", "class 'tidy': expected any, planar"),
-        ("world sample --edges 300", "write worlds to files with -o FOLDER"),
-        ("world sample --edges 5 -o mappers.py", "-o mappers.py: cannot create this folder"),
-        ("replay nothing.jsonl", "no such world: 'nothing.jsonl'"),
-        ("replay m3/14 --world m3/15", "expected a trace, got m3/14"),
-        ("replay m3/14 --target all", "names 9 mappers"),
-    ],
-)
-def test_bad_usage_and_bad_input_get_one_sentence(call: Call, line: str, words: str) -> None:
-    done = call(line)
-    assert (done.exit_code, done.stdout) == (2, "")
-    assert words in done.stderr
-    assert done.stderr.count("\n") == 1
 
 
 # ---------------------------------------------------------------- help
@@ -205,7 +155,7 @@ def test_shells_can_complete_commands(folder: Path) -> None:
 # ---------------------------------------------------------------- streams
 
 
-def test_what_a_mapper_prints_goes_to_stderr(program: Call) -> None:
+def test_what_a_mapper_prints_goes_to_stderr(program: Program) -> None:
     done = program("explore m3/14 --algorithm mappers.py:nonsense --format json")
     json.loads(done.stdout)
     assert "must not stand among the results" in done.stderr
@@ -217,27 +167,43 @@ def test_quiet_keeps_remarks_off_stderr_but_no_errors(call: Call) -> None:
     assert call("explore nowhere.json --quiet").stderr != ""
 
 
-def test_a_terminal_without_our_letters_gets_others(program: Call) -> None:
+def test_a_terminal_without_our_letters_gets_others(program: Program) -> None:
     done = program("verify basic,enhancement-i --quick", PYTHONIOENCODING="ascii")
     assert done.returncode == 0, done.stderr
     assert "\\xd7 2 mappers" in done.stdout
 
 
 @pytest.mark.parametrize(
-    "line",
+    ("line", "code"),
     [
-        "verify enhancement-iii-all+i,folding --quick --format json",
-        "explore nyc m4/99 --format json --pick random(7)",
+        ("verify enhancement-iii-all+i,folding --quick", 0),
+        ("explore nyc m4/99 --pick 'random(7)'", 0),
+        ("prove percept records-written-early new-apart-step", 0),
+        ("search mappers.py:ignores_direction --edges 2 --keep-going --workers {}", 1),
+        ("conform mappers.py:ignores_direction --worlds generated:8 --workers {}", 1),
     ],
 )
-def test_two_runs_differ_in_timing_alone(program: Call, line: str) -> None:
-    one, two = (program(shlex.join(line.split()), PYTHONHASHSEED=seed).stdout for seed in "12")
-    assert one.split('"timing"')[0] == two.split('"timing"')[0]
-    assert '"timing"' in one
+def test_runs_differ_in_timing_alone(program: Program, line: str, code: int) -> None:
+    texts = {
+        program(f"{line.format(n)} --format json", PYTHONHASHSEED=str(n)).stdout.split('"timing"')[
+            0
+        ]
+        for n in range(3 if "{}" in line else 2)
+    }
+    assert len(texts) == 1
+    assert json.loads(texts.pop() + '"timing": {}}')["exit"] == code
 
 
-@pytest.mark.parametrize("line", ["--help", "explore nyc", "world show nyc --format json"])
-def test_a_reader_who_leaves_is_no_error(folder: Path, line: str) -> None:
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("--help", 0),
+        ("explore nyc", 0),
+        ("world show nyc --format json", 0),
+        ("verify", 3),  # the work ends early
+    ],
+)
+def test_a_reader_who_leaves_is_no_error(folder: Path, line: str, code: int) -> None:
     read, write = os.pipe()
     os.close(read)
     done = subprocess.run(
@@ -248,55 +214,29 @@ def test_a_reader_who_leaves_is_no_error(folder: Path, line: str) -> None:
         check=False,
     )
     os.close(write)
-    assert (done.returncode, done.stderr) == (0, b"")
-
-
-def test_a_reader_who_leaves_early_ends_the_work(folder: Path) -> None:
-    read, write = os.pipe()
-    os.close(read)
-    done = subprocess.run(
-        [sys.executable, "-m", "topo_verify", "verify"],
-        cwd=folder,
-        stdout=write,
-        stderr=subprocess.PIPE,
-        check=False,
-    )
-    os.close(write)
-    assert (done.returncode, done.stderr) == (3, b"")
-
-
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full here")
-def test_a_full_disk_is_told_as_such(folder: Path) -> None:
-    with Path("/dev/full").open("w") as full:
-        done = subprocess.run(
-            [sys.executable, "-m", "topo_verify", "explore", "nyc"],
-            cwd=folder,
-            stdout=full,
-            stderr=subprocess.PIPE,
-            text=True,
-            check=False,
-        )
-    assert done.returncode == 2
-    assert "cannot write to standard output: No space left on device" in done.stderr
+    assert (done.returncode, done.stderr) == (code, b"")
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full here")
 @pytest.mark.parametrize(
-    ("line", "code"),
+    ("line", "code", "said"),
     [
-        ("explore m3/9999 2>/dev/full", 2),
-        ("world sample --edges 5 2>/dev/full", 0),
-        ("--help >/dev/full", 2),
-        ("world show - <&-", 2),
-        ("certify - <&-", 2),
+        ("explore m3/9999 2>/dev/full", 2, ""),
+        ("world sample --edges 5 2>/dev/full", 0, ""),
+        ("--help >/dev/full", 2, ""),
+        ("explore nyc >/dev/full", 2, "cannot write to standard output: No space left on device"),
+        ("explore nyc >&- 2>&-", 0, ""),
+        ("world show - <&-", 2, ""),
+        ("certify - <&-", 2, ""),
     ],
 )
 def test_exit_1_is_for_counterexamples_and_not_for_broken_streams(
-    folder: Path, line: str, code: int
+    folder: Path, line: str, code: int, said: str
 ) -> None:
     shell = f"{shlex.quote(sys.executable)} -m topo_verify {line}"
     done = subprocess.run(["/bin/sh", "-c", shell], cwd=folder, capture_output=True, check=False)
     assert done.returncode == code
+    assert said.encode() in done.stderr
     assert b"Traceback" not in done.stderr
     assert b"bug" not in done.stderr
 
@@ -323,33 +263,7 @@ def test_what_the_machine_lacks_is_no_bug_of_ours(
     assert done.stderr.count("\n") == 1
 
 
-def test_closed_streams_do_not_hurt(folder: Path) -> None:
-    line = f"{shlex.quote(sys.executable)} -m topo_verify explore nyc >&- 2>&-"
-    assert subprocess.run(["/bin/sh", "-c", line], cwd=folder, check=False).returncode == 0
-
-
 # ---------------------------------------------------------------- Ctrl-C
-
-
-def interrupted(
-    folder: Path, *words: str, by: signal.Signals = signal.SIGINT
-) -> tuple[int, str, str]:
-    """What comes of a command that gets Ctrl-C as soon as its mapper says that it is at work."""
-    running = subprocess.Popen(
-        [sys.executable, "-m", "topo_verify", *words],
-        cwd=folder,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        # Whoever started the tests may ignore Ctrl-C, and children inherit that.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509  no threads here
-    )
-    while not (folder / "at-work").exists():
-        assert running.poll() is None, running.communicate()
-        time.sleep(0.02)
-    running.send_signal(by)
-    out, error = running.communicate(timeout=30)
-    return running.returncode, out, error
 
 
 @pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
@@ -370,29 +284,42 @@ def test_ctrl_c_after_a_finding_exits_1(folder: Path) -> None:
     assert json.loads(out)["results"][-1]["verdict"] == "REFUTED"
 
 
-def test_ctrl_c_in_explore_keeps_the_runs_that_are_done(folder: Path) -> None:
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_explore_keeps_the_runs_that_are_done(
+    folder: Path, by: signal.Signals
+) -> None:
     words = ("explore", "m1/0", "m2/5", "--algorithm", "mappers.py:starts_and_sleeps")
-    code, out, error = interrupted(folder, *words, "--move-timeout", "60")
+    code, out, error = interrupted(folder, *words, "--move-timeout", "60", by=by)
     assert code == 3
     assert "m1/0" in out
     assert "m2/5" not in out
     assert "interrupted after 1 result" in error
 
 
-def test_sigterm_says_where_it_stopped_and_keeps_what_is_done(folder: Path) -> None:
-    words = ("explore", "m1/0", "m2/5", "--algorithm", "mappers.py:starts_and_sleeps")
-    code, out, error = interrupted(folder, *words, "--move-timeout", "60", by=signal.SIGTERM)
-    assert code == 3
-    assert "m1/0" in out
-    assert "interrupted after 1 result" in error
-
-
 def test_ctrl_c_before_any_work_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-
     def interrupt(_text: str, *, in_process: bool) -> object:  # noqa: ARG001
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["topo_verify.cli.verify"], "targets", interrupt)
+    monkeypatch.setattr("topo_verify.cli.verify.targets", interrupt)
     done = call("verify")
     assert done.exit_code == 3
     assert done.stderr == "topo-verify: interrupted before the first result\n"
+
+
+# ---------------------------------------------------------------- what is left in the folder
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "world sample --strategy 'worlds(max_edges=9)' -n 40",
+        "faults ignores-direction-if-walked --by properties --workers 1",
+    ],
+)
+def test_worlds_are_drawn_and_hypothesis_leaves_no_folder(
+    line: str, program: Program, folder: Path
+) -> None:
+    before = sorted(folder.iterdir())
+    done = program(line, PYTHONWARNINGS="error", PYTHONDONTWRITEBYTECODE="1")
+    assert done.returncode == 0, done.stderr
+    assert sorted(folder.iterdir()) == before

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
+from tests.cli.conftest import Call, Refused, Results
 from topo_verify import CATALOGUE, World, families
-
-Call = Callable[..., Any]
+from topo_verify import explore as run_mapper
+from topo_verify.world.drawing import read_back
 
 FIELDS = {
     "world", "algorithm", "policies", "vertices", "edges", "genus", "cost", "least_cost",
@@ -23,7 +22,7 @@ FINDING = {"claim", "world", "event", "expected", "seen", "message", "replay"}
 RIGHT_EVERYWHERE = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
 
 
-def test_an_entry_has_the_promised_fields(results: Call) -> None:
+def test_an_entry_has_the_promised_fields(results: Results) -> None:
     envelope = results("explore m3/14 --algorithm basic")
     assert {"format", "version", "tool", "ok", "exit", "results", "timing"} <= envelope.keys()
     assert envelope["format"] == "topo-verify/explore"
@@ -35,20 +34,20 @@ def test_an_entry_has_the_promised_fields(results: Call) -> None:
     assert (entry["least_cost"], entry["entailed"], entry["stopped"]) == (4, True, None)
 
 
-def test_without_algorithm_the_whole_catalogue_is_run(results: Call) -> None:
+def test_without_algorithm_the_whole_catalogue_is_run(results: Results) -> None:
     entries = results("explore nyc")["results"]
     assert [entry["algorithm"] for entry in entries] == RIGHT_EVERYWHERE
     assert all(entry["ok"] for entry in entries)
     assert {entry["world"] for entry in entries} == {"nyc_osmnx"}
 
 
-def test_policies_reach_the_algorithms(results: Call) -> None:
+def test_policies_reach_the_algorithms(results: Results) -> None:
     line = "explore m5/17 --algorithm basic --pick last --order 'random(3)'"
     (entry,) = results(line)["results"]
     assert entry["policies"] == {"pick": "last", "order": "random(3)"}
 
 
-def test_a_world_is_called_by_its_name_its_id_or_its_file(results: Call) -> None:
+def test_a_world_is_called_by_its_name_its_id_or_its_file(results: Results) -> None:
     world = World.from_id("m3/14")
     named = world.to_json()
     bare = named.replace('"name":"m3/14",', "")
@@ -59,7 +58,7 @@ def test_a_world_is_called_by_its_name_its_id_or_its_file(results: Call) -> None
     assert names == ["bare", "my town", "m3/14", "lattice(2,2)"]
 
 
-def test_a_marker_laid_elsewhere_makes_another_world(results: Call) -> None:
+def test_a_marker_laid_elsewhere_makes_another_world(results: Results) -> None:
     (entry,) = results("explore m3/14 --algorithm basic --marker 5")["results"]
     assert entry["world"] == World.from_id("m3/14").with_marker(5).id != "m3/14"
 
@@ -77,7 +76,7 @@ def test_a_marker_laid_elsewhere_makes_another_world(results: Call) -> None:
     ],
 )
 def test_a_faulty_mapper_is_found_and_its_line_shows_it_again(
-    results: Call, call: Call, mapper: str, options: str, words: str
+    results: Results, call: Call, mapper: str, options: str, words: str
 ) -> None:
     line = f"explore m2/3 --marker 2 --algorithm mappers.py:{mapper} {options}"
     envelope = results(line, code=1)
@@ -94,7 +93,9 @@ def test_a_faulty_mapper_is_found_and_its_line_shows_it_again(
     assert [f["message"] for f in repeated["findings"]] == [f["message"] for f in entry["findings"]]
 
 
-def test_a_mapper_that_moves_on_when_time_is_up_is_not_decided(results: Call, call: Call) -> None:
+def test_a_mapper_that_moves_on_when_time_is_up_is_not_decided(
+    results: Results, call: Call
+) -> None:
     line = "explore nyc --algorithm mappers.py:strolls --world-timeout 0.2"
     (entry,) = results(line, code=3)["results"]
     assert (entry["ok"], entry["findings"], entry["isomorphic"]) == (False, [], False)
@@ -102,7 +103,7 @@ def test_a_mapper_that_moves_on_when_time_is_up_is_not_decided(results: Call, ca
     assert "not decided" in call(line).stdout
 
 
-def test_what_a_mapper_does_not_declare_is_not_called_ok(results: Call, call: Call) -> None:
+def test_what_a_mapper_does_not_declare_is_not_called_ok(results: Results, call: Call) -> None:
     line = "explore m3/14 --algorithm mappers.py:silent"
     (entry,) = results(line)["results"]
     assert sorted(entry["claims"].values()) == ["not-declared"] * 5 + ["ok"] * 5
@@ -116,7 +117,7 @@ def test_what_a_mapper_does_not_declare_is_not_called_ok(results: Call, call: Ca
 # ---------------------------------------------------------------- worlds that are gone
 
 
-def test_a_small_world_from_stdin_is_found_again_by_its_id(results: Call) -> None:
+def test_a_small_world_from_stdin_is_found_again_by_its_id(results: Results) -> None:
     world = World.from_id("m3/14").to_json()
     line = "explore - --algorithm mappers.py:guesses --marker 5"
     (entry,) = results(line, world, code=1)["results"]
@@ -126,7 +127,7 @@ def test_a_small_world_from_stdin_is_found_again_by_its_id(results: Call) -> Non
 
 
 def test_a_large_world_from_stdin_is_kept_in_a_file_for_the_line(
-    results: Call, call: Call, folder: Path
+    results: Results, call: Call, folder: Path
 ) -> None:
     world = families.lattice(12, 12)
     line = "explore - --algorithm mappers.py:guesses"
@@ -140,7 +141,7 @@ def test_a_large_world_from_stdin_is_kept_in_a_file_for_the_line(
     assert call(again.removeprefix("topo-verify ")).exit_code == 1
 
 
-def test_a_world_is_never_kept_over_another_file(results: Call, folder: Path) -> None:
+def test_a_world_is_never_kept_over_another_file(results: Results, folder: Path) -> None:
     line, text = "explore - --algorithm mappers.py:guesses", families.lattice(12, 12).to_json()
     before = set(folder.iterdir())
     results(line, text, code=1)
@@ -174,7 +175,7 @@ def test_a_file_that_looks_like_an_option_gets_a_line_that_works(call: Call, fol
 
 
 def test_the_trace_of_a_run_is_written_and_judged_again(
-    call: Call, results: Call, folder: Path
+    call: Call, results: Results, folder: Path
 ) -> None:
     call("explore m5/17 --algorithm enhancement-ii --trace run.jsonl")
     lines = [json.loads(line) for line in (folder / "run.jsonl").read_text().splitlines()]
@@ -216,7 +217,9 @@ def test_markdown_tables_have_as_many_cells_in_every_row(call: Call) -> None:
     assert len({row.count("|") for row in rows}) == 1
 
 
-def test_replay_lines_are_split_by_a_shell_as_they_were_meant(results: Call, folder: Path) -> None:
+def test_replay_lines_are_split_by_a_shell_as_they_were_meant(
+    results: Results, folder: Path
+) -> None:
     (folder / "my town's.json").write_text(World.from_id("m3/14").to_json())
     line = """explore "my town's.json" --algorithm mappers.py:guesses"""
     (entry,) = results(line, code=1)["results"]
@@ -238,13 +241,15 @@ def test_the_animation_in_the_docs_is_remade_byte_for_byte(call: Call) -> None:
     assert f"topo-verify explore {RUN_SVG} docs/run.svg" in (DOCS / "commands.md").read_text()
 
 
-def test_an_animation_is_of_one_short_run(call: Call) -> None:
-    many = call("explore m3/14 --algorithm basic,folding --svg run.svg")
-    assert many.exit_code == 2
-    assert "--svg run.svg: expected one run, got 2" in many.stderr
-    long = call("explore nyc --algorithm basic --svg run.svg")
-    assert long.exit_code == 2
-    assert "1468 moves; an animated SVG shows at most 500 events" in long.stderr
+def test_an_animation_is_of_one_short_run(refused: Refused) -> None:
+    refused(
+        "explore m3/14 --algorithm basic,folding --svg run.svg",
+        "--svg run.svg: expected one run, got 2",
+    )
+    refused(
+        "explore nyc --algorithm basic --svg run.svg",
+        "1468 moves; an animated SVG shows at most 500 events",
+    )
     assert not Path("run.svg").exists()
 
 
@@ -265,16 +270,66 @@ def test_choices_are_told_one_by_one(call: Call) -> None:
     assert call("explore m2/8 --algorithm basic --choices 0,1").exit_code == 0
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ("m2/8 --algorithm all --choices 0", "expected one run"),
-        ("m2/8 --algorithm basic --choices 0,9", "give one of 0 … 2"),
-        ("m2/8 --algorithm basic --choices x", "as 0,2,1"),
-        ("m2/8 --algorithm basic --pick last --choices 0", "leave out --pick and --order"),
-    ],
-)
-def test_choices_that_cannot_be_made_are_refused(call: Call, arguments: str, message: str) -> None:
-    refused = call(f"explore {arguments}")
-    assert refused.exit_code == 2
-    assert message in " ".join(refused.stderr.split())
+# ---------------------------------------------------------------- --marker all
+
+
+def test_each_dart_has_the_entry_that_it_has_alone(results: Results) -> None:
+    entries = results("explore m4/100 --marker all --algorithm basic,folding")["results"]
+    assert [e["marker"] for e in entries] == [*range(8), *range(8)]
+    world = World.from_id("m4/100")
+    for entry in entries:
+        dart = entry["marker"]
+        assert entry["cost"] == run_mapper(world.with_marker(dart), entry["algorithm"]).cost
+        assert entry["place"] == world.vertex_of[dart]
+        assert (entry["world"], entry["ok"]) == ("m4/100", True)
+
+
+def test_places_that_look_the_same_are_named_and_cost_the_same(results: Results) -> None:
+    entries = results("explore 'family:cube()' --marker all --algorithm basic")["results"]
+    assert [e["same_as"] for e in entries] == [None, *[0] * 23]
+    assert len({e["cost"] for e in entries}) == 1
+    entries = results("explore 'family:path(3)' --marker all --algorithm basic")["results"]
+    assert [e["same_as"] for e in entries] == [None, None, 1, 0]
+
+
+def test_a_table_names_the_best_and_the_worst_place(call: Call, results: Results) -> None:
+    line = "explore m5/17 --marker all --algorithm basic"
+    costs = [e["cost"] for e in results(line)["results"]]
+    text = call(line).stdout
+    assert "the marker at each of 10 darts, 10 of them" in text
+    best, worst = costs.index(min(costs)), costs.index(max(costs))
+    world = World.from_id("m5/17")
+    (row,) = [words for words in map(str.split, text.splitlines()) if words[:1] == ["basic"]]
+    at = [f"{world.vertex_of[dart]}:{dart}" for dart in (best, worst)]
+    assert row[2:6] == [str(min(costs)), at[0], str(max(costs)), at[1]]
+    assert row[6] == f"{1 - min(costs) * 10 / sum(costs):.0%}"
+
+
+def test_a_faulty_mapper_is_found_at_the_marker_where_it_fails(
+    results: Results, call: Call
+) -> None:
+    line = "explore m2/5 --marker all --algorithm mappers.py:ignores_direction --in-process"
+    entries = results(line, code=1)["results"]
+    bad = [entry for entry in entries if entry["findings"]]
+    assert bad
+    replay = bad[0]["findings"][0]["replay"]
+    assert f"--marker {bad[0]['marker']}" in replay
+    assert call(replay.removeprefix("topo-verify ")).exit_code == 1
+
+
+def test_the_heat_map_is_a_true_drawing_and_has_a_colour_a_dart(call: Call) -> None:
+    line = "explore m5/17 --marker all --algorithm basic --svg heat.svg"
+    assert call(line).exit_code == 0
+    svg = Path("heat.svg").read_text()
+    assert read_back.untruths(read_back.read(svg), World.from_id("m5/17")) == []
+    assert svg.count("data-mean=") == 4
+    assert svg.count("data-dart=") == 9  # the arrow stands on the tenth
+    assert "basic in m5/17: cost by place and direction of the marker" in svg
+
+
+def test_there_is_no_heat_map_of_runs_that_fail(call: Call) -> None:
+    line = "explore m2/5 --marker all --algorithm mappers.py:ignores_direction --in-process"
+    done = call(f"{line} --svg heat.svg")
+    assert done.exit_code == 1
+    assert "--svg heat.svg: not written, since not every run delivered a true map" in done.stderr
+    assert not Path("heat.svg").exists()

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
+from tests.cli.conftest import Call, Results
 from topo_verify.faults import FAULTS, Fault
 from topo_verify.studies import faults as campaign
 from topo_verify.studies.faults import STRATEGIES, Examples, Proof
 
-Call = Callable[..., Any]
 NAME = "restores-with-the-wrong-sign"
 
 
-def test_a_fault_that_is_caught(results: Call) -> None:
+def test_a_fault_that_is_caught(results: Results) -> None:
     (entry,) = results(f"faults {NAME} --workers 0")["results"]
     assert (entry["name"], entry["part"], entry["claim"]) == (NAME, "motion", "map-isomorphic")
     assert entry["search"].items() >= {"edges": 3, "failing": 2, "total": 74}.items()
@@ -24,14 +22,14 @@ def test_a_fault_that_is_caught(results: Call) -> None:
     assert (entry["harmless"], entry["proofs"], entry["ok"]) == (False, None, True)
 
 
-def test_only_what_is_asked_for_is_tried(results: Call) -> None:
+def test_only_what_is_asked_for_is_tried(results: Results) -> None:
     (entry,) = results(f"faults {NAME} --by properties")["results"]
     assert entry["search"] is None
     assert entry["properties"] is not None
 
 
 def test_a_fault_that_no_check_was_put_to_is_not_counted_as_caught(
-    call: Call, results: Call
+    call: Call, results: Results
 ) -> None:
     line = f"faults {NAME} assumes-a-plane-world --by proofs"
     (unasked, asked) = results(line)["results"]
@@ -94,24 +92,3 @@ def test_a_fault_that_its_own_claim_does_not_catch_exits_1(
     assert done.exit_code == 1
     assert f"{NAME}: back at a place" in done.stdout
     assert ("again: topo-verify replay m3/8" in done.stdout) is (claim is None)
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        (
-            "faults no-such",
-            "expected the name of a fault, got 'no-such'; the faults are leaves-out-the-",
-        ),
-        (
-            f"faults {NAME} --by guess",
-            "expected checks out of search, properties, proofs, got 'guess'",
-        ),
-    ],
-)
-def test_an_unknown_name_is_refused_with_the_known_ones(
-    call: Call, line: str, message: str
-) -> None:
-    done = call(line)
-    assert done.exit_code == 2
-    assert message in done.stderr

@@ -5,15 +5,12 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
+from tests.cli.conftest import Call, Program, Results
 from topo_verify.checkers import check
-
-Call = Callable[..., Any]
 
 RUDE = """
 import asyncio, os, subprocess, sys
@@ -68,7 +65,7 @@ LINES = {
 
 @pytest.mark.usefixtures("rude")
 @pytest.mark.parametrize("line", LINES.values(), ids=LINES)
-def test_what_a_mapper_prints_stands_marked_on_standard_error(program: Call, line: str) -> None:
+def test_what_a_mapper_prints_stands_marked_on_standard_error(program: Program, line: str) -> None:
     done = program(line.format("chats") + " --format json")
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["ok"]
@@ -80,7 +77,7 @@ def test_what_a_mapper_prints_stands_marked_on_standard_error(program: Call, lin
 @pytest.mark.parametrize("line", LINES.values(), ids=LINES)
 @pytest.mark.parametrize(("name", "error"), [("cancels", "CancelledError: no more")])
 def test_an_exception_of_any_kind_is_a_finding_with_its_line(
-    results: Call, line: str, name: str, error: str
+    results: Results, line: str, name: str, error: str
 ) -> None:
     lines: list[str] = [*RUDE.splitlines()]
     at = lines.index(f"def {name}(robot):") + 2
@@ -89,13 +86,13 @@ def test_an_exception_of_any_kind_is_a_finding_with_its_line(
 
 
 @pytest.mark.usefixtures("rude")
-def test_a_mapper_that_interrupts_itself_interrupts_nobody_else(results: Call) -> None:
+def test_a_mapper_that_interrupts_itself_interrupts_nobody_else(results: Results) -> None:
     (entry,) = results("explore m2/5 --algorithm rude.py:interrupts", code=1)["results"]
     assert "the mapper raised KeyboardInterrupt (rude.py, line " in entry["stopped"]
 
 
 @pytest.mark.usefixtures("rude")
-def test_a_report_says_that_the_mapper_shared_a_process(call: Call, results: Call) -> None:
+def test_a_report_says_that_the_mapper_shared_a_process(call: Call, results: Results) -> None:
     line = "explore m2/5 --algorithm rude.py:explore"
     assert results(line)["in_process"] is False
     assert results(f"{line} --in-process")["in_process"] is True
@@ -106,7 +103,7 @@ def test_a_report_says_that_the_mapper_shared_a_process(call: Call, results: Cal
 
 
 @pytest.mark.usefixtures("rude")
-def test_a_trace_with_fewer_moves_than_were_made_is_a_finding(results: Call) -> None:
+def test_a_trace_with_fewer_moves_than_were_made_is_a_finding(results: Results) -> None:
     line = "explore m2/5 --algorithm rude.py:forgets --in-process"
     (entry,) = results(line, code=1)["results"]
     (honest,) = results("explore m2/5 --algorithm basic")["results"]
@@ -119,7 +116,7 @@ def test_a_trace_with_fewer_moves_than_were_made_is_a_finding(results: Call) -> 
     assert "AttributeError" in entry["stopped"]
 
 
-def test_a_program_that_cannot_be_started_is_one_sentence(program: Call) -> None:
+def test_a_program_that_cannot_be_started_is_one_sentence(program: Program) -> None:
     done = program("conform --cmd ./nope --worlds m2/5")
     assert done.returncode == 2
     (line,) = [row for row in done.stderr.splitlines() if "seed" not in row]
@@ -149,7 +146,7 @@ for line in sys.stdin:
 
 
 def test_a_program_that_dies_shows_the_last_lines_of_its_standard_error(
-    folder: Path, results: Call
+    folder: Path, results: Results
 ) -> None:
     (folder / "throws.py").write_text(THROWS)
     line = f'explore m2/5 --cmd "{sys.executable} throws.py"'

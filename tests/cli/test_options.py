@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import click
 import pytest
 
+from tests.cli.conftest import Call, Refused, Results
 from topo_verify.cli import main
-
-Call = Callable[..., Any]
-Results = Callable[..., dict[str, Any]]
 
 REPEATABLE = {
     "explore": {"--algorithm", "--target"},
@@ -142,10 +140,8 @@ def test_a_file_may_have_a_comma_in_its_name(call: Call, folder: Any) -> None:
     assert call("explore m2/5 --algorithm a,b.py:right").exit_code == 0
 
 
-def test_a_wrong_file_in_a_list_is_named(call: Call) -> None:
-    done = call("explore m2/5 --algorithm basic,gone.py:f")
-    assert done.exit_code == 2
-    assert "there is no file 'gone.py'" in done.stderr
+def test_a_wrong_file_in_a_list_is_named(refused: Refused) -> None:
+    refused("explore m2/5 --algorithm basic,gone.py:f", "there is no file 'gone.py'")
 
 
 @pytest.mark.parametrize("classes", [("planar", "simple"), ("simple", "planar"), ("any", "simple")])
@@ -161,10 +157,8 @@ def test_classes_are_joined_as_by_a_comma(line: str, classes: tuple[str, str], c
     assert apart.stdout != call(line).stdout
 
 
-def test_classes_that_contradict_each_other_are_refused(call: Call) -> None:
-    done = call("search basic --class genus:1 --class planar")
-    assert done.exit_code == 2
-    assert "contradicts itself" in done.stderr
+def test_classes_that_contradict_each_other_are_refused(refused: Refused) -> None:
+    refused("search basic --class genus:1 --class planar", "contradicts itself")
 
 
 def test_the_line_that_repeats_a_run_keeps_every_value(call: Call, folder: Any) -> None:

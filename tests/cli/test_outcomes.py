@@ -23,8 +23,8 @@ from xml.etree import ElementTree as ET
 
 import msgspec
 import pytest
-from click.testing import Result
 
+from tests.cli.conftest import Call
 from topo_verify.campaign import progress
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.output import ProgressBar, entry_of
@@ -33,8 +33,6 @@ from topo_verify.proofs import catalogue as proofs_catalogue
 from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem, TheoremResult
 from topo_verify.studies import faults as study
 from topo_verify.studies.faults import Proof
-
-Call = Callable[..., Result]
 
 FILES = "--report r.html --junit r.xml --badge r.svg"
 FAULT = "restores-with-the-wrong-sign"

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import shlex
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-Call = Callable[..., Any]
+from tests.cli.conftest import Call, Refused, Results
 
 RIGHT = f"{shlex.quote(sys.executable)} -m topo_verify.programs.serve basic"
 WRONG = f"{shlex.quote(sys.executable)} -m topo_verify.programs.serve mappers.py:guesses"
 
 
 @pytest.mark.parametrize("workers", [0, 2])
-def test_search_goes_through_all_worlds_with_a_program(results: Call, workers: int) -> None:
+def test_search_goes_through_all_worlds_with_a_program(results: Results, workers: int) -> None:
     (entry,) = results(f'search --cmd "{RIGHT}" --edges 3 --workers {workers}')["results"]
     assert (entry["verdict"], entry["checked"]) == ("EXHAUSTED", 86)
     assert entry["target"].startswith("--cmd ")
@@ -25,7 +23,7 @@ def test_search_goes_through_all_worlds_with_a_program(results: Call, workers: i
 
 
 def test_a_wrong_program_has_its_smallest_counterexample_which_replay_shows(
-    results: Call,
+    results: Results,
 ) -> None:
     (entry,) = results(f'search --cmd "{WRONG}" --edges 3', code=1)["results"]
     (ours,) = results("search mappers.py:guesses --edges 3", code=1)["results"]
@@ -35,7 +33,9 @@ def test_a_wrong_program_has_its_smallest_counterexample_which_replay_shows(
     assert again["findings"]
 
 
-def test_a_changed_program_does_not_go_on_with_a_ledger(call: Call, folder: Path) -> None:
+def test_a_changed_program_does_not_go_on_with_a_ledger(
+    call: Call, refused: Refused, folder: Path
+) -> None:
     script = folder / "run.sh"
     script.write_text(f"#!/bin/sh\nexec {RIGHT}\n")
     script.chmod(0o755)
@@ -43,9 +43,7 @@ def test_a_changed_program_does_not_go_on_with_a_ledger(call: Call, folder: Path
     assert call(line).exit_code == 0
     assert call(line).exit_code == 0
     script.write_text(f"#!/bin/sh\n# changed\nexec {RIGHT}\n")
-    done = call(line)
-    assert done.exit_code == 2
-    assert "has changed since" in done.stderr
+    refused(line, "has changed since")
 
 
 SKIPPER = Path(__file__).parents[1] / "programs" / "misbehaving.py"
@@ -54,7 +52,7 @@ SKIPS = f"{shlex.quote(sys.executable)} {SKIPPER} skips"
 
 @pytest.mark.parametrize("command", ["explore", "replay"])
 def test_a_world_that_a_program_skips_is_not_decided(
-    results: Call, call: Call, command: str
+    results: Results, call: Call, command: str
 ) -> None:
     (entry,) = results(f'{command} m1/1 --cmd "{SKIPS}"', code=3)["results"]
     assert (entry["ok"], entry["findings"]) == (False, [])
@@ -62,13 +60,13 @@ def test_a_world_that_a_program_skips_is_not_decided(
     assert "not decided" in call(f'{command} m1/1 --cmd "{SKIPS}"').stdout
 
 
-def test_a_search_in_which_a_program_skips_worlds_is_open(results: Call) -> None:
+def test_a_search_in_which_a_program_skips_worlds_is_open(results: Results) -> None:
     line = f'search --cmd "{SKIPS}" --edges 1 --workers 0'
     (entry,) = results(line, code=3)["results"]
     assert (entry["verdict"], entry["checked"], entry["counterexample"]) == ("UNKNOWN", 1, None)
 
 
-def test_verify_and_explore_run_programs(results: Call) -> None:
+def test_verify_and_explore_run_programs(results: Results) -> None:
     parts = results(f'verify --cmd "{RIGHT}" --quick')["results"]
     assert {part["ok"] for part in parts} == {True}
     (entry,) = results(f'explore nyc --cmd "{RIGHT}"')["results"]
@@ -77,7 +75,5 @@ def test_verify_and_explore_run_programs(results: Call) -> None:
 
 
 @pytest.mark.parametrize("line", ["verify basic", "explore nyc --algorithm basic", "search basic"])
-def test_a_target_and_a_program_are_one_too_many(call: Call, line: str) -> None:
-    done = call(f'{line} --cmd "{RIGHT}"')
-    assert done.exit_code == 2
-    assert "one of them, not two" in done.stderr
+def test_a_target_and_a_program_are_one_too_many(refused: Refused, line: str) -> None:
+    refused(f'{line} --cmd "{RIGHT}"', "one of them, not two")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Call, Program, Results
+from tests.cli.conftest import Call, Results
 from topo_verify.proofs import catalogue as proofs_catalogue
 from topo_verify.proofs.first_order.obligations import A, B, Obligation
 from topo_verify.proofs.first_order.terms import eq, neg
@@ -80,33 +80,6 @@ def test_the_questions_are_written_as_smt_lib(results: Results, folder: Path) ->
     assert texts[0].startswith("(set-logic UF)")
     assert texts[1].startswith("(set-logic QF_UF)")
     assert all(text.rstrip().endswith("(check-sat)") for text in texts)
-
-
-def test_two_runs_are_byte_equal_without_the_timing(program: Program) -> None:
-    def entries(seed: str) -> str:
-        line = "prove percept records-written-early new-apart-step --format json"
-        return program(line, PYTHONHASHSEED=seed).stdout.split('"timing"')[0]
-
-    assert entries("1") == entries("2")
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        ("prove percet", "do you mean percept"),
-        ("prove nothing-like-it", "prove --list lists them"),
-        ("prove percept --kind mutant", "no theorem of kind mutant among percept"),
-        ("prove --kind bounded --edges 99", "1 to 6 edges"),
-        ("prove percept --timeout 0", "--timeout"),
-        ("prove percept --smt2 mappers.py", "expected a folder, got a file"),
-        ("prove percept --solver yices", "--solver"),
-    ],
-)
-def test_bad_use_gets_a_sentence_with_the_mend(call: Call, line: str, message: str) -> None:
-    done = call(line)
-    assert done.exit_code == 2
-    assert message in done.stderr
-    assert len(done.stderr.splitlines()) == 1
 
 
 # ---------------------------------------------------------------- no pass is no pass

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
+from tests.cli.conftest import Call, Refused, Results
 from topo_verify import families
 from topo_verify.checkers import Judgement
 from topo_verify.cli.runs import unjudged
 from topo_verify.report.account import claim_cases
-
-Call = Callable[..., Any]
 
 
 @pytest.fixture
@@ -24,7 +21,7 @@ def trace(call: Call, folder: Path) -> Path:
     return folder / "basic.jsonl"
 
 
-def test_a_world_is_explored_anew_by_default_with_basic(results: Call) -> None:
+def test_a_world_is_explored_anew_by_default_with_basic(results: Results) -> None:
     envelope = results("replay m5/17")
     assert envelope["format"] == "topo-verify/replay"
     (entry,) = envelope["results"]
@@ -34,13 +31,13 @@ def test_a_world_is_explored_anew_by_default_with_basic(results: Call) -> None:
     )  # fmt: skip
 
 
-def test_policies_and_marker_are_taken(results: Call) -> None:
+def test_policies_and_marker_are_taken(results: Results) -> None:
     line = "replay nyc --target basic --pick last --order newest --marker 3"
     assert results(line)["results"][0]["cost"] != results("replay nyc")["results"][0]["cost"]
 
 
 def test_a_trace_is_judged_in_the_world_that_it_names(
-    results: Call, call: Call, trace: Path
+    results: Results, call: Call, trace: Path
 ) -> None:
     (entry,) = results("replay basic.jsonl")["results"]
     assert (entry["world"], entry["target"], entry["cost"]) == ("m5/17", "basic", 13)
@@ -54,7 +51,7 @@ def test_a_trace_is_judged_in_the_world_that_it_names(
 
 
 def test_a_trace_in_another_world_diverges_and_the_causes_are_named(
-    results: Call, call: Call, trace: Path
+    results: Results, call: Call, trace: Path
 ) -> None:
     line = f"replay {trace.name} --world m5/18"
     (entry,) = results(line, code=1)["results"]
@@ -73,7 +70,7 @@ def test_an_edited_trace_is_refuted(call: Call, trace: Path) -> None:
 
 
 def test_the_trace_of_a_large_world_needs_the_world(
-    call: Call, results: Call, folder: Path
+    call: Call, results: Results, folder: Path
 ) -> None:
     families.lattice(12, 12).save(folder / "large.json")
     call("explore large.json --algorithm basic --trace large.jsonl --marker 9")
@@ -117,13 +114,10 @@ def test_options_that_mean_nothing_for_a_trace_are_refused(
     ],
 )
 def test_a_broken_trace_is_refused_with_its_place(
-    call: Call, folder: Path, text: str, words: str
+    refused: Refused, folder: Path, text: str, words: str
 ) -> None:
     (folder / "broken.jsonl").write_text(text)
-    done = call("replay broken.jsonl")
-    assert done.exit_code == 2, done.output
-    assert "broken.jsonl" in done.stderr
-    assert words in done.stderr
+    refused("replay broken.jsonl", "broken.jsonl", words)
 
 
 def test_a_name_that_no_file_can_have_is_no_bug(call: Call) -> None:
@@ -136,7 +130,7 @@ def test_a_run_out_of_time_is_not_decided(call: Call) -> None:
     assert "not decided, the mapper was stopped after 0.2 s" in " ".join(done.stdout.split())
 
 
-def test_a_trace_without_an_algorithm_has_an_unknown_target(results: Call, trace: Path) -> None:
+def test_a_trace_without_an_algorithm_has_an_unknown_target(results: Results, trace: Path) -> None:
     start, *rest = trace.read_text().splitlines()
     event = json.loads(start)
     del event["algorithm"]
@@ -163,11 +157,9 @@ def test_the_whole_walk_is_shown_where_it_is_asked_for(call: Call, trace: Path) 
     assert "\n    1 " not in call(f"replay {trace.name} --from 4").stdout
 
 
-def test_the_walk_cannot_begin_behind_its_end(call: Call, trace: Path) -> None:
+def test_the_walk_cannot_begin_behind_its_end(refused: Refused, trace: Path) -> None:
     for line in (f"replay {trace.name} --from 999", "replay m5/17 --from 999"):
-        done = call(line)
-        assert done.exit_code == 2
-        assert "--from 999: expected an event of the run, 0 to " in done.stderr
+        refused(line, "--from 999: expected an event of the run, 0 to ")
 
 
 def test_the_walk_is_a_block_of_code_in_markdown(call: Call, trace: Path) -> None:
@@ -175,7 +167,7 @@ def test_the_walk_is_a_block_of_code_in_markdown(call: Call, trace: Path) -> Non
 
 
 def test_a_trace_keeps_why_the_run_ended_without_a_map(
-    call: Call, results: Call, folder: Path
+    call: Call, results: Results, folder: Path
 ) -> None:
     call("explore m3/8 --algorithm mappers.py:walks --trace walks.jsonl")
     line = json.loads((folder / "walks.jsonl").read_text().splitlines()[0])
@@ -187,7 +179,7 @@ def test_a_trace_keeps_why_the_run_ended_without_a_map(
     assert "Events 1 to 2 repeat to the end of the run, 18 times in all." in shown
 
 
-def test_a_trace_with_a_map_says_nothing_of_a_stop(results: Call, trace: Path) -> None:
+def test_a_trace_with_a_map_says_nothing_of_a_stop(results: Results, trace: Path) -> None:
     start, *rest = trace.read_text().splitlines()
     assert "stopped" not in start
     event = {**json.loads(start), "stopped": "a lie: it did deliver a map"}

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from click.testing import Result
 
+from tests.cli.conftest import Call, Refused
 from tests.report.test_junit import objections
 from topo_verify.checkers.findings import Judgement
 from topo_verify.cli.reporting import command_line
 from topo_verify.cli.verify import cases_of
 from topo_verify.report.style import VERDICTS
 from topo_verify.studies.verify.parts import Part
-
-Call = Callable[..., Result]
 
 FILES = "--report r.html --junit r.xml --badge r.svg --quiet"
 
@@ -112,28 +109,25 @@ def test_what_is_printed_is_the_same_with_a_report_and_without(call: Call) -> No
     ],
 )
 def test_a_file_that_cannot_be_written_is_refused_before_the_work(
-    options: str, words: str, call: Call, monkeypatch: pytest.MonkeyPatch
+    options: str, words: str, refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def never(*_: object, **__: object) -> None:
         raise AssertionError("the work has begun")
 
     monkeypatch.setattr("topo_verify.studies.search.search.Search.work", never)
-    done = call(f"search basic --edges 2 {options}")
-    assert (done.exit_code, done.stdout) == (2, "")
-    assert words in done.stderr
-    assert done.stderr.count("\n") == 1
+    refused(f"search basic --edges 2 {options}", words)
 
 
 def test_a_folder_without_permission_is_refused(
-    call: Call, monkeypatch: pytest.MonkeyPatch
+    refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def never(*_: object) -> bool:
         return False
 
     monkeypatch.setattr(os, "access", never)  # root may write anywhere
-    done = call("search basic --edges 1 --report r.html")
-    assert done.exit_code == 2
-    assert "--report r.html: no permission to write there" in done.stderr
+    refused(
+        "search basic --edges 1 --report r.html", "--report r.html: no permission to write there"
+    )
 
 
 def test_after_an_interrupt_the_report_says_so(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,23 +6,20 @@ import sys
 from collections.abc import Callable
 from dataclasses import astuple
 from pathlib import Path
-from typing import Any
 from zlib import crc32
 
 import pytest
 from msgspec.structs import replace
 
+from tests.cli.conftest import Call, Refused, Results, require_same_bytes
 from tests.studies.reproduce.rows import made_up
 from topo_verify.campaign.campaign import Campaign, Shard, ShardResult
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.store import StoredCampaign
 from topo_verify.campaign.tally import Counts
 from topo_verify.checkers import Finding
 from topo_verify.report.figures.pictures import picture
 from topo_verify.studies.reproduce.figures import PAIRS, REFERENCE
 from topo_verify.studies.reproduce.points import PlannedRun
-
-Call = Callable[..., Any]
 
 DRAWING = "topo_verify.report.figures.pictures.picture"
 
@@ -72,7 +69,7 @@ def fast(monkeypatch: pytest.MonkeyPatch) -> Changes:
 
 
 @pytest.mark.usefixtures("fast")
-def test_an_entry_has_the_promised_fields_and_the_files_are_there(results: Call) -> None:
+def test_an_entry_has_the_promised_fields_and_the_files_are_there(results: Results) -> None:
     envelope = results(f"{LINE} --out here")
     assert envelope["format"] == "topo-verify/reproduce"
     assert all(entry.keys() >= FIELDS for entry in envelope["results"])
@@ -84,33 +81,8 @@ def test_an_entry_has_the_promised_fields_and_the_files_are_there(results: Call)
     }  # fmt: skip
 
 
-def test_the_same_bytes_however_many_workers_and_however_often_interrupted(
-    call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    assert call(f"{LINE} --out whole").exit_code == 0
-    assert call(f"{LINE.removesuffix('1')}2 --out two").exit_code == 0
-    real = StoredCampaign.put
-    kept: list[ShardResult] = []
-
-    def cut_off(store: StoredCampaign, shard: Shard, result: ShardResult) -> None:
-        if len(kept) == 3:
-            raise KeyboardInterrupt
-        kept.append(result)
-        real(store, shard, result)
-
-    monkeypatch.setattr(StoredCampaign, "put", cut_off)
-    done = call(f"{LINE} --out parts")
-    assert done.exit_code == 3
-    assert "3 of 16 runs are kept in parts/runs.db; the same command goes on" in done.stderr
-    monkeypatch.setattr(StoredCampaign, "put", real)
-    done = call(f"{LINE} --out parts")
-    assert done.exit_code == 0
-    assert "3 of 16 runs are in parts/runs.db" in done.stderr
-    assert csv("whole") == csv("two") == csv("parts")
-
-
 @pytest.mark.usefixtures("fast")
-def test_another_seed_draws_other_graphs(results: Call) -> None:
+def test_another_seed_draws_other_graphs(results: Results) -> None:
     one, other = (results(f"{LINE} --seed {seed}")["results"] for seed in (0, 1))
     assert one != other
 
@@ -125,7 +97,7 @@ def test_people_see_a_table_a_paragraph_exponents_and_what_was_judged(call: Call
 
 
 @pytest.mark.usefixtures("fast")
-def test_policies_make_a_line_each(results: Call) -> None:
+def test_policies_make_a_line_each(results: Results) -> None:
     entries = results(f"{LINE} --policies")["results"]
     pairs = {(e["pick"], e["order"]) for e in entries if e["algorithm"] == "basic"}
     assert len(pairs) == 10
@@ -162,25 +134,12 @@ def test_a_run_out_of_time_is_incomplete(call: Call, fast: Changes) -> None:
     assert "15 runs were judged: 10 of 10 claims held in each. 1 more were not" in done.stdout
 
 
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("reproduce --figure 4", "--figure '4': expected all, 6 or one of 3, 6a"),
-        ("reproduce --out mappers.py", "--out mappers.py: cannot create this folder"),
-        ("reproduce --graphs 0", "0 is not in the range"),
-    ],
-)
-def test_bad_usage_is_one_sentence(call: Call, line: str, words: str) -> None:
-    done = call(line)
-    assert done.exit_code == 2
-    assert words in done.stderr
-    assert done.stderr.count("\n") == 1
-
-
-def test_a_foreign_store_is_one_sentence(call: Call) -> None:
+def test_a_foreign_store_is_one_sentence(refused: Refused) -> None:
     Path("figures").mkdir()
     Path("figures/runs.db").write_text("mine\n" * 100)
-    done = call(LINE)
-    assert done.exit_code == 2
-    assert done.stderr.count("\n") == 1
-    assert "figures/runs.db: it is no store of topo-verify" in done.stderr
+    refused(LINE, "figures/runs.db: it is no store of topo-verify")
+
+
+@pytest.mark.usefixtures("cut_off")
+def test_the_same_bytes_however_many_workers_and_however_often_interrupted(call: Call) -> None:
+    require_same_bytes(call, LINE[:-2], 16, csv)

@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 import json
-import signal
-import subprocess
-import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-Call = Callable[..., Any]
+from tests.cli.conftest import Call, Results, interrupted
+
 FIELDS = {"target", "class", "edges", "checked", "total", "verdict", "counterexample", "by_edges"}
 SIZES = {"edges", "checked", "total", "max_cost", "total_cost", "worst"}
 
 
-def test_the_entry_of_an_exhausted_class_has_the_promised_fields(results: Call) -> None:
+def test_the_entry_of_an_exhausted_class_has_the_promised_fields(results: Results) -> None:
     (entry,) = results("search basic --edges 3 --class planar")["results"]
     assert entry.keys() >= FIELDS
     assert (entry["target"], entry["class"], entry["edges"]) == ("basic", "planar", 3)
@@ -31,7 +26,7 @@ def test_the_entry_of_an_exhausted_class_has_the_promised_fields(results: Call) 
 
 @pytest.mark.parametrize("workers", [0, 1, 2])
 def test_a_counterexample_exits_1_and_is_the_same_with_any_workers(
-    results: Call, call: Call, workers: int
+    results: Results, call: Call, workers: int
 ) -> None:
     line = f"search mappers.py:guesses --edges 3 --workers {workers}"
     (entry,) = results(line, code=1)["results"]
@@ -42,53 +37,16 @@ def test_a_counterexample_exits_1_and_is_the_same_with_any_workers(
     assert call(first["replay"].removeprefix("topo-verify ")).exit_code == 1
 
 
-def test_json_is_equal_byte_for_byte_but_for_timing(program: Call) -> None:
-    line = "search mappers.py:ignores_direction --edges 2 --keep-going --format json --workers"
-    texts = {
-        program(f"{line} {workers}", PYTHONHASHSEED=seed).stdout.split('"timing"')[0]
-        for workers, seed in (("0", "1"), ("1", "2"), ("2", "3"))
-    }
-    assert len(texts) == 1
-    assert json.loads(texts.pop() + '"timing": {}}')["exit"] == 1
-
-
-def test_several_targets_are_searched_one_after_the_other(results: Call) -> None:
+def test_several_targets_are_searched_one_after_the_other(results: Results) -> None:
     entries = results("search basic,folding --edges 2 --workers 0")["results"]
     assert [entry["target"] for entry in entries] == ["basic", "folding"]
 
 
-def test_a_mapper_out_of_time_exits_3(results: Call, call: Call) -> None:
+def test_a_mapper_out_of_time_exits_3(results: Results, call: Call) -> None:
     line = "search mappers.py:strolls --edges 1 --workers 0 --world-timeout 0.02"
     (entry,) = results(line, code=3)["results"]
     assert (entry["verdict"], entry["checked"]) == ("UNKNOWN", 0)
     assert "; 2 more not decided (out of time, or declined)" in " ".join(call(line).stdout.split())
-
-
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("search", "expected either a TARGET or two mappers with --compare A,B"),
-        ("search basic --compare basic,folding", "either a TARGET or two mappers with --compare"),
-        ("search --compare basic", "expected two different algorithms of the catalogue, as A,B"),
-        (
-            "search --compare basic,basic",
-            "expected two different algorithms of the catalogue, as A,B",
-        ),
-        ("search basic --edges 0", "invalid value for '--edges'"),
-        ("search basic --class tidy", "class 'tidy': expected any, planar"),
-        ("search basic --class simple,planar --edges 9", "there is no formula"),
-        ("search basic,folding --ledger L", "--ledger L: expected one TARGET, got 2"),
-        ("search basic --ledger mappers.py", "it is no store of topo-verify: name"),
-        ("search basic --policies every --edges 7", "for basic it goes to 6 edges"),
-        ("search mappers.py:silent --policies all", "has no policies"),
-        ("search basic --workers -1", "invalid value for '--workers'"),
-    ],
-)
-def test_what_cannot_be_searched_gets_one_sentence(call: Call, line: str, words: str) -> None:
-    done = call(line)
-    assert (done.exit_code, done.stdout) == (2, "")
-    assert words in done.stderr
-    assert done.stderr.count("\n") == 1
 
 
 # ---------------------------------------------------------------- for people
@@ -130,7 +88,7 @@ def test_worst_shows_costs_and_the_worlds_that_have_them(call: Call) -> None:
     assert "m2/1, m2/2, m2/6" in lines[3]
 
 
-def test_compare_shows_where_the_first_costs_more(call: Call, results: Call) -> None:
+def test_compare_shows_where_the_first_costs_more(call: Call, results: Results) -> None:
     line = "search --compare enhancement-ii,enhancement-i --edges 4 --workers 0"
     (entry,) = results(line)["results"]
     assert [size["compare"]["dearer"] for size in entry["by_edges"]] == [0, 0, 0, 2]
@@ -156,7 +114,7 @@ def test_markdown_has_tables(call: Call) -> None:
 # ---------------------------------------------------------------- ledger, Ctrl-C
 
 
-def test_a_ledger_is_resumed(results: Call, folder: Path) -> None:
+def test_a_ledger_is_resumed(results: Results, folder: Path) -> None:
     line = "search basic --workers 2 --ledger done --edges"
     (before,) = results(f"{line} 2")["results"]
     assert (folder / "done").exists()
@@ -168,28 +126,16 @@ def test_a_ledger_is_resumed(results: Call, folder: Path) -> None:
 @pytest.mark.parametrize("workers", ["0", "2"])
 def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path, workers: str) -> None:
     line = "search mappers.py:starts_and_sleeps --move-timeout 60 --format json --workers"
-    running = subprocess.Popen(
-        [sys.executable, "-m", "topo_verify", *line.split(), workers],
-        cwd=folder,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509  no threads here
-    )
-    while not (folder / "at-work").exists():
-        assert running.poll() is None, running.communicate()
-        time.sleep(0.02)
-    running.send_signal(signal.SIGINT)
-    out, error = running.communicate(timeout=30)
+    code, out, error = interrupted(folder, *line.split(), workers)
     envelope = json.loads(out)
     (entry,) = envelope["results"]
-    assert running.returncode == envelope["exit"] == 3
+    assert code == envelope["exit"] == 3
     assert entry["verdict"] == "UNKNOWN"
     assert 0 <= entry["checked"] <= 2  # the worlds of one edge, as far as they were done
     assert error.startswith("topo-verify: interrupted after 1 result")
 
 
-def test_every_choice_shows_the_range_of_the_costs(results: Call, call: Call) -> None:
+def test_every_choice_shows_the_range_of_the_costs(results: Results, call: Call) -> None:
     line = "search basic --edges 2 --workers 0 --policies every --worst"
     (entry,) = results(line)["results"]
     every = entry["by_edges"][1]["every"]
@@ -204,7 +150,7 @@ def test_every_choice_shows_the_range_of_the_costs(results: Call, call: Call) ->
     assert entry["by_edges"][0]["every"] is entry["decided_by"] is None
 
 
-def test_what_a_model_decides_is_sampled_of_the_mapper(results: Call, call: Call) -> None:
+def test_what_a_model_decides_is_sampled_of_the_mapper(results: Results, call: Call) -> None:
     pytest.importorskip("numba")
     line = "search basic --class max-degree:2 --edges 5 --workers 0 --policies every"
     envelope = results(line)

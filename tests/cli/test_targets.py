@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +10,8 @@ import pytest
 from click.shell_completion import ShellComplete
 from click.testing import Result
 
+from tests.cli.conftest import Call, Refused
 from topo_verify.cli import main
-
-Call = Callable[..., Result]
 
 LINES = {
     "verify": "verify {} --quick",
@@ -51,14 +49,9 @@ def test_the_hidden_alias_of_target_works(call: Call) -> None:
 
 
 @pytest.mark.usefixtures("baseline")
-@pytest.mark.parametrize(
-    "line",
-    [line.format("basic --target folding") for line in LINES.values()],
-)
-def test_two_targets_get_one_sentence(line: str, call: Call) -> None:
-    done = call(line)
-    assert (done.exit_code, done.stdout) == (2, "")
-    assert "expected one TARGET, got 'basic' and --target folding; leave one out\n" in done.stderr
+@pytest.mark.parametrize("line", [line.format("basic --target folding") for line in LINES.values()])
+def test_two_targets_get_one_sentence(line: str, refused: Refused) -> None:
+    refused(line, "expected one TARGET, got 'basic' and --target folding; leave one out\n")
 
 
 @pytest.mark.usefixtures("baseline")
@@ -113,11 +106,8 @@ def test_a_group_alone_shows_its_help(group: str, call: Call) -> None:
 
 
 @pytest.mark.parametrize("target", ["m.py:explore", "m.py", "pack.m:explore"])
-def test_a_target_in_the_place_of_a_command_is_told_verify(target: str, call: Call) -> None:
-    done = call(f"{target} --quick")
-    assert (done.exit_code, done.stdout) == (2, "")
-    assert f"no such command {target!r}, did you mean verify {target}; " in done.stderr
-    assert done.stderr.count("\n") == 1
+def test_a_target_in_the_place_of_a_command_is_told_verify(target: str, refused: Refused) -> None:
+    refused(f"{target} --quick", f"no such command {target!r}, did you mean verify {target}; ")
 
 
 MODULE = """
@@ -148,16 +138,13 @@ class Walker: ...
     ],
 )
 def test_a_wrong_target_is_told_the_right_one(
-    target: str, hint: str, call: Call, folder: Path
+    target: str, hint: str, refused: Refused, folder: Path
 ) -> None:
     (folder / "m.py").write_text(MODULE)
     (folder / "empty.py").write_text("a syntax error is no mapper")
     if ":" in target:
         (folder / "empty.py").write_text("")
-    done = call(f"verify {target}")
-    assert done.exit_code == 2
-    assert hint in done.stderr
-    assert done.stderr.count("\n") == 1
+    refused(f"verify {target}", hint)
 
 
 # ---------------------------------------------------------------- names that are not UTF-8
@@ -190,7 +177,7 @@ def test_a_mapper_whose_name_is_not_utf8_is_bad_input(call: Call, folder: Path, 
 
 
 def test_a_mapper_that_reads_a_file_whose_name_is_not_utf8_has_no_ledger(
-    call: Call, folder: Path
+    call: Call, refused: Refused, folder: Path
 ) -> None:
     (folder / NO_UTF8).write_text("")
     (folder / "reads.py").write_text(
@@ -200,22 +187,17 @@ def test_a_mapper_that_reads_a_file_whose_name_is_not_utf8_has_no_ledger(
     line = "search reads.py:explore --edges 1 --workers 0"
     assert call(line).exit_code == 0
     for option in ("", f"--depends '{NO_UTF8}' --in-process"):
-        done = call(f"{line} --ledger l.db {option}")
-        assert done.exit_code == 2, done.output
-        assert "the mapper read" in done.stderr
-        assert "expected a name in UTF-8" in done.stderr
+        refused(f"{line} --ledger l.db {option}", "the mapper read", "expected a name in UTF-8")
 
 
 @pytest.mark.parametrize("command", ["conform basic --workers 0", "record basic --out base.gz"])
 def test_a_world_whose_name_is_not_utf8_is_bad_input(
-    call: Call, folder: Path, command: str
+    call: Call, refused: Refused, folder: Path, command: str
 ) -> None:
     named = (folder / NO_UTF8).with_suffix(".json")
     assert call("world convert m2/5 -o world.json").exit_code == 0
     (folder / "world.json").rename(named)
-    done = call(f"{command} --worlds '{named.name}'")
-    assert done.exit_code == 2, done.output
-    assert "expected a name in UTF-8" in done.stderr
+    refused(f"{command} --worlds '{named.name}'", "expected a name in UTF-8")
 
 
 # ---------------------------------------------------------------- a working folder that was removed

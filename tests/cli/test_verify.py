@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 
+from tests.cli.conftest import Call, Results
 from topo_verify import CATALOGUE
 
 pytestmark = pytest.mark.usefixtures("proved_once")
 
-Call = Callable[..., Any]
 PARTS = ["counts", "small-worlds", "proofs", "sampled-worlds", "generated-worlds", "street-network"]
 
 
-def test_quick_checks_the_catalogue_in_six_parts(results: Call) -> None:
+def test_quick_checks_the_catalogue_in_six_parts(results: Results) -> None:
     envelope = results("verify --quick")
     assert (envelope["format"], envelope["seed"]) == ("topo-verify/verify", 0)
     parts = envelope["results"]
@@ -44,7 +42,7 @@ def test_each_part_has_its_own_line(call: Call) -> None:
 
 
 def test_what_does_not_concern_a_mapper_of_ones_own_is_left_out_and_said(
-    results: Call, call: Call
+    results: Results, call: Call
 ) -> None:
     """The numbers of worlds and the theorems are the same, whoever the mapper is."""
     envelope = results("verify mappers.py:right --quick")
@@ -68,7 +66,7 @@ def test_the_word_verified_is_never_printed(call: Call, target: str, style: str)
     assert "verified" not in done.output.lower()
 
 
-def test_a_silent_mapper_passes_with_four_claims_not_declared(results: Call, call: Call) -> None:
+def test_a_silent_mapper_passes_with_four_claims_not_declared(results: Results, call: Call) -> None:
     parts = results("verify mappers.py:silent --quick")["results"]
     assert parts[0]["summary"] == (
         "86 of 86 worlds of 1 to 3 edges: 5 of 10 claims hold, 5 not declared"
@@ -92,7 +90,7 @@ def test_a_silent_mapper_passes_with_four_claims_not_declared(results: Call, cal
     ],
 )
 def test_a_faulty_mapper_is_refuted_and_the_line_shows_it_again(
-    results: Call, call: Call, mapper: str, smallest: str
+    results: Results, call: Call, mapper: str, smallest: str
 ) -> None:
     part = results(f"verify mappers.py:{mapper} --quick", code=1)["results"][0]
     assert (part["verdict"], part["ok"]) == ("REFUTED", False)
@@ -119,7 +117,7 @@ def test_markdown_is_a_report_with_valid_tables(call: Call) -> None:
     assert "`topo-verify replay m1/1 --target mappers.py:guesses`" in text
 
 
-def test_time_outs_leave_a_part_undecided(results: Call, call: Call) -> None:
+def test_time_outs_leave_a_part_undecided(results: Results, call: Call) -> None:
     line = "verify mappers.py:strolls --quick --world-timeout 0.02"
     parts = results(line, code=3)["results"]
     assert (parts[0]["verdict"], parts[0]["findings"]) == ("UNKNOWN", [])

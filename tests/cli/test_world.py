@@ -1,26 +1,24 @@
-"""`world show`, `list`, `convert`, `count` and `sample`."""
+"""`world show`, `list`, `convert`, `count`, `sample` and `draw`."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
-from importlib import import_module
+from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 import topo_verify as tv
+from tests.cli.conftest import Call, Refused, Results
 from topo_verify import World, families
+from topo_verify.world.drawing import choice, read_back
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
 
-Call = Callable[..., Any]
 
-
-def test_show_has_the_promised_fields(results: Call) -> None:
+def test_show_has_the_promised_fields(results: Results) -> None:
     envelope = results("world show m3/14")
     assert envelope["format"] == "topo-verify/world-show"
     (entry,) = envelope["results"]
@@ -35,7 +33,7 @@ def test_show_has_the_promised_fields(results: Call) -> None:
 
 @pytest.mark.parametrize("name", ["m4/41", "nyc", "'family:torus(3,4)'", "m0/0"])
 def test_show_gives_the_rotation_as_the_world_file_does(
-    results: Call, call: Call, name: str
+    results: Results, call: Call, name: str
 ) -> None:
     (entry,) = results(f"world show {name}")["results"]
     file = json.loads(call(f"world convert {name}").stdout)
@@ -62,7 +60,7 @@ def test_show_says_one_edge_traversal(call: Call) -> None:
     assert "least cost  1 edge traversal\n" in call("world show m1/0").stdout
 
 
-def test_a_world_too_large_for_an_id_has_none(results: Call) -> None:
+def test_a_world_too_large_for_an_id_has_none(results: Results) -> None:
     (entry,) = results("world show 'family:lattice(12,12)'")["results"]
     assert entry["id"] is None
 
@@ -85,7 +83,7 @@ def test_convert_writes_what_can_be_read_again(call: Call, folder: Path) -> None
     assert World.from_json(moved) == world.with_marker(3)
 
 
-def test_convert_in_json_is_an_envelope_all_the_same(results: Call) -> None:
+def test_convert_in_json_is_an_envelope_all_the_same(results: Results) -> None:
     (entry,) = results("world convert m3/14")["results"]
     assert World.from_json(entry["text"]) == World.from_id("m3/14")
     (entry,) = results("world convert m3/14 -o w.json")["results"]
@@ -123,7 +121,7 @@ def test_convert_writes_any_world_for_networkx(
     ],
 )
 def test_convert_writes_the_format_that_the_name_of_the_file_says(
-    call: Call, results: Call, file: str, to: str
+    call: Call, results: Results, file: str, to: str
 ) -> None:
     (entry,) = results(f"world convert 'family:cube()' -o {file}")["results"]
     assert (entry["to"], entry["file"]) == (to, file)
@@ -151,25 +149,20 @@ def test_convert_says_how_a_file_is_called_that_can_be_read_again(call: Call) ->
         ),
         ("m2/9 --to planar_code -o x.pc", "planar_code holds simple worlds"),
         ("named.json --to graphml -o x.pc", "GraphML cannot hold the character '\\x1b'"),
-        (
-            "m2/5 -o x.net.xml",
-            "sumo is read and not written: let the name end in one of .j",
-        ),
+        ("m2/5 -o x.net.xml", "sumo is read and not written: let the name end in one of .j"),
         ("m0/0 --to nonsense", "'json', 'planar_code', 'graphml', 'nx-json'"),
     ],
 )
 def test_convert_refuses_what_it_cannot_write(
-    call: Call, folder: Path, line: str, sentence: str
+    refused: Refused, folder: Path, line: str, sentence: str
 ) -> None:
     named = World.from_rotations([[0], [1]], [[0, 1]], 0, name="\x1b[2J")
     named.save(folder / "named.json")
-    done = call(f"world convert {line}")
-    assert done.exit_code == 2
-    assert sentence in done.stderr
+    refused(f"world convert {line}", sentence)
     assert not [*folder.glob("x.*")]
 
 
-def test_list_has_every_world_of_the_class_in_order(call: Call, results: Call) -> None:
+def test_list_has_every_world_of_the_class_in_order(call: Call, results: Results) -> None:
     entries = results("world list --edges 3 --class genus:0")["results"]
     worlds = list(tv.worlds(edges=3, cls="planar"))
     assert entries == [{"id": w.id, "edges": 3, "class": "planar"} for w in worlds]
@@ -181,8 +174,7 @@ def test_list_prints_each_world_as_it_is_found(call: Call, monkeypatch: pytest.M
         yield from islice(ranked_tables(edges, kind), 2)
         raise KeyboardInterrupt
 
-    # `topo_verify.cli.world` is the group of commands, which hides the module of its name.
-    monkeypatch.setattr(import_module("topo_verify.cli.world"), "ranked_tables", stopped)
+    monkeypatch.setattr("topo_verify.cli.world.ranked_tables", stopped)
     done = call("world list --edges 4")
     assert (done.exit_code, done.stdout) == (3, "m4/0\nm4/1\n")
 
@@ -190,22 +182,6 @@ def test_list_prints_each_world_as_it_is_found(call: Call, monkeypatch: pytest.M
 def test_list_gives_the_first_of_more_worlds_than_can_be_listed(call: Call) -> None:
     ids = call("world list --edges 60 --class planar -n 3").stdout.split()
     assert ids == [world.id for world in islice(tv.worlds(edges=60, cls="planar"), 3)]
-
-
-@pytest.mark.parametrize(
-    ("line", "sentence"),
-    [
-        ("--edges 9", "expected at most 250,000 worlds, got 576,037,442 of class any with 9 edges"),
-        ("--edges 17 --class simple", "expected at most 16 edges, got 17"),
-        ("--edges 8 --class simple,genus:1", "ask for 7 edges or fewer, or name the first of them"),
-        ("--edges 201", "201 is not in the range"),
-        ("", "'--edges'"),
-    ],
-)
-def test_a_list_without_end_is_refused(call: Call, line: str, sentence: str) -> None:
-    done = call(f"world list {line}")
-    assert (done.exit_code, done.stdout) == (2, "")
-    assert sentence in done.stderr
 
 
 @pytest.mark.parametrize(
@@ -218,18 +194,18 @@ def test_a_list_without_end_is_refused(call: Call, line: str, sentence: str) -> 
     ],
 )
 def test_count_gives_the_known_numbers(
-    results: Call, line: str, totals: list[tuple[int, str, int]]
+    results: Results, line: str, totals: list[tuple[int, str, int]]
 ) -> None:
     entries = results(f"world count {line}")["results"]
     assert [(e["edges"], e["class"], e["total"]) for e in entries] == totals
 
 
-def test_count_is_exact_however_many_digits_it_takes(results: Call) -> None:
+def test_count_is_exact_however_many_digits_it_takes(results: Results) -> None:
     (entry,) = results("world count --edges 200")["results"]
     assert entry["total"] == rank_order.count_by_recurrence(200) > 10**400
 
 
-def test_sample_prints_ids_that_other_commands_take(call: Call, results: Call) -> None:
+def test_sample_prints_ids_that_other_commands_take(call: Call, results: Results) -> None:
     done = call("world sample --edges 9 -n 4 --class planar --seed 5")
     ids = done.stdout.split()
     assert len(ids) == 4
@@ -247,7 +223,7 @@ def test_sample_writes_world_files(call: Call, folder: Path) -> None:
     assert [len(World.load(folder / name).edges) for name in names] == [220, 220]
 
 
-def test_sample_draws_from_a_strategy(call: Call, results: Call) -> None:
+def test_sample_draws_from_a_strategy(call: Call, results: Results) -> None:
     strategy = "nonplanar_worlds(genus=2, max_edges=9)"
     line = f"world sample --strategy '{strategy}' -n 3 --seed 0"
     done = call(line)
@@ -260,23 +236,54 @@ def test_sample_draws_from_a_strategy(call: Call, results: Call) -> None:
     assert {entry["strategy"] for entry in envelope["results"]} == {strategy}
 
 
-@pytest.mark.parametrize(
-    ("line", "sentence"),
-    [
-        ("world sample --strategy worlds --edges 3", "--edges beside --strategy"),
-        ("world sample --strategy worlds --class planar", "--class beside --strategy"),
-        ("world sample -n 3", "expected --edges N or --strategy STRATEGY"),
-        ("world sample --strategy nothing", "no such strategy: 'nothing'"),
-        (
-            "world sample --strategy 'worlds(min_edges=300,max_edges=300)'",
-            "with 300 edges has no id",
-        ),
-        ("world sample --strategy 'worlds(min_edges=2,max_edges=1)'", "min_edges=2 is above"),
-    ],
-)
-def test_an_impossible_sample_is_refused_with_the_reason(
-    call: Call, line: str, sentence: str
+# ---------------------------------------------------------------- draw
+
+
+def test_draw_has_the_promised_fields(results: Results, folder: Path) -> None:
+    envelope = results("world draw 'family:king(3,3)' -o king.svg")
+    assert envelope["format"] == "topo-verify/world-draw"
+    assert envelope["results"] == [
+        {
+            "world": "king(3,3)", "file": "king.svg", "layout": "positions", "vertices": 9,
+            "shown": 9, "bridges": 4, "text": None,
+        }
+    ]  # fmt: skip
+    assert (folder / "king.svg").read_text().startswith("<svg ")
+
+
+def test_without_a_file_the_svg_is_printed_and_is_true(call: Call) -> None:
+    picture = read_back.read(call("world draw m3/14 --doors --darts").stdout)
+    assert read_back.untruths(picture, World.from_id("m3/14")) == []
+
+
+def test_doors_and_darts_are_written_beside_the_edges(call: Call) -> None:
+    svg = call("world draw m2/0 --doors").stdout
+    assert svg.count('class="tv-soft"') == 4
+    assert ">0:3<" in call("world draw m2/0 --doors --darts").stdout
+
+
+def test_the_marker_may_be_elsewhere(call: Call) -> None:
+    assert call("world draw m2/0").stdout != call("world draw m2/0 --marker 3").stdout
+
+
+def test_the_part_that_is_shown_of_a_large_world_may_be_around_any_vertex(
+    call: Call, results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    done = call(line)
-    assert done.exit_code == 2
-    assert sentence in done.stderr
+    monkeypatch.setattr(choice, "READABLE", 20)  # it counts as large here
+    monkeypatch.setattr(choice, "LIMIT", 30)
+    line = "world draw family:random_planar(60,seed=1)"
+    (entry,) = results(line)["results"]
+    assert (entry["layout"], entry["shown"] < entry["vertices"]) == ("ball", True)
+    vertices = [f'data-vertex="{vertex}"' for vertex in range(entry["vertices"])]
+    hidden = next(k for k, vertex in enumerate(vertices) if vertex not in entry["text"])
+    assert vertices[hidden] in call(f"{line} --around {hidden}").stdout
+
+
+def test_a_vertex_that_is_not_there_is_refused(call: Call, refused: Refused) -> None:
+    refused("world draw m3/14 --around 99", "--around 99: expected a vertex of the world, 0 … ")
+    assert "shown whole" in call("world draw m3/14 --around 0").stderr
+
+
+@pytest.mark.parametrize("name", ["w.gif", "svg", ""])
+def test_a_name_with_another_ending_is_refused(refused: Refused, name: str) -> None:
+    refused(f"world draw m2/0 -o '{name}'", "expected a name that ends in .svg, .png, .pdf, .html")

@@ -206,9 +206,7 @@ def test_a_mapper_gets_percept_move_and_declare(*, in_process: bool) -> None:
     assert f"events={in_process}" in told
 
 
-def test_what_it_prints_is_marked_on_our_standard_error(
-    capfd: pytest.CaptureFixture[str],
-) -> None:
+def test_what_it_prints_is_marked_on_our_standard_error(capfd: pytest.CaptureFixture[str]) -> None:
     with Foreign("mine.py:chats") as mapper:
         assert examine(mapper.target, WORLD).ok
     out, err = capfd.readouterr()

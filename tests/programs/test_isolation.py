@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from tests.programs.programs import ran
 from topo_verify.programs.isolation import python_command
 
 HIDDEN = "m3/14 is the world"
@@ -37,13 +37,7 @@ except OSError as error:
 def peeped(how: str) -> str:
     """What a child reads in the memory of its parent."""
     size = str(len(HIDDEN))
-    done = subprocess.run(
-        [sys.executable, "-c", HARNESS, how, PEEPS, size],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return done.stdout.strip()
+    return ran("-c", HARNESS, how, PEEPS, size).stdout.strip()
 
 
 def test_a_child_cannot_read_the_memory_of_a_shielded_process() -> None:
@@ -63,9 +57,7 @@ print(library.prctl(PR_GET_DUMPABLE), isolation.shield(), library.prctl(PR_GET_D
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere no process can hide its memory")
 def test_a_shielded_process_is_not_dumpable() -> None:
     """This is what keeps out an ordinary user; root is kept out by the capability it lacks."""
-    command = [sys.executable, "-c", DUMPABLE]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["1", "True", "0"]
+    assert ran("-c", DUMPABLE).stdout.split() == ["1", "True", "0"]
 
 
 LOOKS = """
@@ -80,13 +72,7 @@ def explore(robot):
 def test_no_world_stands_on_the_command_line_that_a_mapper_can_read(tmp_path: Path) -> None:
     (tmp_path / "looks.py").write_text(LOOKS)
     line = "explore m3/14 --algorithm looks.py:explore --format json"
-    done = subprocess.run(
-        [sys.executable, "-m", "topo_verify", *line.split()],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = ran("-m", "topo_verify", *line.split(), cwd=tmp_path)
     assert done.returncode == 1, done.stderr
     assert "LookupError: [b'" in done.stdout
     assert "b'm3/14'" not in done.stdout
@@ -97,7 +83,5 @@ def test_our_own_processes_import_nothing_from_the_current_folder(tmp_path: Path
     for name in ("json", "msgspec"):  # one is imported before our path is set, one after
         (tmp_path / f"{name}.py").write_text(f"raise SystemExit('the wrong {name}')")
     command = python_command("topo_verify.programs.serve:child", "topo_verify.algorithms:nothing")
-    done = subprocess.run(
-        command, cwd=tmp_path, input="", capture_output=True, text=True, check=False
-    )
+    done = ran(*command[1:], cwd=tmp_path, input="")
     assert "has no attribute 'nothing'" in done.stdout, done.stderr

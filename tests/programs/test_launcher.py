@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.programs.programs import ran
 from topo_verify import InputError
 from topo_verify.programs import launcher
 from topo_verify.programs.launcher import launch, prepare
@@ -122,9 +123,7 @@ process.channel.close()
 
 
 def test_a_copy_of_the_process_has_a_launcher_of_its_own() -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", COPIES], capture_output=True, text=True, check=False
-    )
+    done = ran("-c", COPIES)
     assert done.returncode == 0, done.stderr
 
 
@@ -146,25 +145,18 @@ print(*filter(None, [
 """
 
 
-def peeped(process: int) -> str:
-    """What a program of ours can have of a process."""
-    return subprocess.run(
-        [sys.executable, "-c", PEEPS, str(process)], capture_output=True, text=True, check=True
-    ).stdout
-
-
 @LINUX
 def test_a_fork_is_hidden_before_it_has_read_what_it_is_to_do() -> None:
     """Its first moment lasts as long as the test: it waits for a line that does not come."""
     prepare()
     with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as other:
-        if "memory can be had" not in peeped(other.pid):
+        if "memory can be had" not in ran("-c", PEEPS, other.pid).stdout:
             pytest.skip("here no process reads the memory of another")
         other.kill()
     ours, theirs = socket.socketpair()
     with ours, theirs:
         process = launcher._launcher().ask(launcher._START, files=(theirs.fileno(), 2))
-        assert peeped(process) == "\n"
-        assert peeped(launcher._launcher()._process.pid) == "\n"
+        assert ran("-c", PEEPS, process).stdout == "\n"
+        assert ran("-c", PEEPS, launcher._launcher()._process.pid).stdout == "\n"
         os.kill(process, signal.SIGKILL)
         assert launcher._launcher().ask(launcher._WAIT, process) == -signal.SIGKILL

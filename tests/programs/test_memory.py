@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from tests.programs.programs import served
+from tests.programs.programs import ran, served
 
 SCRIPT = """
 import resource, sys
@@ -37,9 +35,7 @@ LEEWAY = 10 * 2**20
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="no /proc here")
 def test_the_memory_of_a_run_of_ten_thousand_worlds_is_flat() -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", SCRIPT, served("basic")], capture_output=True, text=True, check=False
-    )
+    done = ran("-c", SCRIPT, served("basic"))
     assert done.returncode == 0, done.stderr
     tried, grown = map(int, done.stdout.split())
     assert tried == 10_000

@@ -5,19 +5,19 @@ from __future__ import annotations
 import os
 import shlex
 import signal
-import subprocess
 import sys
 import threading
 import time
 import weakref
-from collections.abc import Iterable
+from collections.abc import Generator, Iterable
+from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
 
 import pytest
 
 from tests.helpers import worlds
-from tests.programs.programs import ROOT, misbehaving, python, served
+from tests.programs.programs import ROOT, misbehaving, python, ran, served
 from tests.studies.conform.test_misbehaviour import alive, gone
 from topo_verify import World, examine, explore
 from topo_verify.campaign.targets import target_arguments, target_text, targets
@@ -206,9 +206,7 @@ def test_a_harness_that_is_killed_leaves_no_program_behind(tells: str) -> None:
     deaf = "import time\n" + TELLS.replace("for line in sys.stdin", "for line in [input()]")
     command = shlex.join([sys.executable, "-c", deaf + "sys.stdin.readline()\ntime.sleep(60)\n"])
     assert command not in tells
-    done = subprocess.run(
-        [sys.executable, "-c", KILLED, command], capture_output=True, text=True, check=False
-    )
+    done = ran("-c", KILLED, command)
     assert done.returncode == -signal.SIGKILL, done.stderr
     assert gone(int(done.stdout))
 
@@ -317,13 +315,7 @@ def test_misbehaviour_is_an_exception_that_a_mapper_cannot_swallow() -> None:
 
 def test_serve_says_what_is_wrong_with_its_argument() -> None:
     for arguments, words_ in (([], "usage"), (["no-such"], "no attribute 'NAMED.no-such'")):
-        done = subprocess.run(
-            [sys.executable, "-m", "topo_verify.programs.serve", *arguments],
-            capture_output=True,
-            text=True,
-            check=False,
-            cwd=ROOT,
-        )
+        done = ran("-m", "topo_verify.programs.serve", *arguments, cwd=ROOT)
         assert done.returncode == 1
         assert words_ in done.stderr
 
@@ -346,6 +338,18 @@ def test_the_thread_that_plays_may_run_everywhere_again_after_a_world() -> None:
         for world in ("m2/0", "m3/14"):
             assert explore(World.from_id(world), mapper.target).map is not None
             assert os.sched_getaffinity(0) == PROCESSORS
+
+
+@contextmanager
+def running(code: str) -> Generator[Child]:
+    """A child that runs this Python code; it is ended at the end of the block."""
+    reaper = ReaperProcess()
+    child = Child([sys.executable, "-c", code], reaper)
+    try:
+        yield child
+    finally:
+        child.end()
+        reaper.close()
 
 
 class StandsStill(Stopwatch):
@@ -376,13 +380,8 @@ def test_a_time_in_which_the_harness_did_not_run_is_no_silence_of_a_program(
         return now if now < began + 0.2 else now + 3600
 
     monkeypatch.setattr("topo_verify.robot.stopwatch.monotonic", frozen)
-    reaper = ReaperProcess()
-    program = Child([sys.executable, "-c", "import time; time.sleep(0.5); print('yes')"], reaper)
-    try:
+    with running("import time; time.sleep(0.5); print('yes')") as program:
         assert program.line(seconds=60) == b"yes"
-    finally:
-        program.end()
-        reaper.close()
 
 
 def test_a_program_that_sleeps_is_not_looked_at_in_vain_while_others_want_the_processor(
@@ -395,16 +394,10 @@ def test_a_program_that_sleeps_is_not_looked_at_in_vain_while_others_want_the_pr
         looks.append(0.002)
         time.sleep(0.002)
 
-    reaper = ReaperProcess()
-    program = Child([sys.executable, "-c", "import time; time.sleep(60)"], reaper)
-    try:
+    with running("import time; time.sleep(60)") as program:
         with pytest.raises(Silent):
             program.line(seconds=0.3)  # alone on its processor, it is looked at all the time
         monkeypatch.setattr("os.sched_yield", busy)
         with pytest.raises(Silent):
             program.line(seconds=0.3)
-    finally:
-        program.close_input()
-        program.end()
-        reaper.close()
     assert len(looks) < 50

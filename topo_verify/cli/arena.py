@@ -254,11 +254,7 @@ def _with_walk(
 
 
 def _show(
-    league: League,
-    table: Sequence[LeagueEntry],
-    *,
-    memory: Memory | None,
-    pictures: bool = False,
+    league: League, table: Sequence[LeagueEntry], *, memory: Memory | None, pictures: bool = False
 ) -> Iterator[Block]:
     """A table a suite, what was judged in part, and the mappers without a place."""
     for number, suite in enumerate(league.suites):

@@ -165,11 +165,7 @@ def _texts(text: str) -> list[str]:
 
 
 def _tried(
-    output: Output,
-    study: Conform,
-    backend: Backend,
-    shared: dict[str, Playback],
-    found: FoundRuns,
+    output: Output, study: Conform, backend: Backend, shared: dict[str, Playback], found: FoundRuns
 ) -> Iterator[Result[LevelResult]]:
     """The results of one implementation; after Ctrl-C, those so far.
 

@@ -103,12 +103,7 @@ class ExploreEntry(msgspec.Struct, frozen=True):
 
 
 def explore_result(
-    run: Exploration,
-    at: NamedWorld,
-    report: Report,
-    *,
-    incomplete: bool,
-    gap: bool = False,
+    run: Exploration, at: NamedWorld, report: Report, *, incomplete: bool, gap: bool = False
 ) -> Result[ExploreEntry]:
     """The entry of a judged run, and what it means for the exit code.
 
@@ -276,10 +271,7 @@ def _of_each_dart(
         first = known.get(there.code)
         if first is not None:
             entry = msgspec.structs.replace(
-                first.entry,
-                marker=dart,
-                place=there.vertex_of[dart],
-                same_as=first.entry.marker,
+                first.entry, marker=dart, place=there.vertex_of[dart], same_as=first.entry.marker
             )
             yield replace(first, entry=entry)
             continue

@@ -198,12 +198,7 @@ class Output:
             self.report(_ended(account(done.entries), command, done), ending)
         return done.code
 
-    def _collect(
-        self,
-        done: _Done[E],
-        results: Iterator[Result[E]],
-        live: Live[E] | None,
-    ) -> None:
+    def _collect(self, done: _Done[E], results: Iterator[Result[E]], live: Live[E] | None) -> None:
         """Collect what the command yields until it ends or Ctrl-C ends it."""
         begin = perf_counter()
         try:

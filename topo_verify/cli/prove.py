@@ -135,11 +135,7 @@ class ProveListEntry(msgspec.Struct, frozen=True):
 @click.argument("names", nargs=-1, metavar="[NAME...]")
 @click.option("--list", "listing", is_flag=True, help="List the theorems and prove nothing.")
 @click.option(
-    "--kind",
-    "kinds",
-    multiple=True,
-    type=click.Choice(KINDS),
-    help="Only theorems of this kind.",
+    "--kind", "kinds", multiple=True, type=click.Choice(KINDS), help="Only theorems of this kind."
 )
 @options.number("--edges", least=1, meaning="Bounded theorems only up to worlds of N edges.")
 @click.option(

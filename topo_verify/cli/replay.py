@@ -108,12 +108,7 @@ def replay(  # noqa: PLR0913  an argument an option
         data = _bytes(what)
         if data is not None and _is_trace(data):
             # A trace has its mapper and limits behind it: an option would be ignored in silence.
-            given = {
-                "--target": target,
-                "--cmd": command,
-                "--pick": pick,
-                "--order": order,
-            }
+            given = {"--target": target, "--cmd": command, "--pick": pick, "--order": order}
             words = [name for name, value in given.items() if value is not None]
             _require_none((*words, *limits.options), what)
             report, stopped = _judged(output, what, data, world_text, marker, strict=strict)
@@ -132,10 +127,7 @@ def replay(  # noqa: PLR0913  an argument an option
 
     asked = Extent(0, to_end=True) if everything else Extent(first, to_end=first is not None)
     return output.run(
-        "replay",
-        replayed,
-        lambda entries: _show(entries, reports, asked),
-        in_process=in_process,
+        "replay", replayed, lambda entries: _show(entries, reports, asked), in_process=in_process
     )
 
 

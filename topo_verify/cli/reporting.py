@@ -100,12 +100,7 @@ def report_options(
     @click.option("--junit", metavar="FILE.xml", help="Write a JUnit file, a case a judged thing.")
     @click.option("--badge", metavar="FILE.svg", help="Write a badge: verdict, and of how much.")
     @wraps(command)
-    def wrapper(
-        output: Output,
-        /,
-        *args: P.args,
-        **kwargs: P.kwargs,
-    ) -> int:
+    def wrapper(output: Output, /, *args: P.args, **kwargs: P.kwargs) -> int:
         named: Any = {name: kwargs.pop(name, None) for name in ("report", "junit", "badge")}
         asked = ReportFiles(**named)
         asked.check()
@@ -182,8 +177,5 @@ def _run(ending: Ending, again: str, now: datetime) -> JunitRun:
 
 
 def _versions() -> dict[str, str]:
-    own = {
-        "topo-verify": version(),
-        platform.python_implementation(): platform.python_version(),
-    }
+    own = {"topo-verify": version(), platform.python_implementation(): platform.python_version()}
     return own | {name: metadata.version(name) for name in TAKE_PART}

@@ -208,11 +208,7 @@ def _mappers(
 
 
 def _searched(
-    output: Output,
-    study: Search,
-    found: FoundRuns,
-    *,
-    compare: bool,
+    output: Output, study: Search, found: FoundRuns, *, compare: bool
 ) -> Iterator[Result[SearchEntry]]:
     """The result of one search; after Ctrl-C, of the worlds done so far."""
     campaign = study.campaign

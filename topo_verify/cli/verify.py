@@ -155,9 +155,7 @@ def _head(mappers: Sequence[Target], seed: int, others: Sequence[str]) -> Iterat
 
 
 def _show(
-    head: Iterable[Block],
-    entries: Sequence[Part],
-    end: Callable[[Sequence[Part]], Iterable[Block]],
+    head: Iterable[Block], entries: Sequence[Part], end: Callable[[Sequence[Part]], Iterable[Block]]
 ) -> Iterator[Block]:
     """All parts in one table, then what `_first` and `end` say of them."""
     yield from head
