@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import ast
 import re
-import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+from tests.python import python
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "topo_verify"
@@ -314,9 +315,7 @@ def test_a_peeping_algorithm_is_seen() -> None:
 
 def test_importing_topo_verify_loads_nothing_heavy() -> None:
     code = f"import sys, topo_verify; print([n for n in {HEAVY!r} if n in sys.modules])"
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=ROOT
-    )
+    done = python("-c", code, cwd=ROOT)
     assert done.stdout.strip() == "[]", done.stderr
 
 
@@ -347,7 +346,7 @@ def test_the_campaign_loads_no_player_no_report_and_no_command_line() -> None:
     modules = sorted(name for name in sources() if room_of(name) == "campaign")
     assert "topo_verify.campaign.campaign" in modules
     code = f"import sys, {', '.join(modules)}; print(*sys.modules)"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    run = python("-c", code, check=True)
     loaded = {room_of(name) for name in run.stdout.split() if name.startswith("topo_verify.")}
     assert loaded.isdisjoint({"player", "report", "cli", "studies"})
 

@@ -20,6 +20,7 @@ from zipfile import ZipFile
 import pytest
 
 import topo_verify
+from tests.python import python
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "topo_verify"
@@ -83,14 +84,7 @@ def package_files() -> set[str]:
 
 def run_python(code: str, *, path: Path, cwd: Path) -> subprocess.CompletedProcess[str]:
     """Run a line of Python with `path` ahead of everything that is installed."""
-    return subprocess.run(
-        [sys.executable, "-P", "-c", code],
-        env={**os.environ, "PYTHONPATH": str(path)},
-        cwd=cwd,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    return python("-P", "-c", code, environment={"PYTHONPATH": str(path)}, cwd=cwd)
 
 
 def test_the_wheel_installs_one_top_level_name(built: Built) -> None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 import sys
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -17,6 +16,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from tests.python import python
 from topo_verify import pytest_plugin as plugin
 from topo_verify.checkers import CLAIMS
 
@@ -443,9 +443,7 @@ def test_nothing_heavy_is_imported_until_a_mapper_is_tested(tmp_path: Path) -> N
         f"print('loaded', [name for name in {heavy!r} if name in sys.modules],\n"
         "      'topo_verify.campaign' in sys.modules, 'topo_verify.pytest_plugin' in sys.modules)"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = python("-c", code, cwd=tmp_path)
     assert done.stdout.splitlines()[-1] == "loaded [] False True", done.stdout + done.stderr
 
 

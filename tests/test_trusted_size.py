@@ -10,12 +10,12 @@ What this does not show: that a short function is a plain one. That is for the r
 from __future__ import annotations
 
 import ast
-import io
-import tokenize
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+from benchmarks.size import code_lines
 
 PACKAGE = Path(__file__).resolve().parent.parent / "topo_verify"
 
@@ -73,30 +73,6 @@ def branches(function: ast.AST) -> int:
 def lines(function: Function) -> int:
     """The lines of a function from `def` to its end, docstring and comments included."""
     return (function.end_lineno or function.lineno) - function.lineno + 1
-
-
-def code_lines(source: str) -> int:
-    """The lines of code: those that are neither blank nor a comment nor part of a docstring.
-
-    Every statement that is only a string counts as a docstring, so also the text below a constant.
-    """
-    words = {
-        line
-        for node in ast.walk(ast.parse(source))
-        if isinstance(node, ast.Expr)
-        and isinstance(node.value, ast.Constant)
-        and isinstance(node.value.value, str)
-        for line in range(node.lineno, (node.end_lineno or node.lineno) + 1)
-    }
-    idle = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT}
-    idle.add(tokenize.ENDMARKER)
-    code = {
-        line
-        for token in tokenize.generate_tokens(io.StringIO(source).readline)
-        if token.type not in idle
-        for line in range(token.start[0], token.end[0] + 1)
-    }
-    return len(code - words)
 
 
 def excesses(source: str) -> list[str]:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import runpy
-import subprocess
-import sys
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
@@ -15,6 +13,7 @@ from hypothesis.vendor.pretty import pretty
 import topo_verify
 import topo_verify.algorithms
 from tests.helpers import PAPER, trace_of
+from tests.python import python
 from topo_verify import CATALOGUE, Algorithm
 from topo_verify.algorithms import NAMED, REFERENCE, Policies, algorithm
 from topo_verify.algorithms.basic import NoRule
@@ -84,10 +83,7 @@ def test_the_same_world_gives_the_same_run(name: str) -> None:
 
 
 def test_the_package_refuses_to_be_imported_under_its_short_name() -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", "import algorithms"],
-        cwd=ROOT, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+    done = python("-c", "import algorithms", cwd=ROOT)
     assert "ImportError: this package is topo_verify.algorithms" in done.stderr
 
 

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import shlex
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +13,7 @@ import pytest
 import topo_verify as tv
 from tests.campaign.test_run import WORLD, mistaken, right
 from tests.helpers import EMPTY, path, worlds
+from tests.python import python
 from topo_verify.algorithms import Policies
 from topo_verify.campaign.judge import Report, judge, judge_trace, replay_line, world_argument
 from topo_verify.campaign.targets import one_target
@@ -24,6 +22,8 @@ from topo_verify.errors import InternalError
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.robot.simulator import SimulatedRobot
+
+OURS = {"PYTHONPATH": str(Path(__file__).parents[2])}
 
 
 def test_a_report_says_how_much_of_what_holds() -> None:
@@ -95,10 +95,7 @@ def test_the_replay_line_of_a_script_names_its_file(tmp_path: Path) -> None:
         "if __name__ == '__main__':\n"
         "    print(tv.examine(mapper, tv.World.from_id('m1/0')).findings[0].replay)\n"
     )
-    done = subprocess.run(
-        [sys.executable, "mine.py"], capture_output=True, text=True, check=True, cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
-    )  # fmt: skip
+    done = python("mine.py", check=True, cwd=tmp_path, environment=OURS)
     target = shlex.split(done.stdout)[-1]
     assert Path(target.partition(":")[0]).name == "mine.py"
     found = one_target(f"{tmp_path / target.partition(':')[0]}:mapper")
@@ -119,10 +116,7 @@ def test_where_no_command_finds_the_mapper_again_none_is_shown(
 ) -> None:
     """A notebook has no file. A script with no guard would do its work again when it is loaded."""
     (tmp_path / "script.py").write_text(SESSION)
-    done = subprocess.run(
-        [sys.executable, *words], input=SESSION, capture_output=True, text=True, check=True,
-        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
-    )  # fmt: skip
+    done = python(*words, input=SESSION, check=True, cwd=tmp_path, environment=OURS)
     assert done.stdout == "[''] False\n"
 
 

@@ -19,6 +19,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from tests.python import python
 from tests.studies.search.searching import shards_in
 from topo_verify import InputError, Limits
 from topo_verify.campaign import backend
@@ -405,9 +406,7 @@ def test_two_searches_do_not_share_a_store() -> None:
     with opened():
         with pytest.raises(InputError, match=words), opened():
             pass
-        second = subprocess.run(
-            [sys.executable, "-c", SEARCHER], capture_output=True, text=True, check=False
-        )
+        second = python("-c", SEARCHER)
     assert words in second.stderr
 
 

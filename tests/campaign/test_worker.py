@@ -6,13 +6,13 @@ import ctypes
 import json
 import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 from time import monotonic
 
 import pytest
 
+from tests.python import python
 from topo_verify import InputError
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.work import Work
@@ -41,14 +41,8 @@ def test_a_mapper_that_tries_from_its_first_line_on_gets_hold_of_no_worker(
         "search intruder.py:explore --edges 2 --workers 1 --format json"
         " --move-timeout 60 --world-timeout 120"  # each worker waits until it was tried
     )
-    done = subprocess.run(
-        [sys.executable, "-m", "topo_verify", *line.split()],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-        preexec_fn=None if privileged else unprivileged,
-    )
+    deed = None if privileged else unprivileged
+    done = python("-m", "topo_verify", *line.split(), cwd=tmp_path, preexec_fn=deed)
     assert not (tmp_path / "opened").exists(), (tmp_path / "opened").read_text()
     refused = set((tmp_path / "refused").read_text().split())
     assert len(refused) >= 4, "the search, what starts workers, and both workers were tried"

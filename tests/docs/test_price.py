@@ -6,12 +6,11 @@ import csv
 import re
 import shlex
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
+from tests.python import python
 from topo_verify import explore
 from topo_verify.world.resolve import resolve_world
 
@@ -27,9 +26,7 @@ def test_a_table_is_what_its_command_prints(command: str, tmp_path: Path) -> Non
     place = words.index("--runs") + 1
     runs, words[place] = ROOT / words[place], str(tmp_path / "runs.csv")
     shutil.copy(runs, words[place])
-    done = subprocess.run(
-        [sys.executable, ROOT / script, *words], capture_output=True, text=True, check=True
-    )
+    done = python(ROOT / script, *words, check=True)
     printed = done.stdout.splitlines()
     assert len(printed) >= 3
     assert [line for line in printed if line not in PAGE.splitlines()] == []
@@ -54,21 +51,8 @@ def printed_ratio(lines: list[str], tmp_path: Path, *more: str) -> str:
     """What the script prints of these runs of a family of one mapper: the last cell of a row."""
     runs = tmp_path / "runs.csv"
     runs.write_text("\n".join(["family,seed,mapper,m,least,cost,ms", *lines]) + "\n")
-    words = [
-        "--families",
-        "none",
-        "--also",
-        "king(2,2)",
-        "--seeds",
-        "3",
-        "--runs",
-        str(runs),
-        *more,
-    ]
-    script = ROOT / "benchmarks" / "price.py"
-    done = subprocess.run(
-        [sys.executable, script, *words], capture_output=True, text=True, check=True
-    )
+    words = ["--families", "none", "--also", "king(2,2)", "--seeds", "3", "--runs", str(runs)]
+    done = python(ROOT / "benchmarks" / "price.py", *words, *more, check=True)
     return done.stdout.splitlines()[-1].split("|")[-2].strip()
 
 

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.python import python
+
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "property_test"
 PYTEST = [
@@ -53,10 +55,5 @@ def test_it_fails_with_the_world_that_the_page_says(
 
 def test_the_other_test_of_the_page_passes() -> None:
     source = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)[1]
-    done = subprocess.run(
-        [sys.executable, "-c", f"{source}\ntest_no_algorithm_is_cheaper_than_a_proof()"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = python("-c", f"{source}\ntest_no_algorithm_is_cheaper_than_a_proof()")
     assert done.returncode == 0, done.stderr

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections import Counter
 from pathlib import Path
 
 import pytest
 
+from tests.python import python
 from topo_verify.checkers import CLAIMS
 from topo_verify.errors import InputError
 from topo_verify.proofs.catalogue import catalogue, choose
@@ -57,5 +56,5 @@ def test_no_such_theorem_is_refused_with_what_comes_near() -> None:
 
 def test_the_package_alone_loads_no_solver() -> None:
     code = "import topo_verify, topo_verify.cli, sys; print('z3' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = python("-c", code, check=True)
     assert done.stdout.strip() == "False"

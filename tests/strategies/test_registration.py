@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 from hypothesis import find, settings
 from hypothesis import strategies as st
 
+from tests.python import python
 from topo_verify import World
 from topo_verify.strategies import registration
 
 
 def printed(code: str) -> str:
     """What a fresh Python prints that runs this code, warnings being errors."""
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=True
-    )
-    return done.stdout.strip()
+    return python("-W", "error", "-c", code, check=True).stdout.strip()
 
 
 def test_worlds_are_drawn_wherever_a_world_is_annotated() -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Callable
 from itertools import combinations
 from math import atan2, pi
@@ -14,6 +12,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from tests.python import python
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.resolve import resolve_world
@@ -90,16 +89,7 @@ def test_hashing_does_not_change_what_is_drawn() -> None:
         "from topo_verify.world import families as f;"
         "print(f.regular(30, 5, holes=0.2, seed=1).to_json(), f.dense(20, 0.3).to_json())"
     )
-    runs = [
-        subprocess.run(
-            [sys.executable, "-c", code],
-            env={"PYTHONHASHSEED": seed},
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        for seed in ("0", "1")
-    ]
+    runs = [python("-c", code, environment={"PYTHONHASHSEED": seed}) for seed in ("0", "1")]
     assert runs[0].stdout == runs[1].stdout != ""
 
 
