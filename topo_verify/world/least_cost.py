@@ -32,7 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import accumulate, chain
 from typing import TYPE_CHECKING
 
@@ -118,6 +118,7 @@ class BreadthFirstTree:
         return tuple(doors)
 
 
+@lru_cache(maxsize=4)  # a run and its row ask for it, of every mapper in a world
 def least_cost(table: Table) -> int:
     """The least cost LB, in edge traversals, of the world with this canonical code. O(m)."""
     tree = BreadthFirstTree(table)
