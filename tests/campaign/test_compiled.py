@@ -11,6 +11,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from tests.compiled.plain import plain as plain_kernel
 from tests.studies.search.searching import search_of, searched
 from topo_verify import CATALOGUE, Exploration, InputError, InternalError, Limits, explore
 from topo_verify.campaign import compiled as shards
@@ -25,7 +26,7 @@ from topo_verify.campaign.store import Store
 from topo_verify.campaign.tally import Tally
 from topo_verify.campaign.targets import targets
 from topo_verify.checkers import CLAIMS
-from topo_verify.compiled.judging.layout import J_COST, J_DOORS_HASH, J_OF, J_STATUS, STATUSES
+from topo_verify.compiled.judging.layout import STATUSES
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
@@ -304,55 +305,56 @@ def uncompiled(monkeypatch: pytest.MonkeyPatch, fault: Callable[..., int]) -> No
     """
 
     def plain_function(function: Any, _layout: object) -> Any:
-        return function
+        return plain_kernel(function)
 
-    def enters(j: Any, c: Any, t: Any, wrong: int) -> None:
-        enter(j, c, t, fault(j, c, wrong, t[0, tally.T_WORLDS] + 1))
+    def enters(case: Any, control: Any, t: Any, wrong: int) -> None:
+        enter(case, control, t, fault(case, control, wrong, t[0, tally.T_WORLDS] + 1))
 
     enter = tally.enter
     monkeypatch.setattr(tally, "enter", enters)
     monkeypatch.setattr(engine, "compiled", plain_function)
 
 
-def counts_too_much(j: Any, _c: Any, _wrong: int, worlds: int) -> int:
+def counts_too_much(case: Any, _control: Any, _wrong: int, worlds: int) -> int:
     """Right in the first world of every walk, like a range of one world."""
     if worlds > 1:
-        j[J_COST] += 100_000
-        j[J_STATUS : J_STATUS + len(CLAIMS)] = 0
+        case.cost += 100_000
+        for k in range(len(CLAIMS)):
+            case.status[k] = 0
     return 0
 
 
-def counts_too_little(j: Any, _c: Any, wrong: int, worlds: int) -> int:
-    j[J_COST] -= worlds > 1
+def counts_too_little(case: Any, _control: Any, wrong: int, worlds: int) -> int:
+    case.cost -= worlds > 1
     return wrong
 
 
-def forgets_a_verdict(j: Any, _c: Any, wrong: int, worlds: int) -> int:
+def forgets_a_verdict(case: Any, _control: Any, wrong: int, worlds: int) -> int:
     if worlds > 1:
-        j[J_STATUS + list(CLAIMS).index("no-false-confirm")] = STATUSES.index("not-declared")
+        case.status[list(CLAIMS).index("no-false-confirm")] = STATUSES.index("not-declared")
     return wrong
 
 
-def forgets_a_share(j: Any, _c: Any, wrong: int, worlds: int) -> int:
-    j[J_OF + list(CLAIMS).index("rejection-justified")] += worlds > 1
+def forgets_a_share(case: Any, _control: Any, wrong: int, worlds: int) -> int:
+    case.of[list(CLAIMS).index("rejection-justified")] += worlds > 1
     return wrong
 
 
-def takes_another_door(j: Any, _c: Any, wrong: int, worlds: int) -> int:
-    j[J_DOORS_HASH] += worlds > 1
+def takes_another_door(case: Any, _control: Any, wrong: int, worlds: int) -> int:
+    case.doors_hash += worlds > 1
     return wrong
 
 
-def fails_a_claim(_j: Any, _c: Any, wrong: int, worlds: int) -> int:
+def fails_a_claim(_case: Any, _control: Any, wrong: int, worlds: int) -> int:
     return wrong | 1 if worlds > 1 else wrong
 
 
-def makes_no_mistake(_j: Any, _c: Any, wrong: int, _worlds: int) -> int:
+def makes_no_mistake(_case: Any, _control: Any, wrong: int, _worlds: int) -> int:
     return wrong
 
 
-def makes_no_pause(_j: Any, c: Any, wrong: int, _worlds: int) -> int:
-    c[tally.C_PAUSE] = 0
+def makes_no_pause(_case: Any, control: Any, wrong: int, _worlds: int) -> int:
+    control.pause = 0
     return wrong
 
 

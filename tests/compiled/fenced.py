@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from itertools import pairwise
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -20,12 +19,10 @@ from topo_verify.compiled.explore import KERNELS, place_world, workspace
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.judging import layout as judging
 from topo_verify.compiled.kernel import F, kernel, module_source
-from topo_verify.compiled.workspace import CAPACITIES, FIELDS, SMALL
+from topo_verify.compiled.workspace import CAPACITIES, RUN, SMALL
 
 JUDGE_CAPACITIES = {
-    name: size
-    for name, size in vars(judging).items()
-    if name.startswith("JUDGE_") and name != "JUDGE_SIZE"
+    name: size for name, size in judging.JUDGE_CAPACITIES.items() if name != "JUDGE_SLOTS"
 }
 
 ENDLESS = 5_000_000
@@ -97,17 +94,17 @@ def run_within(
     place_world(words, SMALL, world)
     fences = (
         range(at(one.name) + capacities[one.capacity], at(one.name) + CAPACITIES[one.capacity])
-        for one in FIELDS
+        for one in RUN.all
         if one.capacity in capacities
     )
     space = Fenced(words.tolist(), fences)
-    space[at("RULE")], space[at("MOTION")] = KERNELS[algorithm]
-    space[at("FAULT")] = PLANTED[fault][0] if fault else 0
-    space[at("BUDGET")] = world.cost_bound if budget is None else budget
-    space[at("TRACING")], space[at("ROOM")] = 1, room
+    space[at("task.rule")], space[at("task.motion")] = KERNELS[algorithm]
+    space[at("task.fault")] = PLANTED[fault][0] if fault else 0
+    space[at("task.budget")] = world.cost_bound if budget is None else budget
+    space[at("task.tracing")], space[at("task.room")] = 1, room
     _kernel("explore", capacities, faults=bool(fault))(space)
-    trace = at("TR")
-    return space[at("STOP")], tuple(space[trace + i] for i in range(space[at("NTR")]))
+    trace = at("trace.word")
+    return space[at("stop")], tuple(space[trace + i] for i in range(space[at("trace.size")]))
 
 
 # ---------------------------------------------------------------- verdicts
@@ -116,7 +113,8 @@ def run_within(
 def judged_within(capacities: Mapping[str, int], run: Run) -> Judged | None:
     """What the judge with these capacities says of a run; None: the verdict is open."""
     words = Fenced([0] * judging.JUDGE_SIZE, _judge_fences(capacities))
-    return by_judge(run, judge=_kernel("judge", capacities), words=words)
+    judge = _kernel("judge", capacities)
+    return by_judge(run, judge=lambda space, case: judge(space.array, case.array), words=words)
 
 
 def _judge_fences(capacities: Mapping[str, int]) -> Iterator[range]:
@@ -128,10 +126,6 @@ def _judge_fences(capacities: Mapping[str, int]) -> Iterator[range]:
 
 def _judge_offsets(capacities: Mapping[str, int]) -> list[int]:
     """Where each field would begin, and the last one end, with these capacities."""
-    text = Path(judging.__file__).read_text()
-    for name, size in capacities.items():
-        text = text.replace(f"{name} = {JUDGE_CAPACITIES[name]}\n", f"{name} = {size}\n")
-    module: dict[str, Any] = {}
-    exec(text, module)  # noqa: S102  the text of layout.py
-    fields = ("J_", "F_", "C_", "S_", "JUDGE_SIZE")
-    return [offset for name, offset in module.items() if name.startswith(fields)]
+    sizes = {**judging.CASE.capacities, **capacities}
+    sizes["JUDGE_SLOTS"] = sizes["JUDGE_DOORS"] // 4
+    return list(judging.CASE.offsets(sizes).values())

@@ -93,56 +93,59 @@ def by_checkers(run: Run) -> Judged:
     return as_judged(check(world, events, None if run.map is not None else "it was stopped"))
 
 
-_J = [0] * layout.JUDGE_SIZE
+_CASE = [0] * layout.JUDGE_SIZE
 
 
 def by_judge(
     run: Run,
     *,
-    judge: Callable[[list[int], list[int]], int] | None = None,
-    words: list[int] = _J,
+    judge: Callable[[ws.RunWords, layout.CaseWords], int] | None = None,
+    words: list[int] = _CASE,
 ) -> Judged | None:
     """What the kernels of the judge say of a run, as plain Python; None: the verdict is open.
 
     Args:
         judge: another judge than `verdict.judge`; `words` is its array.
     """
-    W, J = workspace_of(run), words  # noqa: N806  the names of the kernels
-    J[layout.J_DARTS], J[layout.J_VERTICES] = len(run.world.alpha), len(run.world.degrees)
-    J[layout.J_BOUND], J[layout.J_LEVEL] = run.world.cost_bound, layout.CLAIM_COUNT
-    J[layout.J_DELIVERED], J[layout.J_REPORTED] = (
-        run.map is not None,
-        -1 if run.cost is None else run.cost,
-    )
-    if (judge or verdict.judge)(W, J) < 0:
+    case = layout.CaseWords(words)
+    case.darts, case.vertices = len(run.world.alpha), len(run.world.degrees)
+    case.bound, case.level = run.world.cost_bound, layout.CLAIM_COUNT
+    case.delivered = run.map is not None
+    case.reported = -1 if run.cost is None else run.cost
+    if (judge or verdict.judge)(workspace_of(run), case) < 0:
         return None
     return tuple(
-        (layout.STATUSES[J[layout.J_STATUS + k]], J[layout.J_JUDGED + k], J[layout.J_OF + k])
+        (layout.STATUSES[case.status[k]], case.judged[k], case.of[k])
         for k in range(layout.CLAIM_COUNT)
     )
 
 
-def workspace_of(run: Run) -> list[int]:
+def workspace_of(run: Run) -> ws.RunWords:
     """The workspace that the judge reads: the world, the trace and the map."""
-    W = [0] * (ws.TR + len(run.events))  # noqa: N806  the name of the kernels
-    W[ws.TR :], W[ws.NTR] = run.events, len(run.events)
+    end = ws.SMALL.at("trace.word")
+    words = [0] * (end + len(run.events))
+    words[end:] = run.events
+    space = ws.RunWords(words)
+    space.trace.size = len(run.events)
     degrees, alpha = run.world.code
     first = 0
     for v, degree in enumerate(degrees):
-        W[ws.ST + v], W[ws.DG + v] = first, degree
-        W[ws.VT + first : ws.VT + first + degree] = [v] * degree
+        space.world.first[v], space.world.degree[v] = first, degree
+        for dart in range(first, first + degree):
+            space.world.vertex[dart], space.world.alpha[dart] = v, alpha[dart]
         first += degree
-    W[ws.AL : ws.AL + len(alpha)] = alpha
     if run.map is not None:
-        W[ws.NV], W[ws.NDARTS] = len(run.map.vertices), sum(map(len, run.map.vertices))
-        W[ws.CA : ws.CA + W[ws.NDARTS]] = [-1] * W[ws.NDARTS]
+        chart = space.chart
+        chart.vertices, chart.darts = len(run.map.vertices), sum(map(len, run.map.vertices))
+        for dart in range(chart.darts):
+            chart.alpha[dart] = -1
         for v, darts in enumerate(run.map.vertices):
-            W[ws.CF + v], W[ws.CD + v] = darts[0] if darts else 0, len(darts)
+            chart.first[v], chart.degree[v] = darts[0] if darts else 0, len(darts)
             for dart in darts:
-                W[ws.CV + dart] = v
+                chart.vertex[dart] = v
         for one, other in run.map.edges:
-            W[ws.CA + one], W[ws.CA + other] = other, one
-    return W
+            chart.alpha[one], chart.alpha[other] = other, one
+    return space
 
 
 # ---------------------------------------------------------------- doctored traces

@@ -44,7 +44,7 @@ def test_the_digest_depends_on_every_word_and_on_their_order() -> None:
     job = CompiledJob(world, "enhancement-ii", trace=True, budget=world.cost_bound, fault="")
     space = job.run(SMALL, CAPACITIES["TRACE"])
     hashed = compiled(digest, SMALL)
-    start, length = SMALL.at("TR"), int(space[SMALL.at("NTR")])
+    start, length = SMALL.at("trace.word"), int(space[SMALL.at("trace.size")])
     seen = {hashed(space)}
     for at in range(start, start + length):
         space[at] += 1

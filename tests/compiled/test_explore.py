@@ -54,7 +54,7 @@ def test_a_run_that_fills_the_small_layout_is_made_in_the_large_one(
         space = run(job, layout, room)
         used.append(layout.name)
         if layout is workspace.SMALL:
-            space[layout.at("STOP")] = workspace.STOP_FULL + workspace.FULL_CHART
+            space[layout.at("stop")] = workspace.STOP_FULL + workspace.FULL_CHART
         return space
 
     monkeypatch.setattr(explore.CompiledJob, "run", full)

@@ -11,7 +11,7 @@ from tests.compiled.twins import difference
 from topo_verify import World, worlds
 from topo_verify.compiled.explore import CompiledJob, run_world
 from topo_verify.compiled.faults import PLANTED
-from topo_verify.compiled.workspace import CAPACITIES, FAULTY, FIELDS, WordLayout
+from topo_verify.compiled.workspace import CAPACITIES, FAULTY, RUN, WordLayout
 from topo_verify.faults import FAULTS
 
 FIRST = {
@@ -81,7 +81,7 @@ def test_a_mistake_is_seen_as_a_difference_from_the_reference() -> None:
 def beyond_its_fields(space: Sequence[int], layout: WordLayout) -> list[str]:
     """The fields beyond whose end something was written."""
     sizes = {**layout.constants, "": 1}
-    ends = {one.name: layout.at(one.name) + sizes[one.capacity] for one in FIELDS}
+    ends = {one.name: layout.at(one.name) + sizes[one.capacity] for one in RUN.all}
     return [name for name, end in ends.items() if end < len(space) and space[end] != 0]
 
 
@@ -91,10 +91,10 @@ def test_a_wrong_mapper_writes_nothing_beyond_a_field(name: str) -> None:
     for world in islice(worlds(edges=5), 0, None, 200):
         job = CompiledJob(world, algorithm, trace=True, budget=world.cost_bound, fault=name)
         space = job.run(FAULTY, CAPACITIES["TRACE"])
-        assert beyond_its_fields(space[: FAULTY.at("TR")].tolist(), FAULTY) == []
+        assert beyond_its_fields(space[: FAULTY.at("trace.word")].tolist(), FAULTY) == []
 
 
 def test_what_is_written_beyond_a_field_is_seen() -> None:
-    space = [0] * FAULTY.at("TR")
-    space[FAULTY.at("PP") + FAULTY.at("CHART_DARTS")] = 7
-    assert beyond_its_fields(space, FAULTY) == ["PP"]
+    space = [0] * FAULTY.at("trace.word")
+    space[FAULTY.at("excursion.percept") + FAULTY.constants["CHART_DARTS"]] = 7
+    assert beyond_its_fields(space, FAULTY) == ["excursion.percept"]

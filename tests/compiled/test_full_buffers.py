@@ -84,7 +84,7 @@ def test_a_run_that_fills_the_largest_layout_is_refused_in_words(
 ) -> None:
     def full(_job: explore.CompiledJob, layout: workspace.WordLayout, room: int) -> Any:
         space = explore.workspace(layout, room)
-        space[layout.at("STOP")] = ws.STOP_FULL + reason
+        space[layout.at("stop")] = ws.STOP_FULL + reason
         return space
 
     monkeypatch.setattr(explore.CompiledJob, "run", full)
@@ -137,32 +137,32 @@ def test_every_capacity_of_the_judge_has_a_run_that_fills_it() -> None:
 # ---------------------------------------------------------------- kernels by themselves
 
 
-def square() -> list[int]:
+def square() -> layout.CaseWords:
     """A judge's fold of four crossings, of which 0 leads to 2, and 1 to 3."""
-    J = fold_of((2, 2, 2, 2))  # noqa: N806  the name of the kernels
-    fold.join_ends(J, 0, 0, 2, 0)
-    fold.join_ends(J, 1, 0, 3, 0)
-    return J
+    case = layout.CaseWords(fold_of((2, 2, 2, 2)))
+    fold.join_ends(case.fold, 0, 0, 2, 0)
+    fold.join_ends(case.fold, 1, 0, 3, 0)
+    return case
 
 
 def test_the_fold_of_a_run_has_no_room_for_more_pairs_than_darts() -> None:
     words = workspace.CAPACITIES["PLACE_DARTS"]
     for room, stop in ((words - 2, 0), (words - 1, ws.STOP_FULL + ws.FULL_PLACES)):
-        space = [0] * ws.SMALL.at("TR")
+        space = ws.RunWords([0] * ws.SMALL.at("trace.word"))
         start_fold(space)
         a, b, c, d = (add_place(space, 2 * ws.P, 0) for _ in range(4))
         join_places(space, a, c)
         join_places(space, b, d)
         assert lay(space, a, b, room, 0) == (room if stop else room + 2)
-        assert space[workspace.STOP] == stop
+        assert space.stop == stop
 
 
 def test_the_fold_of_the_judge_has_no_room_for_more_pairs(monkeypatch: pytest.MonkeyPatch) -> None:
     for doors, is_full in ((8, 0), (7, 1)):
-        J = square()  # noqa: N806  (the same)
+        case = square()
         monkeypatch.setattr(fold, "JUDGE_DOORS", doors)
-        fold.make_one(J, 0, 0, 1, 0)
-        assert J[layout.J_FULL] == is_full
+        fold.make_one(case.fold, 0, 0, 1, 0)
+        assert case.full == is_full
 
 
 def test_a_fold_with_more_darts_than_a_mask_is_not_laid_out() -> None:
@@ -171,24 +171,26 @@ def test_a_fold_with_more_darts_than_a_mask_is_not_laid_out() -> None:
 
 
 def test_s_on_the_fold_has_no_more_darts_than_a_mask() -> None:
-    J = fold_of((32, 33))  # noqa: N806  (the same)
+    case = layout.CaseWords(fold_of((32, 33)))
     for node, added, is_full in ((0, True, 0), (0, True, 0), (0, False, 1)):
-        assert entailed.add_vertex_on_fold(J, node, 0) is added
-        assert J[layout.J_FULL] == is_full
+        assert entailed.add_vertex_on_fold(case, node, 0) is added
+        assert case.full == is_full
 
 
 def test_what_follows_has_no_room_for_more_ends_or_pairs() -> None:
     most = JUDGE_CAPACITIES["JUDGE_DOORS"]
-    for field, full in ((layout.C_ENTRIES, most), (layout.C_WAITING, most - 1)):
+    for field, full in (("entries", most), ("waiting", most - 1)):
         for number, is_full in ((full - 1, 0), (full, 1)):
-            J = square()  # noqa: N806  (the same)
-            consequences.start_consequences(J)
-            J[field] = number
+            case = square()
+            consequences.start_consequences(case)
+            setattr(case.consequences, field, number)
             for node in (2, 3):  # the second end behind a dart is one with the first
                 consequences.put_beyond(
-                    J, consequences.slot_at(J, 0, 1), consequences.slot_at(J, node, 1)
+                    case,
+                    consequences.slot_at(case.fold, 0, 1),
+                    consequences.slot_at(case.fold, node, 1),
                 )
-            assert J[layout.J_FULL] == is_full
+            assert case.full == is_full
 
 
 # ---------------------------------------------------------------- the fences

@@ -15,36 +15,35 @@ pytest.importorskip("numba", reason="the compiled engine needs numba")
 from tests.compiled.judged import plant, sampled
 from topo_verify import InputError, World
 from topo_verify.compiled.judging import fold, layout
+from topo_verify.compiled.judging.layout import FoldWords
 from topo_verify.compiled.workspace import P
 from topo_verify.robot.events import MapData
 
 
-def fold_of(degrees: tuple[int, ...]) -> list[int]:
+def fold_of(degrees: tuple[int, ...]) -> FoldWords:
     """A fold with nodes of these degrees, all darts open, none with the marker."""
-    J = [0] * layout.JUDGE_SIZE  # noqa: N806  the name of the kernels
-    fold.start_judge_fold(J, degrees[0] * P)
+    seen = FoldWords([0] * layout.JUDGE_SIZE)
+    fold.start_judge_fold(seen, degrees[0] * P)
     for degree in degrees[1:]:
-        fold.visit(J, degree * P)
-    return J
+        fold.visit(seen, degree * P)
+    return seen
 
 
-def known(J: list[int]) -> tuple[object, ...]:  # noqa: N803  the name of the kernels
+def known(seen: FoldWords) -> tuple[object, ...]:
     """Everything that the fold says: who stands for whom, and the ends of the doors."""
-    nodes, doors = range(J[layout.F_NODES]), range(J[layout.F_DOORS])
-    ends = [J[layout.F_END_NODE + d] for d in doors]
-    darts = [J[layout.F_END_DART + d] for d in doors if ends[d] >= 0]
-    rows = (
-        [J[row + n] for n in nodes] for row in (layout.F_PARENT, layout.F_OFFSET, layout.F_WEIGHT)
-    )
-    return J[layout.F_UNDOS], ends, darts, *rows
+    nodes, doors = range(seen.nodes), range(seen.doors)
+    ends = [seen.end_node[d] for d in doors]
+    darts = [seen.end_dart[d] for d in doors if ends[d] >= 0]
+    rows = ([row[n] for n in nodes] for row in (seen.parent, seen.offset, seen.weight))
+    return seen.undos, ends, darts, *rows
 
 
-def draw_changes(J: list[int], draw: Random, number: int) -> None:  # noqa: N803  (the same)
+def draw_changes(seen: FoldWords, draw: Random, number: int) -> None:
     """Make places one and join ends, as the dice fall, contradictions and all."""
     for _ in range(number):
-        a, b = (draw.randrange(J[layout.F_NODES]) for _ in range(2))
-        i, j = (draw.randrange(J[layout.F_DEGREE + node]) for node in (a, b))
-        draw.choice([fold.make_one, fold.join_ends, fold.join_ends])(J, a, i, b, j)
+        a, b = (draw.randrange(seen.nodes) for _ in range(2))
+        i, j = (draw.randrange(seen.degree[node]) for node in (a, b))
+        draw.choice([fold.make_one, fold.join_ends, fold.join_ends])(seen, a, i, b, j)
 
 
 def not_restored() -> list[int]:
@@ -52,12 +51,12 @@ def not_restored() -> list[int]:
     wrong: list[int] = []
     for seed in range(60):
         draw = Random(seed)
-        J = fold_of(tuple(draw.choice([2, 3, 3]) for _ in range(8)))  # noqa: N806  (the same)
-        draw_changes(J, draw, 3)
-        before, mark = known(J), J[layout.F_UNDOS]
-        draw_changes(J, draw, 4)
-        fold.roll_back(J, mark)
-        if known(J) != before:
+        seen = fold_of(tuple(draw.choice([2, 3, 3]) for _ in range(8)))
+        draw_changes(seen, draw, 3)
+        before, mark = known(seen), seen.undos
+        draw_changes(seen, draw, 4)
+        fold.roll_back(seen, mark)
+        if known(seen) != before:
             wrong.append(seed)
     return wrong
 
@@ -88,15 +87,15 @@ def is_planar_with_leaves(world: World, opened: set[int]) -> bool | None:
 
 def says_planar(world: World, opened: set[int]) -> bool:
     """What the kernel says of this map."""
-    J = fold_of(world.degrees)  # noqa: N806  (the same)
+    seen = fold_of(world.degrees)
     for dart, other in enumerate(world.alpha):
         if dart not in opened:
             vertex, end = world.vertex_of[dart], world.vertex_of[other]
             first, end_first = world.vertices[vertex][0], world.vertices[end][0]
-            fold.put_end(J, vertex, dart - first, end, other - end_first)
-    assert J[layout.F_BASE] == 0
-    assert fold.lay_out(J) == len(opened)
-    return fold.is_planar_fold(J)
+            fold.put_end(seen, vertex, dart - first, end, other - end_first)
+    assert seen.base[0] == 0
+    assert fold.lay_out(seen) == len(opened)
+    return fold.is_planar_fold(seen)
 
 
 def test_what_is_rolled_back_is_as_it_was() -> None:
@@ -113,24 +112,24 @@ def test_the_face_test_says_what_the_genus_says() -> None:
         (not_restored, "roll_back", "while at > mark:", "while at > mark + 1:"),
         (not_restored, "roll_back", "= -1", "= 0"),
         (not_restored, "roll_back", "(change >> 1)] = -1", "(change >> 2)] = -1"),
-        (not_restored, "roll_back", "-= J[F_WEIGHT + node]", "-= 1"),
-        (not_restored, "roll_back", "J[F_PARENT + node] = node", "pass"),
-        (not_restored, "roll_back", "J[F_OFFSET + node] = 0", "pass"),
-        (not_restored, "roll_back", "J[F_UNDOS] = at", "pass"),
-        (not_restored, "put_end", "J[F_UNDOS] += 1", "pass"),
-        (not_restored, "make_one", "J[F_UNDO + J[F_UNDOS]] = 2 * a", "pass"),
+        (not_restored, "roll_back", "-= fold.weight[node]", "-= 1"),
+        (not_restored, "roll_back", "fold.parent[node] = node", "pass"),
+        (not_restored, "roll_back", "fold.offset[node] = 0", "pass"),
+        (not_restored, "roll_back", "fold.undos = at", "pass"),
+        (not_restored, "put_end", "fold.undos += 1", "pass"),
+        (not_restored, "make_one", "fold.undo[fold.undos] = 2 * a", "pass"),
         (misjudged, "is_planar_fold", "vertices += 1", "vertices += 2"),
         (misjudged, "is_planar_fold", "open_darts += 1", "open_darts += 2"),
         (misjudged, "is_planar_fold", "faces += 1", "faces = 1"),
-        (misjudged, "is_planar_fold", "if J[F_ALPHA + at] >= 0:", "if J[F_ALPHA + at] > 0:"),
-        (misjudged, "is_planar_fold", "at = J[F_ALPHA + at]", "pass"),
-        (misjudged, "is_planar_fold", "at = J[F_NUMBER + node]", "at = 0"),
-        (misjudged, "is_planar_fold", "+ J[F_DEGREE + node]:", "+ 2:"),
-        (misjudged, "is_planar_fold", "(J[F_SIZE] + open_darts) // 2", "J[F_SIZE] // 2"),
+        (misjudged, "is_planar_fold", "if fold.alpha[at] >= 0:", "if fold.alpha[at] > 0:"),
+        (misjudged, "is_planar_fold", "at = fold.alpha[at]", "pass"),
+        (misjudged, "is_planar_fold", "at = fold.number[node]", "at = 0"),
+        (misjudged, "is_planar_fold", "+ fold.degree[node]:", "+ 2:"),
+        (misjudged, "is_planar_fold", "(fold.size + open_darts) // 2", "fold.size // 2"),
         (misjudged, "is_planar_fold", "faces == 2", "faces <= 2"),
-        (misjudged, "lay_out", "J[F_NUMBER + end] + end_dart", "J[F_NUMBER + end]"),
-        (misjudged, "lay_out", "+ dart - J[F_NUMBER + node]", "+ dart"),
-        (misjudged, "lay_out", "J[F_NUMBER + node] = size", "J[F_NUMBER + node] = 0"),
+        (misjudged, "lay_out", "fold.number[end] + end_dart", "fold.number[end]"),
+        (misjudged, "lay_out", "+ dart - fold.number[node]", "+ dart"),
+        (misjudged, "lay_out", "fold.number[node] = size", "fold.number[node] = 0"),
     ],
 )
 def test_a_mistake_in_the_fold_is_seen(

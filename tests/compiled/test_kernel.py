@@ -21,6 +21,7 @@ from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.events import digest
 from topo_verify.compiled.explore import KERNELS, place_world, run_world, workspace
 from topo_verify.compiled.kernel import compiled, module_source
+from topo_verify.compiled.names import Words
 from topo_verify.errors import InputError
 
 
@@ -52,20 +53,21 @@ def test_every_index_is_unsigned() -> None:
 def test_every_layout_has_its_own_constants() -> None:
     sources = {one.name: module_source(one) for one in (ws.SMALL, ws.FAULTY, ws.LARGE)}
     for one in (ws.SMALL, ws.FAULTY, ws.LARGE):
-        assert f"\nTR = {one.at('TR')}\n" in sources[one.name]
+        assert f"\nW_TRACE_WORD = {one.at('trace.word')}\n" in sources[one.name]
     assert "\nFAULTS = 0\n" in sources["small"]
     assert "\nFAULTS = 1\n" in sources["faulty"]
 
 
-def test_the_constants_of_the_kernels_are_those_of_the_small_layout() -> None:
-    assert ws.SMALL.at("TR") == ws.TR
-    assert ws.SMALL.at("NTR") == ws.NTR
+def test_a_view_has_the_places_of_the_small_layout() -> None:
+    trace = ws.RunWords(kernel_words(1)).trace
+    assert ws.SMALL.at("trace.word") == trace.place_of("word")
+    assert ws.SMALL.at("trace.size") == trace.place_of("size")
 
 
 def test_no_two_fields_share_a_word() -> None:
     spread = ws.layout("spread", {}, gap=2)
-    offsets = [spread.at(field.name) for field in ws.FIELDS]
-    assert offsets == list(range(0, 3 * len(ws.FIELDS), 3))
+    offsets = [spread.at(field.name) for field in ws.RUN.all]
+    assert offsets == list(range(0, 3 * len(ws.RUN.all), 3))
 
 
 def test_machine_code_is_kept_and_found_again(
@@ -132,10 +134,11 @@ def digest_of_trace() -> int:
     """What the machine code of `digest` makes of a trace, as a fresh process would load it."""
     forget()
     words = kernel_words(len(TRACE))
-    words[ws.NTR] = len(TRACE)
-    for place, word in enumerate(TRACE, ws.TR):
-        words[place] = word
-    return compiled(digest, ws.SMALL)(words)
+    trace = ws.RunWords(words).trace
+    trace.size = len(TRACE)
+    for place, word in enumerate(TRACE):
+        trace.word[place] = word
+    return int(compiled(digest, ws.SMALL)(words))
 
 
 @pytest.fixture(scope="module")
@@ -352,12 +355,12 @@ def test_a_folder_that_cannot_be_written_is_replaced_for_as_long_as_the_process_
 @pytest.mark.usefixtures("cache")
 def test_a_checked_kernel_sees_an_index_out_of_range() -> None:
     words = kernel_words(3)
-    words[ws.NTR] = 1 << 40
+    ws.RunWords(words).trace.size = 1 << 40
     with pytest.raises(IndexError, match="out of bounds"):
         compiled(digest, ws.SMALL, checked=True)(words)
 
 
-def kernel_words(length: int) -> kernel.Words:
+def kernel_words(length: int) -> Words:
     """A workspace with so many words of trace."""
     return workspace(ws.SMALL, length)
 
@@ -375,15 +378,9 @@ def test_kernels_run_as_plain_functions_and_use_no_negative_index(name: str) -> 
     for world in islice(worlds(edges=4), 0, None, 25):
         space = workspace(ws.SMALL, 4096)
         place_world(space, ws.SMALL, world)
-        plain = Strict(space.tolist())
-        for place, word in (
-            (ws.RULE, KERNELS[name].rule),
-            (ws.MOTION, KERNELS[name].motion),
-            (ws.BUDGET, world.cost_bound),
-            (ws.TRACING, 1),
-            (ws.ROOM, 4096),
-        ):
-            plain[place] = word
-        exploration.explore(plain)
-        run = run_world(world, name, trace=True)
-        assert tuple(plain[ws.TR + i] for i in range(plain[ws.NTR])) == run.trace
+        run = ws.RunWords(Strict(space.tolist()))
+        run.task.rule, run.task.motion = KERNELS[name]
+        run.task.budget, run.task.tracing, run.task.room = world.cost_bound, 1, 4096
+        exploration.explore(run)
+        trace = tuple(run.trace.word[i] for i in range(run.trace.size))
+        assert trace == run_world(world, name, trace=True).trace

@@ -5,6 +5,7 @@ It is the first faster implementation that the toolkit serves. It is not trusted
 the one that it mirrors, and functions have the names of the reference's.
 
     kernel.py       what a kernel is; from sources to machine code, and where that is kept
+    names.py        names for words: `chart.first[v]`, and the offsets that are written for them
     workspace.py    the one array: which field stands where
     events.py       the words that a run writes, from and to the events of a trace
     faults.py       some mistakes of topo_verify/faults, by number
@@ -19,7 +20,7 @@ the one that it mirrors, and functions have the names of the reference's.
     explore.py      one run in one world of any size, for use from Python
 
 Kernels become one module with one set of constants, so they import the vocabularies whole:
-`from topo_verify.compiled.workspace import *`, and so the constants of `growth`, `faults` and
+`from topo_verify.compiled.workspace import *`, and so those of `growth`, `events`, `faults` and
 `judging.layout`.
 
 Importing this package, or any file of it, imports neither numba nor numpy.

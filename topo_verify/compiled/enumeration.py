@@ -6,12 +6,12 @@ still to create, `e` the smallest open dart, `c` its partner, F(u, r) the number
 `n` darts and `nv` vertices exist so far, `m2` is the number of darts at the end.
 
 What differs: there the partial maps are values on a stack. Here ONE map grows in the workspace
-(`AL`, `VT`, `ST`, `DG`), and a step back undoes the last step. The state of the walk lies in an
-array of its own, `G`, so it stops at each world and goes on behind it:
+(`WorldWords`), and a step back undoes the last step. The state of the walk lies in an array of its
+own, so it stops at each world and goes on behind it:
 
-    G = prepare(8, WorldClass.parse("planar"), 0, 1000)
-    while next_world(W, G) >= 0:             # the rank; -1: no further world
-        ...                                  # the world lies in W; it has G[G_VERTICES] vertices
+    walk = WalkWords(prepare(8, WorldClass.parse("planar"), 0, 1000))
+    while next_world(world, walk) >= 0:      # the rank; -1: no further world
+        ...                                  # it has walk.vertices vertices
 
 For a class other than `any` the pruners of `pruning.py` are asked before each step, and told of
 each step back.
@@ -31,7 +31,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from topo_verify.compiled.growth import *
-from topo_verify.compiled.kernel import Words, WordTable, compiled, entry, inlined
+from topo_verify.compiled.kernel import WordTable, compiled, entry, inlined
 from topo_verify.compiled.pruning import (
     begin_pruned,
     hang_pruned,
@@ -51,50 +51,50 @@ if TYPE_CHECKING:
 
 
 @inlined
-def next_world(W: Words, G: Words) -> int:
+def next_world(world: WorldWords, walk: WalkWords) -> int:
     """The rank of the next world, which lies in the workspace now; -1 if there is none."""
-    if G[G_PRUNED] != 0:
-        return next_pruned(W, G)
-    return next_of_all(W, G)
+    if walk.pruned != 0:
+        return next_pruned(world, walk)
+    return next_of_all(world, walk)
 
 
 # ---------------------------------------------------------------- other classes: pruned.py
 
 
 @inlined
-def next_pruned(W: Words, G: Words) -> int:  # noqa: PLR0912  split, it takes longer
+def next_pruned(world: WorldWords, walk: WalkWords) -> int:  # noqa: PLR0912  split, it takes longer
     """`next_world` in any other class: `_grown` of pruned.py."""
-    m2, k, n, u, nv = G[G_DARTS], G[G_DEPTH], G[G_CREATED], G[G_OPENED], G[G_VERTICES]
+    m2, k, n, u, nv = walk.darts, walk.depth, walk.created, walk.opened, walk.vertices
     while True:
         if k > 0:
             k -= 1
-            e, c, rank = G[G_DART + k], G[G_PARTNER + k], G[G_AFTER + k]
-            W[AL + e] = -1
-            if G[G_IS_NEW + k] != 0:
+            e, c, rank = walk.dart[k], walk.partner[k], walk.after[k]
+            world.alpha[e] = -1
+            if walk.is_new[k] != 0:
                 nv -= 1
-                n = W[ST + nv]
-                u -= W[DG + nv] - 2
-                W[AL + n] = -1
-                undo_hang_pruned(W, G, k, e, nv)
+                n = world.first[nv]
+                u -= world.degree[nv] - 2
+                world.alpha[n] = -1
+                undo_hang_pruned(world, walk, k, e, nv)
             else:
-                W[AL + c] = -1
+                world.alpha[c] = -1
                 u += 2
-                undo_join_pruned(W, G, k, e, c)
+                undo_join_pruned(world, walk, k, e, c)
         else:
-            rank = begin_next_root(W, G)
+            rank = begin_next_root(world, walk)
             if rank < 0:
-                G[G_DEPTH] = 0
+                walk.depth = 0
                 return -1
-            n = G[G_ROOT]
+            n = walk.root
             u, nv, e, c = n, 1, 0, 0
-            if G[G_HAS_GENUS] != 0:
-                look_around(G, 0, 0)
+            if walk.has_genus != 0:
+                look_around(walk, 0, 0)
         # The next child of this step, its first child, and so on, down to a world.
         while u > 0:
-            G[G_RANK] = rank
-            c = join_from(W, G, k, e, c + 1, m2, n, u, nv)
+            walk.rank = rank
+            c = join_from(world, walk, k, e, c + 1, m2, n, u, nv)
             if c >= n:
-                c = new_vertex_from(W, G, k, e, c, m2, n, u, nv)
+                c = new_vertex_from(world, walk, k, e, c, m2, n, u, nv)
                 if c >= m2:
                     break
                 nv += 1
@@ -102,88 +102,90 @@ def next_pruned(W: Words, G: Words) -> int:  # noqa: PLR0912  split, it takes lo
                 n = c + 1
             else:
                 u -= 2
-            rank = G[G_RANK]
+            rank = walk.rank
             k += 1
             if u > 0:
-                while W[AL + e] >= 0:
+                while world.alpha[e] >= 0:
                     e += 1
                 c = e
-                if G[G_HAS_GENUS] != 0:
-                    look_around(G, k, e)
+                if walk.has_genus != 0:
+                    look_around(walk, k, e)
         if u == 0:
-            G[G_DEPTH], G[G_CREATED], G[G_OPENED], G[G_VERTICES] = k, n, u, nv
+            walk.depth, walk.created, walk.opened, walk.vertices = k, n, u, nv
             return rank
 
 
 @inlined
-def begin_next_root(W: Words, G: Words) -> int:
+def begin_next_root(world: WorldWords, walk: WalkWords) -> int:
     """Begin with the next root of the class in the range; its rank, or -1: no further one."""
-    m2 = G[G_DARTS]
-    rank = G[G_ROOT_AFTER]
-    for degree in range(G[G_ROOT] + 1, m2 + 1):
-        if rank >= G[G_STOP]:
+    m2 = walk.darts
+    rank = walk.root_after
+    for degree in range(walk.root + 1, m2 + 1):
+        if rank >= walk.stop:
             break
-        after = rank + G[G_COMPLETIONS + degree * G_ROW + m2 - degree]
-        if after > G[G_START] and begin_pruned(G, degree, m2 - degree):
-            G[G_ROOT_AFTER] = after
-            plant(W, G, degree)
+        after = rank + walk.completions[degree * G_ROW + m2 - degree]
+        if after > walk.start and begin_pruned(walk, degree, m2 - degree):
+            walk.root_after = after
+            plant(world, walk, degree)
             return rank
         # Also for a root that is pruned: ranks count the worlds of class `any`.
         rank = after
-    G[G_ROOT] = m2
+    walk.root = m2
     return -1
 
 
 @inlined
-def join_from(W: Words, G: Words, k: int, e: int, c: int, m2: int, n: int, u: int, nv: int) -> int:
+def join_from(
+    world: WorldWords, walk: WalkWords, k: int, e: int, c: int, m2: int, n: int, u: int, nv: int
+) -> int:
     """Join e with the first open dart from c on that is not pruned, and return it.
 
-    `G_RANK`: before, the rank of the step with c; after, of the step that was made.
+    `rank`: before, the rank of the step with c; after, of the step that was made.
     Returns: if there is none, n or c: the first place for a new vertex's last dart.
     """
     ways = 0
     if c < n and u > 1:
-        ways = G[G_COMPLETIONS + (u - 2) * G_ROW + m2 - n]
+        ways = walk.completions[(u - 2) * G_ROW + m2 - n]
     # No way at all: the join would leave no open dart while darts remain (a dead end).
     if ways == 0:
         return max(c, n)
-    rank = G[G_RANK]
+    rank = walk.rank
     while c < n:
-        if W[AL + c] < 0:
+        if world.alpha[c] < 0:
             after = rank + ways
-            if after > G[G_START] and rank < G[G_STOP]:
-                if join_pruned(W, G, k, e, c, u - 2, m2 - n, nv):
-                    G[G_DART + k], G[G_PARTNER + k], G[G_IS_NEW + k] = e, c, 0
-                    G[G_AFTER + k] = after
-                    W[AL + e], W[AL + c] = c, e
+            if after > walk.start and rank < walk.stop:
+                if join_pruned(world, walk, k, e, c, u - 2, m2 - n, nv):
+                    walk.dart[k], walk.partner[k], walk.is_new[k] = e, c, 0
+                    walk.after[k] = after
+                    world.alpha[e], world.alpha[c] = c, e
                     break
             rank = after
         c += 1
-    G[G_RANK] = rank
+    walk.rank = rank
     return c
 
 
 @inlined
 def new_vertex_from(
-    W: Words, G: Words, k: int, e: int, c: int, m2: int, n: int, u: int, nv: int
+    world: WorldWords, walk: WalkWords, k: int, e: int, c: int, m2: int, n: int, u: int, nv: int
 ) -> int:
     """Hang a vertex on e, the first that is not pruned, whose last dart is c or more: that dart.
 
-    `G_RANK`: before, the rank of the step with c; after, of the step that was made.
+    `rank`: before, the rank of the step with c; after, of the step that was made.
     Returns: m2, if there is none.
     """
-    rank = G[G_RANK]
-    while c < m2 and rank < G[G_STOP]:
+    rank = walk.rank
+    while c < m2 and rank < walk.stop:
         degree = c - n + 1
-        ways = G[G_COMPLETIONS + (u + degree - 2) * G_ROW + m2 - c - 1]
+        ways = walk.completions[(u + degree - 2) * G_ROW + m2 - c - 1]
         if ways > 0:
             after = rank + ways
-            if after > G[G_START]:
-                if hang_pruned(W, G, k, e, n, degree, u + degree - 2, m2 - c - 1, nv):
-                    G[G_DART + k], G[G_PARTNER + k], G[G_IS_NEW + k] = e, c, 1
-                    G[G_AFTER + k] = after
-                    G[G_RANK] = rank
-                    new_vertex(W, e, n, degree, nv)
+            if after > walk.start:
+                if hang_pruned(world, walk, k, e, n, degree, u + degree - 2, m2 - c - 1, nv):
+                    walk.dart[k], walk.partner[k], walk.is_new[k] = e, c, 1
+                    walk.after[k] = after
+                    walk.rank = rank
+                    new_vertex(world, e, n, degree, nv)
                     return c
             rank = after
         c += 1
@@ -194,36 +196,36 @@ def new_vertex_from(
 
 
 @entry
-def count_worlds(W: Words, G: Words) -> int:
+def count_worlds(world: WorldWords, walk: WalkWords) -> int:
     """How many worlds are still to come."""
     count = 0
-    while next_world(W, G) >= 0:
+    while next_world(world, walk) >= 0:
         count += 1
     return count
 
 
 @entry
-def list_worlds(W: Words, G: Words, rows: WordTable, most: int) -> int:
+def list_worlds(world: WorldWords, walk: WalkWords, rows: WordTable, most: int) -> int:
     """Write the next worlds into rows, and return how many: rank, vertices, degrees, alpha."""
-    m2 = G[G_DARTS]
+    m2 = walk.darts
     for i in range(most):
-        rank = next_world(W, G)
+        rank = next_world(world, walk)
         if rank < 0:
             return i
-        vertices = G[G_VERTICES]
+        vertices = walk.vertices
         rows[i, 0] = rank
         rows[i, 1] = vertices
         for v in range(vertices):
-            rows[i, 2 + v] = W[DG + v]
+            rows[i, 2 + v] = world.degree[v]
         for d in range(m2):
-            rows[i, 2 + vertices + d] = W[AL + d]
+            rows[i, 2 + vertices + d] = world.alpha[d]
     return most
 
 
 def prepare(
     edges: int, kind: WorldClass | None = None, start: int = 0, stop: int | None = None
 ) -> NDArray[int64]:
-    """The state of an enumeration before its first world: an array of 64-bit integers, `G`.
+    """The state of an enumeration before its first world: the array of `WalkWords`.
 
     Args:
         kind: the class; default: any.
@@ -239,22 +241,23 @@ def prepare(
             " ask for fewer, or use the reference engine"
         )
     kind = WorldClass() if kind is None else kind
-    G = np.zeros(G_SIZE, np.int64)
+    words = np.zeros(GROWTH.size, np.int64)
+    walk = WalkWords(words)
     m2, total = 2 * edges, rank_order.count(edges)
-    first = min(max(0, start), total)
-    G[G_DARTS], G[G_START], G[G_RANK], G[G_SKIP] = m2, first, first, first
-    G[G_STOP] = total if stop is None else min(max(0, stop), total)
+    walk.darts = m2
+    walk.start = walk.rank = walk.skip = min(max(0, start), total)
+    walk.stop = total if stop is None else min(max(0, stop), total)
     for darts in range(m2 + 1):
         for r in range(darts + 1):
-            G[G_COMPLETIONS + (darts - r) * G_ROW + r] = rank_order.completions(darts - r, r)
+            walk.completions[(darts - r) * G_ROW + r] = rank_order.completions(darts - r, r)
     most = kind.most_genus if kind.genus is None else kind.genus
-    G[G_PRUNED] = kind != WorldClass()
-    G[G_HAS_GENUS], G[G_EXACT] = most is not None, kind.genus is not None
+    walk.pruned = kind != WorldClass()
+    walk.has_genus, walk.exact = most is not None, kind.genus is not None
     # No map has 2g > m; so the bound of a class that asks for more excludes (or allows) nothing.
-    G[G_MOST_GENUS] = min(most or 0, edges)
-    G[G_MOST_DEGREE] = min(kind.most_degree or m2, m2)
-    G[G_LOOPLESS], G[G_SIMPLE] = kind.loopless or kind.simple, kind.simple
-    return G
+    walk.most_genus = min(most or 0, edges)
+    walk.most_degree = min(kind.most_degree or m2, m2)
+    walk.loopless, walk.simple = kind.loopless or kind.simple, kind.simple
+    return words
 
 
 def ranked_tables(
@@ -272,10 +275,10 @@ def ranked_tables(
     """
     import numpy as np
 
-    G, W = prepare(edges, kind, start, stop), np.zeros(layout.constants["SIZE"], np.int64)
+    walk, space = prepare(edges, kind, start, stop), np.zeros(layout.at("SIZE"), np.int64)
     rows = np.zeros((1024, 2 + edges + 1 + 2 * edges), np.int64)
     following = compiled(list_worlds, layout)
-    while found := following(W, G, rows, len(rows)):
+    while found := following(space, walk, rows, len(rows)):
         for rank, vertices, *table in rows[:found].tolist():
             degrees, alpha = table[:vertices], table[vertices : vertices + 2 * edges]
             yield rank, (tuple(degrees), tuple(alpha))
@@ -285,67 +288,67 @@ def ranked_tables(
 
 
 @inlined
-def next_of_all(W: Words, G: Words) -> int:
+def next_of_all(world: WorldWords, walk: WalkWords) -> int:
     """`next_world` in class `any`: `tables` of rank_order.py.
 
-    One function, with what changes at every step in variables: split, with all of it in G, it took
-    1.6 times as long.
+    One function, with what changes at every step in variables: split, with all of it in `walk`, it
+    took 1.6 times as long.
     """
-    if G[G_RANK] >= G[G_STOP]:
+    if walk.rank >= walk.stop:
         return -1
-    m2, k, n, u, nv = G[G_DARTS], G[G_DEPTH], G[G_CREATED], G[G_OPENED], G[G_VERTICES]
+    m2, k, n, u, nv = walk.darts, walk.depth, walk.created, walk.opened, walk.vertices
     while True:
         if k > 0:  # undo the last step; its next sibling follows
             k -= 1
-            e, c = G[G_DART + k], G[G_PARTNER + k]
-            W[AL + e] = -1
-            if G[G_IS_NEW + k] != 0:
+            e, c = walk.dart[k], walk.partner[k]
+            world.alpha[e] = -1
+            if walk.is_new[k] != 0:
                 nv -= 1
-                n = W[ST + nv]
-                u -= W[DG + nv] - 2
-                W[AL + n] = -1
+                n = world.first[nv]
+                u -= world.degree[nv] - 2
+                world.alpha[n] = -1
             else:
-                W[AL + c] = -1
+                world.alpha[c] = -1
                 u += 2
         else:
-            n = next_root(G)
-            plant(W, G, n)
+            n = next_root(walk)
+            plant(world, walk, n)
             u, nv, e, c = n, 1, 0, 0
         while u > 0:
-            c = next_partner(W, c + 1, m2, n, u)
+            c = next_partner(world, c + 1, m2, n, u)
             if c >= m2:
                 break
-            if G[G_SKIP] > 0 and skipped(G, c, m2, n, u):
+            if walk.skip > 0 and skipped(walk, c, m2, n, u):
                 continue
-            G[G_DART + k], G[G_PARTNER + k] = e, c
+            walk.dart[k], walk.partner[k] = e, c
             if c < n:
-                W[AL + e], W[AL + c] = c, e
+                world.alpha[e], world.alpha[c] = c, e
                 u -= 2
-                G[G_IS_NEW + k] = 0
+                walk.is_new[k] = 0
             else:
-                new_vertex(W, e, n, c + 1 - n, nv)
+                new_vertex(world, e, n, c + 1 - n, nv)
                 nv += 1
                 u += c - n - 1
                 n = c + 1
-                G[G_IS_NEW + k] = 1
+                walk.is_new[k] = 1
             k += 1
             if u > 0:
-                while W[AL + e] >= 0:
+                while world.alpha[e] >= 0:
                     e += 1
                 c = e
         if u == 0:
-            G[G_DEPTH], G[G_CREATED], G[G_OPENED], G[G_VERTICES] = k, n, u, nv
-            G[G_RANK] += 1
-            return G[G_RANK] - 1
+            walk.depth, walk.created, walk.opened, walk.vertices = k, n, u, nv
+            walk.rank += 1
+            return walk.rank - 1
 
 
 @inlined
-def next_partner(W: Words, c: int, m2: int, n: int, u: int) -> int:
+def next_partner(world: WorldWords, c: int, m2: int, n: int, u: int) -> int:
     """The next partner from c on: an open dart, or what would be a new vertex's last dart."""
     # A step that leaves no open dart while darts remain is a dead end.
     while c < m2:
         if c < n:
-            if W[AL + c] < 0 and (u > 2 or n == m2):
+            if world.alpha[c] < 0 and (u > 2 or n == m2):
                 break
         elif u > 1 or c > n or n + 1 == m2:
             break
@@ -354,27 +357,27 @@ def next_partner(W: Words, c: int, m2: int, n: int, u: int) -> int:
 
 
 @inlined
-def next_root(G: Words) -> int:
+def next_root(walk: WalkWords) -> int:
     """The degree of the next root that has worlds in the range; those before it are passed over."""
-    degree = G[G_ROOT] + 1
-    ways = G[G_COMPLETIONS + degree * G_ROW + G[G_DARTS] - degree]
-    while G[G_SKIP] >= ways:
-        G[G_SKIP] -= ways
+    degree = walk.root + 1
+    ways = walk.completions[degree * G_ROW + walk.darts - degree]
+    while walk.skip >= ways:
+        walk.skip -= ways
         degree += 1
-        ways = G[G_COMPLETIONS + degree * G_ROW + G[G_DARTS] - degree]
+        ways = walk.completions[degree * G_ROW + walk.darts - degree]
     return degree
 
 
 @inlined
-def skipped(G: Words, c: int, m2: int, n: int, u: int) -> bool:
+def skipped(walk: WalkWords, c: int, m2: int, n: int, u: int) -> bool:
     """Whether all completions of a step lie before the range; if so, they are passed over."""
     if c < n:
-        ways = G[G_COMPLETIONS + (u - 2) * G_ROW + m2 - n]
+        ways = walk.completions[(u - 2) * G_ROW + m2 - n]
     else:
-        ways = G[G_COMPLETIONS + (u + c - n - 1) * G_ROW + m2 - c - 1]
-    if G[G_SKIP] < ways:
+        ways = walk.completions[(u + c - n - 1) * G_ROW + m2 - c - 1]
+    if walk.skip < ways:
         return False
-    G[G_SKIP] -= ways
+    walk.skip -= ways
     return True
 
 
@@ -382,23 +385,23 @@ def skipped(G: Words, c: int, m2: int, n: int, u: int) -> bool:
 
 
 @inlined
-def plant(W: Words, G: Words, degree: int) -> None:
+def plant(world: WorldWords, walk: WalkWords, degree: int) -> None:
     """Begin with a root vertex of this degree, all its darts open."""
-    for d in range(G[G_DARTS]):
-        W[AL + d] = -1
-    W[ST] = 0
-    W[DG] = degree
+    for d in range(walk.darts):
+        world.alpha[d] = -1
+    world.first[0] = 0
+    world.degree[0] = degree
     for d in range(degree):
-        W[VT + d] = 0
-    G[G_ROOT] = degree
+        world.vertex[d] = 0
+    walk.root = degree
 
 
 @inlined
-def new_vertex(W: Words, e: int, first: int, degree: int, vertex: int) -> None:
+def new_vertex(world: WorldWords, e: int, first: int, degree: int, vertex: int) -> None:
     """Hang a new vertex on e by its first dart."""
-    W[ST + vertex] = first
-    W[DG + vertex] = degree
+    world.first[vertex] = first
+    world.degree[vertex] = degree
     for d in range(first, first + degree):
-        W[VT + d] = vertex
-    W[AL + e] = first
-    W[AL + first] = e
+        world.vertex[d] = vertex
+    world.alpha[e] = first
+    world.alpha[first] = e

@@ -22,10 +22,11 @@ Source: docs/semantics.md, section 13.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Literal, get_args
+from typing import Annotated, Literal, get_args
 
-from topo_verify.compiled.kernel import Words, entry
-from topo_verify.compiled.workspace import NTR, TR, P
+from topo_verify.compiled.kernel import entry
+from topo_verify.compiled.names import Words, WordView, cursor
+from topo_verify.compiled.workspace import P, TraceWords
 from topo_verify.errors import InternalError
 from topo_verify.robot import trace_store
 from topo_verify.robot.events import (
@@ -70,12 +71,81 @@ REJECT_WORDS = 13
 """Words of a rejection without the doors of a record."""
 
 
+PerWord = Annotated[Words, "TRACE"]
+
+
+@cursor("W")
+class EventWords(WordView):
+    """An event of the trace."""
+
+    kind: int
+
+
+@cursor("W")
+class MoveWords(EventWords):
+    """A move."""
+
+    door: int
+    percept: int
+    purpose: int
+
+
+@cursor("W")
+class DecisionWords(EventWords):
+    """A pose, a rejection, a confirmation or an augmentation."""
+
+    edge: int
+
+
+@cursor("W")
+class PoseWords(DecisionWords):
+    """A pose."""
+
+    number: int
+    h: PerWord
+
+
+@cursor("W")
+class RejectionWords(DecisionWords):
+    """A rejection, with its evidence."""
+
+    h: int
+    size: int
+    rule: int
+    step: int
+    expected: int
+    observed: int
+    sequence: int
+    at: int
+    record: int
+    contradiction: int
+    doors: int
+    door: PerWord
+
+
+@cursor("W")
+class ConfirmationWords(DecisionWords):
+    """A confirmation."""
+
+    h: int
+    rule: int
+
+
+@cursor("W")
+class AugmentationWords(DecisionWords):
+    """An augmentation."""
+
+    growth: int
+    dart: int
+    degree: int
+
+
 @entry
-def digest(W: Words) -> int:
+def digest(trace: TraceWords) -> int:
     """A hash of 64 bits of the trace; it depends on every word and on their order."""
     h = 1469598103934665603
-    for i in range(W[NTR]):
-        h = (h ^ W[TR + i]) * 1099511628211
+    for i in range(trace.size):
+        h = (h ^ trace.word[i]) * 1099511628211
         h ^= (h >> 29) & 0x7FFFFFFFF  # the shift of a negative number keeps its sign
     return h
 

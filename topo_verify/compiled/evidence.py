@@ -22,36 +22,37 @@ from __future__ import annotations
 from topo_verify.compiled.chart import door, turn
 from topo_verify.compiled.events import OTHER_FACE
 from topo_verify.compiled.faults import *
-from topo_verify.compiled.kernel import Words, kernel
+from topo_verify.compiled.kernel import kernel
 from topo_verify.compiled.workspace import *
 
 
 @kernel
-def cite(W: Words, step: int, expected: int, observed: int, at: int) -> bool:
+def cite(evidence: EvidenceWords, step: int, expected: int, observed: int, at: int) -> bool:
     """Note the evidence for a rejection without motion. True, so that a rule may return it."""
-    W[EV_STEP] = step
-    W[EV_EXPECTED] = expected
-    W[EV_OBSERVED] = observed
-    W[EV_AT] = at
-    W[EV_RECORD] = -1
-    W[EV_WRONG] = 0
+    evidence.step = step
+    evidence.expected = expected
+    evidence.observed = observed
+    evidence.at = at
+    evidence.record = -1
+    evidence.wrong = 0
     return True
 
 
 @kernel
-def refute_by_prefix(W: Words, h: int) -> bool:
+def refute_by_prefix(run: RunWords, h: int) -> bool:
     """Whether a percept on the common prefix is not what h expects; the first one is cited."""
+    excursion, chart = run.excursion, run.chart
     at = h
-    for step in range(1, W[NDOORS] + 1):
-        up = W[PAR + W[CV + at]]
-        if up < 0 or door(W, at, up) != W[DOORS + step - 1]:  # A2.17
+    for step in range(1, excursion.size + 1):
+        up = chart.up[chart.vertex[at]]
+        if up < 0 or door(run, at, up) != excursion.door[step - 1]:  # A2.17
             return False
-        at = W[CA + up]
-        observed = W[PP + step]
-        if planted(W, COMPARES_BEFORE_THE_DOOR):
-            observed = W[PP + step - 1]
-        if observed != W[CP + at]:  # A2.18
-            return cite(W, step, W[CP + at], observed, at)
+        at = chart.alpha[up]
+        observed = excursion.percept[step]
+        if planted(run.task, COMPARES_BEFORE_THE_DOOR):
+            observed = excursion.percept[step - 1]
+        if observed != chart.percept[at]:  # A2.18
+            return cite(run.evidence, step, chart.percept[at], observed, at)
     return False
 
 
@@ -59,27 +60,30 @@ def refute_by_prefix(W: Words, h: int) -> bool:
 
 
 @kernel
-def refute_by_history(W: Words, h: int) -> bool:
+def refute_by_history(run: RunWords, h: int) -> bool:
     """Whether S (and T) shows another percept where the sequence leads from h; the first is cited.
 
     Earlier sequences were traced when they were executed, and S has not changed since.
     """
+    chart, excursion = run.chart, run.excursion
     at = h  # A3.10
-    if planted(W, TRACES_FROM_THE_FIRST_DART):
-        at = W[CF + W[CV + h]]
-    for step in range(1, W[NDOORS] + 1):
-        exit_dart = turn(W, at, W[DOORS + step - 1])
+    if planted(run.task, TRACES_FROM_THE_FIRST_DART):
+        at = chart.first[chart.vertex[h]]
+    for step in range(1, excursion.size + 1):
+        exit_dart = turn(chart, at, excursion.door[step - 1])
         # Negative also for e and h, which are joined only when h is confirmed.
-        at = W[CA + exit_dart]  # A3.11
+        at = chart.alpha[exit_dart]  # A3.11
         if at < 0:
-            if planted(W, TAKES_UNKNOWN_FOR_A_MISMATCH):
-                return cite(W, step, W[PP + step], W[PP + step], exit_dart)
-            if planted(W, TRACES_THROUGH_THE_UNEXPLORED):
+            if planted(run.task, TAKES_UNKNOWN_FOR_A_MISMATCH):
+                return cite(
+                    run.evidence, step, excursion.percept[step], excursion.percept[step], exit_dart
+                )
+            if planted(run.task, TRACES_THROUGH_THE_UNEXPLORED):
                 at = exit_dart
             else:
-                return W[RULE] >= RULE_ONE and beyond(W, exit_dart, step)  # A3.13
-        if W[CP + at] != W[PP + step]:  # A3.12 A3.15
-            return cite(W, step, W[CP + at], W[PP + step], at)
+                return run.task.rule >= RULE_ONE and beyond(run, exit_dart, step)  # A3.13
+        if chart.percept[at] != excursion.percept[step]:  # A3.12 A3.15
+            return cite(run.evidence, step, chart.percept[at], excursion.percept[step], at)
     return False
 
 
@@ -87,109 +91,113 @@ def refute_by_history(W: Words, h: int) -> bool:
 
 
 @kernel
-def observe_sequence(W: Words) -> None:
+def observe_sequence(run: RunWords) -> None:
     """Keep the excursion as one of the sequences executed for e; NSEQ counts it already."""
-    n = W[NDOORS]
-    first = W[NSTEPS]
+    excursion, sequences = run.excursion, run.sequences
+    n = excursion.size
+    first = sequences.steps
     if first + n + 1 > STEPS:  # each sequence is that of another dart, so all have their SQ_FIRST
-        W[STOP] = STOP_FULL + FULL_STEPS
+        run.stop = STOP_FULL + FULL_STEPS
         return
-    W[SQ_FIRST + W[NSEQ] - 1] = first
-    W[SQ_LENGTH + W[NSEQ] - 1] = n
+    sequences.first[sequences.number - 1] = first
+    sequences.length[sequences.number - 1] = n
     for i in range(n):
-        W[SQ_DOORS + first + i] = W[DOORS + i]
+        sequences.door[first + i] = excursion.door[i]
     for i in range(n + 1):
-        W[SQ_PERCEPTS + first + i] = W[PP + i]
-    W[NSTEPS] = first + n + 1
+        sequences.percept[first + i] = excursion.percept[i]
+    sequences.steps = first + n + 1
 
 
 @kernel
-def beyond(W: Words, exit_dart: int, step: int) -> bool:
+def beyond(run: RunWords, exit_dart: int, step: int) -> bool:
     """Whether a percept on record behind the dart contradicts the sequence; the first is cited."""
-    place = W[TREC + exit_dart]  # A3.14
+    records, evidence, excursion = run.records, run.evidence, run.excursion
+    place = records.of_dart[exit_dart]  # A3.14
     first = step
     while place >= 0:
-        if W[RC_PERCEPT + place] != W[PP + step]:
-            cite(W, step, W[RC_PERCEPT + place], W[PP + step], exit_dart)
-            W[EV_RECORD] = exit_dart
+        if records.percept[place] != excursion.percept[step]:
+            cite(evidence, step, records.percept[place], excursion.percept[step], exit_dart)
+            evidence.record = exit_dart
             # Door number `step` is DOORS[step - 1], so the record's doors begin with this one.
-            W[EV_FIRST] = first
+            evidence.first = first
             return True
-        if step == W[NDOORS]:
+        if step == excursion.size:
             break
-        place = behind(W, place, W[DOORS + step])
+        place = behind(records, place, excursion.door[step])
         step += 1
     return False
 
 
 @kernel
-def behind(W: Words, place: int, door: int) -> int:
+def behind(records: RecordWords, place: int, door: int) -> int:
     """The record behind a door of a place on record; -1: none."""
-    place = W[RC_BEHIND + place]
-    while place >= 0 and W[RC_DOOR + place] != door:
-        place = W[RC_NEXT + place]
+    place = records.behind[place]
+    while place >= 0 and records.door[place] != door:
+        place = records.next[place]
     return place
 
 
 @kernel
-def learn_records(W: Words, e: int, entry: int) -> None:
+def learn_records(run: RunWords, e: int, entry: int) -> None:
     """Record what the sequences showed behind unexplored darts, traced on the grown S."""
+    records, sequences, chart = run.records, run.sequences, run.chart
     # Before anything is recorded. Both are explored now, so neither gets a new record below.
-    W[TREC + e] = -1
-    W[TREC + entry] = -1
+    records.of_dart[e] = -1
+    records.of_dart[entry] = -1
     origin = entry
-    if planted(W, RECORDS_A_LOOP_FROM_DART_0):
-        origin = W[CF + W[CV + entry]]
-    if planted(W, RECORDS_FROM_THE_NEAR_END):
+    if planted(run.task, RECORDS_A_LOOP_FROM_DART_0):
+        origin = chart.first[chart.vertex[entry]]
+    if planted(run.task, RECORDS_FROM_THE_NEAR_END):
         origin = e
-    for sequence in range(W[NSEQ]):  # A3.29
+    for sequence in range(sequences.number):  # A3.29
         at = origin
-        doors = SQ_DOORS + W[SQ_FIRST + sequence]
-        for step in range(1, W[SQ_LENGTH + sequence] + 1):
-            exit_dart = turn(W, at, W[doors + step - 1])
-            at = W[CA + exit_dart]
+        doors = sequences.place_of("door") + sequences.first[sequence]
+        for step in range(1, sequences.length[sequence] + 1):
+            exit_dart = turn(chart, at, run[doors + step - 1])
+            at = chart.alpha[exit_dart]
             if at < 0:
-                record(W, exit_dart, sequence, step)
+                record(run, exit_dart, sequence, step)
                 break
-        if W[STOP] != 0:
+        if run.stop != 0:
             return
 
 
 @kernel
-def record(W: Words, exit_dart: int, sequence: int, step: int) -> None:
+def record(run: RunWords, exit_dart: int, sequence: int, step: int) -> None:
     """Record the percepts of the sequence from this step on: the first, or as many as there are."""
+    sequences, records = run.sequences, run.records
     # What is recorded already stays: a place shows the same percept each time.
-    first = W[SQ_FIRST + sequence]
-    place = W[TREC + exit_dart]
+    first = sequences.first[sequence]
+    place = records.of_dart[exit_dart]
     if place < 0:
-        place = seen(W, W[SQ_PERCEPTS + first + step], 0)
-        W[TREC + exit_dart] = place
-    if W[RULE] != RULE_ALL:
+        place = seen(records, sequences.percept[first + step], 0)
+        records.of_dart[exit_dart] = place
+    if run.task.rule != RULE_ALL:
         return
-    for deeper in range(step + 1, W[SQ_LENGTH + sequence] + 1):
-        door = W[SQ_DOORS + first + deeper - 1]
-        following = behind(W, place, door)
+    for deeper in range(step + 1, sequences.length[sequence] + 1):
+        door = sequences.door[first + deeper - 1]
+        following = behind(records, place, door)
         if following < 0:
-            following = seen(W, W[SQ_PERCEPTS + first + deeper], door)
-            W[RC_NEXT + following] = W[RC_BEHIND + place]
-            W[RC_BEHIND + place] = following
-        if W[STOP] != 0:
+            following = seen(records, sequences.percept[first + deeper], door)
+            records.next[following] = records.behind[place]
+            records.behind[place] = following
+        if run.stop != 0:
             return
         place = following
 
 
 @kernel
-def seen(W: Words, percept: int, door: int) -> int:
-    """A new record of a percept, reached by a door. `STOP` is set if there is no room for it."""
-    place = W[NREC]
+def seen(records: RecordWords, percept: int, door: int) -> int:
+    """A new record of a percept, reached by a door. `stop` is set if there is no room for it."""
+    place = records.number
     if place >= RECORDS:
-        W[STOP] = STOP_FULL + FULL_RECORDS
+        records.stop = STOP_FULL + FULL_RECORDS
         return 0
-    W[NREC] = place + 1
-    W[RC_PERCEPT + place] = percept
-    W[RC_DOOR + place] = door
-    W[RC_BEHIND + place] = -1
-    W[RC_NEXT + place] = -1
+    records.number = place + 1
+    records.percept[place] = percept
+    records.door[place] = door
+    records.behind[place] = -1
+    records.next[place] = -1
     return place
 
 
@@ -197,26 +205,28 @@ def seen(W: Words, percept: int, door: int) -> int:
 
 
 @kernel
-def face(W: Words, e: int) -> None:
+def face(run: RunWords, e: int) -> None:
     """Mark the darts of S on the face of e."""
-    W[NFACES] += 1
+    faces, chart = run.faces, run.chart
+    faces.number += 1
     dart = e
     while True:
-        W[FACE + dart] = W[NFACES]
+        faces.face[dart] = faces.number
         # An unexplored dart is a dead end, so turn back. The next dart of the face is sigma∘alpha,
         # where alpha of an open dart is the dart itself.
-        if W[CA + dart] >= 0:
-            dart = W[CA + dart]
-        dart = turn(W, dart, 1)
+        if chart.alpha[dart] >= 0:
+            dart = chart.alpha[dart]
+        dart = turn(chart, dart, 1)
         if dart == e:
             return
 
 
 @kernel
-def refute_by_face(W: Words, h: int) -> bool:
+def refute_by_face(run: RunWords, h: int) -> bool:
     """Whether the hypothesis is false in every planar world, since it lies on another face."""
-    if W[FACE + h] == W[NFACES]:
+    faces = run.faces
+    if faces.face[h] == faces.number:
         return False
-    cite(W, 0, -1, -1, -1)
-    W[EV_WRONG] = OTHER_FACE
+    cite(run.evidence, 0, -1, -1, -1)
+    run.evidence.wrong = OTHER_FACE
     return True

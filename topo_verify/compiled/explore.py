@@ -150,7 +150,7 @@ def run_world(
         layout, room = ws.FAULTY if fault else ws.SMALL, ws.CAPACITIES["TRACE"]
     while True:
         space = job.run(layout, room if trace else 1)
-        stop = space[layout.at("STOP")]
+        stop = space[layout.at("stop")]
         if stop == ws.STOP_FULL + ws.FULL_TRACE:
             del space  # its memory is free before more is taken
             room = _more_room(job, layout, room)
@@ -169,7 +169,7 @@ def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
     most, needed = free_memory() // 2 // WORD_BYTES, room + 1
     if needed <= most:
         bare = job._replace(trace=False).run(layout, 1)
-        needed = max(needed, MOVE_WORDS * int(bare[layout.at("COST")]))
+        needed = max(needed, MOVE_WORDS * int(bare[layout.at("robot.cost")]))
     if needed > most:
         raise InputError(
             f"the trace of {job.fault or job.algorithm} in this world of"
@@ -243,13 +243,13 @@ class CompiledJob(NamedTuple):
         space = workspace(layout, room)
         place_world(space, layout, self.world)
         kernel = KERNELS[self.algorithm]
-        space[layout.at("RULE")] = kernel.rule
-        space[layout.at("MOTION")] = kernel.motion
-        space[layout.at("FAULT")] = PLANTED[self.fault][0] if self.fault else 0
-        space[layout.at("BUDGET")] = self.budget
-        space[layout.at("TRACING")] = self.trace
-        space[layout.at("ROOM")] = room
-        open_darts, stop = layout.at("NU"), layout.at("STOP")
+        space[layout.at("task.rule")] = kernel.rule
+        space[layout.at("task.motion")] = kernel.motion
+        space[layout.at("task.fault")] = PLANTED[self.fault][0] if self.fault else 0
+        space[layout.at("task.budget")] = self.budget
+        space[layout.at("task.tracing")] = self.trace
+        space[layout.at("task.room")] = room
+        open_darts, stop = layout.at("chart.unexplored"), layout.at("stop")
         at = -1
         while at < 0 or (space[open_darts] > 0 and space[stop] == 0):
             at = explore(space, at, ROUNDS)
@@ -257,16 +257,16 @@ class CompiledJob(NamedTuple):
 
     def result(self, space: Workspace, layout: ws.WordLayout) -> CompiledRun:
         """What a finished workspace says."""
-        stop = int(space[layout.at("STOP")])
+        stop = int(space[layout.at("stop")])
         if stop >= ws.STOP_FULL:
             raise InputError(
                 f"the run of {self.fault or self.algorithm} needs more room than the compiled"
                 f" engine has for {KEPT[stop - ws.STOP_FULL]}: use the reference engine"
             )
-        trace = layout.at("TR")
-        words = space[trace : trace + int(space[layout.at("NTR")])] if self.trace else None
+        trace = layout.at("trace.word")
+        words = space[trace : trace + int(space[layout.at("trace.size")])] if self.trace else None
         return CompiledRun(
-            int(space[layout.at("COST")]),
+            int(space[layout.at("robot.cost")]),
             None if stop else map_of(space, layout),
             {
                 0: None,
@@ -281,7 +281,7 @@ def workspace(layout: ws.WordLayout, room: int) -> Workspace:
     """A workspace with room for so many words of trace; what is never touched takes no memory."""
     import numpy as np
 
-    words = layout.at("TR") + room
+    words = layout.at("trace.word") + room
     try:
         return np.zeros(words, np.int64)
     except MemoryError:
@@ -298,22 +298,23 @@ def place_world(space: Workspace, layout: ws.WordLayout, world: World) -> None:
     degrees, alpha = world.code
     first = np.concatenate(([0], np.cumsum(degrees)))[:-1]
     vertex = np.repeat(np.arange(len(degrees)), degrees)
-    for name, row in (("AL", alpha), ("VT", vertex), ("ST", first), ("DG", degrees)):
-        space[layout.at(name) : layout.at(name) + len(row)] = row
+    for name, row in (("alpha", alpha), ("vertex", vertex), ("first", first), ("degree", degrees)):
+        at = layout.at(f"world.{name}")
+        space[at : at + len(row)] = row
 
 
 def map_of(space: Workspace, layout: ws.WordLayout) -> MapData:
     """The map S in a workspace."""
 
     def field(name: str, length: int) -> list[int]:
-        at = layout.at(name)
+        at = layout.at(f"chart.{name}")
         row: list[int] = space[at : at + length].tolist()
         return row
 
-    darts, vertices = (int(space[layout.at(name)]) for name in ("NDARTS", "NV"))
-    firsts, degrees = field("CF", vertices), field("CD", vertices)
+    darts, vertices = (int(space[layout.at(f"chart.{name}")]) for name in ("darts", "vertices"))
+    firsts, degrees = field("first", vertices), field("degree", vertices)
     return MapData(
         tuple(tuple(range(f, f + d)) for f, d in zip(firsts, degrees, strict=True)),
-        tuple((d, o) for d, o in enumerate(field("CA", darts)) if d < o),
+        tuple((d, o) for d, o in enumerate(field("alpha", darts)) if d < o),
         0 if darts else None,
     )

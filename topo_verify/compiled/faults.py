@@ -1,14 +1,14 @@
 """Mistakes to plant in the compiled mapper: some of those of topo_verify/faults, by number.
 
-A mistake stands where the reference's does: `if planted(W, SETS_OUT_UNTURNED)`. In every layout but
-`FAULTY` the question is answered when the kernels are compiled, so it costs nothing. The names are
-those of topo_verify/faults; docs/faults.md says what each does wrong.
+A mistake stands where the reference's does: `if planted(task, SETS_OUT_UNTURNED)`. In every layout
+but `FAULTY` the question is answered when the kernels are compiled, so it costs nothing. The names
+are those of topo_verify/faults; docs/faults.md says what each does wrong.
 """
 
 from __future__ import annotations
 
-from topo_verify.compiled.kernel import Words, kernel
-from topo_verify.compiled.workspace import FAULT, FAULTS
+from topo_verify.compiled.kernel import kernel
+from topo_verify.compiled.workspace import FAULTS, TaskWords
 
 (
     LEAVES_OUT_THE_DARTS_OF_VK,
@@ -63,6 +63,6 @@ PLANTED: dict[str, tuple[int, str]] = {
 
 
 @kernel
-def planted(W: Words, number: int) -> bool:
+def planted(task: TaskWords, number: int) -> bool:
     """Whether the mapper makes this mistake."""
-    return FAULTS != 0 and W[FAULT] == number
+    return FAULTS != 0 and task.fault == number

@@ -7,10 +7,11 @@ code of it:
 
 1. It takes the sources of all kernels and leaves out annotations and docstrings: of this package's
    kernels (`SOURCES`), or of the modules that a layout names.
-2. It writes the constants above them: every upper-case integer of the kernels' modules, the offsets
+2. It writes arrays and offsets in place of names (`names.py`).
+3. It writes the constants above them: every upper-case integer of the kernels' modules, the offsets
    of the workspace among them. So one source serves every layout, and an offset costs nothing.
-3. It makes every index unsigned, or numba would test each one for being negative.
-4. It writes the result as one module into a cache folder, and numba keeps its machine code beside
+4. It makes every index unsigned, or numba would test each one for being negative.
+5. It writes the result as one module into a cache folder, and numba keeps its machine code beside
    it. The folder is named after a hash of that module, of the versions of numba and Python, and of
    the processor. A checksum of each file of machine code covers that hash as well.
 
@@ -49,26 +50,11 @@ from types import ModuleType
 from typing import Any, Protocol, TypeVar, cast
 
 from topo_verify.compiled import require
+from topo_verify.compiled.names import Fields, Flat
 from topo_verify.compiled.workspace import WordLayout
 from topo_verify.errors import InputError
 
 F = TypeVar("F", bound=Callable[..., object])
-
-
-class Words(Protocol):
-    """A row of 64-bit integers: the workspace, a numpy array or, in tests, a list."""
-
-    def __getitem__(self, at: int, /) -> int:
-        """The word at this place."""
-        ...
-
-    def __setitem__(self, at: int, word: int, /) -> None:
-        """Write the word at this place."""
-        ...
-
-    def __len__(self) -> int:
-        """The number of words."""
-        ...
 
 
 class WordTable(Protocol):
@@ -139,12 +125,14 @@ def inlined(function: F) -> F:
 def entry(function: F) -> F:
     """The function itself. The mark says that Python calls its machine code: see `compiled`.
 
-    Its parameters are annotated with `Words`, `WordTable`, `WordCube` and `int`.
+    Its parameters are annotated with views, `WordTable`, `WordCube` and `int`.
     """
     return function
 
 
-def compiled(function: F, layout: WordLayout, *, checked: bool = False) -> F:
+def compiled(
+    function: Callable[..., object], layout: WordLayout, *, checked: bool = False
+) -> Callable[..., Any]:
     """The machine code of an entry, for workspaces of a layout; compiled when first asked for.
 
     Args:
@@ -168,7 +156,7 @@ def compiled(function: F, layout: WordLayout, *, checked: bool = False) -> F:
                             f" (kept in {path.parent})"
                         )
                     dispatcher.compile(_signature(function))
-    return cast("F", dispatcher)
+    return cast("Callable[..., Any]", dispatcher)
 
 
 @contextmanager
@@ -189,7 +177,6 @@ def _say(sentence: str) -> None:
 
 
 _TYPES = {
-    "Words": "int64[::1]",
     "WordTable": "int64[:, ::1]",
     "WordCube": "int64[:, :, ::1]",
     "int": "int64",
@@ -198,8 +185,8 @@ _TYPES = {
 
 def _signature(function: Callable[..., object]) -> str:
     """The types of the parameters of an entry, as numba writes them."""
-    notes = function.__annotations__
-    return f"({', '.join(_TYPES[note] for name, note in notes.items() if name != 'return')},)"
+    notes = [note for name, note in function.__annotations__.items() if name != "return"]
+    return f"({', '.join(_TYPES.get(note, 'int64[::1]') for note in notes)},)"
 
 
 # ---------------------------------------------------------------- from sources to one module
@@ -225,7 +212,7 @@ def module_source(layout: WordLayout, *, checked: bool = False) -> str:
     for name in layout.sources or SOURCES:
         module = import_module(name)
         numbers.update(_constants(module))
-        functions += _kernels(Path(str(module.__file__)))
+        functions += _kernels(module)
     numbers.update(layout.constants)
     names = [function.name for function in functions]
     assert len(set(names)) == len(names), f"two kernels of one name: {sorted(names)}"
@@ -241,17 +228,22 @@ def module_source(layout: WordLayout, *, checked: bool = False) -> str:
 
 
 def _constants(module: ModuleType) -> Mapping[str, int]:
-    """The upper-case integers of a module."""
-    return {k: v for k, v in vars(module).items() if k.isupper() and type(v) is int}
+    """The upper-case integers of a module, and the offsets of the fields that it lays out."""
+    numbers = {k: v for k, v in vars(module).items() if k.isupper() and type(v) is int}
+    for laid_out in vars(module).values():
+        if isinstance(laid_out, Fields):
+            numbers.update(laid_out.constants())
+    return numbers
 
 
-def _kernels(path: Path) -> Iterator[ast.FunctionDef]:
-    """The kernels of a file, ready for numba."""
-    for node in ast.parse(path.read_text()).body:
+def _kernels(module: ModuleType) -> Iterator[ast.FunctionDef]:
+    """The kernels of a module, ready for numba."""
+    for node in ast.parse(Path(str(module.__file__)).read_text()).body:
         if isinstance(node, ast.FunctionDef) and any(
             isinstance(mark, ast.Name) and mark.id in ("kernel", "inlined", "entry")
             for mark in node.decorator_list
         ):
+            node = Flat(vars(module)).visit_FunctionDef(node)
             node.returns = None
             for argument in node.args.args:
                 argument.annotation = None
@@ -261,7 +253,7 @@ def _kernels(path: Path) -> Iterator[ast.FunctionDef]:
 
 
 class _Unsigned(ast.NodeTransformer):
-    """Makes `W[CA + d]` into `W[np.uint64(CA + d)]`."""
+    """Makes `W[at]` into `W[np.uint64(at)]`."""
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.Subscript:
         self.generic_visit(node)

@@ -2,57 +2,50 @@
 
 Mirrors: robot/simulator.py, `SimulatedRobot`. Differs: the world's darts are numbered in the order
 of discovery from the marker on, so a vertex is an interval of darts as on S, sigma is the next dart
-of it, and the marker is dart 0. Where the reference raises, `STOP` is set and every caller returns.
+of it, and the marker is dart 0. Where the reference raises, `stop` is set and every caller returns.
 
 Source: docs/semantics.md, section 2.
 """
 
 from __future__ import annotations
 
-from topo_verify.compiled.events import (
-    AUGMENT,
-    BY_MOTION,
-    CONFIRM,
-    MOVE,
-    POSE,
-    REJECT,
-    REJECT_WORDS,
-)
-from topo_verify.compiled.kernel import Words, inlined, kernel
+from topo_verify.compiled.events import *
+from topo_verify.compiled.kernel import inlined, kernel
 from topo_verify.compiled.workspace import *
 
 
 @inlined
-def sensed(W: Words, dart: int) -> int:
+def sensed(world: WorldWords, dart: int) -> int:
     """The percept with this dart of the world as the reference dart."""
-    v = W[VT + dart]
-    percept = W[DG + v] << SHIFT
+    v = world.vertex[dart]
+    percept = world.degree[v] << SHIFT
     if v == 0:  # v0: from its dart d, dart 0 is -d doors further clockwise
         percept += 1
         if dart > 0:
-            percept += W[DG] - dart
+            percept += world.degree[0] - dart
     return percept
 
 
 @inlined
-def move(W: Words, door: int, purpose: int) -> int:
-    """Leave by a door and return the percept behind it. Costs 1. If it may not, `STOP` says why."""
-    v = W[VT + W[POS]]
-    degree = W[DG + v]
-    if W[COST] >= W[BUDGET]:
-        W[STOP] = STOP_BUDGET
+def move(run: RunWords, door: int, purpose: int) -> int:
+    """Leave by a door and return the percept behind it. Costs 1. If it may not, `stop` says why."""
+    robot, world = run.robot, run.world
+    v = world.vertex[robot.dart]
+    degree = world.degree[v]
+    if robot.cost >= run.task.budget:
+        run.stop = STOP_BUDGET
         return 0
     if door < 0 or door >= degree:
-        W[STOP] = STOP_DOOR
+        run.stop = STOP_DOOR
         return 0
-    exit_dart = W[POS] + door
-    if exit_dart >= W[ST + v] + degree:
+    exit_dart = robot.dart + door
+    if exit_dart >= world.first[v] + degree:
         exit_dart -= degree
-    dart = W[AL + exit_dart]
-    W[POS] = dart
-    W[COST] += 1
-    percept = sensed(W, dart)
-    declare(W, MOVE, door, percept, purpose)
+    dart = world.alpha[exit_dart]
+    robot.dart = dart
+    robot.cost += 1
+    percept = sensed(world, dart)
+    declare(run, MOVE, door, percept, purpose)
     return percept
 
 
@@ -60,82 +53,89 @@ def move(W: Words, door: int, purpose: int) -> int:
 
 
 @kernel
-def took(W: Words, words: int) -> int:
-    """Take room for so many words of trace: where they begin. `STOP` is set if there is none."""
-    i = W[NTR]
-    if i + words > W[ROOM]:
-        W[STOP] = STOP_FULL + FULL_TRACE
+def took(run: RunWords, words: int) -> int:
+    """Take room for so many words of trace: where they begin. `stop` is set if there is none."""
+    trace = run.trace
+    i = trace.size
+    if i + words > run.task.room:
+        run.stop = STOP_FULL + FULL_TRACE
     else:
-        W[NTR] = i + words
+        trace.size = i + words
     return i
 
 
 @inlined
-def declare(W: Words, kind: int, first: int, second: int, third: int) -> None:
+def declare(run: RunWords, kind: int, first: int, second: int, third: int) -> None:
     """Write down an event of four words."""
-    if W[TRACING] != 0:
-        i = TR + took(W, 4)
-        if W[STOP] == 0:
-            W[i] = kind
-            W[i + 1] = first
-            W[i + 2] = second
-            W[i + 3] = third
+    if run.task.tracing != 0:
+        i = run.trace.place_of("word") + took(run, 4)
+        if run.stop == 0:
+            run[i] = kind
+            run[i + 1] = first
+            run[i + 2] = second
+            run[i + 3] = third
 
 
 @kernel
-def declare_pose(W: Words, e: int, remaining: int) -> None:
-    """Put H on record: so many hypotheses, from REM on."""
-    if W[TRACING] != 0:
-        i = TR + took(W, 3 + remaining)
-        if W[STOP] == 0:
-            W[i] = POSE
-            W[i + 1] = e
-            W[i + 2] = remaining
+def declare_pose(run: RunWords, e: int, remaining: int) -> None:
+    """Put H on record: the hypotheses that remain."""
+    if run.task.tracing != 0:
+        i = run.trace.place_of("word") + took(run, 3 + remaining)
+        if run.stop == 0:
+            pose = PoseWords(run, i)
+            pose.kind = POSE
+            pose.edge = e
+            pose.number = remaining
             for k in range(remaining):
-                W[i + 3 + k] = W[REM + k]
+                pose.h[k] = run.remaining.dart[k]
 
 
 @kernel
-def declare_reject(W: Words, e: int, h: int, by: int) -> None:
-    """Put on record that h is rejected, with the evidence in EV_…; by motion: at a step of it."""
-    if W[TRACING] != 0:
-        step = W[EV_STEP]
+def declare_reject(run: RunWords, e: int, h: int, by: int) -> None:
+    """Put on record that h is rejected, with the evidence that was cited."""
+    evidence = run.evidence
+    if run.task.tracing != 0:
+        step = evidence.step
         doors = 0
-        if W[EV_RECORD] >= 0:
-            doors = step - W[EV_FIRST]
-        i = TR + took(W, REJECT_WORDS + doors)
-        if W[STOP] == 0:
-            W[i] = REJECT
-            W[i + 1] = e
-            W[i + 2] = h
-            W[i + 3] = REJECT_WORDS + doors
-            W[i + 4] = by
-            W[i + 5] = step
-            W[i + 6] = W[EV_EXPECTED]
-            W[i + 7] = W[EV_OBSERVED]
-            W[i + 8] = -1 if by == BY_MOTION or W[EV_WRONG] != 0 else W[NSEQ] - 1
-            W[i + 9] = W[EV_AT]
-            W[i + 10] = W[EV_RECORD]
-            W[i + 11] = W[EV_WRONG]
-            W[i + 12] = doors
+        if evidence.record >= 0:
+            doors = step - evidence.first
+        i = run.trace.place_of("word") + took(run, REJECT_WORDS + doors)
+        if run.stop == 0:
+            rejection = RejectionWords(run, i)
+            rejection.kind = REJECT
+            rejection.edge = e
+            rejection.h = h
+            rejection.size = REJECT_WORDS + doors
+            rejection.rule = by
+            rejection.step = step
+            rejection.expected = evidence.expected
+            rejection.observed = evidence.observed
+            rejection.sequence = (
+                -1 if by == BY_MOTION or evidence.wrong != 0 else run.sequences.number - 1
+            )
+            rejection.at = evidence.at
+            rejection.record = evidence.record
+            rejection.contradiction = evidence.wrong
+            rejection.doors = doors
             for k in range(doors):
-                W[i + 13 + k] = W[DOORS + W[EV_FIRST] + k]
+                rejection.door[k] = run.excursion.door[evidence.first + k]
 
 
 @kernel
-def declare_confirm(W: Words, e: int, h: int, by: int) -> None:
+def declare_confirm(run: RunWords, e: int, h: int, by: int) -> None:
     """Put on record that the other end of e is h."""
-    declare(W, CONFIRM, e, h, by)
+    declare(run, CONFIRM, e, h, by)
 
 
 @kernel
-def declare_augment(W: Words, e: int, kind: int, dart: int, degree: int) -> None:
+def declare_augment(run: RunWords, e: int, kind: int, dart: int, degree: int) -> None:
     """Put on record that S has grown."""
-    if W[TRACING] != 0:
-        i = TR + took(W, 5)
-        if W[STOP] == 0:
-            W[i] = AUGMENT
-            W[i + 1] = e
-            W[i + 2] = kind
-            W[i + 3] = dart
-            W[i + 4] = degree
+    if run.task.tracing != 0:
+        i = run.trace.place_of("word") + took(run, 5)
+        if run.stop == 0:
+            augmentation = AugmentationWords(run, i)
+            augmentation.kind = AUGMENT
+            augmentation.edge = e
+            augmentation.growth = kind
+            augmentation.dart = dart
+            augmentation.degree = degree

@@ -32,7 +32,7 @@ from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.enumeration import prepare
 from topo_verify.compiled.explore import KERNELS, CompiledJob, run_world
 from topo_verify.compiled.faults import PLANTED
-from topo_verify.compiled.growth import G_VERTICES
+from topo_verify.compiled.growth import WalkWords
 from topo_verify.compiled.judging import layout
 from topo_verify.compiled.judging.truth import HASH_PRIME
 from topo_verify.compiled.kernel import compiled
@@ -143,7 +143,7 @@ def examine_range(
     """
     require("the compiled engine")
     shard = _Shard(algorithms, edges, kind, start, stop, claims, stop_at_first, faults or {})
-    shard.space[shard.layout.at("ROOM")] = min(room, ws.TRACE)
+    shard.space[shard.layout.at("task.room")] = min(room, ws.TRACE)
     (end,) = shard.examine(())
     return end.counts
 
@@ -191,11 +191,11 @@ class _Shard:
         self.layout: ws.WordLayout = ws.FAULTY if faults else ws.SMALL
         self.worlds = prepare(edges, WorldClass.parse(kind), start, stop)
         self.space = np.zeros(self.layout.at("SIZE"), np.int64)
-        self.space[self.layout.at("ROOM")] = ws.TRACE
+        self.space[self.layout.at("task.room")] = ws.TRACE
         self.judge = np.zeros(layout.JUDGE_SIZE, np.int64)
-        self.control = np.zeros(tally.C_SIZE, np.int64)
-        self.control[tally.C_LEVEL], self.control[tally.C_STOP_AT_FIRST] = claims, stop_at_first
-        self.control[tally.C_RANK] = -1
+        self.control = np.zeros(tally.CONTROL.size, np.int64)
+        self.walk = tally.ControlWords(self.control)
+        self.walk.level, self.walk.stop_at_first, self.walk.rank = claims, stop_at_first, -1
         self.table = np.zeros((len(self.names), tally.T_COLUMNS), np.int64)
         self.undecided = [0] * len(self.names)
         for row, name in zip(self.table, self.names, strict=True):
@@ -220,7 +220,7 @@ class _Shard:
     def examine(self, steps: Iterable[int]) -> Iterator[Snapshot]:
         """Examine all worlds of the range: a snapshot behind each step, and behind the last."""
         for step in chain(steps, (0,)):
-            self.control[tally.C_PAUSE] = step
+            self.walk.pause = step
             if self._walk() != tally.PAUSED:
                 break
             yield self._snapshot()
@@ -230,7 +230,7 @@ class _Shard:
         """Examine worlds until the walk pauses or ends: which of the two."""
         walk, rows = compiled(tally.examine_worlds, self.layout), len(self.names)
         while True:
-            state = walk(self.space, self.worlds, self.judge, self.control, self.table, rows)
+            state: int = walk(self.space, self.worlds, self.judge, self.control, self.table, rows)
             if state == tally.OPEN:
                 self._judge_by_checkers()
                 enter = compiled(tally.enter_open, self.layout)
@@ -240,30 +240,27 @@ class _Shard:
 
     def _judge_by_checkers(self) -> None:
         """Put the verdict of the checkers on the last run into the judge's array."""
-        row, J = int(self.control[tally.C_ROW]), self.judge
+        row, case = int(self.walk.row), layout.CaseWords(self.judge)
         world, name = self._world(), self.names[row]
         algorithm, fault = self._fault(name)[1], self.faults.get(name, "")
-        if self.space[self.layout.at("STOP")] < ws.STOP_FULL:
+        if self.space[self.layout.at("stop")] < ws.STOP_FULL:
             job = CompiledJob(world, algorithm, trace=True, budget=world.cost_bound, fault=fault)
             run = job.result(self.space, self.layout)
         else:
             run = run_world(world, algorithm, trace=True, fault=fault)
-            J[layout.J_COST], J[layout.J_DOORS_HASH] = run.cost, doors_hash(run.events)
+            case.cost, case.doors_hash = run.cost, doors_hash(run.events)
         events = (Start(percept=first_percept(world)), *run.events)
         judgements = check(world, events, run.stopped)[: len(self.claims)]
         for k, one in enumerate(judgements):
-            J[layout.J_STATUS + k], J[layout.J_JUDGED + k] = (
-                layout.STATUSES.index(one.status),
-                one.judged,
-            )
-            J[layout.J_OF + k] = one.of
+            case.status[k] = layout.STATUSES.index(one.status)
+            case.judged[k], case.of[k] = one.judged, one.of
         found = {one.status for one in judgements}
         self.undecided[row] += "undecided" in found and "failed" not in found
 
     def _world(self) -> World:
         """The world that lies in the workspace."""
-        first, ends = self.layout.at("DG"), self.layout.at("AL")
-        degrees = self.space[first : first + int(self.worlds[G_VERTICES])].tolist()
+        first, ends = self.layout.at("world.degree"), self.layout.at("world.alpha")
+        degrees = self.space[first : first + int(WalkWords(self.worlds).vertices)].tolist()
         alpha = self.space[ends : ends + sum(degrees)].tolist()
         return World.from_code((tuple(degrees), tuple(alpha)))
 
@@ -273,7 +270,7 @@ class _Shard:
         """The counts of each algorithm so far."""
         rows = zip(self.names, self.table, self.undecided, strict=True)
         counts = tuple(self._counts(name, row.tolist(), undecided) for name, row, undecided in rows)
-        return Snapshot(int(self.control[tally.C_RANK]), counts)
+        return Snapshot(int(self.walk.rank), counts)
 
     def _counts(self, name: str, row: list[int], undecided: int) -> ShardCounts:
         def kept(column: int, number: int) -> tuple[int, ...]:

@@ -1,21 +1,23 @@
 """Runs algorithms in every world of a rank range, judges each run, and counts what came of it.
 
-`T` has one row for each algorithm: what it is, and its counts. `ROOM` says how long a trace may be.
-Mirrors `Counts` in campaign/tally.py.
-Differs: each algorithm is counted in its own row; ranks are kept, no findings. A run whose verdict
-is open interrupts the walk, so that Python has the checkers judge it and `enter_open` count it. The
-walk also pauses behind as many worlds as Python asks for, and then goes on in the same table: so
-Python sees what single worlds add to it.
+`T` has one row for each algorithm: what it is, and its counts. `task.room` says how long a trace
+may be.
+
+Mirrors `Counts` in campaign/tally.py. Differs: each algorithm is counted in its own row; ranks are
+kept, no findings. A run whose verdict is open interrupts the walk, so that Python has the checkers
+judge it and `enter_open` count it. The walk also pauses behind as many worlds as Python asks for,
+and then goes on in the same table: so Python sees what single worlds add to it.
 """
 
 from __future__ import annotations
 
 from topo_verify.compiled.enumeration import next_world
 from topo_verify.compiled.exploration import explore
-from topo_verify.compiled.growth import G_DARTS, G_VERTICES
+from topo_verify.compiled.growth import *
 from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.verdict import is_world, judge
-from topo_verify.compiled.kernel import Words, WordTable, entry, kernel
+from topo_verify.compiled.kernel import WordTable, entry, kernel
+from topo_verify.compiled.names import Fields, WordView
 from topo_verify.compiled.workspace import *
 
 _used = 0
@@ -64,10 +66,20 @@ T_DEARER_COSTS = _column(KEPT_RANKS)
 T_DEARER_OTHERS = _column(KEPT_RANKS)
 T_COLUMNS = _used
 
-C_LEVEL, C_STOP_AT_FIRST, C_PAUSE, C_RANK, C_ROW, C_FAILED, C_SIZE = range(7)
-"""The places of `C`: the level of the judge; whether the first failing world ends the walk; the
-number of worlds until the next pause (0: no pause); the rank of the world that lies in W, the row
-that is next there (0: the next world), and a mask of the claims that fail there in a row before."""
+
+class ControlWords(WordView):
+    """What is asked of a walk, and where it stands."""
+
+    level: int  # of the judge
+    stop_at_first: int  # whether the first failing world ends the walk
+    pause: int  # worlds until the next pause; 0: no pause
+    rank: int  # of the world that lies in the workspace
+    row: int  # that is next there; 0: the next world
+    failed: int  # a mask of the claims that fail there in a row before
+
+
+CONTROL = Fields("C", ControlWords, {})
+
 
 GO_ON, ENDED, OPEN, PAUSED = range(4)
 """The states of a walk: between two worlds; at its end; at a run whose verdict is open; paused."""
@@ -76,76 +88,79 @@ MIXED = 0x9E3779B97F4A7C15 - (1 << 64)
 
 
 @entry
-def examine_worlds(W: Words, G: Words, J: Words, C: Words, T: WordTable, rows: int) -> int:
-    """Examine the worlds to come: `ENDED`, `PAUSED`, or `OPEN` at row `C_ROW` of the last one."""
+def examine_worlds(
+    run: RunWords, walk: WalkWords, case: CaseWords, control: ControlWords, T: WordTable, rows: int
+) -> int:
+    """Examine the worlds to come: `ENDED`, `PAUSED`, or `OPEN` at row `row` of the last one."""
     state = GO_ON
     while state == GO_ON:
-        if C[C_ROW] == 0:
-            rank = next_world(W, G)
+        if control.row == 0:
+            rank = next_world(run.world, walk)
             if rank < 0:
                 return ENDED
-            C[C_RANK] = rank
-            C[C_FAILED] = 0
-        while C[C_ROW] < rows:
-            row = C[C_ROW]
+            control.rank = rank
+            control.failed = 0
+        while control.row < rows:
+            row = control.row
             wrong = examine_run(
-                W, G, J, C[C_LEVEL], T[row, T_RULE], T[row, T_MOTION], T[row, T_FAULT]
+                run, walk, case, control.level, T[row, T_RULE], T[row, T_MOTION], T[row, T_FAULT]
             )
             if wrong < 0:
                 return OPEN
-            enter(J, C, T, wrong)
-            C[C_ROW] = row + 1
-        state = close(C, T, rows)
+            enter(case, control, T, wrong)
+            control.row = row + 1
+        state = close(control, T, rows)
     return state
 
 
 @kernel
 def examine_run(
-    W: Words, G: Words, J: Words, level: int, rule: int, motion: int, fault: int
+    run: RunWords, walk: WalkWords, case: CaseWords, level: int, rule: int, motion: int, fault: int
 ) -> int:
     """Run one algorithm in the world, and judge it: a mask of the claims that fail; -1: open."""
-    edges = G[G_DARTS] // 2
-    vertices = G[G_VERTICES]
+    task = run.task
+    edges = walk.darts // 2
+    vertices = walk.vertices
     bound = edges
     if vertices > 1:
         bound = edges * (vertices + (2 * edges - 1) * 2 * (vertices - 1))
-    W[RULE] = rule
-    W[MOTION] = motion
-    W[FAULT] = fault
-    W[BUDGET] = bound
-    W[TRACING] = 1
-    cost = explore(W)
-    J[J_DARTS] = G[G_DARTS]
-    J[J_VERTICES] = vertices
-    J[J_BOUND] = bound
-    J[J_LEVEL] = level
-    J[J_DELIVERED] = 0 if cost < 0 else 1
-    J[J_REPORTED] = cost
-    wrong = judge(W, J)
-    if wrong >= 0 and W[STOP] >= STOP_FULL:
+    task.rule = rule
+    task.motion = motion
+    task.fault = fault
+    task.budget = bound
+    task.tracing = 1
+    cost = explore(run)
+    case.darts = walk.darts
+    case.vertices = vertices
+    case.bound = bound
+    case.level = level
+    case.delivered = 0 if cost < 0 else 1
+    case.reported = cost
+    wrong = judge(run, case)
+    if wrong >= 0 and run.stop >= STOP_FULL:
         wrong = -1  # the mapper had no room: that convicts nobody
     return wrong
 
 
 @kernel
-def enter(J: Words, C: Words, T: WordTable, wrong: int) -> None:
+def enter(case: CaseWords, control: ControlWords, T: WordTable, wrong: int) -> None:
     """Count a judged run in its row."""
-    row = C[C_ROW]
-    rank = C[C_RANK]
-    cost = J[J_COST]
+    row = control.row
+    rank = control.rank
+    cost = case.cost
     T[row, T_WORLDS] += 1
-    digest = (J[J_DOORS_HASH] ^ cost) * MIXED
-    for k in range(J[J_LEVEL]):
-        status = J[J_STATUS + k]
+    digest = (case.doors_hash ^ cost) * MIXED
+    for k in range(case.level):
+        status = case.status[k]
         T[row, T_STATUS + k * STATUS_COUNT + status] += 1
-        T[row, T_JUDGED + k] += J[J_JUDGED + k]
-        T[row, T_OF + k] += J[J_OF + k]
+        T[row, T_JUDGED + k] += case.judged[k]
+        T[row, T_OF + k] += case.of[k]
         digest = (digest ^ status) * 1099511628211
         if (wrong >> k) & 1 != 0:
             if T[row, T_CLAIM_FAILING + k] == 0:
                 T[row, T_CLAIM_FIRST + k] = rank
             T[row, T_CLAIM_FAILING + k] += 1
-            if (C[C_FAILED] >> k) & 1 == 0:
+            if (control.failed >> k) & 1 == 0:
                 T[row, T_CLAIM_NEWLY_FAILING + k] += 1
     digest = (digest ^ rank) * MIXED
     T[row, T_DIGEST] += digest ^ ((digest >> 31) & 0x1FFFFFFFF)
@@ -154,9 +169,9 @@ def enter(J: Words, C: Words, T: WordTable, wrong: int) -> None:
         if T[row, T_FAILING] < KEPT_RANKS:
             T[row, T_FAILING_RANKS + T[row, T_FAILING]] = rank
         T[row, T_FAILING] += 1
-        if C[C_FAILED] == 0:
+        if control.failed == 0:
             T[row, T_NEWLY_FAILING] += 1
-        C[C_FAILED] |= wrong
+        control.failed |= wrong
         return
     T[row, T_COST] = cost
     T[row, T_TOTAL] += cost
@@ -170,17 +185,17 @@ def enter(J: Words, C: Words, T: WordTable, wrong: int) -> None:
 
 
 @kernel
-def close(C: Words, T: WordTable, rows: int) -> int:
+def close(control: ControlWords, T: WordTable, rows: int) -> int:
     """Close the world, as all its runs are counted: `GO_ON`, `ENDED` or `PAUSED`."""
-    C[C_ROW] = 0
+    control.row = 0
     if rows == 2:
-        compare_costs(T, C[C_RANK])
-    if C[C_STOP_AT_FIRST] != 0:
+        compare_costs(T, control.rank)
+    if control.stop_at_first != 0:
         for row in range(rows):
             if T[row, T_FAILING] > 0:
                 return ENDED
-    C[C_PAUSE] -= 1
-    return PAUSED if C[C_PAUSE] == 0 else GO_ON
+    control.pause -= 1
+    return PAUSED if control.pause == 0 else GO_ON
 
 
 @kernel
@@ -202,39 +217,42 @@ def compare_costs(T: WordTable, rank: int) -> None:
 
 
 @entry
-def enter_open(J: Words, C: Words, T: WordTable, rows: int) -> int:
-    """Count a run that the checkers judged, its verdict in J: the state of the walk behind it."""
+def enter_open(case: CaseWords, control: ControlWords, T: WordTable, rows: int) -> int:
+    """Count a run that the checkers judged: the state of the walk behind it."""
     wrong = 0
-    for k in range(J[J_LEVEL]):
-        if J[J_STATUS + k] == FAILED:
+    for k in range(case.level):
+        if case.status[k] == FAILED:
             wrong |= 1 << k
-    enter(J, C, T, wrong)
-    C[C_ROW] += 1
-    return GO_ON if C[C_ROW] < rows else close(C, T, rows)
+    enter(case, control, T, wrong)
+    control.row += 1
+    return GO_ON if control.row < rows else close(control, T, rows)
 
 
 @entry
-def map_worlds(W: Words, G: Words, J: Words, rule: int, motion: int, check: int) -> int:
+def map_worlds(
+    run: RunWords, walk: WalkWords, case: CaseWords, rule: int, motion: int, check: int
+) -> int:
     """The total cost of an algorithm in the worlds to come, without a trace; -1: a map is wrong.
 
     Args:
         check: whether the delivered map is compared with the world.
     """
+    task = run.task
     total = 0
-    W[RULE] = rule
-    W[MOTION] = motion
-    W[TRACING] = 0
-    W[FAULT] = 0
-    m = G[G_DARTS] // 2
-    while next_world(W, G) >= 0:
-        W[BUDGET] = m * (G[G_VERTICES] + (2 * m - 1) * 2 * G[G_VERTICES])
-        cost = explore(W)
+    task.rule = rule
+    task.motion = motion
+    task.tracing = 0
+    task.fault = 0
+    m = walk.darts // 2
+    while next_world(run.world, walk) >= 0:
+        task.budget = m * (walk.vertices + (2 * m - 1) * 2 * walk.vertices)
+        cost = explore(run)
         if cost < 0:
             return -1
         total += cost
         if check != 0:
-            J[J_DARTS] = 2 * m
-            J[J_VERTICES] = G[G_VERTICES]
-            if not is_world(W, J):
+            case.darts = 2 * m
+            case.vertices = walk.vertices
+            if not is_world(run, case):
                 return -1
     return total

@@ -1,25 +1,16 @@
 """The workspace: everything that a run knows, as fields at fixed places of one array of integers.
 
-`W[CA + d]` is the field `CA` of dart `d`: the offsets are constants when kernels are compiled, so
-this costs what a local array would. (A tuple of eighteen arrays took 1.5 times as long.) Integers
-have 64 bits: narrower ones were not faster, and no sum overflows.
+`run.chart.alpha[d]` is a field of dart `d`: a constant offset when kernels are compiled, so this
+costs what a local array would. (A tuple of eighteen arrays took 1.5 times as long.) Integers have
+64 bits: narrower ones were not faster, and no sum overflows.
 
 There are layouts. `SMALL` is for worlds of up to 12 edges: what a run touches stays in the fastest
 cache of the processor. `FAULTY` lets mistakes be planted (`faults.py`), by which S may grow without
 end, and has room for a larger S. `LARGE` is for worlds of up to 65,536 edges; pages that are never
-touched take no memory. The constants below are those of `SMALL`; `compiled` puts those of another
-layout in their place.
+touched take no memory. Kernels that run as plain Python have the capacities of `SMALL`.
 
 Nothing here is cleared between runs: a kernel sets what it reads. A buffer that is full ends the
-run with a reason in `STOP`; nothing is written beyond it.
-
-    suffix      a place for every                         capacity
-    WORLD       dart (and vertex) of the world            WORLD_DARTS
-    CHART       dart (and vertex) of S                    CHART_DARTS
-    STEPS       step of the sequences behind one e        STEPS
-    RECORDS     percept on record behind unexplored darts RECORDS
-    PLACES      dart of a node of the fold                PLACE_DARTS
-    LAYERS      change in a layer that is kept            LAYER_WORDS
+run with a reason in `stop`; nothing is written beyond it.
 
 Source: docs/semantics.md, sections 1 to 3; the fields of algorithms/chart.py and motion.py.
 """
@@ -27,14 +18,9 @@ Source: docs/semantics.md, sections 1 to 3; the fields of algorithms/chart.py an
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Annotated
 
-
-class Field(NamedTuple):
-    """A field: its name, and the name of the capacity that it has; "" for a single word."""
-
-    name: str
-    capacity: str
+from topo_verify.compiled.names import Fields, Words, WordView
 
 
 @dataclass(frozen=True)
@@ -43,17 +29,19 @@ class WordLayout:
 
     Attributes:
         name: part of the name of the module of machine code.
-        constants: the capacities and the offset of every field, by name; `SIZE`, the words in all.
+        constants: the capacities, and the offsets of the fields by their names in that module.
+        places: the offset of every field, as in `chart.first`; `SIZE`, the words in all.
         sources: the modules of its kernels; (): those of this package.
     """
 
     name: str
     constants: dict[str, int] = field(hash=False, compare=False)
+    places: dict[str, int] = field(hash=False, compare=False, default_factory=dict[str, int])
     sources: tuple[str, ...] = ()
 
     def at(self, name: str) -> int:
         """The offset of a field."""
-        return self.constants[name]
+        return self.places[name]
 
 
 CAPACITIES = {
@@ -67,43 +55,6 @@ CAPACITIES = {
     "TRACE": 65536,
 }
 """How many entries the fields of `SMALL` have."""
-
-FIELDS: list[Field] = []
-"""Every field in the order in which they stand."""
-
-_end = 0
-
-
-def one(name: str) -> int:
-    """The place of a new single word."""
-    return row(name, "")
-
-
-def row(name: str, capacity: str) -> int:
-    """The offset of a new field with so many places."""
-    global _end  # noqa: PLW0603  the end of what is placed so far
-    offset = _end
-    FIELDS.append(Field(name, capacity))
-    _end += CAPACITIES.get(capacity, 1)
-    return offset
-
-
-def layout(
-    name: str, capacities: dict[str, int], *, faults: bool = False, gap: int = 0
-) -> WordLayout:
-    """The layout in which fields have these capacities, in the order of `FIELDS`.
-
-    Args:
-        faults: whether mistakes can be planted.
-        gap: words between fields, in which a test sees what is written beyond one.
-    """
-    constants = {**capacities, "FAULTS": int(faults)}
-    end = 0
-    for one_field in FIELDS:
-        constants[one_field.name] = end
-        end += capacities.get(one_field.capacity, 1) + gap
-    return WordLayout(name, {**constants, "SIZE": end})
-
 
 WORLD_DARTS = CAPACITIES["WORLD_DARTS"]
 CHART_DARTS = CAPACITIES["CHART_DARTS"]
@@ -121,110 +72,200 @@ P = 1 << SHIFT
 MASK = P - 1
 """A percept is `degree * P`, and 1 + marker if the marker is here: degrees are below P - 1."""
 
-# ---------------------------------------------------------------- what the caller sets
-RULE = one("RULE")  # the rule of the algorithm: RULE_… below
-MOTION = one("MOTION")  # 0: retrace, 1: overlap
-FAULT = one("FAULT")  # the mistake, in `FAULTY` only; 0: none
-BUDGET = one("BUDGET")  # how many moves are allowed
-TRACING = one("TRACING")  # whether the run is to be written down
-ROOM = one("ROOM")  # how many words of trace there is room for
-AL = row("AL", "WORLD_DARTS")  # of each dart of the world: its other end
-VT = row("VT", "WORLD_DARTS")  # of each dart of the world: its vertex
-ST = row("ST", "WORLD_DARTS")  # of each vertex of the world: its first dart
-DG = row("DG", "WORLD_DARTS")  # of each vertex of the world: its degree
+# ---------------------------------------------------------------- rows: a place for each
 
-# ---------------------------------------------------------------- the robot: robot.py
-POS = one("POS")  # the reference dart, a dart of the world
-COST = one("COST")  # edge traversals so far
-STOP = one("STOP")  # why the run ended early: STOP_… below; 0: it did not
-NTR = one("NTR")  # words of trace
+PerWorldDart = Annotated[Words, "WORLD_DARTS"]  # a dart (or vertex) of the world
+PerDart = Annotated[Words, "CHART_DARTS"]  # a dart (or vertex) of S
+PerStep = Annotated[Words, "STEPS"]  # a step of the sequences behind one e
+PerRecord = Annotated[Words, "RECORDS"]  # a percept on record behind unexplored darts
+PerPlaceDart = Annotated[Words, "PLACE_DARTS"]  # a dart of a node of the fold
+PerChange = Annotated[Words, "CHANGED"]  # a change of the fold
+PerLayerWord = Annotated[Words, "LAYER_WORDS"]  # a change in a layer that is kept
+PerTraceWord = Annotated[Words, "TRACE"]  # a word of the trace
 
-# ---------------------------------------------------------------- S: chart.py
-NV = one("NV")  # vertices of S
-NDARTS = one("NDARTS")  # darts of S
-NU = one("NU")  # darts in U
-TREE = one("TREE")  # whether DEP and PAR are those of S as it is now
-CA = row("CA", "CHART_DARTS")  # alpha of each dart; -1: unexplored
-CV = row("CV", "CHART_DARTS")  # vertex of each dart
-CP = row("CP", "CHART_DARTS")  # percept with each dart as the reference dart
-UN = row("UN", "CHART_DARTS")  # whether the dart is in U
-CF = row("CF", "CHART_DARTS")  # first dart of each vertex
-CD = row("CD", "CHART_DARTS")  # degree of each vertex
-SG = row("SG", "CHART_DARTS")  # signature of each vertex: 2 * degree, and 1 if the marker is here
-UO = row("UO", "CHART_DARTS")  # how many darts of each vertex are in U
-DEP = row("DEP", "CHART_DARTS")  # distance of each vertex from v0
-PAR = row("PAR", "CHART_DARTS")  # dart of each vertex towards v0; -1: v0
-Q = row("Q", "CHART_DARTS")  # the queue of that search
-SEEN = row("SEEN", "CHART_DARTS")  # searches from other roots: number of the last that met v
-NEAR = row("NEAR", "CHART_DARTS")  # the same: distance
-TOWARDS = row("TOWARDS", "CHART_DARTS")  # the same: dart towards the root; -1: the root
-REACHED = row("REACHED", "CHART_DARTS")  # the same: the queue
-SEARCH = one("SEARCH")  # the number of the last search
 
-# ---------------------------------------------------------------- excursions: motion.py
-TURNED = one("TURNED")  # doors from the dart of entry to the reference dart
-SHARED = one("SHARED")  # doors of its way that the chosen hypothesis shares with the last sequence
-NDOORS = one("NDOORS")  # doors of the excursion
-DOORS = row("DOORS", "CHART_DARTS")  # those doors
-PP = row("PP", "CHART_DARTS")  # percepts behind them, vu's own first
-REM = row("REM", "CHART_DARTS")  # H: the remaining hypotheses
-COUNTS = row("COUNTS", "CHART_DARTS")  # for sorting H
-SORTED = row("SORTED", "CHART_DARTS")  # the same
+# ---------------------------------------------------------------- fields
 
-# ---------------------------------------------------------------- evidence: exploration.py
-EV_STEP = one("EV_STEP")
-EV_EXPECTED = one("EV_EXPECTED")  # a percept; -1: none
-EV_OBSERVED = one("EV_OBSERVED")  # a percept; -1: none
-EV_AT = one("EV_AT")  # dart of S; -1: none
-EV_RECORD = one("EV_RECORD")  # dart of the record; -1: none
-EV_FIRST = one("EV_FIRST")  # the record's first door, as an index of DOORS
-EV_WRONG = one("EV_WRONG")  # a contradiction of folding or planar; 0: none
 
-# ---------------------------------------------------------------- sequences and T: evidence.py
-NSEQ = one("NSEQ")  # sequences executed for e
-SQ_LENGTH = row("SQ_LENGTH", "CHART_DARTS")  # doors of each sequence
-SQ_FIRST = row("SQ_FIRST", "CHART_DARTS")  # where each begins among the steps
-NSTEPS = one("NSTEPS")  # steps of all sequences
-SQ_DOORS = row("SQ_DOORS", "STEPS")
-SQ_PERCEPTS = row("SQ_PERCEPTS", "STEPS")
-NREC = one("NREC")  # percepts on record
-TREC = row("TREC", "CHART_DARTS")  # T of each dart: the record behind it; -1: none
-RC_PERCEPT = row("RC_PERCEPT", "RECORDS")
-RC_DOOR = row("RC_DOOR", "RECORDS")  # the door that leads to it from the one before
-RC_BEHIND = row("RC_BEHIND", "RECORDS")  # the first record behind it; -1: none
-RC_NEXT = row("RC_NEXT", "RECORDS")  # the next one behind the same place; -1: none
+class EndWords(WordView):
+    """Why the run ended early."""
 
-# ---------------------------------------------------------------- the fold: folding.py
-NPLACE_DARTS = one("NPLACE_DARTS")  # darts of all nodes, and 0, which is none
-NODE = row("NODE", "PLACE_DARTS")  # the first dart of its node
-LOOKS = row("LOOKS", "PLACE_DARTS")  # of its node: 2 * degree, and 1 if the marker is here
-LEADER = row("LEADER", "PLACE_DARTS")  # a dart that it is; 0: it leads
-BEHIND = row("BEHIND", "PLACE_DARTS")  # the other end of a dart that leads; 0: not seen
-WEIGHT = row("WEIGHT", "PLACE_DARTS")  # of a first dart: how many nodes its node stands for
-KNOWN = row("KNOWN", "PLACE_DARTS")  # of a first dart: whether its node is a vertex of S
-WAITING = row("WAITING", "PLACE_DARTS")  # pairs of darts that are still to be made one
-NCHANGES = one("NCHANGES")  # changes of a test so far
-CHANGES = row("CHANGES", "CHANGED")  # where a word was changed, and what stood there
-LAID = one("LAID")  # nodes that were identified by these changes
-MERGES = one("MERGES")  # how many times seen places were identified
-NJOINED = one("NJOINED")  # edges that the last sequence added to what was seen
-JOINED_ONE = row("JOINED_ONE", "CHART_DARTS")  # one end of each
-JOINED_OTHER = row("JOINED_OTHER", "CHART_DARTS")  # the other end
-ANEW = one("ANEW")  # whether each hypothesis is to be folded anew
-LAYERS_EVEN = row("LAYERS_EVEN", "LAYER_WORDS")  # layers: where a word differs, and that word
-LAYERS_ODD = row("LAYERS_ODD", "LAYER_WORDS")  # the same, of every other stage
-STAGE = one("STAGE")  # stages so far in which layers were written
-NLAYER_WORDS = one("NLAYER_WORDS")  # words of the layers of this stage
-LAYER_FIRST = row("LAYER_FIRST", "CHART_DARTS")  # where the layer of a hypothesis begins
-LAYER_END = row("LAYER_END", "CHART_DARTS")  # where it ends
-ENTRIES = row("ENTRIES", "CHART_DARTS")  # of each vertex of S: the dart that its first dart is
-PLACE_E = one("PLACE_E")  # the dart that e is
-PLACE_VU = one("PLACE_VU")  # the dart by which the robot came to vu
-FACE = row("FACE", "CHART_DARTS")  # the number of the last e on whose face the dart was
-NFACES = one("NFACES")  # how many faces were walked: the number of this e
+    stop: int  # STOP_… below; 0: it did not
 
-# ---------------------------------------------------------------- the trace, last: it may be longer
-TR = row("TR", "TRACE")
+
+class TaskWords(EndWords):
+    """What the caller asks for."""
+
+    rule: int  # the rule of the algorithm: RULE_… below
+    motion: int  # 0: retrace, 1: overlap
+    fault: int  # the mistake, in `FAULTY` only; 0: none
+    budget: int  # how many moves are allowed
+    tracing: int  # whether the run is to be written down
+    room: int  # how many words of trace there is room for
+
+
+class WorldWords(EndWords):
+    """The world, which the caller places."""
+
+    alpha: PerWorldDart  # of each dart of the world: its other end
+    vertex: PerWorldDart  # of each dart of the world: its vertex
+    first: PerWorldDart  # of each vertex of the world: its first dart
+    degree: PerWorldDart  # of each vertex of the world: its degree
+
+
+class RobotWords(EndWords):
+    """The robot: robot.py."""
+
+    dart: int  # the reference dart, a dart of the world
+    cost: int  # edge traversals so far
+
+
+class ChartWords(EndWords):
+    """The map S: chart.py."""
+
+    vertices: int  # vertices of S
+    darts: int  # darts of S
+    unexplored: int  # darts in U
+    has_tree: int  # whether DEP and PAR are those of S as it is now
+    alpha: PerDart  # alpha of each dart; -1: unexplored
+    vertex: PerDart  # vertex of each dart
+    percept: PerDart  # percept with each dart as the reference dart
+    in_u: PerDart  # whether the dart is in U
+    first: PerDart  # first dart of each vertex
+    degree: PerDart  # degree of each vertex
+    signature: PerDart  # signature of each vertex: 2 * degree, and 1 if the marker is here
+    open: PerDart  # how many darts of each vertex are in U
+    depth: PerDart  # distance of each vertex from v0
+    up: PerDart  # dart of each vertex towards v0; -1: v0
+    queue: PerDart  # the queue of that search
+    seen: PerDart  # searches from other roots: number of the last that met v
+    near: PerDart  # the same: distance
+    towards: PerDart  # the same: dart towards the root; -1: the root
+    reached: PerDart  # the same: the queue
+    search: int  # the number of the last search
+
+
+class ExcursionWords(EndWords):
+    """The excursion from vu: motion.py."""
+
+    turned: int  # doors from the dart of entry to the reference dart
+    shared: int  # doors of its way that the chosen hypothesis shares with the last sequence
+    size: int  # doors of the excursion
+    door: PerDart  # those doors
+    percept: PerDart  # percepts behind them, vu's own first
+
+
+class RemainingWords(EndWords):
+    """H, the hypotheses that remain, in the order in which to try them."""
+
+    dart: PerDart  # H: the remaining hypotheses
+    counts: PerDart  # for sorting H
+    sorted: PerDart  # the same
+
+
+class EvidenceWords(EndWords):
+    """Why a hypothesis is rejected: `cite` of evidence.py."""
+
+    step: int
+    expected: int  # a percept; -1: none
+    observed: int  # a percept; -1: none
+    at: int  # dart of S; -1: none
+    record: int  # dart of the record; -1: none
+    first: int  # the record's first door, as an index of DOORS
+    wrong: int  # a contradiction of folding or planar; 0: none
+
+
+class SequenceWords(EndWords):
+    """The sequences executed for e: evidence.py."""
+
+    number: int  # sequences executed for e
+    length: PerDart  # doors of each sequence
+    first: PerDart  # where each begins among the steps
+    steps: int  # steps of all sequences
+    door: PerStep
+    percept: PerStep
+
+
+class RecordWords(EndWords):
+    """T, the percepts on record: evidence.py."""
+
+    number: int  # percepts on record
+    of_dart: PerDart  # T of each dart: the record behind it; -1: none
+    percept: PerRecord
+    door: PerRecord  # the door that leads to it from the one before
+    behind: PerRecord  # the first record behind it; -1: none
+    next: PerRecord  # the next one behind the same place; -1: none
+
+
+class PlaceWords(EndWords):
+    """The fold, of all places seen: folding.py."""
+
+    darts: int  # darts of all nodes, and 0, which is none
+    node: PerPlaceDart  # the first dart of its node
+    looks: PerPlaceDart  # of its node: 2 * degree, and 1 if the marker is here
+    leader: PerPlaceDart  # a dart that it is; 0: it leads
+    behind: PerPlaceDart  # the other end of a dart that leads; 0: not seen
+    weight: PerPlaceDart  # of a first dart: how many nodes its node stands for
+    known: PerPlaceDart  # of a first dart: whether its node is a vertex of S
+    waiting: PerPlaceDart  # pairs of darts that are still to be made one
+    changed: int  # changes of a test so far
+    changes: PerChange  # where a word was changed, and what stood there
+    laid: int  # nodes that were identified by these changes
+    merges: int  # how many times seen places were identified
+    entry: PerDart  # of each vertex of S: the dart that its first dart is
+    e: int  # the dart that e is
+    vu: int  # the dart by which the robot came to vu
+
+
+class LayerWords(EndWords):
+    """What each hypothesis adds to the fold: folding.py."""
+
+    joined: int  # edges that the last sequence added to what was seen
+    joined_one: PerDart  # one end of each
+    joined_other: PerDart  # the other end
+    anew: int  # whether each hypothesis is to be folded anew
+    even: PerLayerWord  # layers: where a word differs, and that word
+    odd: PerLayerWord  # the same, of every other stage
+    stage: int  # stages so far in which layers were written
+    size: int  # words of the layers of this stage
+    first: PerDart  # where the layer of a hypothesis begins
+    end: PerDart  # where it ends
+
+
+class FaceWords(EndWords):
+    """The faces of S: evidence.py."""
+
+    face: PerDart  # the number of the last e on whose face the dart was
+    number: int  # how many faces were walked: the number of this e
+
+
+class TraceWords(EndWords):
+    """The words of the trace; last, for there may be more."""
+
+    size: int  # words of trace
+    word: PerTraceWord
+
+
+class RunWords(EndWords):
+    """The workspace: everything that a run knows."""
+
+    task: TaskWords
+    world: WorldWords
+    robot: RobotWords
+    chart: ChartWords
+    excursion: ExcursionWords
+    remaining: RemainingWords
+    evidence: EvidenceWords
+    sequences: SequenceWords
+    records: RecordWords
+    places: PlaceWords
+    layers: LayerWords
+    faces: FaceWords
+    trace: TraceWords
+
+
+RUN = Fields("W", RunWords, CAPACITIES)
+"""Where everything stands; `SMALL` has these capacities."""
 
 RULE_NONE, RULE_PREFIX, RULE_HISTORY, RULE_ONE, RULE_ALL, RULE_FOLDING, RULE_PLANAR = range(7)
 
@@ -232,6 +273,21 @@ STOP_BUDGET = 1  # one more move than the budget
 STOP_DOOR = 2  # no such door
 STOP_FULL = 16  # a buffer is full; STOP - STOP_FULL is one of FULL_… below
 FULL_CHART, FULL_STEPS, FULL_RECORDS, FULL_PLACES, FULL_TRACE = range(5)
+
+
+def layout(
+    name: str, capacities: dict[str, int], *, faults: bool = False, gap: int = 0
+) -> WordLayout:
+    """The layout in which rows have these capacities.
+
+    Args:
+        faults: whether mistakes can be planted.
+        gap: words between fields, in which a test sees what is written beyond one.
+    """
+    places = RUN.offsets(capacities, gap=gap)
+    constants = {**capacities, "FAULTS": int(faults), **RUN.constants(places)}
+    return WordLayout(name, constants, places)
+
 
 SMALL = layout("small", CAPACITIES)
 FAULTY = layout("faulty", {**CAPACITIES, "CHART_DARTS": 4096}, faults=True, gap=1)

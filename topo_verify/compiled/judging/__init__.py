@@ -1,6 +1,6 @@
 """The ten claims inside the kernel: what `checkers/` would say of a run, without its sentences.
 
-    layout.py       the array J: what is asked, the verdict, what the judge remembers;
+    layout.py       what is asked, the verdict, what the judge remembers, by names;
                     the world and the words of a trace, read with every range checked
     truth.py        claims 1 to 7: the trace replayed in its world    checkers/replayed_trace.py
     justified.py    claim 8: the evidence, recomputed                 checkers/excursions.py

@@ -1,26 +1,15 @@
 """Claims 9 and 10: what the mapper concluded must follow from its history.
 
 Mirrors: checkers/entailment.py and map_on_fold.py. Differs: there is no witness. Under the planar
-prior a rejection that only some further folding could refute leaves the verdict open (`J_FULL`).
+prior a rejection that only some further folding could refute leaves the verdict open (`full`).
 
-The moves alone are claim 9; with `J_LEVEL` 10, or where a rejection rests on a contradiction (claim
+The moves alone are claim 9; with `level` 10, or where a rejection rests on a contradiction (claim
 8 asks whether that follows), S is drawn on the fold and each decision is judged on the way.
 """
 
 from __future__ import annotations
 
-from topo_verify.compiled.events import (
-    AUGMENT,
-    BY_FOLDING,
-    BY_PLANAR,
-    CONFIRM,
-    MOVE,
-    NEW,
-    OTHER_FACE,
-    POSE,
-    REJECT,
-    TWO_OF_S,
-)
+from topo_verify.compiled.events import *
 from topo_verify.compiled.judging.consequences import all_that_follow
 from topo_verify.compiled.judging.fold import (
     find_dart,
@@ -34,148 +23,159 @@ from topo_verify.compiled.judging.fold import (
 )
 from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.layout import end_of_trace, event_size, shown
-from topo_verify.compiled.kernel import Words, inlined, kernel
-from topo_verify.compiled.workspace import TR
+from topo_verify.compiled.kernel import inlined, kernel
+from topo_verify.compiled.workspace import *
 
 
 @kernel
-def fold_history(W: Words, J: Words) -> bool:
+def fold_history(run: RunWords, case: CaseWords) -> bool:
     """Fold the moves and judge the decisions on the way; False: no world shows the history."""
-    start_judge_fold(J, shown(W, 0))
-    J[S_UNPROVED] = 0
-    J[S_STANDS] = 1
-    J[S_REJECTION] = 0
-    end = end_of_trace(W)
-    asked = J[J_LEVEL] >= 10 or J[J_CITED] > 0
+    drawn = case.drawn
+    start_judge_fold(case.fold, shown(run.world, 0))
+    drawn.unproved = 0
+    drawn.stands = 1
+    drawn.rejection = 0
+    end = end_of_trace(run.trace)
+    asked = case.level >= 10 or case.cited > 0
     if asked:
-        J[S_DARTS] = 0
-        J[S_VERTICES] = 0
-        add_vertex_on_fold(J, 0, 0)
-    i = TR
+        drawn.darts = 0
+        drawn.vertices = 0
+        add_vertex_on_fold(case, 0, 0)
+    i = run.trace.place_of("word")
     while i < end:
-        kind = W[i]
+        kind = EventWords(run, i).kind
         if kind == MOVE:
-            if not fold_move(J, W[i + 1], W[i + 2]):
+            move = MoveWords(run, i)
+            if not fold_move(case.fold, move.door, move.percept):
                 return False
             i += 4
             continue
-        if asked and kind != POSE and J[S_STANDS] != 0:
-            conclude_event(W, J, i)
+        if asked and kind != POSE and drawn.stands != 0:
+            conclude_event(run, case, DecisionWords(run, i))
         elif kind == REJECT:
-            note_rejection(J, 0)  # S is not proved any more
-        i += event_size(W, J, i, end)
+            note_rejection(drawn, 0)  # S is not proved any more
+        i += event_size(run, case, i, end)
     return True
 
 
 @inlined
-def note_rejection(J: Words, cited_follows: int) -> None:
+def note_rejection(drawn: DrawnWords, cited_follows: int) -> None:
     """Take note whether the contradiction that a rejection cites follows."""
-    number = J[S_REJECTION] + 1
+    number = drawn.rejection + 1
     if number >= JUDGE_STEPS:
-        J[J_FULL] = 1
+        drawn.full = 1
     else:
-        J[S_MET + number] = cited_follows
-    J[S_REJECTION] = number
+        drawn.met[number] = cited_follows
+    drawn.rejection = number
 
 
 @kernel
-def conclude_event(W: Words, J: Words, i: int) -> None:
+def conclude_event(run: RunWords, case: CaseWords, event: DecisionWords) -> None:
     """One decision: whether it follows, and S behind it."""
-    kind = W[i]
-    e = W[i + 1]
-    other = W[i + 3] if kind == AUGMENT else W[i + 2]
-    is_new = kind == AUGMENT and W[i + 2] == NEW
-    known = other == J[S_DARTS] if is_new else is_open_on_fold(J, other)
-    if not known or not is_open_on_fold(J, e):
-        J[S_UNPROVED] = 1
-        J[S_STANDS] = 0
+    drawn = case.drawn
+    rejection = RejectionWords(run, event)
+    augmentation = AugmentationWords(run, event)
+    kind = event.kind
+    e = event.edge
+    other = augmentation.dart if kind == AUGMENT else rejection.h
+    is_new = kind == AUGMENT and augmentation.growth == NEW
+    known = other == drawn.darts if is_new else is_open_on_fold(drawn, other)
+    if not known or not is_open_on_fold(drawn, e):
+        drawn.unproved = 1
+        drawn.stands = 0
         if kind == REJECT:
-            note_rejection(J, 0)
+            note_rejection(drawn, 0)
         return
     if kind == REJECT:
-        cited_follows = 1 if W[i + 4] >= BY_FOLDING and is_met(W, J, i) else 0
-        note_rejection(J, cited_follows)
-        if may_lead_to(J, e, other):
-            J[S_UNPROVED] = 1
+        cited_follows = 1 if rejection.rule >= BY_FOLDING and is_met(run, case, rejection) else 0
+        note_rejection(drawn, cited_follows)
+        if may_lead_to(case, e, other):
+            drawn.unproved = 1
         else:
-            J[S_REFUTED + other] = e
+            drawn.refuted[other] = e
         return
     if is_new:
-        follows = not may_be_known(J, e, W[i + 4]) and not may_lead_anywhere(J, e)
+        follows = not may_be_known(case, e, augmentation.degree) and not may_lead_anywhere(case, e)
     else:
-        follows = not may_be_apart(J, e, other)
-        if kind == AUGMENT and J[F_DEGREE + find_node(J, J[S_NODE + other])] != W[i + 4]:
+        follows = not may_be_apart(case, e, other)
+        if (
+            kind == AUGMENT
+            and case.fold.degree[find_node(case.fold, drawn.node[other])] != augmentation.degree
+        ):
             follows = False
     if not follows:
-        J[S_UNPROVED] = 1
+        drawn.unproved = 1
     if kind == CONFIRM:
         return
     if follows and is_new:
-        follows = grow_on_fold(J, e)
+        follows = grow_on_fold(case, e)
     if follows:
-        J[S_OPEN + e] = 0
-        J[S_OPEN + other] = 0
+        drawn.open[e] = 0
+        drawn.open[other] = 0
         # On the face each goes on beyond the other.
-        after = J[S_AFTER + e]
-        J[S_AFTER + e] = J[S_AFTER + other]
-        J[S_AFTER + other] = after
+        after = drawn.after[e]
+        drawn.after[e] = drawn.after[other]
+        drawn.after[other] = after
     else:  # from here on S is not proved
-        J[S_STANDS] = 0
+        drawn.stands = 0
 
 
 # ---------------------------------------------------------------- S on the fold
 
 
 @inlined
-def is_open_on_fold(J: Words, dart: int) -> bool:
+def is_open_on_fold(drawn: DrawnWords, dart: int) -> bool:
     """Whether this is a dart of S, and unexplored."""
-    return 0 <= dart < J[S_DARTS] and J[S_OPEN + dart] != 0
+    return 0 <= dart < drawn.darts and drawn.open[dart] != 0
 
 
 @inlined
-def add_vertex_on_fold(J: Words, node: int, first: int) -> bool:
+def add_vertex_on_fold(case: CaseWords, node: int, first: int) -> bool:
     """Let S have a vertex more, its first dart at this place; False: there is no room."""
-    size = J[S_DARTS]
-    degree = J[F_DEGREE + node]
+    drawn = case.drawn
+    size = drawn.darts
+    degree = case.fold.degree[node]
     if size + degree > JUDGE_DARTS:
-        J[J_FULL] = 1
+        case.full = 1
         return False
-    J[S_ENTRY + J[S_VERTICES]] = size
+    drawn.entry[drawn.vertices] = size
     for door in range(degree):
         dart = size + door
-        J[S_NODE + dart] = node
-        J[S_DART + dart] = first + door if first + door < degree else first + door - degree
-        J[S_AFTER + dart] = dart + 1
-        J[S_OPEN + dart] = 1
-        J[S_REFUTED + dart] = -1
-    J[S_AFTER + size + degree - 1] = size
-    J[S_DARTS] = size + degree
-    J[S_VERTICES] += 1
+        drawn.node[dart] = node
+        drawn.dart[dart] = first + door if first + door < degree else first + door - degree
+        drawn.after[dart] = dart + 1
+        drawn.open[dart] = 1
+        drawn.refuted[dart] = -1
+    drawn.after[size + degree - 1] = size
+    drawn.darts = size + degree
+    drawn.vertices += 1
     return True
 
 
 @inlined
-def slot_of(J: Words, e: int) -> int:
+def slot_of(case: CaseWords, e: int) -> int:
     """Where the other end of a dart of S is kept."""
-    node = J[S_NODE + e]
-    return J[F_BASE + find_node(J, node)] + find_dart(J, node, J[S_DART + e])
+    drawn = case.drawn
+    node = drawn.node[e]
+    return case.fold.base[find_node(case.fold, node)] + find_dart(case.fold, node, drawn.dart[e])
 
 
 @inlined
-def grow_on_fold(J: Words, e: int) -> bool:
+def grow_on_fold(case: CaseWords, e: int) -> bool:
     """Let S have the vertex behind e."""
-    slot = slot_of(J, e)
-    node = J[F_END_NODE + slot]
-    first = find_dart(J, node, J[F_END_DART + slot])
-    return add_vertex_on_fold(J, find_node(J, node), first)
+    fold = case.fold
+    slot = slot_of(case, e)
+    node = fold.end_node[slot]
+    first = find_dart(fold, node, fold.end_dart[slot])
+    return add_vertex_on_fold(case, find_node(fold, node), first)
 
 
 @inlined
-def on_face(J: Words, e: int, h: int) -> bool:
+def on_face(drawn: DrawnWords, e: int, h: int) -> bool:
     """Whether h is on the face of e."""
-    dart = J[S_AFTER + e]
+    dart = drawn.after[e]
     while dart not in (e, h):
-        dart = J[S_AFTER + dart]
+        dart = drawn.after[dart]
     return dart == h
 
 
@@ -183,86 +183,91 @@ def on_face(J: Words, e: int, h: int) -> bool:
 
 
 @inlined
-def may_be_apart(J: Words, e: int, h: int) -> bool:
+def may_be_apart(case: CaseWords, e: int, h: int) -> bool:
     """Folding does not make e and h partners."""
-    slot = slot_of(J, e)
-    node = J[F_END_NODE + slot]
-    if node < 0 or find_node(J, node) != find_node(J, J[S_NODE + h]):
+    fold, drawn = case.fold, case.drawn
+    slot = slot_of(case, e)
+    node = fold.end_node[slot]
+    if node < 0 or find_node(fold, node) != find_node(fold, drawn.node[h]):
         return True
-    dart = find_dart(J, node, J[F_END_DART + slot])
-    return dart != find_dart(J, J[S_NODE + h], J[S_DART + h])
+    dart = find_dart(fold, node, fold.end_dart[slot])
+    return dart != find_dart(fold, drawn.node[h], drawn.dart[h])
 
 
 @inlined
-def may_be_known(J: Words, e: int, degree: int) -> bool:
+def may_be_known(case: CaseWords, e: int, degree: int) -> bool:
     """The edge e was not crossed, or leads to another degree, or to a vertex of S."""
-    slot = slot_of(J, e)
-    node = J[F_END_NODE + slot]
+    fold, drawn = case.fold, case.drawn
+    slot = slot_of(case, e)
+    node = fold.end_node[slot]
     if node < 0:
         return True
-    node = find_node(J, node)
-    if J[F_DEGREE + node] != degree:
+    node = find_node(fold, node)
+    if fold.degree[node] != degree:
         return True
-    for v in range(J[S_VERTICES]):  # noqa: SIM110  numba knows no such generator
-        if find_node(J, J[S_NODE + J[S_ENTRY + v]]) == node:
+    for v in range(drawn.vertices):  # noqa: SIM110  numba knows no such generator
+        if find_node(fold, drawn.node[drawn.entry[v]]) == node:
             return True
     return False
 
 
 @inlined
-def may_lead_anywhere(J: Words, e: int) -> bool:
+def may_lead_anywhere(case: CaseWords, e: int) -> bool:
     """Some unexplored dart that is not refuted may be the other end of e."""
-    for h in range(J[S_DARTS]):
-        if J[S_OPEN + h] != 0 and h != e and J[S_REFUTED + h] != e and may_lead_to(J, e, h):
+    drawn = case.drawn
+    for h in range(drawn.darts):
+        if drawn.open[h] != 0 and h != e and drawn.refuted[h] != e and may_lead_to(case, e, h):
             return True
     return False
 
 
 @kernel
-def may_lead_to(J: Words, e: int, h: int) -> bool:
+def may_lead_to(case: CaseWords, e: int, h: int) -> bool:
     """Folding with e joined to h meets no contradiction; under the prior: in a planar world."""
-    if J[J_SAW_PLANAR] != 0 and not on_face(J, e, h) and h != e:
+    fold, drawn = case.fold, case.drawn
+    if case.saw_planar != 0 and not on_face(drawn, e, h) and h != e:
         return False
-    slot = slot_of(J, e)
-    end = J[F_END_NODE + slot]
-    node = find_node(J, J[S_NODE + h])
+    slot = slot_of(case, e)
+    end = fold.end_node[slot]
+    node = find_node(fold, drawn.node[h])
     if end >= 0:  # the usual case, seen at once
-        end = find_node(J, end)
-        if J[F_DEGREE + end] != J[F_DEGREE + node]:
+        end = find_node(fold, end)
+        if fold.degree[end] != fold.degree[node]:
             return False
-    mark = J[F_UNDOS]
-    wrong = join_ends(J, J[S_NODE + e], J[S_DART + e], J[S_NODE + h], J[S_DART + h])
-    if wrong == 0 and J[J_SAW_PLANAR] != 0:
-        if lay_out(J) < 0 or not is_planar_fold(J):
-            J[J_FULL] = 1  # some further folding may be planar: the checkers look for it
-    roll_back(J, mark)
+    mark = fold.undos
+    wrong = join_ends(fold, drawn.node[e], drawn.dart[e], drawn.node[h], drawn.dart[h])
+    if wrong == 0 and case.saw_planar != 0:
+        if lay_out(fold) < 0 or not is_planar_fold(fold):
+            case.full = 1  # some further folding may be planar: the checkers look for it
+    roll_back(fold, mark)
     return wrong == 0
 
 
 @kernel
-def is_met(W: Words, J: Words, i: int) -> bool:
+def is_met(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:  # noqa: ARG001  it has the rejection's words
     """Whether the contradiction that a rejection cites follows from the history."""
-    e = W[i + 1]
-    h = W[i + 2]
-    cited = W[i + 11]
-    if W[i + 4] == BY_PLANAR:
-        return cited == OTHER_FACE and h != e and not on_face(J, e, h)
+    fold, drawn = case.fold, case.drawn
+    e = rejection.edge
+    h = rejection.h
+    cited = rejection.contradiction
+    if rejection.rule == BY_PLANAR:
+        return cited == OTHER_FACE and h != e and not on_face(drawn, e, h)
     if cited <= 0 or cited >= OTHER_FACE:
         return False
-    mark = J[F_UNDOS]
-    J[F_MET] = 0
-    join_ends(J, J[S_NODE + e], J[S_DART + e], J[S_NODE + h], J[S_DART + h])
-    found = J[F_MET]
-    J[F_MET] = -1
+    mark = fold.undos
+    fold.met = 0
+    join_ends(fold, drawn.node[e], drawn.dart[e], drawn.node[h], drawn.dart[h])
+    found = fold.met
+    fold.met = -1
     if cited == TWO_OF_S:
-        seen = J[S_VERTICES]
+        seen = drawn.vertices
         for v in range(seen):
             for w in range(v):
-                if find_node(J, J[S_NODE + J[S_ENTRY + v]]) == find_node(
-                    J, J[S_NODE + J[S_ENTRY + w]]
+                if find_node(fold, drawn.node[drawn.entry[v]]) == find_node(
+                    fold, drawn.node[drawn.entry[w]]
                 ):
                     found |= 1 << TWO_OF_S
-    roll_back(J, mark)
+    roll_back(fold, mark)
     if (found >> cited) & 1 == 0 and found != 0:  # it may follow where the fold drew no more
-        found = all_that_follow(J, e, h)
+        found = all_that_follow(case, e, h)
     return (found >> cited) & 1 != 0

@@ -7,156 +7,178 @@ true in the world, so of several records that reach as far any one will do.
 
 from __future__ import annotations
 
-from topo_verify.compiled.events import ABSENT, BY_FOLDING, BY_MOTION, BY_PLANAR
+from topo_verify.compiled.events import *
 from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.layout import exit_of, shown
-from topo_verify.compiled.kernel import Words, inlined, kernel
-from topo_verify.compiled.workspace import AL
+from topo_verify.compiled.kernel import inlined, kernel
+from topo_verify.compiled.workspace import *
 
 
 @inlined
-def unjustified(W: Words, J: Words, i: int) -> bool:
-    """Whether the rejection at i is not justified: `_unjustified` of claims.py."""
-    e = W[i + 1]
-    h = W[i + 2]
-    rule = W[i + 4]
-    at = J[J_POSE_AT]
-    if at < 0 or J[J_POSE_EDGE] != e:
+def unjustified(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
+    """Whether the rejection is not justified: `_unjustified` of claims.py."""
+    e = rejection.edge
+    h = rejection.h
+    rule = rejection.rule
+    at = case.pose_at
+    if at < 0 or case.pose_edge != e:
         return True
     is_posed = False
-    for k in range(at + 3, at + 3 + W[at + 2]):
-        if W[k] == h:
+    posed = PoseWords(run, at)
+    for k in range(posed.place_of("h"), posed.place_of("h") + posed.number):
+        if run[k] == h:
             is_posed = True
-    if not is_posed or e < 0 or e >= J[J_SIZE] or h < 0 or h >= J[J_SIZE]:
+    if not is_posed or e < 0 or e >= case.size or h < 0 or h >= case.size:
         return True
-    if J[J_ALPHA + e] >= 0 or J[J_ALPHA + h] >= 0:
+    if case.alpha[e] >= 0 or case.alpha[h] >= 0:
         return True
     if rule in (BY_FOLDING, BY_PLANAR):
-        return unmet(W, J, i)
-    return W[i + 11] != 0 or percepts_agree(W, J, i)
+        return unmet(run, case, rejection)
+    return rejection.contradiction != 0 or percepts_agree(run, case, rejection)
 
 
 @kernel
-def unmet(W: Words, J: Words, i: int) -> bool:
+def unmet(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
     """Whether more is cited than a contradiction: `_unmet`. Whether that follows is asked later."""
-    expected = W[i + 6]
-    observed = W[i + 7]
-    if expected not in (ABSENT, shown(W, J[J_PHI + W[i + 2]])):
+    expected = rejection.expected
+    observed = rejection.observed
+    if expected not in (ABSENT, shown(run.world, case.phi[rejection.h])):
         return True
-    if observed not in (ABSENT, shown(W, W[AL + J[J_PHI + W[i + 1]]])):
+    if observed not in (ABSENT, shown(run.world, run.world.alpha[case.phi[rejection.edge]])):
         return True
-    if W[i + 5] != 0 or W[i + 8] != ABSENT or W[i + 9] != ABSENT or W[i + 10] != ABSENT:
+    if (
+        rejection.step != 0
+        or rejection.sequence != ABSENT
+        or rejection.at != ABSENT
+        or rejection.record != ABSENT
+    ):
         return True
-    if J[J_REJECTIONS] >= JUDGE_STEPS:  # `J_CITED` is less
-        J[J_FULL] = 1
+    if case.rejections >= JUDGE_STEPS:  # `cited` is less
+        case.full = 1
         return True
-    J[J_CITED_BY + J[J_CITED]] = J[J_REJECTIONS]
-    J[J_CITED] += 1
+    case.cited_by[case.cited] = case.rejections
+    case.cited += 1
     return False
 
 
 @kernel
-def cites_in_vain(J: Words) -> bool:
+def cites_in_vain(case: CaseWords) -> bool:
     """Whether some contradiction that was cited does not follow, once the history is folded."""
-    for k in range(J[J_CITED]):  # noqa: SIM110  numba knows no such generator
-        if J[S_MET + J[J_CITED_BY + k]] == 0:
+    for k in range(case.cited):  # noqa: SIM110  numba knows no such generator
+        if case.drawn.met[case.cited_by[k]] == 0:
             return True
     return False
 
 
 @kernel
-def percepts_agree(W: Words, J: Words, i: int) -> bool:
+def percepts_agree(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
     """Whether the two percepts that are cited do not disagree as they are said to."""
-    step = W[i + 5]
-    number = W[i + 8]
-    doors = J_WORD_DOOR
-    percepts = J_WORD_PERCEPT
-    size = J[J_WORD_SIZE]
+    step = rejection.step
+    number = rejection.sequence
+    doors = case.place_of("word_door")
+    percepts = case.place_of("word_percept")
+    size = case.word_size
     if number == ABSENT:
-        if W[i + 4] != BY_MOTION:
+        if rejection.rule != BY_MOTION:
             return True
     else:
-        if number < 0 or number >= J[J_SEQUENCES] - J[J_FIRST_SEQUENCE]:
+        if number < 0 or number >= case.sequences - case.first_sequence:
             return True
-        s = J[J_FIRST_SEQUENCE] + number
-        doors = J_ARENA_DOOR + J[J_SEQUENCE_AT + s]
-        percepts = J_ARENA_PERCEPT + J[J_SEQUENCE_AT + s]
-        size = J[J_SEQUENCE_SIZE + s]
+        s = case.first_sequence + number
+        doors = case.place_of("arena_door") + case.sequence_at[s]
+        percepts = case.place_of("arena_percept") + case.sequence_at[s]
+        size = case.sequence_size[s]
     if step < 0 or step > size:
         return True
-    observed = shown(W, W[AL + J[J_PHI + W[i + 1]]]) if step == 0 else J[percepts + step - 1]
+    observed = (
+        shown(run.world, run.world.alpha[case.phi[rejection.edge]])
+        if step == 0
+        else case[percepts + step - 1]
+    )
     # Trace the word from the hypothesis on S, up to the first unexplored dart.
-    at = W[i + 2]
+    at = rejection.h
     for k in range(step):
-        exit_dart = J[J_NUMBER + exit_of(W, J[J_PHI + at], J[doors + k])]
-        if J[J_ALPHA + exit_dart] < 0:
-            return beyond_s(W, J, i, exit_dart, doors + k + 1, step - k - 1, observed)
-        at = J[J_ALPHA + exit_dart]
-    expected = shown(W, J[J_PHI + at])
+        exit_dart = case.number[exit_of(run.world, case.phi[at], case[doors + k])]
+        if case.alpha[exit_dart] < 0:
+            return beyond_s(run, case, rejection, exit_dart, doors + k + 1, step - k - 1, observed)
+        at = case.alpha[exit_dart]
+    expected = shown(run.world, case.phi[at])
     return (
-        W[i + 10] != ABSENT
-        or W[i + 9] not in (ABSENT, at)
-        or W[i + 7] != observed
-        or W[i + 6] != expected
+        rejection.record != ABSENT
+        or rejection.at not in (ABSENT, at)
+        or rejection.observed != observed
+        or rejection.expected != expected
         or expected == observed
     )
 
 
 @kernel
-def beyond_s(W: Words, J: Words, i: int, dart: int, doors: int, rest: int, observed: int) -> bool:
+def beyond_s(
+    run: RunWords,  # noqa: ARG001  it has the rejection's words
+    case: CaseWords,
+    rejection: RejectionWords,
+    dart: int,
+    doors: int,
+    rest: int,
+    observed: int,
+) -> bool:
     """`percepts_agree` where the word leaves S at a dart, with so many doors to go."""
-    if W[i + 10] != dart or W[i + 12] != rest or W[i + 9] not in (ABSENT, dart):
+    if rejection.record != dart or rejection.doors != rest or rejection.at not in (ABSENT, dart):
         return True
     for k in range(rest):
-        if W[i + 13 + k] != J[doors + k]:
+        if rejection.door[k] != case[doors + k]:
             return True
-    record = J[J_RECORD_OF + dart]
+    record = case.record_of[dart]
     while record >= 0:
-        begin = J[J_RECORD_AT + record]
+        begin = case.record_at[record]
         k = 0
-        if J[J_RECORD_REST + record] >= rest:
-            while k < rest and J[J_ARENA_DOOR + begin + 1 + k] == J[doors + k]:
+        if case.record_rest[record] >= rest:
+            while k < rest and case.arena_door[begin + 1 + k] == case[doors + k]:
                 k += 1
             if k == rest:
-                expected = J[J_ARENA_PERCEPT + begin + rest]
-                return W[i + 7] != observed or W[i + 6] != expected or expected == observed
-        record = J[J_RECORD_BEFORE + record]
+                expected = case.arena_percept[begin + rest]
+                return (
+                    rejection.observed != observed
+                    or rejection.expected != expected
+                    or expected == observed
+                )
+        record = case.record_before[record]
     return True
 
 
 @inlined
-def keep_sequence(J: Words) -> None:
+def keep_sequence(case: CaseWords) -> None:
     """The word at a mismatch in motion becomes a sequence."""
-    s = J[J_SEQUENCES]
-    begin = J[J_ARENA]
-    size = J[J_WORD_SIZE]
+    s = case.sequences
+    begin = case.arena
+    size = case.word_size
     if s >= JUDGE_SEQUENCES or begin + size > JUDGE_ARENA:
-        J[J_FULL] = 1
+        case.full = 1
         return
-    J[J_SEQUENCE_AT + s] = begin
-    J[J_SEQUENCE_SIZE + s] = size
+    case.sequence_at[s] = begin
+    case.sequence_size[s] = size
     for k in range(size):
-        J[J_ARENA_DOOR + begin + k] = J[J_WORD_DOOR + k]
-        J[J_ARENA_PERCEPT + begin + k] = J[J_WORD_PERCEPT + k]
-    J[J_SEQUENCES] = s + 1
-    J[J_ARENA] = begin + size
+        case.arena_door[begin + k] = case.word_door[k]
+        case.arena_percept[begin + k] = case.word_percept[k]
+    case.sequences = s + 1
+    case.arena = begin + size
 
 
 @inlined
-def record_sequences(W: Words, J: Words, start: int) -> None:
+def record_sequences(world: WorldWords, case: CaseWords, start: int) -> None:
     """Keep what the sequences from a dart of S show, each behind the first unexplored dart."""
-    for s in range(J[J_FIRST_SEQUENCE], J[J_SEQUENCES]):
+    for s in range(case.first_sequence, case.sequences):
         at = start
-        begin = J[J_SEQUENCE_AT + s]
-        size = J[J_SEQUENCE_SIZE + s]
+        begin = case.sequence_at[s]
+        size = case.sequence_size[s]
         for k in range(size):
-            exit_dart = J[J_NUMBER + exit_of(W, J[J_PHI + at], J[J_ARENA_DOOR + begin + k])]
-            if J[J_ALPHA + exit_dart] < 0:
-                record = J[J_RECORDS]  # a sequence leaves one record at most, so there is room
-                J[J_RECORD_AT + record] = begin + k
-                J[J_RECORD_REST + record] = size - k - 1
-                J[J_RECORD_BEFORE + record] = J[J_RECORD_OF + exit_dart]
-                J[J_RECORD_OF + exit_dart] = record
-                J[J_RECORDS] = record + 1
+            exit_dart = case.number[exit_of(world, case.phi[at], case.arena_door[begin + k])]
+            if case.alpha[exit_dart] < 0:
+                record = case.records  # a sequence leaves one record at most, so there is room
+                case.record_at[record] = begin + k
+                case.record_rest[record] = size - k - 1
+                case.record_before[record] = case.record_of[exit_dart]
+                case.record_of[exit_dart] = record
+                case.records = record + 1
                 break
-            at = J[J_ALPHA + exit_dart]
+            at = case.alpha[exit_dart]

@@ -2,267 +2,263 @@
 
 Mirrors: checkers/replayed_trace.py, map_in_world.py and the first functions of claims.py. Differs:
 what a claim asks is asked at the event, so S need not know when a dart was born; and a finding is a
-bit in `J_WRONG`. Bit k stands for claim k + 1.
+bit in `wrong`. Bit k stands for claim k + 1.
 
-Positions follow from the doors alone. From the first door that is not there (`J_LEGAL`) no event
-is judged; from the first false augmentation on (`J_SPOILED`) no decision.
+Positions follow from the doors alone. From the first door that is not there (`legal`) no event
+is judged; from the first false augmentation on (`spoiled`) no decision.
 """
 
 from __future__ import annotations
 
-from topo_verify.compiled.events import (
-    BY_MOTION,
-    BY_PLANAR,
-    CONFIRM,
-    LOOP,
-    MOVE,
-    NEW,
-    POSE,
-    REJECT,
-)
+from topo_verify.compiled.events import *
 from topo_verify.compiled.judging.justified import keep_sequence, record_sequences, unjustified
 from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.layout import end_of_trace, event_size, exit_of, shown
-from topo_verify.compiled.kernel import Words, inlined, kernel
+from topo_verify.compiled.kernel import inlined, kernel
 from topo_verify.compiled.workspace import *
 
 HASH_PRIME = 1099511628211
 
 
 @kernel
-def replay(W: Words, J: Words) -> None:
+def replay(run: RunWords, case: CaseWords) -> None:
     """Follow the trace, draw S, and judge each event by claims 1, 2, 3, 4, 5 and 8."""
-    start_replay(W, J)
-    i = TR
-    end = end_of_trace(W)
+    start_replay(run.world, case)
+    i = run.trace.place_of("word")
+    end = end_of_trace(run.trace)
     while i < end:
-        size = event_size(W, J, i, end)
+        size = event_size(run, case, i, end)
         if size == 0:
             return
-        kind = W[i]
+        kind = EventWords(run, i).kind
         if kind == MOVE:
-            follow_move(W, J, i)
+            follow_move(run, case, MoveWords(run, i))
         else:
-            J[J_SAW_POSE - POSE + kind] = 1
-            if kind == REJECT and W[i + 4] == BY_PLANAR:
-                J[J_SAW_PLANAR] = 1
-            if J[J_LEGAL] != 0 and J[J_SPOILED] == 0:
-                decide(W, J, i)
+            case.saw[kind] = 1
+            if kind == REJECT and RejectionWords(run, i).rule == BY_PLANAR:
+                case.saw_planar = 1
+            if case.legal != 0 and case.spoiled == 0:
+                decide(run, case, DecisionWords(run, i))
         i += size
 
 
 @inlined
-def start_replay(W: Words, J: Words) -> None:
+def start_replay(world: WorldWords, case: CaseWords) -> None:
     """Let S be v0, and forget the run before."""
-    for at in range(J_COST, J_PHI):
-        J[at] = 0
-    for at in range(J_SAW_POSE, J_FATE):
-        J[at] = 0
-    for d in range(J[J_DARTS]):
-        J[J_NUMBER + d] = -1
-        J[J_FATE + d] = 0
-        J[J_LEFT + d] = 0
-    J[J_LEGAL] = 1
-    J[J_TRUE] = 1
-    J[J_FOLLOWED] = 1
-    J[J_POSE_AT] = -1
-    J[J_IS_LATE] = 0
-    J[J_TURNED] = 0
-    J[J_WORD_SIZE] = 0
-    J[J_FIRST_SEQUENCE] = 0
-    J[J_SEQUENCES] = 0
-    J[J_ARENA] = 0
-    J[J_RECORDS] = 0
-    draw_vertex(W, J, 0)
+    for at in range(case.place_of("cost"), case.place_of("phi")):
+        case[at] = 0
+    for at in range(case.place_of("saw"), case.place_of("fate")):
+        case[at] = 0
+    for d in range(case.darts):
+        case.number[d] = -1
+        case.fate[d] = 0
+        case.left[d] = 0
+    case.legal = 1
+    case.true = 1
+    case.followed = 1
+    case.pose_at = -1
+    case.is_late = 0
+    case.turned = 0
+    case.word_size = 0
+    case.first_sequence = 0
+    case.sequences = 0
+    case.arena = 0
+    case.records = 0
+    draw_vertex(world, case, 0)
 
 
 @inlined
-def draw_vertex(W: Words, J: Words, entry: int) -> None:
+def draw_vertex(world: WorldWords, case: CaseWords, entry: int) -> None:
     """Let S have a vertex more, that of a dart of the world: its first dart is that one."""
-    v = W[VT + entry]
-    first = J[J_SIZE]
+    v = world.vertex[entry]
+    first = case.size
     dart = entry
-    for d in range(first, first + W[DG + v]):
-        J[J_PHI + d] = dart
-        J[J_NUMBER + dart] = d
-        J[J_ALPHA + d] = -1
-        J[J_RECORD_OF + d] = -1
+    for d in range(first, first + world.degree[v]):
+        case.phi[d] = dart
+        case.number[dart] = d
+        case.alpha[d] = -1
+        case.record_of[d] = -1
         dart += 1
-        if dart == W[ST + v] + W[DG + v]:
-            dart = W[ST + v]
-    J[J_SIZE] = first + W[DG + v]
+        if dart == world.first[v] + world.degree[v]:
+            dart = world.first[v]
+    case.size = first + world.degree[v]
 
 
 @inlined
-def is_open(J: Words, dart: int) -> bool:
+def is_open(case: CaseWords, dart: int) -> bool:
     """Whether this is a dart of S, and unexplored."""
-    return 0 <= dart < J[J_SIZE] and J[J_ALPHA + dart] < 0
+    return 0 <= dart < case.size and case.alpha[dart] < 0
 
 
 @inlined
-def lesser(W: Words, dart: int) -> int:
+def lesser(world: WorldWords, dart: int) -> int:
     """The edge of the world that has this dart, by the lesser of its two."""
-    return min(dart, W[AL + dart])
+    return min(dart, world.alpha[dart])
 
 
 # ---------------------------------------------------------------- moves
 
 
 @inlined
-def follow_move(W: Words, J: Words, i: int) -> None:
+def follow_move(run: RunWords, case: CaseWords, move: MoveWords) -> None:
     """One move: the position, the percept (claim 1), and the word of the excursion."""
-    J[J_COST] += 1
-    J[J_DOORS_HASH] = (J[J_DOORS_HASH] ^ W[i + 1]) * HASH_PRIME
-    if J[J_LEGAL] == 0:
+    world = run.world
+    case.cost += 1
+    case.doors_hash = (case.doors_hash ^ move.door) * HASH_PRIME
+    if case.legal == 0:
         return
-    at = J[J_AT]
-    v = W[VT + at]
-    door = W[i + 1]
-    if door < 0 or door >= W[DG + v]:
-        J[J_LEGAL] = 0
-        J[J_WRONG] |= 1
+    at = case.at
+    v = world.vertex[at]
+    door = move.door
+    if door < 0 or door >= world.degree[v]:
+        case.legal = 0
+        case.wrong |= 1
         return
-    exit_dart = exit_of(W, at, door)
-    at = W[AL + exit_dart]
-    J[J_AT] = at
-    J[J_CROSSED] |= 1 << min(at, exit_dart)
-    J[J_FOLLOWED] += 1
-    percept = shown(W, at)
-    if W[i + 2] != percept:
-        J[J_TRUE] = 0
-        J[J_WRONG] |= 1
+    exit_dart = exit_of(world, at, door)
+    at = world.alpha[exit_dart]
+    case.at = at
+    case.crossed |= 1 << min(at, exit_dart)
+    case.followed += 1
+    percept = shown(world, at)
+    if move.percept != percept:
+        case.true = 0
+        case.wrong |= 1
     # `Excursion.move`: going back by the dart of arrival cancels the last door.
-    door += J[J_TURNED]
-    if door >= W[DG + v]:
-        door -= W[DG + v]
-    size = J[J_WORD_SIZE]
+    door += case.turned
+    if door >= world.degree[v]:
+        door -= world.degree[v]
+    size = case.word_size
     if door == 0 and size > 0:
-        J[J_TURNED] = J[J_WORD_DOOR + size - 1]
-        J[J_WORD_SIZE] = size - 1
-    elif J[J_IS_LATE] == 0 and size >= JUDGE_STEPS:
-        J[J_FULL] = 1
-    elif J[J_IS_LATE] == 0:
-        J[J_WORD_DOOR + size] = door
-        J[J_WORD_PERCEPT + size] = percept
-        J[J_WORD_SIZE] = size + 1
-        J[J_TURNED] = 0
+        case.turned = case.word_door[size - 1]
+        case.word_size = size - 1
+    elif case.is_late == 0 and size >= JUDGE_STEPS:
+        case.full = 1
+    elif case.is_late == 0:
+        case.word_door[size] = door
+        case.word_percept[size] = percept
+        case.word_size = size + 1
+        case.turned = 0
 
 
 # ---------------------------------------------------------------- decisions
 
 
 @inlined
-def decide(W: Words, J: Words, i: int) -> None:
+def decide(run: RunWords, case: CaseWords, event: DecisionWords) -> None:
     """Judge a decision, and take note of it."""
-    kind = W[i]
-    e = W[i + 1]
-    opened = is_open(J, e)
+    kind = event.kind
+    e = event.edge
+    opened = is_open(case, e)
     truth = -1
     edge = -1
     if opened:
-        truth = J[J_NUMBER + W[AL + J[J_PHI + e]]]
-        edge = lesser(W, J[J_PHI + e])
+        truth = case.number[run.world.alpha[case.phi[e]]]
+        edge = lesser(run.world, case.phi[e])
     if kind == POSE:
-        pose(W, J, i, edge, truth)
+        pose(run, case, PoseWords(run, event), edge, truth)
     elif kind == REJECT:
-        h = W[i + 2]
-        J[J_REJECTIONS] += 1
+        rejection = RejectionWords(run, event)
+        h = rejection.h
+        case.rejections += 1
         if opened and truth >= 0 and truth == h:
-            J[J_WRONG] |= 1 << 2
-        if unjustified(W, J, i):
-            J[J_WRONG] |= 1 << 7
-        settle_hypothesis(J, edge, h)
-        if W[i + 4] == BY_MOTION and J[J_WORD_SIZE] > 0:
-            keep_sequence(J)
+            case.wrong |= 1 << 2
+        if unjustified(run, case, rejection):
+            case.wrong |= 1 << 7
+        settle_hypothesis(case, edge, h)
+        if rejection.rule == BY_MOTION and case.word_size > 0:
+            keep_sequence(case)
     elif kind == CONFIRM:
-        h = W[i + 2]
-        J[J_CONFIRMATIONS] += 1
+        h = ConfirmationWords(run, event).h
+        case.confirmations += 1
         if truth < 0 or truth != h:
-            J[J_WRONG] |= 1 << 3
-        settle_hypothesis(J, edge, h)
+            case.wrong |= 1 << 3
+        settle_hypothesis(case, edge, h)
     else:
-        augment(W, J, i, edge, truth)
+        augment(run, case, AugmentationWords(run, event), edge, truth)
 
 
 @inlined
-def pose(W: Words, J: Words, i: int, edge: int, truth: int) -> None:
+def pose(run: RunWords, case: CaseWords, posed: PoseWords, edge: int, truth: int) -> None:
     """A set of hypotheses: claim 2."""
-    e = W[i + 1]
-    number = W[i + 2]
-    J[J_POSED] += number
-    J[J_POSE_AT] = i
-    J[J_POSE_EDGE] = e
-    J[J_TURNED] = 0
-    J[J_WORD_SIZE] = 0
-    J[J_FIRST_SEQUENCE] = J[J_SEQUENCES]
-    wrong = edge < 0 or J[J_CROSSED] & (1 << edge) == 0
-    J[J_IS_LATE] = edge < 0 or J[J_AT] != W[AL + J[J_PHI + e]]
+    e = posed.edge
+    number = posed.number
+    case.posed += number
+    case.pose_at = posed.origin
+    case.pose_edge = e
+    case.turned = 0
+    case.word_size = 0
+    case.first_sequence = case.sequences
+    wrong = edge < 0 or case.crossed & (1 << edge) == 0
+    case.is_late = edge < 0 or case.at != run.world.alpha[case.phi[e]]
     has_truth = truth < 0
     hypotheses = 0
-    for k in range(i + 3, i + 3 + number):
-        h = W[k]
-        if not is_open(J, h):
+    for k in range(posed.place_of("h"), posed.place_of("h") + number):
+        h = run[k]
+        if not is_open(case, h):
             wrong = True
         if h == truth:
             has_truth = True
         if h < 0 or h >= JUDGE_DARTS - 2:
-            J[J_FULL] = 1
+            case.full = 1
         else:
             hypotheses |= 1 << h
     if wrong or not has_truth:
-        J[J_WRONG] |= 1 << 1
+        case.wrong |= 1 << 1
     if edge >= 0:
-        J[J_FATE + edge] = FATE_POSED
-        J[J_LEFT + edge] |= hypotheses
+        case.fate[edge] = FATE_POSED
+        case.left[edge] |= hypotheses
 
 
 @inlined
-def settle_hypothesis(J: Words, edge: int, h: int) -> None:
+def settle_hypothesis(case: CaseWords, edge: int, h: int) -> None:
     """A hypothesis behind an edge has its fate."""
     if edge >= 0 and 0 <= h < JUDGE_DARTS - 2:
-        J[J_LEFT + edge] &= ~(1 << h)
+        case.left[edge] &= ~(1 << h)
 
 
 @inlined
-def augment(W: Words, J: Words, i: int, edge: int, truth: int) -> None:
+def augment(
+    run: RunWords, case: CaseWords, event: AugmentationWords, edge: int, truth: int
+) -> None:
     """S grows: claims 2, 3 and 5."""
-    e = W[i + 1]
-    is_new = W[i + 2] == NEW
-    posed = J[J_POSE_AT] >= 0 and J[J_POSE_EDGE] == e
-    J[J_AUGMENTATIONS] += 1
+    world = run.world
+    e = event.edge
+    is_new = event.growth == NEW
+    posed = case.pose_at >= 0 and case.pose_edge == e
+    case.augmentations += 1
     if not posed:
-        J[J_WRONG] |= 1 << 1
+        case.wrong |= 1 << 1
     if is_new and truth >= 0:
-        J[J_WRONG] |= 1 << 2
-    size = J[J_SIZE]
+        case.wrong |= 1 << 2
+    size = case.size
     if edge < 0:
-        J[J_SPOILED] = 1
+        case.spoiled = 1
         return
-    end = W[AL + J[J_PHI + e]]
+    end = world.alpha[case.phi[e]]
     dart = size if truth < 0 else truth
-    true_kind = is_new if truth < 0 else W[i + 2] == LOOP
-    if not true_kind or W[i + 3] != dart or W[i + 4] != W[DG + W[VT + end]]:
-        J[J_SPOILED] = 1
+    true_kind = is_new if truth < 0 else event.growth == LOOP
+    if not true_kind or event.dart != dart or event.degree != world.degree[world.vertex[end]]:
+        case.spoiled = 1
         return
     if posed:
-        left = J[J_LEFT + edge] if is_new else 0
+        left = case.left[edge] if is_new else 0
         if is_new:
             # Open when S grows: the darts that were open, and those that come with the new vertex.
-            now_open = ((1 << (size + W[DG + W[VT + end]])) - 1) ^ ((1 << size) - 1)
+            now_open = ((1 << (size + world.degree[world.vertex[end]])) - 1) ^ ((1 << size) - 1)
             for d in range(size):
-                if J[J_ALPHA + d] < 0:
+                if case.alpha[d] < 0:
                     now_open |= 1 << d
             left &= now_open
-        J[J_LEFT + edge] = left
-        J[J_FATE + edge] = FATE_NEW if is_new else FATE_LOOP
+        case.left[edge] = left
+        case.fate[edge] = FATE_NEW if is_new else FATE_LOOP
         if left != 0:
-            J[J_WRONG] |= 1 << 2
+            case.wrong |= 1 << 2
     if is_new:
-        draw_vertex(W, J, end)
-    J[J_ALPHA + e] = dart
-    J[J_ALPHA + dart] = e
-    J[J_GROWN] |= 1 << edge
+        draw_vertex(world, case, end)
+    case.alpha[e] = dart
+    case.alpha[dart] = e
+    case.grown |= 1 << edge
     if posed:
-        record_sequences(W, J, dart)
-    J[J_POSE_AT] = -1
-    J[J_FIRST_SEQUENCE] = J[J_SEQUENCES]
+        record_sequences(world, case, dart)
+    case.pose_at = -1
+    case.first_sequence = case.sequences

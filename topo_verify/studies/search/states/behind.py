@@ -12,7 +12,8 @@ differs (8). One table of percepts is both what the robot sees and what S shows.
 
 from __future__ import annotations
 
-from topo_verify.compiled.kernel import Words, WordTable, entry, kernel
+from topo_verify.compiled.kernel import WordTable, entry, kernel
+from topo_verify.compiled.names import Words
 
 NONE, PREFIX, HISTORY = 0, 1, 2
 """The rules, as numbers."""

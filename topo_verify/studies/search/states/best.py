@@ -103,9 +103,10 @@ class Tables:
 
     def _paid(self, remaining: int, last: int, place: int) -> tuple[int, int]:
         count = int(self._facts[0])
-        return self._try(
+        paid: tuple[int, int] = self._try(
             self._row, self._kills, count, self._overlap, self._best, remaining, last, place
         )
+        return paid
 
 
 def _ints(*shape: int, fill: int = 0) -> Any:

@@ -14,7 +14,8 @@ darts are consecutive, clockwise.
 
 from __future__ import annotations
 
-from topo_verify.compiled.kernel import WordCube, Words, WordTable, entry, kernel
+from topo_verify.compiled.kernel import WordCube, WordTable, entry, kernel
+from topo_verify.compiled.names import Words
 from topo_verify.compiled.workspace import WordLayout
 from topo_verify.studies.search.states.behind import (
     FULL,

@@ -1,0 +1,351 @@
+"""Names for words: kernels read `chart.first[v]`, and the machine reads `W[W_CHART_FIRST + v]`.
+
+A **view** is a class whose annotations name the words of an array, one after the other:
+
+    class ChartWords(WordView):
+        vertices: int                                   # a single word
+        alpha: Annotated[Words, "CHART_DARTS"]          # a row of so many words
+
+`Fields` lays views out in an array with a letter (`W`, the workspace). A view with a part
+(`chart: ChartWords`) has the part's words, at the same places: `run.chart.alpha[d]`. Type checkers
+see ordinary classes. `Flat` turns a kernel into what numba compiles: each parameter of a view
+becomes the array, each name an offset, which is a constant; so a name costs nothing. The kernel as
+it stands runs as plain Python, on a view of any row of integers.
+
+A **cursor** is a view that stands somewhere in an array: `MoveWords(run, i).door` is `W[i + 1]`.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    Protocol,
+    Self,
+    TypeVar,
+    get_origin,
+    get_type_hints,
+)
+
+V = TypeVar("V", bound="WordView")
+
+
+class Words(Protocol):
+    """A row of 64-bit integers: the workspace, a numpy array or, in tests, a list."""
+
+    def __getitem__(self, at: int, /) -> int:
+        """The word at this place."""
+        ...
+
+    def __setitem__(self, at: int, word: int, /) -> None:
+        """Write the word at this place."""
+        ...
+
+    def __len__(self) -> int:
+        """The number of words."""
+        ...
+
+
+class WordView:
+    """The words of an array by their names; `view[k]` is the word k places from its origin.
+
+    Args:
+        words: the array.
+        origin: where the view begins; a cursor's origin is where it stands.
+    """
+
+    letter: ClassVar[str]
+    is_cursor: ClassVar[bool] = False
+
+    def __init__(self, words: Words, origin: int | WordView = 0) -> None:
+        self.array: Words = words.array if isinstance(words, WordView) else words
+        self.origin: int = origin.origin if isinstance(origin, WordView) else origin
+
+    def __getitem__(self, at: int) -> int:
+        return self.array[self.origin + at]
+
+    def __setitem__(self, at: int, word: int) -> None:
+        self.array[self.origin + at] = word
+
+    def __len__(self) -> int:
+        return len(self.array)
+
+    def place_of(self, name: str) -> int:
+        """The place in the array of a field's first word."""
+        named: Field = inspect.getattr_static(type(self), name)
+        return self.origin + named.offset
+
+
+class Field:
+    """A name of a view: a word, a row of words, or a part, which is a view itself.
+
+    Attributes:
+        name: as in `chart.first`.
+        capacity: how many words a row has, by name; "" for a single word.
+        constant: the name of the offset in what is compiled.
+        offset: where it stands.
+    """
+
+    def __init__(self, letter: str, name: str, capacity: str, part: type[WordView] | None) -> None:
+        self.name, self.capacity, self.part = name, capacity, part
+        self.constant = f"{letter}_{name.replace('.', '_').upper()}"
+        self.offset = 0
+
+    def __get__(self, view: WordView | None, owner: type[WordView]) -> WordView | int | Self:
+        if view is None:
+            return self
+        part = self.part or WordView
+        row = part(view.array, view.origin + self.offset if self.capacity else 0)
+        vars(view)[self.name.rpartition(".")[2]] = row  # the name is looked up here no more
+        return row
+
+
+class WordField(Field):
+    """A name of a single word."""
+
+    def __get__(self, view: WordView | None, owner: type[WordView]) -> int | Self:
+        return self if view is None else view.array[view.origin + self.offset]
+
+    def __set__(self, view: WordView, word: int) -> None:
+        view.array[view.origin + self.offset] = word
+
+
+class Fields:
+    """The fields of an array, in the order in which they stand.
+
+    Args:
+        letter: the array's name in what is compiled.
+        whole: the view of all of it, with its parts.
+        capacities: how many words the rows have, by the names of their capacities.
+    Attributes:
+        all: every field.
+        size: the words in all.
+    """
+
+    def __init__(self, letter: str, whole: type[WordView], capacities: Mapping[str, int]) -> None:
+        self.all = tuple(_named(letter, "", whole))
+        self.capacities = capacities
+        offsets = self.offsets()
+        self.size = offsets["SIZE"]
+        for field in self.all:
+            field.offset = offsets[field.name]
+
+    def offsets(
+        self, capacities: Mapping[str, int] | None = None, *, gap: int = 0
+    ) -> dict[str, int]:
+        """Where each field stands if rows have these capacities; `SIZE`: the words in all.
+
+        Args:
+            gap: words between fields, in which a test sees what is written beyond one.
+        """
+        sizes = self.capacities if capacities is None else capacities
+        end, places = 0, dict[str, int]()
+        for field in self.all:
+            places[field.name] = end
+            end += sizes.get(field.capacity, 1) + gap
+        return {**places, "SIZE": end}
+
+    def constants(self, offsets: Mapping[str, int] | None = None) -> dict[str, int]:
+        """Offsets by the names that they have in what is compiled."""
+        places = self.offsets() if offsets is None else offsets
+        return {field.constant: places[field.name] for field in self.all}
+
+
+def _named(letter: str, part: str, view: type[WordView]) -> Iterator[Field]:
+    """Give a view its names, those of the views that it inherits from first; its fields."""
+    for owner in reversed(view.__mro__):
+        if owner is WordView or not issubclass(owner, WordView) or "letter" in vars(owner):
+            continue
+        owner.letter = letter
+        hints = get_type_hints(owner, include_extras=True)
+        for name in inspect.get_annotations(owner):
+            hint: Any = hints[name]
+            if isinstance(hint, type) and issubclass(hint, WordView):
+                setattr(owner, name, Field(letter, name, "", hint))
+                yield from _named(letter, name, hint)
+            else:
+                capacity = hint.__metadata__[0] if get_origin(hint) is Annotated else ""
+                kind = Field if capacity else WordField
+                field = kind(letter, f"{part}.{name}".lstrip("."), capacity, None)
+                setattr(owner, name, field)
+                yield field
+
+
+def cursor(letter: str) -> Callable[[type[V]], type[V]]:
+    """The decorator of a cursor: its names are the words from where it stands on."""
+
+    def placed(view: type[V]) -> type[V]:
+        above = [name for base in view.__mro__[1:] for name in vars(base).values()]
+        before = sum(isinstance(name, Field) for name in above)
+        for offset, field in enumerate(_named(letter, "", view), before):
+            field.offset = offset
+        view.is_cursor = True
+        return view
+
+    return placed
+
+
+# ---------------------------------------------------------------- from names to offsets
+
+
+class Flat(ast.NodeTransformer):
+    """Turns a kernel with names into one over arrays and offsets.
+
+    Args:
+        namespace: what the names of the kernel's module mean.
+
+    Raises:
+        TypeError: a row is used as a word, or a part where an array is needed.
+    """
+
+    def __init__(self, namespace: Mapping[str, object]) -> None:
+        self._namespace = namespace
+        self._views: dict[str, type[WordView]] = {}
+        self._stands: dict[str, str] = {}  # of a cursor with a name: the name of its place
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
+        """A kernel: an array, in place of each parameter that is a view."""
+        self._views, self._stands = {}, {}
+        for argument in node.args.args:
+            view = self._namespace.get(getattr(argument.annotation, "id", ""))
+            if isinstance(view, type) and issubclass(view, WordView):
+                self._views[argument.arg] = view
+        self.generic_visit(node)
+        return node
+
+    def visit_arg(self, node: ast.arg) -> ast.arg:
+        """A parameter."""
+        view = self._views.get(node.arg)
+        return node if view is None or view.is_cursor else ast.arg(view.letter)
+
+    def visit_Assign(self, node: ast.Assign) -> ast.AST | None:
+        """Left out if it only gives parts of a view, or a cursor, names of their own."""
+        if isinstance(node.value, ast.Call) and (cursor := self._view(node.value)) is not None:
+            target, place = node.targets[0], node.value.args[1]
+            if not isinstance(target, ast.Name) or not isinstance(place, ast.Name):
+                raise TypeError(f"{ast.unparse(node)}: a cursor stands at a place with a name")
+            self._views[target.id] = cursor
+            self._stands[target.id] = self._stands.get(place.id, place.id)
+            return None
+        values = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]
+        parts = [self._view(value) for value in values]
+        if not all(parts):
+            return self.generic_visit(node)
+        (target,) = node.targets
+        names = target.elts if isinstance(target, ast.Tuple) else [target]
+        self._views |= {
+            name.id: part
+            for name, part in zip(names, parts, strict=True)
+            if part and isinstance(name, ast.Name)
+        }
+        return None
+
+    def visit_Name(self, node: ast.Name) -> ast.Name:
+        """A view by itself is its array; a cursor is the place where it stands."""
+        view = self._views.get(node.id)
+        if view is None:
+            return node
+        name = self._stands.get(node.id, node.id) if view.is_cursor else view.letter
+        return ast.Name(name, node.ctx)
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
+        """A word of a view, or a part."""
+        view = self._view(node.value)
+        if view is None:
+            return node
+        if node.attr == "origin":
+            place: ast.expr = self.visit(node.value)
+            return place
+        named = _named_in(view, node)
+        if named.part is not None:
+            return ast.Name(view.letter, ast.Load())
+        if named.capacity:
+            raise TypeError(f"{ast.unparse(node)} is a row of words: it needs an index")
+        return self._word(node.value, view, named, None, node.ctx)
+
+    def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
+        """A word in a row of a view, or by its place."""
+        row = node.value
+        view = self._view(row)
+        if view is not None and view.is_cursor:
+            node.slice = _sum(self.visit(row), self.visit(node.slice))
+            node.value = ast.Name(view.letter, ast.Load())
+            return node
+        if isinstance(row, ast.Attribute) and (view := self._view(row.value)) is not None:
+            named = _named_in(view, row)
+            if named.part is None:
+                if not named.capacity:
+                    raise TypeError(f"{ast.unparse(row)} is one word: it has no index")
+                return self._word(row.value, view, named, self.visit(node.slice), node.ctx)
+        return self.generic_visit(node)  # type: ignore[return-value]
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        """`chart.place_of("first")` is an offset; a cursor that is made is its place."""
+        made = self._view(node)
+        if made is not None:
+            place: ast.expr = self.visit(node.args[1])
+            return place
+        if isinstance(node.func, ast.Attribute) and node.func.attr == "place_of":
+            view = self._view(node.func.value)
+            (name,) = node.args
+            if view is not None and isinstance(name, ast.Constant):
+                named = _named_in(view, ast.Attribute(node.func.value, str(name.value), ast.Load()))
+                return self._place(node.func.value, view, named)
+        return self.generic_visit(node)  # type: ignore[return-value]
+
+    def _view(self, node: ast.expr) -> type[WordView] | None:
+        """The view that an expression is, if it is one."""
+        if isinstance(node, ast.Name):
+            return self._views.get(node.id)
+        if isinstance(node, ast.Attribute) and node.attr != "origin":
+            view = self._view(node.value)
+            return None if view is None else _named_in(view, node).part
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            made = self._namespace.get(node.func.id)
+            if isinstance(made, type) and issubclass(made, WordView):
+                return made
+        return None
+
+    def _word(
+        self,
+        owner: ast.expr,
+        view: type[WordView],
+        named: Field,
+        index: ast.expr | None,
+        ctx: ast.expr_context,
+    ) -> ast.expr:
+        """The word of a view, of the row's place `index` if it is a row."""
+        place = self._place(owner, view, named)
+        if index is not None and not (isinstance(index, ast.Constant) and index.value == 0):
+            place = _sum(place, index)
+        return ast.Subscript(ast.Name(view.letter, ast.Load()), place, ctx)
+
+    def _place(self, owner: ast.expr, view: type[WordView], named: Field) -> ast.expr:
+        """Where a field of a view begins."""
+        if not view.is_cursor:
+            return ast.Name(named.constant, ast.Load())
+        place = self.visit(owner)
+        return ast.BinOp(place, ast.Add(), ast.Constant(named.offset)) if named.offset else place
+
+
+def _named_in(view: type[WordView], node: ast.Attribute) -> Field:
+    """What the name of an attribute means in a view."""
+    named = inspect.getattr_static(view, node.attr, None)
+    if not isinstance(named, Field):
+        raise TypeError(f"{ast.unparse(node)}: {view.__name__} has no such name")
+    return named
+
+
+def _sum(place: ast.expr, index: ast.expr) -> ast.expr:
+    """A place, and an index behind it: the place at the left end, where it is added first."""
+    at = index
+    if not isinstance(at, ast.BinOp) or not isinstance(at.op, ast.Add | ast.Sub):
+        return ast.BinOp(place, ast.Add(), index)
+    while isinstance(at.left, ast.BinOp) and isinstance(at.left.op, ast.Add | ast.Sub):
+        at = at.left
+    at.left = ast.BinOp(place, ast.Add(), at.left)
+    return index
