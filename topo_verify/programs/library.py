@@ -5,9 +5,6 @@
 The robot of the header is a row of callbacks; here they hand on to a robot in Python. After a
 refusal they do nothing, until the function returns: then what stopped the robot is raised.
 
-`search` calls the same function much faster, from the compiled engine (campaign/compiled.py). Both
-refuse the same things, so that a mapper makes the same run in either way.
-
 What this does not show: that the function keeps to its own memory. It runs in a process of its own
 (foreign.py), where there is nothing to find.
 """
