@@ -80,6 +80,7 @@ MADE_OF = {
 
 LOADED_LATE = {
     "topo_verify.world.drawing": {"numpy", "networkx", "scipy"},
+    "topo_verify.compiled.native_call": {"numba", "llvmlite"},
     "topo_verify.player.animation": set[str](),
     "topo_verify.studies.search.states.best": {"numpy"},
 }

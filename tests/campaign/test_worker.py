@@ -97,11 +97,18 @@ def test_a_time_in_which_the_pool_did_not_run_is_no_silence(
 
 
 def test_a_seal_is_good_for_one_message_at_its_place_alone() -> None:
-    worker, parent = Seal("key"), Seal("key")
+    worker, parent = Seal("key", 7), Seal("key", 7)
     first, second = worker.sealed(b"one"), worker.sealed(b"two")
     assert parent.opened(first) == b"one"
-    for line in (first, second[:-1] + b"0", Seal("other").sealed(b"one"), b"one", b""):
-        fresh = Seal("key")
+    for line in (
+        first,
+        second[:-1] + b"0",
+        Seal("other", 7).sealed(b"one"),
+        Seal("key", 8).sealed(b"one"),
+        b"one",
+        b"",
+    ):
+        fresh = Seal("key", 7)
         fresh.opened(first)
         with pytest.raises(InputError, match="expected the seal of a worker"):
             fresh.opened(line)

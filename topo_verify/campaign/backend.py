@@ -53,6 +53,7 @@ from topo_verify.campaign.work import Division, Loss, Remote, Work
 from topo_verify.campaign.worker import Beat, Handler
 from topo_verify.errors import InputError
 from topo_verify.programs.foreign import Unlisted
+from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import Loaded, watch
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
@@ -120,16 +121,21 @@ def here(
 
 
 def pooled(workers: int, depends: Depends = None) -> Backend:
-    """Processes of this machine, `workers` of them; 0: this process alone."""
-    if not workers:
-        return here(depends=depends)
+    """Processes of this machine, `workers` of them; 0: this process alone.
+
+    The compiled engine calls native mappers in a worker process in any case.
+    """
 
     def run(
         campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
     ) -> Generator[tuple[Shard, ShardResult]]:
+        native = calls_native(campaign)
+        if not (workers or native):
+            yield from here(depends=depends)(campaign, shards, in_flight)
+            return
         work = _work(_job(campaign, depends))
         _prepare(campaign)  # before the workers start, which then find it in the cache
-        with Pool(work, workers, in_flight=in_flight) as pool:
+        with Pool(work, max(1, workers), in_flight=in_flight) as pool:
             for shard, result in pool.run(shards):
                 yield shard, _with_our_memory(work, shard, result)
 
@@ -189,6 +195,12 @@ def _examined(
         return _with_loss(result, msgspec.structs.replace(row, findings=told))
 
 
+def calls_native(campaign: Campaign) -> bool:
+    """Whether the compiled engine calls a native mapper."""
+    is_library = any(text.startswith(LIBRARY) for text in campaign.mappers)
+    return is_library and campaign.engine == "compiled" and isinstance(campaign.worlds, Ranks)
+
+
 def _prepare(campaign: Campaign) -> None:
     """Have compiled what the campaign needs."""
     if campaign.engine == "compiled" and isinstance(campaign.worlds, Ranks):
@@ -232,6 +244,7 @@ def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[Shard, ShardResu
         lost=partial(_lost, campaign),
         survived=partial(_survived, campaign),
         silence=silence,
+        attempts=1 if calls_native(campaign) else Work.attempts,
         loading=COMPILING if campaign.engine == "compiled" else Work.loading,
         division=Division(
             cut=partial(_cut, campaign),
@@ -335,11 +348,26 @@ def _merged(loaded: Loaded, other: Loaded) -> Loaded:
 
 def _cut(campaign: Campaign, shard: Shard, runs: int) -> list[Shard]:
     """Cut a shard around the world where its worker was last seen, after some runs."""
+    if calls_native(campaign):
+        return _cut_at_rank(shard, runs)
     places = [place for place, _, _ in campaign.worlds.worlds(shard)]
     if len(places) < 2:
         return []
     at = min(runs // len(campaign.mappers), len(places) - 1)
     return _split(shard, [shard.start, *places[max(at, 1) : at + 2], shard.stop])
+
+
+def _cut_at_rank(shard: Shard, ranks: int) -> list[Shard]:
+    """Cut a shard around the rank at which native code was lost.
+
+    If it was lost behind the last, it may have been in any world that its process came to harm.
+    """
+    worlds = shard.stop - shard.start
+    if worlds < 2:
+        return []
+    at = shard.start + ranks
+    cuts = [at, at + 1] if 0 <= ranks < worlds else [shard.start + worlds // 2]
+    return _split(shard, sorted({shard.start, *cuts, shard.stop}))
 
 
 def _parts(shard: Shard) -> list[Shard]:
@@ -366,12 +394,30 @@ def _lost(campaign: Campaign, shard: Shard, loss: Loss) -> ShardResult:
         raise InputError(
             f"target {campaign.mappers[0]!r}: a process that loads it ends ({loss.cause})"
         )
+    if calls_native(campaign):
+        return _lost_in_native_code(campaign, shard, loss)
     external = loss.stranger and loss.silence is None
     row = _row_at(campaign, shard, loss.items, str(loss), external=external)
     if row is not None and external:
         why = f"its worker was killed each time ({loss.status})"
         row = msgspec.structs.replace(row, undecided=why, lost=why)
     return counted([] if row is None else [[row]])
+
+
+def _lost_in_native_code(campaign: Campaign, shard: Shard, loss: Loss) -> ShardResult:
+    """The result of one world in which native code was lost: by the mapper in a fresh process.
+
+    If it delivers a map there, the world is undecided.
+    """
+    mappers = campaign.load()
+    try:
+        result = examine(campaign, mappers, shard)
+    finally:
+        close(mappers)
+    row = _row_at(campaign, shard, 0, str(loss), external=True)
+    if row is None or result.tally.failing or result.tally.undecided:
+        return result
+    return _with_loss(result, row)
 
 
 def _open(campaign: Campaign, shard: Shard) -> ShardResult:
@@ -415,7 +461,14 @@ def _survived(
     """The result of a shard, with the losses in runs that were done when tried again."""
     for shard, loss in losses:
         cause = loss.cause if loss.stranger else f"{loss}{SECOND_TRY}"
-        row = _row_at(campaign, shard, loss.items, cause, external=loss.stranger)
+        external, at, items = loss.stranger, shard, loss.items
+        if calls_native(campaign):
+            external, items = True, 0
+            rank = shard.start + max(0, min(loss.items, shard.stop - shard.start - 1))
+            at = Shard(shard.edges, rank, rank + 1)
+            if any(shard.start <= part.start < shard.stop for part in given_up):
+                continue
+        row = _row_at(campaign, at, items, cause, external=external)
         failing = [known.place for known in result.rows if known.failed]
         if (
             row is None

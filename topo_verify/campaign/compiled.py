@@ -15,20 +15,28 @@ numbers. It is not trusted. The checkers judge again, from runs of the reference
 In all these worlds both engines must agree on every event of the run. If they disagree on anything,
 that is a bug of ours, and the campaign ends.
 
+A **native mapper** (`--library`) is called by the engine, in the place of an algorithm; for the
+checkers it runs in a process of its own, behind a pipe. If the two disagree, it need not be a bug
+of ours: such a mapper may do something else each time. So the counts of that slice do not count:
+its worlds are undecided, but for the one in which the two disagree, if a claim fails there by the
+checkers. A worker that ends in native code is a lost worker; backend.py says what that means.
+
 What this does not show: the other worlds were judged and counted by the engine alone. If it is
 wrong in a share p of all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from functools import cache
 from random import Random
 from time import process_time
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import msgspec
 
-from topo_verify.campaign.attempt import attempt, row_of
+from topo_verify.campaign.attempt import attempt, lost_row, row_of
 from topo_verify.campaign.campaign import (
     Campaign,
     EngineSeconds,
@@ -39,15 +47,18 @@ from topo_verify.campaign.campaign import (
     examine,
 )
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import Exploration, explore
+from topo_verify.campaign.run import Exploration, explore, is_native
 from topo_verify.campaign.tally import KEPT_FAILING, Costs, Counts, Pairs, Tally, notable
-from topo_verify.campaign.worker import Beat
+from topo_verify.campaign.worker import Beat, Heartbeat
 from topo_verify.checkers import CLAIMS
-from topo_verify.errors import InternalError
+from topo_verify.errors import InputError, InternalError
+from topo_verify.programs.library import LIBRARY, native_address
 from topo_verify.programs.loader import Target
+from topo_verify.robot.events import Event, Finish, Trace
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
+    from topo_verify.compiled.native_run import NativeCalls
     from topo_verify.compiled.shard import ShardCounts, Snapshot
 
 SAMPLE = 1000
@@ -62,10 +73,23 @@ SLICE = 50_000
 
 def warm(campaign: Campaign) -> None:
     """Have the kernels compiled that a campaign needs, or loaded from the cache."""
+    if campaign.mappers[0].startswith(LIBRARY):
+        from topo_verify.compiled.native_run import warm as warm_native
+
+        warm_native()
+        return
     from topo_verify.compiled.explore import run_world
 
     _snapshots(campaign, Shard(1, 0, 2))
     run_world(World.from_id("m1/0"), campaign.mappers[0], trace=True)
+
+
+@cache
+def _native(text: str, beats: int) -> NativeCalls:
+    """A native mapper, opened in this process. Its code runs from now on."""
+    from topo_verify.compiled.native_run import NativeCalls
+
+    return NativeCalls(native_address(text), beats)
 
 
 def examine_compiled(
@@ -77,9 +101,18 @@ def examine_compiled(
         Interrupted: Ctrl-C.
         InternalError: the engine and the checkers disagree.
     """
-    work = _CompiledShard(campaign, mappers, shard)
+    calls = None
+    if is_native(mappers[0]):
+        if not isinstance(beat, Heartbeat):
+            raise InputError(
+                f"{mappers[0].text}: the compiled engine calls a native mapper in worker processes"
+                " of this machine: leave out --dask, or give --engine reference"
+            )
+        calls = _native(mappers[0].text, beat.address)
+        calls.first, calls.worlds = shard.start, shard.stop - shard.start
+    work = _CompiledShard(campaign, mappers, shard, calls, beat)
     try:
-        work.examine(beat)
+        work.examine()
     except KeyboardInterrupt:
         raise Interrupted(shard, work.result()) from None
     return work.result()
@@ -95,15 +128,32 @@ class _Judged(NamedTuple):
 class _CompiledShard:
     """The examination of one shard. Life cycle: `examine`, once; `result` at any time."""
 
-    def __init__(self, campaign: Campaign, mappers: Sequence[Target], shard: Shard) -> None:
+    def __init__(
+        self,
+        campaign: Campaign,
+        mappers: Sequence[Target],
+        shard: Shard,
+        calls: NativeCalls | None,
+        beat: Beat,
+    ) -> None:
         assert isinstance(campaign.worlds, Ranks)
         self._campaign, self._worlds = campaign, campaign.worlds
-        self._mappers, self._shard = mappers, shard
+        self._mappers, self._shard, self._calls, self._beat = mappers, shard, calls, beat
         self._tally, self._seconds = Tally(), EngineSeconds()
         self._rows: dict[tuple[int, int], Row] = {}  # by rank and mapper
         self._checked: set[int] = set()
         self._known: dict[tuple[int, int], _Judged] = {}  # of the slice
         self._alone: set[tuple[int, int]] = set()
+
+    @property
+    def _done(self) -> int:
+        """How many runs are finished. A native mapper has been through all worlds of the shard."""
+        if self._calls is not None:
+            return self._calls.worlds
+        return self._tally.worlds * len(self._mappers)
+
+    def _beats(self) -> None:
+        self._beat(self._done)
 
     def result(self) -> ShardResult:
         """The result of the worlds that were examined."""
@@ -111,20 +161,16 @@ class _CompiledShard:
         rows = notable(self._rows.values(), self._campaign.seed)
         return ShardResult(tally, rows, None, self._seconds)
 
-    def examine(self, beat: Beat) -> None:
+    def examine(self) -> None:
         """Examine the shard; a campaign that stops at a failing world ends there.
 
         Raises:
             InternalError: the engines disagree in a world.
         """
-
-        def beats() -> None:
-            beat(self._tally.worlds * len(self._mappers))
-
         for start in range(self._shard.start, self._shard.stop, SLICE):
-            beats()
+            self._beats()
             ranks = self._ranks(start, min(start + SLICE, self._shard.stop))
-            self._tally += self._slice(ranks, beats)
+            self._tally += self._slice(ranks)
             self._known, self._alone = {}, set()
             if self._campaign.stop.reached(self._tally):
                 break
@@ -132,34 +178,75 @@ class _CompiledShard:
     def _ranks(self, start: int, stop: int) -> Shard:
         return Shard(self._shard.edges, start, stop)
 
-    def _slice(self, ranks: Shard, beats: Callable[[], None]) -> Tally:
+    def _slice(self, ranks: Shard) -> Tally:
         """The tally of some worlds, by the engine, with the rows of the checkers."""
         begin = process_time()
-        *snapshots, end = _snapshots(self._campaign, ranks)
+        with self._watched():
+            *snapshots, end = _snapshots(self._campaign, ranks, self._calls)
+        self._beats()
         self._seconds += EngineSeconds(engine=process_time() - begin)
         if any(counts.undecided for counts in end.counts):
-            return self._undecided(ranks, beats)
+            return self._undecided(ranks)
         begin = process_time()
+        try:
+            self._check(ranks, snapshots, end)
+        except _Disagreement as wrong:
+            if self._calls is None:
+                raise
+            return self._unlike(ranks, wrong)
+        finally:
+            self._seconds += EngineSeconds(checkers=process_time() - begin)
+        return _tally(end.counts)
+
+    def _watched(self) -> AbstractContextManager[None]:
+        """The engine runs inside: a native mapper is given up if it does not move in time."""
+        if not isinstance(self._beat, Heartbeat) or self._calls is None:
+            return nullcontext()
+        return self._beat.within(self._campaign.limits.move_timeout)
+
+    def _check(self, ranks: Shard, snapshots: list[Snapshot], end: Snapshot) -> None:
+        """Have the checkers judge what the counts name, and the sample.
+
+        Raises:
+            _Disagreement: the engine and the checkers disagree.
+        """
         if not snapshots and end.counts[0].worlds > max(STEP):
-            raise _disagreement(f"m{ranks.edges}/{ranks.start}", "the engine made no pause")
+            why = "the engine made no pause"
+            raise _disagreement(f"m{ranks.edges}/{ranks.start}", why, end.rank)
         for before, behind in _drawn(snapshots):
-            beats()
+            self._beats()
             first = ranks.start if before is None else before.rank + 1
             self._require_same(before, behind, self._ranks(first, behind.rank + 1))
         for which, counts in enumerate(end.counts):
-            beats()
+            self._beats()
             self._require_named(which, counts, end.counts)
-        self._seconds += EngineSeconds(checkers=process_time() - begin)
-        return _tally(end.counts)
+        if self._calls is not None and end.rank >= 0:
+            self._judged(0, end.rank)  # the last world of the class is among these
 
-    def _undecided(self, ranks: Shard, beats: Callable[[], None]) -> Tally:
+    def _unlike(self, ranks: Shard, wrong: _Disagreement) -> Tally:
+        """The tally of worlds whose counts are not those of the checkers' runs: undecided."""
+        alone = self._ranks(wrong.rank, wrong.rank + 1)
+        made = examine(self._campaign, self._mappers, alone)
+        others = sum(1 for _ in self._worlds.worlds(ranks)) - made.tally.worlds
+        tally = made.tally + Tally(worlds=others, undecided=others)
+        ((place, name, world),) = self._worlds.worlds(alone)
+        for row in made.rows:
+            self._rows[place, row.turn] = row
+        if not (made.tally.failing or made.tally.undecided):
+            text, limits = self._mappers[0].text, self._campaign.limits
+            row = lost_row(world, place, name, text, limits, str(wrong), external=True)
+            self._rows[place, 0] = row
+            tally += Tally(undecided=1, lost=1)
+        return tally
+
+    def _undecided(self, ranks: Shard) -> Tally:
         """The tally of worlds among which the engine could not decide one: the checkers do that."""
         middle = (ranks.start + ranks.stop) // 2
         if middle > ranks.start:
-            first = self._slice(self._ranks(ranks.start, middle), beats)
+            first = self._slice(self._ranks(ranks.start, middle))
             if self._campaign.stop.reached(first):
                 return first
-            return first + self._slice(self._ranks(middle, ranks.stop), beats)
+            return first + self._slice(self._ranks(middle, ranks.stop))
         self._checked.add(ranks.start)
         made = examine(self._campaign, self._mappers, ranks)
         self._rows |= {(row.place, row.turn): row for row in made.rows}
@@ -190,7 +277,8 @@ class _CompiledShard:
                 difference = (
                     f"{name}: {ours.get(name)} by the reference, {theirs.get(name)} in the tally"
                 )
-                raise _disagreement(f"{ranks}, {', '.join(self._campaign.mappers)}", difference)
+                where = f"{ranks}, {', '.join(self._campaign.mappers)}"
+                raise _disagreement(where, difference, behind.rank)
 
     def _require_named(
         self, which: int, counts: ShardCounts, others: Sequence[ShardCounts]
@@ -203,7 +291,7 @@ class _CompiledShard:
             for claim in claims:
                 if not row.failed or (claim in CLAIMS and claim not in row.failed):
                     what = f"{claim} does not fail by the checkers, it does in the tally"
-                    raise _disagreement(f"{row.world}, {row.mapper}", what)
+                    raise _disagreement(f"{row.world}, {row.mapper}", what, rank)
         named = [(which, rank, counts.most) for rank in counts.worst if counts.worlds]
         for pair in counts.dearer_worlds if which == 0 and len(others) == 2 else ():
             named += [(0, pair.rank, pair.cost), (1, pair.rank, pair.other)]
@@ -211,17 +299,19 @@ class _CompiledShard:
             row = self._agreed(mapper, rank)
             if (row.cost, row.right) != (cost, True):
                 what = f"cost {row.cost} by the reference, {cost} in the tally"
-                raise _disagreement(f"{row.world}, {row.mapper}", what)
+                raise _disagreement(f"{row.world}, {row.mapper}", what, rank)
 
     def _agreed(self, which: int, rank: int) -> Row:
         """The row of a run, after a comparison with the engine's verdict on this world alone."""
         row, _ = self._judged(which, rank)
         if (rank, which) not in self._alone:
             self._alone.add((rank, which))
-            counts = _snapshots(self._campaign, self._ranks(rank, rank + 1))[-1].counts[which]
+            with self._watched():
+                alone = _snapshots(self._campaign, self._ranks(rank, rank + 1), self._calls)
+            counts = alone[-1].counts[which]
             difference = _verdict_difference(row, counts)
             if difference is not None:
-                raise _disagreement(f"{row.world}, {row.mapper}", difference)
+                raise _disagreement(f"{row.world}, {row.mapper}", difference, rank)
         self._rows[rank, which] = row
         return row
 
@@ -238,22 +328,47 @@ class _CompiledShard:
             target, limits = self._mappers[which], self._campaign.limits
             name = f"m{self._shard.edges}/{rank}"
             world = World.from_id(name)
-            made = attempt(world, target, limits, where=name)
-            engine = explore(world, target.text, limits=limits, engine="compiled")
-            difference = _run_difference(made.run, engine)
+            made = attempt(world, target, limits, where=name, beat=self._beats)
+            difference = _run_difference(made.run, *self._engine_run(made.run))
             if difference is not None:
-                raise _disagreement(f"{name}, {target.text}", difference)
+                raise _disagreement(f"{name}, {target.text}", difference, rank)
             statuses = made.report.claims.values()
             digest = run_digest(rank, made.run.cost, statuses, made.run.trace)
             self._known[rank, which] = _Judged(row_of(made, name, rank, which), digest)
+            if self._calls is not None:  # such worlds are run again, each in a fresh process
+                self._rows[rank, which] = self._known[rank, which].row
         return self._known[rank, which]
 
+    def _engine_run(self, run: Exploration) -> tuple[int, bool, Trace]:
+        """What the engine makes of the same world: the cost, whether there is a map, the events."""
+        if self._calls is None:
+            limits = self._campaign.limits
+            made = explore(run.world, run.algorithm, limits=limits, engine="compiled")
+            return made.cost, made.map is not None, made.trace
+        with self._watched():
+            native, _ = self._calls.run(run.world)
+        return native.cost, native.map is not None, (run.trace[0], *native.events)
 
-def _disagreement(where: str, what: str) -> InternalError:
-    return InternalError(f"{where}: the engines disagree: {what}")
+
+class _Disagreement(InternalError):
+    """The engine and the checkers disagree.
+
+    Attributes:
+        rank: of the world, or of the last one of the step.
+    """
+
+    rank = -1
 
 
-def _snapshots(campaign: Campaign, ranks: Shard) -> list[Snapshot]:
+def _disagreement(where: str, what: str, rank: int) -> _Disagreement:
+    wrong = _Disagreement(f"{where}: the engines disagree: {what}")
+    wrong.rank = rank
+    return wrong
+
+
+def _snapshots(
+    campaign: Campaign, ranks: Shard, calls: NativeCalls | None = None
+) -> list[Snapshot]:
     """The counts of the engine in some worlds: behind each step, and behind the last world."""
     from topo_verify.compiled.shard import examine_steps
 
@@ -267,6 +382,7 @@ def _snapshots(campaign: Campaign, ranks: Shard) -> list[Snapshot]:
             ranks.stop,
             steps=_steps(campaign, ranks),
             stop_at_first=campaign.stop.failing is not None,
+            calls=calls,
         )
     ]
 
@@ -288,16 +404,23 @@ def _drawn(snapshots: Sequence[Snapshot]) -> Iterator[tuple[Snapshot | None, Sna
         before = behind
 
 
-def _run_difference(run: Exploration, made: Exploration) -> str | None:
-    """What a run of the reference and one of the compiled engine differ in, or None."""
-    if (run.cost, run.map is None) != (made.cost, made.map is None):
-        return f"cost {run.cost} by the reference, {made.cost} by the compiled engine"
-    for at, (ours, theirs) in enumerate(zip(run.trace, made.trace, strict=False)):
-        if ours != theirs:
+def _run_difference(run: Exploration, cost: int, has_map: bool, trace: Trace) -> str | None:  # noqa: FBT001  of `_engine_run`
+    """What a run of the reference and one of the compiled engine differ in, or None.
+
+    A delivered map may have its darts named in another way: both were judged by the claims.
+    """
+    if (run.cost, run.map is not None) != (cost, has_map):
+        return f"cost {run.cost} by the reference, {cost} by the compiled engine"
+    for at, (ours, theirs) in enumerate(zip(run.trace, trace, strict=False)):
+        if _without_map(ours) != _without_map(theirs):
             return f"event {at} is {ours} by the reference, {theirs} by the compiled engine"
-    if len(run.trace) != len(made.trace):
-        return f"{len(run.trace)} events by the reference, {len(made.trace)} by the compiled engine"
+    if len(run.trace) != len(trace):
+        return f"{len(run.trace)} events by the reference, {len(trace)} by the compiled engine"
     return None
+
+
+def _without_map(event: Event) -> Event | int | None:
+    return event.cost if isinstance(event, Finish) else event
 
 
 def _verdict_difference(row: Row, counts: ShardCounts) -> str | None:

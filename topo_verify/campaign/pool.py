@@ -123,7 +123,8 @@ class Pool(Generic[TaskT, ResultT]):
                 self._hear(key.data)
         for worker in tuple(self._at):
             silence = worker.silence()
-            if silence > (self._work.silence if worker.ready else self._work.loading):
+            limit = self._work.silence if worker.ready else self._work.loading
+            if silence > (worker.due or limit):
                 self._lose(worker, silence)
         if self._in_flight is not None:
             self._in_flight(sum(worker.items for worker in self._at))

@@ -32,6 +32,7 @@ from topo_verify.compiled import require
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.delivery import Undelivered, deliver
+from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
@@ -303,16 +304,27 @@ def on_engine(engine: Engine, targets: Iterable[Target], limits: Limits) -> tupl
     return tuple(Target(target.text, CompiledAlgorithm(target.text)) for target in found)
 
 
+def is_native(target: Target) -> bool:
+    """Whether this is a function of a shared library."""
+    return target.text.startswith(LIBRARY)
+
+
 def planted(fault: str) -> CompiledAlgorithm | None:
     """The compiled mapper with the mistake of this seeded fault; None if no kernel has it."""
     found = PLANTED.get(fault)
     return None if found is None else CompiledAlgorithm(found[1], fault)
 
 
-def require_compiled(targets: Iterable[Target], limits: Limits) -> None:
-    """Raise an InputError unless the compiled engine can run these mappers under these limits."""
+def require_compiled(targets: Iterable[Target], limits: Limits, *, libraries: bool = False) -> None:
+    """Raise an InputError unless the compiled engine can run these mappers under these limits.
+
+    Args:
+        libraries: it can run native mappers as well.
+    """
     require("--engine compiled")
     for target in targets:
+        if libraries and is_native(target):
+            continue
         if not isinstance(target.mapper, Algorithm):
             raise InputError(
                 f"--engine compiled runs the algorithms of the catalogue, {', '.join(CATALOGUE)},"

@@ -282,6 +282,8 @@ class Counts:
 class Notable:
     """The rows that matter: failing, lost, most expensive, more expensive than the other mapper's.
 
+    And the first and the last of each size.
+
     Life cycle: `enter` worlds in their order; `rows` at any time. Whether a row is kept depends on
     the worlds of its size alone, never on the process that examined which shard.
 
@@ -304,6 +306,8 @@ class Notable:
     def enter(self, rows: Sequence[Row]) -> None:
         """Look at one world."""
         for row in rows:
+            self._keep("first", row, 1)
+            self._kept["last", row.edges] = [row]
             if row.failed:
                 self._keep("failing", row, KEPT_FAILING)
                 for claim in row.failed:

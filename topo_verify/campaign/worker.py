@@ -3,7 +3,8 @@
     in          the key and the job, then the tasks: a JSON value a line
     out         a sealed message a line: WorkerReady, a TaskDone for each task; or WorkerFailed, the
                 last
-    heartbeat   a small file: how many items of the task are finished, and a number that grows
+    heartbeat   three words in a file: how many items of the task are finished, a number that
+                grows, and in how many milliseconds the next sign of life is due (0: as usual)
 
 What the process works at is named by `module:function` (`Serve`): the pool, which starts it, knows
 nothing of its own of searches, mappers or worlds.
@@ -24,14 +25,16 @@ Four things the code here must see to:
 
 from __future__ import annotations
 
+import ctypes
 import importlib
+import mmap
 import os
 import signal
 import socket
 import threading
 import traceback
-from collections.abc import Callable
-from contextlib import AbstractContextManager, suppress
+from collections.abc import Callable, Generator
+from contextlib import AbstractContextManager, contextmanager, suppress
 from functools import partial
 from hashlib import blake2b
 from hmac import compare_digest
@@ -89,26 +92,40 @@ WorkerMessage = WorkerReady | TaskDone | WorkerFailed
 class Heartbeat:
     """The file that a worker writes its signs of life to, and its parent reads.
 
-    It is one write of fixed width, so a reader never sees half of one. A pipe would fill up while
-    the parent is busy, and would have to be drained; of a file only the last beat is ever read.
+    It is memory that both share, so that machine code can write to it as well. A pipe would fill up
+    while the parent is busy, and would have to be drained; of words only the last is ever read.
 
     Args:
         file: its file descriptor.
+    Attributes:
+        address: of its words.
     """
 
     def __init__(self, file: int) -> None:
         self.file = file
-        self._count = 0
+        os.ftruncate(file, mmap.PAGESIZE)
+        self._memory = mmap.mmap(file, mmap.PAGESIZE)
+        self._words = (ctypes.c_int64 * 3).from_buffer(self._memory)
+        self.address = ctypes.addressof(self._words)
 
-    def beat(self, items: int) -> None:
+    def __call__(self, items: int) -> None:
         """Report that so many items of the task are finished, and that something new begins."""
-        self._count += 1
-        os.pwrite(self.file, b"%12d %12d" % (items, self._count), 0)
+        self._words[0] = items
+        self._words[1] += 1
 
-    def read(self) -> tuple[int, int]:
-        """How many items are finished, and how many beats there were."""
-        items, count = os.pread(self.file, 25, 0).split() or (0, 0)
-        return int(items), int(count)
+    @contextmanager
+    def within(self, seconds: float) -> Generator[None]:
+        """The next sign of life is due in so many seconds, as long as the block runs."""
+        self._words[2] = int(1000 * seconds)
+        try:
+            yield
+        finally:
+            self._words[2] = 0
+
+    def read(self) -> tuple[int, int, float]:
+        """How many items are finished, how many beats there were, and when the next one is due."""
+        items, count, due = self._words
+        return items, count, due / 1000
 
 
 class Seal:
@@ -116,15 +133,16 @@ class Seal:
 
     Args:
         key: known to the worker and to its parent.
+        process: the number of the worker's process: a copy of it signs nothing.
     """
 
-    def __init__(self, key: str) -> None:
-        self._key, self._messages = key.encode(), 0
+    def __init__(self, key: str, process: int) -> None:
+        self._key, self._process, self._messages = key.encode(), process, 0
 
     def sealed(self, text: bytes) -> bytes:
         """The next message with its seal."""
         self._messages += 1
-        numbered = b"%d %b" % (self._messages, text)
+        numbered = b"%d %d %b" % (self._process, self._messages, text)
         return blake2b(numbered, key=self._key, digest_size=32).hexdigest().encode() + b" " + text
 
     def opened(self, line: bytes) -> bytes:
@@ -155,6 +173,7 @@ class WorkerProcess:
     Attributes:
         ready: it has said that it waits for tasks.
         items: how many items of its task were finished when its heartbeat was last read.
+        due: in how many seconds its next heartbeat is due; 0: it does not say.
     """
 
     def __init__(self, serve: str, job: object, folder: str | None = None) -> None:
@@ -162,9 +181,10 @@ class WorkerProcess:
         self.heartbeat = Heartbeat(self._file.fileno())
         self.process = launch(f"{__name__}:main", self.heartbeat.file, folder=folder)
         key = token_hex(32)
-        self._seal = Seal(key)
+        self._seal = Seal(key, self.process.pid)
         self.ready = False
         self.items: int = 0
+        self.due: float = 0.0
         self._beats: int = 0
         self._since_beat = self._stopwatch()
         self._rest = b""
@@ -209,7 +229,7 @@ class WorkerProcess:
 
         Seconds in which it waits for a processor do not count: a busy machine hangs no worker.
         """
-        items, beats = self.heartbeat.read()
+        items, beats, self.due = self.heartbeat.read()
         if beats != self._beats:
             self.items, self._beats, self._since_beat = items, beats, self._stopwatch()
         return self._since_beat.seconds()
@@ -263,9 +283,9 @@ def main(commands: BinaryIO, out: BinaryIO, heartbeat: int) -> None:
     if first is None:
         return
     key, serve, job = msgspec.json.decode(first, type=tuple[str, str, msgspec.Raw])
-    send = partial(_send, out, Seal(key))
+    send = partial(_send, out, Seal(key, os.getpid()), os.getpid())
     try:
-        _work(_function(serve)(bytes(job)), lines, send, Heartbeat(heartbeat).beat)
+        _work(_function(serve)(bytes(job)), lines, send, Heartbeat(heartbeat))
     except ConnectionError:
         pass  # the parent is gone: nobody wants the result
     except InputError as error:
@@ -295,7 +315,9 @@ def _function(name: str) -> Serve:
     return found
 
 
-def _send(out: BinaryIO, seal: Seal, message: WorkerMessage) -> None:
+def _send(out: BinaryIO, seal: Seal, process: int, message: WorkerMessage) -> None:
+    if os.getpid() != process:
+        os._exit(1)  # code that the worker runs has doubled it
     out.write(seal.sealed(msgspec.json.encode(message)) + b"\n")
     out.flush()
 

@@ -224,6 +224,14 @@ engine = click.option(
 )
 
 
+search_engine = click.option(
+    "--engine",
+    type=click.Choice(ENGINES),
+    help="What runs algorithms of the catalogue and native mappers; compiled is faster and needs"
+    " numba.  [default: reference; compiled with --library]",
+)
+
+
 in_process = click.option(
     "--in-process",
     is_flag=True,

@@ -14,7 +14,7 @@ from topo_verify.campaign.backend import clustered, here, pooled
 from topo_verify.campaign.campaign import Backend, Campaign
 from topo_verify.campaign.cluster import Cluster, both_given, connected
 from topo_verify.campaign.identity import Identity, source_hash
-from topo_verify.campaign.run import Engine
+from topo_verify.campaign.run import Engine, is_native
 from topo_verify.campaign.store import Store, StoredCampaign
 from topo_verify.campaign.targets import target_text, targets
 from topo_verify.campaign.work import processors
@@ -77,7 +77,7 @@ from topo_verify.world.enumeration.classes import WorldClass
     show_default=True,
     help="Use the reference policies, all named ones, or every possible choice.",
 )
-@options.engine
+@options.search_engine
 @click.option("--worst", is_flag=True, help="Show the highest costs and the worlds that have them.")
 @click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
 @options.seed("Seed of the worlds that are run again.")
@@ -98,7 +98,7 @@ def search(  # noqa: PLR0913  an argument an option
     depends: tuple[str, ...],
     keep_going: bool,
     policies: Choices,
-    engine: Engine,
+    engine: Engine | None,
     worst: bool,
     compare: str | None,
     seed: int,
@@ -108,7 +108,7 @@ def search(  # noqa: PLR0913  an argument an option
 
     The search stops at the smallest counterexample (REFUTED) or after the last world (EXHAUSTED).
     TARGET is a name of the catalogue, several with commas, all, module:attribute or
-    file.py:attribute.
+    file.py:attribute. A native mapper (--library) is called and judged by the compiled engine.
     """
 
     def searches() -> Iterator[Result[SearchEntry]]:
@@ -177,7 +177,9 @@ def _backend(
     if cluster is not None:
         return clustered(cluster, depends)
     number = processors() if workers is None else workers
-    return pooled(number, depends) if number else here(mappers, depends=depends)
+    if number or any(map(is_native, mappers)):  # which may need a worker in any case
+        return pooled(number, depends)
+    return here(mappers, depends=depends)
 
 
 def _mappers(

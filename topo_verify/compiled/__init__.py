@@ -18,6 +18,7 @@ the one that it mirrors, and functions have the names of the reference's.
     judging/        the ten claims                checkers/
     tally.py        a range of worlds, run and judged in one kernel; shard.py for use from Python
     explore.py      one run in one world of any size, for use from Python
+    native.py       a native mapper in the place of `explore`: native_call.py, native_run.py
 
 Kernels become one module with one set of constants, so they import the vocabularies whole:
 `from topo_verify.compiled.workspace import *`, and so those of `growth`, `events`, `faults` and

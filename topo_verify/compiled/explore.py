@@ -97,12 +97,14 @@ class CompiledRun:
         map: what it delivered, or None.
         stopped: why it delivered none, or None.
         trace: the words of its trace (events.py), if they were asked for.
+        reported: the cost that it reported with its map.
     """
 
     cost: int
     map: MapData | None
     stopped: str | None
     trace: tuple[int, ...] | None
+    reported: int | None
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -110,7 +112,7 @@ class CompiledRun:
         if self.trace is None:
             return ()
         found = tuple(decoded(self.trace))
-        return found if self.map is None else (*found, Finish(self.cost, self.map))
+        return found if self.map is None else (*found, Finish(self.reported, self.map))
 
 
 def run_world(
@@ -274,6 +276,7 @@ class CompiledJob(NamedTuple):
                 ws.STOP_DOOR: "the mapper asked for a door that is not there",
             }[stop],
             None if words is None else tuple(words.tolist()),
+            int(space[layout.at("robot.cost")]),
         )
 
 

@@ -96,6 +96,7 @@ SOURCES = [
         "evidence",
         "folding",
         "exploration",
+        "native",
         "judging.layout",
         "judging.justified",
         "judging.truth",
@@ -130,6 +131,14 @@ def entry(function: F) -> F:
     return function
 
 
+def callback(function: F) -> F:
+    """The function itself. The mark says that a native mapper calls it: see `address_of`.
+
+    Its parameters are words.
+    """
+    return function
+
+
 def compiled(
     function: Callable[..., object], layout: WordLayout, *, checked: bool = False
 ) -> Callable[..., Any]:
@@ -143,20 +152,48 @@ def compiled(
     module = machine_code(layout, checked)
     dispatcher = getattr(module, function.__name__)
     if not dispatcher.signatures:
-        path, name = Path(str(module.__file__)), function.__name__
-        kept = _KeptCode(path, Path(dispatcher.stats.cache_path))
-        with _usable(path.parent):
-            if kept.is_whole(name):
-                dispatcher.compile(_signature(function))
-            else:
-                with _alone(path, name), kept.writing():
-                    if not kept.is_whole(name):
-                        _say(
-                            f"compiling {name} for this machine: once, up to a minute"
-                            f" (kept in {path.parent})"
-                        )
-                    dispatcher.compile(_signature(function))
+        signature = _signature(function)
+        _make(module, function.__name__, lambda: dispatcher.compile(signature))
     return cast("Callable[..., Any]", dispatcher)
+
+
+@cache
+def address_of(function: Callable[..., int], layout: WordLayout) -> int:
+    """The address of the machine code of a callback; compiled when first asked for.
+
+    Raises:
+        InputError: as `compiled`.
+    """
+    from numba import cfunc, types
+
+    module, name = machine_code(layout, False), function.__name__  # noqa: FBT003  part of the key
+    words = [types.int64] * function.__code__.co_argcount
+    options: dict[str, Any] = {"cache": True, "_nrt": False, "error_model": "numpy"}
+    mark = cfunc(types.int64(*words), **options)
+    made = _make(module, name, lambda: mark(getattr(module, name)))
+    _lasting.append(made)
+    address: int = made.address
+    return address
+
+
+_lasting: list[object] = []
+"""The callbacks: their machine code is there as long as they are."""
+
+
+def _make(module: ModuleType, name: str, make: Callable[[], Any]) -> Any:
+    """What `make` makes of a kernel: it reads machine code from the cache, or writes it."""
+    path = Path(str(module.__file__))
+    kept = _KeptCode(path, path.parent / "__pycache__")
+    with _usable(path.parent):
+        if kept.is_whole(name):
+            return make()
+        with _alone(path, name), kept.writing():
+            if not kept.is_whole(name):
+                _say(
+                    f"compiling {name} for this machine: once, up to a minute"
+                    f" (kept in {path.parent})"
+                )
+            return make()
 
 
 @contextmanager
@@ -219,6 +256,7 @@ def module_source(layout: WordLayout, *, checked: bool = False) -> str:
     used = {node.id for f in functions for node in ast.walk(f) if isinstance(node, ast.Name)}
     options = f"boundscheck={checked}, _nrt={checked}, error_model='numpy'"
     lines = ["import numpy as np", "from numba import njit", ""]
+    lines += [f"from {__package__}.native_call import call_address, row_at", ""]
     inner = f"{options}, no_cpython_wrapper=True, no_cfunc_wrapper=True"  # compiles in less time
     lines += [f"kernel = njit({inner})", f"inlined = njit(forceinline=True, {inner})"]
     lines += [f"entry = njit(cache=True, {options})", ""]
@@ -240,9 +278,12 @@ def _kernels(module: ModuleType) -> Iterator[ast.FunctionDef]:
     """The kernels of a module, ready for numba."""
     for node in ast.parse(Path(str(module.__file__)).read_text()).body:
         if isinstance(node, ast.FunctionDef) and any(
-            isinstance(mark, ast.Name) and mark.id in ("kernel", "inlined", "entry")
+            isinstance(mark, ast.Name) and mark.id in ("kernel", "inlined", "entry", "callback")
             for mark in node.decorator_list
         ):
+            node.decorator_list = [
+                mark for mark in node.decorator_list if ast.unparse(mark) != "callback"
+            ]
             node = Flat(vars(module)).visit_FunctionDef(node)
             node.returns = None
             for argument in node.args.args:

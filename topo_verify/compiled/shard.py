@@ -30,7 +30,7 @@ from topo_verify.checkers import CLAIMS, Status, check
 from topo_verify.compiled import require, tally
 from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.enumeration import prepare
-from topo_verify.compiled.explore import KERNELS, CompiledJob, run_world
+from topo_verify.compiled.explore import KERNELS, CompiledJob, CompiledRun, run_world
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.growth import WalkWords
 from topo_verify.compiled.judging import layout
@@ -45,6 +45,8 @@ from topo_verify.world.rooted_map import World
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from topo_verify.compiled.native_run import NativeCalls
 
     Numbers = NDArray[np.int64]
 
@@ -158,14 +160,18 @@ def examine_steps(
     steps: Iterable[int],
     stop_at_first: bool = False,
     faults: Mapping[str, str] | None = None,
+    calls: NativeCalls | None = None,
 ) -> Iterator[Snapshot]:
     """`examine_range`, with a snapshot behind each step, and behind the last world.
 
     Args:
+        calls: the native mapper that runs, whose name is the only one of `algorithms`.
         steps: the number of worlds in each step, 1 or more.
     """
     require("the compiled engine")
-    shard = _Shard(algorithms, edges, kind, start, stop, ALL_CLAIMS, stop_at_first, faults or {})
+    shard = _Shard(
+        algorithms, edges, kind, start, stop, ALL_CLAIMS, stop_at_first, faults or {}, calls
+    )
     return shard.examine(steps)
 
 
@@ -182,6 +188,7 @@ class _Shard:
         claims: int,
         stop_at_first: bool,  # noqa: FBT001  only `examine_range` calls it
         faults: Mapping[str, str],
+        calls: NativeCalls | None = None,
     ) -> None:
         import numpy as np
 
@@ -199,6 +206,9 @@ class _Shard:
         self.table = np.zeros((len(self.names), tally.T_COLUMNS), np.int64)
         self.undecided = [0] * len(self.names)
         for row, name in zip(self.table, self.names, strict=True):
+            if calls is not None:
+                row[tally.T_RULE] = ws.RULE_NATIVE
+                continue
             number, algorithm = self._fault(name)
             if algorithm not in KERNELS:
                 known = ", ".join(KERNELS)
@@ -206,6 +216,14 @@ class _Shard:
             row[tally.T_RULE], row[tally.T_MOTION] = KERNELS[algorithm]
             row[tally.T_FAULT] = number
         self.claims = tuple(CLAIMS)[:claims]
+        self.calls = calls
+        if calls is not None:
+            self.space = calls.space("walk")
+            self.space[self.layout.at("task.room")] = ws.TRACE
+            self.space[self.layout.at("native.first")] = calls.first
+            for name in ("worlds", "judge", "control", "table"):
+                setattr(self, name, calls.guarded.row(name, getattr(self, name)))
+            self.walk = tally.ControlWords(self.control)
 
     def _fault(self, name: str) -> tuple[int, str]:
         """The number of the mistake, 0: none, and the algorithm. Raises InputError."""
@@ -231,6 +249,8 @@ class _Shard:
         walk, rows = compiled(tally.examine_worlds, self.layout), len(self.names)
         while True:
             state: int = walk(self.space, self.worlds, self.judge, self.control, self.table, rows)
+            if self.calls is not None:
+                self.calls.require_whole()
             if state == tally.OPEN:
                 self._judge_by_checkers()
                 enter = compiled(tally.enter_open, self.layout)
@@ -242,13 +262,8 @@ class _Shard:
         """Put the verdict of the checkers on the last run into the judge's array."""
         row, case = int(self.walk.row), layout.CaseWords(self.judge)
         world, name = self._world(), self.names[row]
-        algorithm, fault = self._fault(name)[1], self.faults.get(name, "")
-        if self.space[self.layout.at("stop")] < ws.STOP_FULL:
-            job = CompiledJob(world, algorithm, trace=True, budget=world.cost_bound, fault=fault)
-            run = job.result(self.space, self.layout)
-        else:
-            run = run_world(world, algorithm, trace=True, fault=fault)
-            case.cost, case.doors_hash = run.cost, doors_hash(run.events)
+        run = self._run_again(world, name, row)
+        case.cost, case.doors_hash = run.cost, doors_hash(run.events)
         events = (Start(percept=first_percept(world)), *run.events)
         judgements = check(world, events, run.stopped)[: len(self.claims)]
         for k, one in enumerate(judgements):
@@ -256,6 +271,22 @@ class _Shard:
             case.judged[k], case.of[k] = one.judged, one.of
         found = {one.status for one in judgements}
         self.undecided[row] += "undecided" in found and "failed" not in found
+
+    def _run_again(self, world: World, name: str, row: int) -> CompiledRun:
+        """The last run, or, if there was no room for it, the same one again with more room."""
+        if self.calls is not None:
+            from topo_verify.compiled.native_run import is_open, made_by
+
+            run = made_by(self.space, world)
+            if is_open(self.space):
+                run, decides = self.calls.run(world)
+                self.undecided[row] += not decides
+            return run
+        algorithm, fault = self._fault(name)[1], self.faults.get(name, "")
+        if self.space[self.layout.at("stop")] < ws.STOP_FULL:
+            job = CompiledJob(world, algorithm, trace=True, budget=world.cost_bound, fault=fault)
+            return job.result(self.space, self.layout)
+        return run_world(world, algorithm, trace=True, fault=fault)
 
     def _world(self) -> World:
         """The world that lies in the workspace."""

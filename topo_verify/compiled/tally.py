@@ -18,6 +18,7 @@ from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.verdict import is_world, judge
 from topo_verify.compiled.kernel import WordTable, entry, kernel
 from topo_verify.compiled.names import Fields, WordView
+from topo_verify.compiled.native import explore_native
 from topo_verify.compiled.workspace import *
 
 _used = 0
@@ -99,6 +100,7 @@ def examine_worlds(
             if rank < 0:
                 return ENDED
             control.rank = rank
+            run.native.rank = rank
             control.failed = 0
         while control.row < rows:
             row = control.row
@@ -129,16 +131,21 @@ def examine_run(
     task.fault = fault
     task.budget = bound
     task.tracing = 1
-    cost = explore(run)
+    if rule == RULE_NATIVE:
+        cost = explore_native(run, walk.darts, vertices)
+        reported = run.native.reported
+    else:
+        cost = explore(run)
+        reported = cost
     case.darts = walk.darts
     case.vertices = vertices
     case.bound = bound
     case.level = level
     case.delivered = 0 if cost < 0 else 1
-    case.reported = cost
+    case.reported = reported
     wrong = judge(run, case)
-    if wrong >= 0 and run.stop >= STOP_FULL:
-        wrong = -1  # the mapper had no room: that convicts nobody
+    if wrong >= 0 and run.stop >= STOP_SKIP:
+        wrong = -1  # the mapper declined the world, or had no room: that convicts nobody
     return wrong
 
 

@@ -239,6 +239,22 @@ class FaceWords(EndWords):
     number: int  # how many faces were walked: the number of this e
 
 
+class NativeWords(EndWords):
+    """A native mapper: native.py."""
+
+    mapper: int  # the address of its function
+    robot: int  # the address of the robot that it is given
+    self: int  # the address of the workspace
+    beats: int  # the address of the signs of life: worlds that are finished, and a count
+    exit: int  # the address of a function that ends the process
+    first: int  # the rank of the first world of the shard
+    rank: int  # the rank of the world
+    delivered: int  # whether it delivered a map
+    reported: int  # the cost that it reported; -1: none
+    given: PerDart  # of each dart delivered: the vertex
+    named: PerDart  # of each dart delivered: the number that the chart gives it
+
+
 class TraceWords(EndWords):
     """The words of the trace; last, for there may be more."""
 
@@ -261,6 +277,7 @@ class RunWords(EndWords):
     places: PlaceWords
     layers: LayerWords
     faces: FaceWords
+    native: NativeWords
     trace: TraceWords
 
 
@@ -268,9 +285,13 @@ RUN = Fields("W", RunWords, CAPACITIES)
 """Where everything stands; `SMALL` has these capacities."""
 
 RULE_NONE, RULE_PREFIX, RULE_HISTORY, RULE_ONE, RULE_ALL, RULE_FOLDING, RULE_PLANAR = range(7)
+RULE_NATIVE = 7  # a native mapper
 
 STOP_BUDGET = 1  # one more move than the budget
 STOP_DOOR = 2  # no such door
+STOP_MAP = 3  # what was delivered is no map
+STOP_EVENT = 4  # what was declared is no decision
+STOP_SKIP = 5  # the mapper declines the world
 STOP_FULL = 16  # a buffer is full; STOP - STOP_FULL is one of FULL_… below
 FULL_CHART, FULL_STEPS, FULL_RECORDS, FULL_PLACES, FULL_TRACE = range(5)
 

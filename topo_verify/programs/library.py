@@ -121,6 +121,12 @@ def native_function(text: str) -> Any:
     return function
 
 
+def native_address(text: str) -> int:
+    """The address of the function of a native mapper; it is there as long as this process."""
+    confine()
+    return ctypes.cast(native_function(text), ctypes.c_void_p).value or 0
+
+
 def confine() -> None:
     """Let this process take a limited amount of memory, leave no core file, and never be doubled.
 
@@ -225,7 +231,7 @@ class _NativeMapper:
             "contradiction": _named(CONTRADICTIONS, contradiction),
         }
         way = _words(doors, count)
-        if record != REFUSED:
+        if record != REFUSED or way is None:
             evidence["record"] = {"dart": record, "doors": way}
         named = _named(_RULES, rule)
         return self._declare("reject", edge, hypothesis=hypothesis, rule=named, evidence=evidence)

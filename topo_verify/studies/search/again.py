@@ -25,7 +25,7 @@ from random import Random
 import msgspec
 
 from topo_verify.algorithms import Algorithm, Steered
-from topo_verify.campaign.backend import here
+from topo_verify.campaign.backend import calls_native, here
 from topo_verify.campaign.campaign import (
     Campaign,
     ListedWorlds,
@@ -117,7 +117,7 @@ def run_again(campaign: Campaign, rows: Sequence[Row], tell: Progress | None = N
     Args:
         rows: the notable rows of the whole search.
     """
-    before = _drawn(rows, campaign.seed)
+    before = _drawn(rows, campaign)
     told = _telling(f"{campaign.mappers[0]}, again", tell or no_progress)
     worlds = [row.world for row in before]
     alone = _rows(campaign, worlds, _alone, told)
@@ -149,16 +149,23 @@ def _telling(what: str, tell: Progress) -> Progress:
     return lambda _what, done, _total: tell(what, done, 2 * MOST + 1 + ROW)
 
 
-def _drawn(rows: Sequence[Row], seed: int) -> list[Row]:
-    """The counterexample, then the sample, without worlds known to come out otherwise at times."""
+def _drawn(rows: Sequence[Row], campaign: Campaign) -> list[Row]:
+    """The counterexample, then the sample, without worlds known to come out otherwise at times.
+
+    Of a native mapper the first and the last world, too.
+    """
     rows = [row for row in rows if not row.by_chance]
     first = [row for row in rows if row.failed][:1]
     drawn = sorted(
-        (row for row in rows if not row.timed_out), key=lambda row: sample_key(seed, row.world)
+        (row for row in rows if not row.timed_out),
+        key=lambda row: sample_key(campaign.seed, row.world),
     )
     for fails in (True, False):
         alike = [row for row in drawn if bool(row.failed) == fails][:MOST]
         first += [row for row in alike if row not in first]
+    if calls_native(campaign):
+        ends = (one for one in (rows[:1] + rows[-1:]) if not one.timed_out)
+        first += [row for row in ends if row not in first]
     return first
 
 

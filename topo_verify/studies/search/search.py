@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 import msgspec
 
-from topo_verify.campaign.backend import clustered, here, pooled
+from topo_verify.campaign.backend import calls_native, clustered, here, pooled
 from topo_verify.campaign.campaign import (
     ENGINE_SHARD,
     Backend,
@@ -27,7 +27,7 @@ from topo_verify.campaign.campaign import (
 from topo_verify.campaign.cluster import both_given, connected
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import Engine, require_compiled
+from topo_verify.campaign.run import Engine, is_native, require_compiled
 from topo_verify.campaign.tally import (
     KEPT_PAIRS,
     KEPT_WORST,
@@ -214,21 +214,25 @@ def search_campaign(  # noqa: PLR0913  an argument an option
     limits: Limits | None = None,
     seed: int = 0,
     in_process: bool = True,
-    engine: Engine = "reference",
+    engine: Engine | None = None,
 ) -> Campaign:
     """The campaign of a search.
 
+    Args:
+        engine: None: compiled for a native mapper, else reference.
     Raises:
         InputError: a mapper has no such policies, or the engine cannot run it.
     """
     limits = limits or Limits()
+    if engine is None:
+        engine = "compiled" if any(map(is_native, mappers)) else "reference"
     if engine == "compiled":
         if choices != "reference":
             raise InputError(
                 f"--engine compiled with --policies {choices}: it knows the reference policies"
                 " only; leave one of the two out"
             )
-        require_compiled(mappers, limits)
+        require_compiled(mappers, limits, libraries=True)
         if limits.budget is not None:
             raise InputError(
                 f"--engine compiled searches with the bound of claim 7 as its budget, got"
@@ -258,7 +262,7 @@ def search(  # noqa: PLR0913  an argument an option
     limits: Limits | None = None,
     workers: int = 0,
     dask: str | None = None,
-    engine: Engine = "reference",
+    engine: Engine | None = None,
     tell: Progress | None = None,
 ) -> SearchEntry:
     """Examine a mapper in every world of a class with 1 to `edges` edges, smallest first.
@@ -272,7 +276,7 @@ def search(  # noqa: PLR0913  an argument an option
         limits: of each run.
         workers: number of worker processes; 0: this one. Workers are handed the TARGET's text.
         dask: the address of a Dask scheduler, or `local`: its workers in place of processes here.
-        engine: what runs algorithms of the catalogue; `campaign/compiled.py`.
+        engine: what runs algorithms of the catalogue and native mappers; `campaign/compiled.py`.
         tell: the progress callback.
     Raises:
         InputError: no such mapper; nothing knows how many worlds the class has; and the like.
@@ -297,7 +301,8 @@ def search(  # noqa: PLR0913  an argument an option
             study = Search(campaign, mappers, clustered(cluster))
             study.work(tell)
     else:
-        study = Search(campaign, mappers, pooled(workers) if workers else here(mappers))
+        local = not workers and not calls_native(campaign)
+        study = Search(campaign, mappers, here(mappers) if local else pooled(workers))
         study.work(tell)
     if isinstance(target, str):
         study.run_again(tell)

@@ -1,0 +1,448 @@
+"""A native mapper in the place of `explore`: it is called by its address, and calls back.
+
+Mirrors: programs/library.py, which gives the same robot to the same function behind a pipe; both
+refuse the same things. What the mapper declares and delivers is written into the workspace as
+robot.py writes it, so the judge needs to know nothing of it. Once it was refused anything, or has
+delivered its map, each callback does nothing and returns `REFUSED`.
+
+What is declared is checked here as far as Python later takes it for an index or for an event.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from topo_verify.compiled.events import (
+    ABSENT,
+    AUGMENT,
+    BY_PLANAR,
+    CONFIRM,
+    LOOP,
+    NEW,
+    OTHER_FACE,
+    POSE,
+    REJECT,
+    REJECT_WORDS,
+)
+from topo_verify.compiled.kernel import callback, entry, inlined, kernel
+from topo_verify.compiled.robot import declare, move, sensed, took
+from topo_verify.compiled.workspace import *
+
+if TYPE_CHECKING:  # native_call.py needs numba; the module of machine code imports it
+
+    def call_address(address: int, argument: int) -> int:
+        """What the function at this address returns."""
+        ...
+
+    def row_at(address: int, size: int) -> Any:
+        """The row of so many words at this address."""
+        ...
+
+
+SIZE = SMALL.at("SIZE")
+
+REFUSED = -1
+"""The percept, or the answer, after a refusal."""
+
+MOST = 1 << 62
+"""What is declared lies between minus this and this, as in an event of a trace."""
+
+MOST_WORDS = 1 << 20
+"""The most words that are read of a row of the mapper's."""
+
+MOST_DEGREE = 1_000_000
+
+PURPOSE_COUNT = 4
+
+FENCE_WORDS = 8
+FENCE = 0x5AFE5AFE5AFE5AFE
+"""What stands before each of our rows; a mapper that writes there has lost its way."""
+
+WROTE = 71
+"""The exit code of a process in which a mapper wrote over our data."""
+
+
+@entry
+def run_native(run: RunWords, darts: int, vertices: int) -> int:
+    """Have the native mapper map the world in W: the cost; -1: it delivered no map."""
+    return explore_native(run, darts, vertices)
+
+
+@kernel
+def explore_native(run: RunWords, darts: int, vertices: int) -> int:
+    """Have the native mapper map the world: the cost; -1: it delivered no map."""
+    run.robot.dart = 0
+    run.robot.cost = 0
+    run.stop = 0
+    run.trace.size = 0
+    run.native.delivered = 0
+    run.native.reported = -1
+    B = row_at(run.native.beats, 2)
+    B[0] = run.native.rank - run.native.first
+    B[1] += 1
+    before = mark(run, darts, vertices)
+    call_address(run.native.mapper, run.native.robot)
+    if mark(run, darts, vertices) != before or is_torn(run):
+        # The enumeration goes on in the world where it stands, so no later world would be sound.
+        call_address(run.native.exit, WROTE)
+    return run.robot.cost if run.native.delivered != 0 and run.stop == 0 else -1
+
+
+@inlined
+def mark(run: RunWords, darts: int, vertices: int) -> int:
+    """A hash of the world, and of what leads to it."""
+    h = (
+        run.native.mapper
+        ^ run.native.robot
+        ^ run.native.beats
+        ^ run.native.exit
+        ^ run.task.room
+        ^ run.task.budget
+        ^ run.task.tracing
+    )
+    for d in range(darts):
+        h = (h ^ (run.world.alpha[d] + (run.world.vertex[d] << 16))) * 1099511628211
+    for v in range(vertices):
+        h = (h ^ (run.world.first[v] + (run.world.degree[v] << 16))) * 1099511628211
+    return h
+
+
+@inlined
+def is_torn(run: RunWords) -> bool:
+    """Whether the words before the workspace are other ones than they were."""
+    F = row_at(run.native.self - 8 * FENCE_WORDS, FENCE_WORDS)
+    torn = False
+    for k in range(FENCE_WORDS):
+        torn = torn or F[k] != FENCE
+    return torn
+
+
+@inlined
+def is_over(run: RunWords) -> bool:
+    """Whether nothing counts any more."""
+    return run.stop != 0 or run.native.delivered != 0
+
+
+@inlined
+def is_number(number: int) -> bool:
+    """Whether an event can hold this number."""
+    return -MOST <= number <= MOST
+
+
+# ---------------------------------------------------------------- the callbacks, as in the header
+
+
+@callback
+def native_look(world: int) -> int:
+    """The percept where the robot stands."""
+    return look_native(row_at(world, SIZE))
+
+
+@kernel
+def look_native(run: RunWords) -> int:
+    """The percept where the robot stands."""
+    return REFUSED if is_over(run) else sensed(run.world, run.robot.dart)
+
+
+@callback
+def native_move(world: int, door: int, purpose: int) -> int:
+    """Leave by a door; the percept behind it."""
+    return move_native(row_at(world, SIZE), door, purpose)
+
+
+@kernel
+def move_native(run: RunWords, door: int, purpose: int) -> int:
+    """Leave by a door; the percept behind it."""
+    if is_over(run):
+        return REFUSED
+    B = row_at(run.native.beats, 2)
+    B[1] += 1
+    percept = move(run, door, purpose if 0 <= purpose < PURPOSE_COUNT else ABSENT)
+    return percept if run.stop == 0 else REFUSED
+
+
+@callback
+def native_pose(world: int, e: int, number: int, hypotheses: int) -> int:
+    """Declare the hypotheses for e."""
+    return pose_native(row_at(world, SIZE), e, number, hypotheses)
+
+
+@kernel
+def pose_native(run: RunWords, e: int, number: int, hypotheses: int) -> int:
+    """Declare the hypotheses for e."""
+    if is_over(run):
+        return REFUSED
+    sound = is_number(e) and 0 <= number <= MOST_WORDS
+    if sound:
+        H = row_at(hypotheses, number)
+        for k in range(number):
+            sound = sound and is_number(H[k])
+    if not sound:
+        run.stop = STOP_EVENT
+        return REFUSED
+    i = run.trace.place_of("word") + took(run, 3 + number)
+    if run.stop == 0:
+        H = row_at(hypotheses, number)
+        run[i] = POSE
+        run[i + 1] = e
+        run[i + 2] = number
+        for k in range(number):
+            run[i + 3 + k] = H[k]
+    return 0 if run.stop == 0 else REFUSED
+
+
+@callback
+def native_reject(world: int, e: int, h: int, by: int, evidence: int, number: int, way: int) -> int:
+    """Declare a rejection; evidence: seven words; way: the doors of a record."""
+    return reject_native(row_at(world, SIZE), e, h, by, evidence, number, way)
+
+
+@kernel
+def reject_native(
+    run: RunWords, e: int, h: int, by: int, evidence: int, number: int, way: int
+) -> int:
+    """Declare a rejection; evidence: seven words; way: the doors of a record."""
+    if is_over(run):
+        return REFUSED
+    if not is_rejection(e, h, by, evidence, number, way):
+        run.stop = STOP_EVENT
+        return REFUSED
+    E = row_at(evidence, 7)
+    doors = 0 if E[5] == ABSENT else number
+    i = run.trace.place_of("word") + took(run, REJECT_WORDS + doors)
+    if run.stop == 0:
+        D = row_at(way, doors)
+        run[i] = REJECT
+        run[i + 1] = e
+        run[i + 2] = h
+        run[i + 3] = REJECT_WORDS + doors
+        run[i + 4] = by
+        for k in range(7):  # step expected observed sequence at record contradiction
+            run[i + 5 + k] = E[k]
+        run[i + 12] = doors
+        for k in range(doors):
+            run[i + 13 + k] = D[k]
+    return 0 if run.stop == 0 else REFUSED
+
+
+@kernel
+def is_rejection(e: int, h: int, by: int, evidence: int, number: int, way: int) -> bool:
+    """Whether a rejection can be an event of a trace."""
+    E = row_at(evidence, 7)
+    if number < 0 or number > MOST_WORDS or by < 0 or by > BY_PLANAR:
+        return False
+    if E[6] < 0 or E[6] > OTHER_FACE or not (is_number(e) and is_number(h) and is_number(E[0])):
+        return False
+    if not (is_number(E[3]) and is_number(E[4]) and is_number(E[5])):
+        return False
+    for k in range(1, 3):
+        if E[k] < ABSENT or E[k] >> SHIFT > MOST_DEGREE:
+            return False
+    D = row_at(way, number)
+    sound = True
+    for k in range(number if E[5] != ABSENT else 0):
+        sound = sound and is_number(D[k])
+    return sound
+
+
+@callback
+def native_confirm(world: int, e: int, h: int, by: int) -> int:
+    """Declare that the other end of e is h."""
+    return confirm_native(row_at(world, SIZE), e, h, by)
+
+
+@kernel
+def confirm_native(run: RunWords, e: int, h: int, by: int) -> int:
+    """Declare that the other end of e is h."""
+    if is_over(run):
+        return REFUSED
+    if by < 0 or by > BY_PLANAR or not (is_number(e) and is_number(h)):
+        run.stop = STOP_EVENT
+        return REFUSED
+    declare(run, CONFIRM, e, h, by)
+    return 0 if run.stop == 0 else REFUSED
+
+
+@callback
+def native_augment(world: int, e: int, kind: int, dart: int, degree: int) -> int:
+    """Declare that S has grown."""
+    return augment_native(row_at(world, SIZE), e, kind, dart, degree)
+
+
+@kernel
+def augment_native(run: RunWords, e: int, kind: int, dart: int, degree: int) -> int:
+    """Declare that S has grown."""
+    if is_over(run):
+        return REFUSED
+    sound = is_number(e) and is_number(dart) and is_number(degree)
+    if not sound or kind < NEW or kind > LOOP:
+        run.stop = STOP_EVENT
+        return REFUSED
+    i = run.trace.place_of("word") + took(run, 5)
+    if run.stop == 0:
+        run[i] = AUGMENT
+        run[i + 1] = e
+        run[i + 2] = kind
+        run[i + 3] = dart
+        run[i + 4] = degree
+    return 0 if run.stop == 0 else REFUSED
+
+
+@callback
+def native_skip(world: int, _why: int) -> int:
+    """Decline the world. Why: that is said where it is run again, behind the pipe."""
+    return skip_native(row_at(world, SIZE), _why)
+
+
+@kernel
+def skip_native(run: RunWords, _why: int) -> int:
+    """Decline the world. Why: that is said where it is run again, behind the pipe."""
+    if not is_over(run):
+        run.stop = STOP_SKIP
+    return REFUSED
+
+
+@callback
+def native_deliver(
+    world: int, vertices: int, degrees: int, alpha: int, marker: int, cost: int
+) -> int:
+    """Deliver a map: of each vertex its degree, of each dart its other end, and the marker's dart.
+
+    Darts are numbered vertex by vertex, clockwise.
+    """
+    return deliver_native(row_at(world, SIZE), vertices, degrees, alpha, marker, cost)
+
+
+@kernel
+def deliver_native(
+    run: RunWords, vertices: int, degrees: int, alpha: int, marker: int, cost: int
+) -> int:
+    """Deliver a map: of each vertex its degree, of each dart its other end, and the marker's dart.
+
+    Darts are numbered vertex by vertex, clockwise.
+    """
+    if is_over(run):
+        return REFUSED
+    if vertices < 0 or vertices > MOST_WORDS or not is_number(marker) or cost > MOST:
+        run.stop = STOP_MAP
+        return REFUSED
+    place_map(run, vertices, degrees, alpha, marker)
+    if run.stop != 0:
+        return REFUSED
+    run.native.delivered = 1
+    run.native.reported = cost if cost >= 0 else -1
+    return 0
+
+
+# ---------------------------------------------------------------- the map
+
+
+@kernel
+def place_map(run: RunWords, vertices: int, degrees: int, alpha: int, marker: int) -> None:
+    """Write the map down as the chart, its darts in the order of discovery from the marker on."""
+    run.chart.vertices = vertices
+    run.chart.darts = -1  # no map of a world of this layout
+    darts = place_vertices(run, vertices, degrees)
+    if darts < 0 or not is_paired(run, alpha, darts):
+        return
+    D = row_at(degrees, vertices)
+    A = row_at(alpha, darts)
+    if darts == 0:
+        if marker == ABSENT and vertices == 1:
+            run.chart.darts = 0
+            run.chart.degree[0] = 0
+    elif 0 <= marker < darts:
+        if marker == 0 and is_in_order(run, A, darts):
+            for d in range(darts):
+                run.chart.vertex[d] = run.native.given[d]
+                run.chart.alpha[d] = A[d]
+            for v in range(vertices):
+                run.chart.degree[v] = D[v]
+            run.chart.darts = darts
+        else:
+            rename_darts(run, vertices, D, A, darts, marker)
+
+
+@kernel
+def place_vertices(run: RunWords, vertices: int, degrees: int) -> int:
+    """Write down the vertices as they were delivered: how many darts; -1: too many, or no map."""
+    D = row_at(degrees, vertices)
+    darts = 0
+    for v in range(vertices):
+        if D[v] < 0:
+            run.stop = STOP_MAP
+            return -1
+        if v >= CHART_DARTS or D[v] > CHART_DARTS - darts:
+            return -1
+        run.chart.first[v] = darts  # for now: where the vertex begins in what was delivered
+        for k in range(D[v]):
+            run.native.given[darts + k] = v
+            run.native.named[darts + k] = -1
+        darts += D[v]
+    return darts
+
+
+@kernel
+def is_paired(run: RunWords, alpha: int, darts: int) -> bool:
+    """Whether each dart has another one as its other end, and is that of it."""
+    A = row_at(alpha, darts)
+    for d in range(darts):
+        if A[d] < 0 or A[d] >= darts or A[d] == d or A[A[d]] != d:
+            run.stop = STOP_MAP
+            return False
+    return True
+
+
+@kernel
+def is_in_order(run: RunWords, A: Any, darts: int) -> bool:
+    """Whether each vertex is met from a lower dart, as in S; its numbers are then kept."""
+    met = 0  # vertices 0 ... met, met in this order
+    for d in range(darts):
+        if run.native.given[d] > met:
+            return False
+        met = max(met, run.native.given[A[d]])
+    return True
+
+
+@kernel
+def rename_darts(run: RunWords, vertices: int, D: Any, A: Any, darts: int, marker: int) -> None:
+    """Number the darts in the order of discovery; CA holds, for now, what they were called."""
+    named = name_vertex(run, D, marker, 0)
+    found = 1
+    d = 0
+    while d < named:
+        other = A[run.chart.alpha[d]]
+        if run.native.named[other] < 0:
+            named = name_vertex(run, D, other, named)
+            found += 1
+        d += 1
+    if named < darts or found < vertices:
+        return  # it falls apart
+    v = -1
+    last = -1
+    for at in range(darts):
+        given = run.native.given[run.chart.alpha[at]]
+        if given != last:
+            v += 1
+            run.chart.degree[v] = D[given]
+            run.chart.first[v] = at
+            last = given
+        run.chart.vertex[at] = v
+    for d in range(darts):
+        run.chart.alpha[d] = run.native.named[A[run.chart.alpha[d]]]
+    run.chart.darts = darts
+
+
+@kernel
+def name_vertex(run: RunWords, D: Any, dart: int, named: int) -> int:
+    """Name the darts of a vertex from this one on, clockwise; how many have names then."""
+    v = run.native.given[dart]
+    begin = run.chart.first[v]
+    for _ in range(D[v]):
+        run.native.named[dart] = named
+        run.chart.alpha[named] = dart
+        named += 1
+        dart += 1
+        if dart == begin + D[v]:
+            dart = begin
+    return named

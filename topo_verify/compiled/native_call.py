@@ -1,0 +1,49 @@
+"""Two instructions for kernels: call the function at an address, and see the words at an address.
+
+Numba's own `carray` needs its counting of references, which is switched off here (kernel.py).
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+from numba import types
+from numba.core.typing.templates import Signature
+from numba.extending import intrinsic
+
+ir: Any = import_module("llvmlite.ir")
+_arrays: Any = import_module("numba.np.arrayobj")  # neither has types
+
+_WORD = ir.IntType(64)
+
+
+@intrinsic
+def call_address(_typing: Any, _address: Any, _argument: Any) -> Any:
+    """What the function at this address returns for one word."""
+
+    def generate(_context: Any, builder: Any, _signature: Signature, values: Any) -> Any:
+        kind = ir.FunctionType(_WORD, [_WORD]).as_pointer()
+        return builder.call(builder.inttoptr(values[0], kind), [values[1]])
+
+    return types.int64(types.int64, types.int64), generate
+
+
+@intrinsic
+def row_at(_typing: Any, _address: Any, _size: Any) -> Any:
+    """The row of so many words at this address; nobody counts who refers to it."""
+    row = types.Array(types.int64, 1, "C")
+
+    def generate(context: Any, builder: Any, _signature: Signature, values: Any) -> Any:
+        made = _arrays.make_array(row)(context, builder)
+        _arrays.populate_array(
+            made,
+            data=builder.inttoptr(values[0], _WORD.as_pointer()),
+            shape=[values[1]],
+            strides=[ir.Constant(_WORD, 8)],
+            itemsize=ir.Constant(_WORD, 8),
+            meminfo=None,
+        )
+        return made._getvalue()  # noqa: SLF001  as numba's own code does
+
+    return row(types.int64, types.int64), generate

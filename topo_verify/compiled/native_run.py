@@ -1,0 +1,218 @@
+"""What a native mapper needs in this process: rows in guarded memory, and the robot.
+
+    calls = NativeCalls(address, beats)
+    calls.run(world)                            # -> CompiledRun, ...: of one world
+    examine_steps(..., calls=calls)             # shard.py: of a range of worlds
+
+Each row of ours ends at a page that nobody may touch, and begins behind a fence; the robot lies in
+a page that nobody may write. So a mapper that runs over the end of something is ended by the
+system, and one that writes before it, or over the world, by the kernels (native.py).
+
+What this does not show: a write that hits a row of ours without touching fence or world is not
+noticed, nor is one that hits Python.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import mmap
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from topo_verify.compiled import native, tally
+from topo_verify.compiled import workspace as ws
+from topo_verify.compiled.explore import CompiledRun, map_of, place_world
+from topo_verify.compiled.kernel import address_of, compiled
+from topo_verify.robot.events import MapData
+from topo_verify.world.rooted_map import World
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Row = NDArray[np.int64]
+
+NAMES = ("look", "move", "pose", "reject", "confirm", "augment", "deliver", "skip")
+"""The callbacks, in the order of the header."""
+
+VERSION = 1
+
+ROOM = 1 << 16
+"""Words of trace for which a run has room at first."""
+
+MOST_ROOM = 1 << 24
+"""The most words of trace of one run."""
+
+STOPPED: Mapping[int, str] = {
+    ws.STOP_DOOR: "the mapper asked for a door that is not there",
+    ws.STOP_MAP: "the mapper delivered what is no map",
+    ws.STOP_EVENT: "the mapper declared what is no decision",
+    ws.STOP_SKIP: "the mapper skips this world",
+}
+
+_at = ws.SMALL.at
+"""Where a field stands in a workspace of the small layout."""
+
+_PAGE = mmap.PAGESIZE
+_NO_ACCESS, _READ_ONLY = 0, 1
+
+
+class Guarded:
+    """Rows of words between pages that nobody may touch. They live as long as the process."""
+
+    def __init__(self) -> None:
+        self._rows: dict[tuple[object, ...], Row] = {}
+        self._fences: list[Row] = []
+        self._kept: list[mmap.mmap] = []
+        self._system: Any = ctypes.CDLL(None)
+
+    def row(self, name: str, given: Row) -> Row:
+        """The row, or table, of this name and size, with the same words as another one."""
+        key = (name, *given.shape)
+        if key not in self._rows:
+            self._rows[key] = self._made(given)
+        self._rows[key][...] = given
+        return self._rows[key]
+
+    def _made(self, given: Row) -> Row:
+        import numpy as np
+
+        size = -(-8 * (given.size + native.FENCE_WORDS) // _PAGE) * _PAGE
+        memory = mmap.mmap(-1, size + 2 * _PAGE, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+        self._kept.append(memory)
+        words = np.frombuffer(memory, np.int64)
+        first = words.ctypes.data
+        for page in (first, first + _PAGE + size):
+            self._protect(page, _NO_ACCESS)
+        end = (_PAGE + size) // 8
+        fence = words[_PAGE // 8 : end - given.size]
+        fence[:] = native.FENCE
+        self._fences.append(fence)
+        return words[end - given.size : end].reshape(given.shape)
+
+    def lock(self, row: Row) -> None:
+        """Let nobody write to the page of a short row."""
+        self._protect(row.ctypes.data // _PAGE * _PAGE, _READ_ONLY)
+
+    @property
+    def torn(self) -> bool:
+        """Whether somebody wrote before a row."""
+        return any((fence != native.FENCE).any() for fence in self._fences)
+
+    def _protect(self, page: int, mode: int) -> None:
+        done = self._system.mprotect(ctypes.c_void_p(page), ctypes.c_size_t(_PAGE), mode)
+        assert done == 0, "a whole page of our own"
+
+
+class NativeCalls:
+    """A native mapper, as this process calls it.
+
+    Args:
+        function: the address of its function.
+        beats: the address of two words: how many worlds of the shard lie before the one in which
+            the mapper is, and a number that grows with every world and move.
+    Attributes:
+        first, worlds: the rank of the first world of the shard, and how many it has.
+    """
+
+    def __init__(self, function: int, beats: int) -> None:
+        self._function, self._beats = function, beats
+        self.first = self.worlds = 0
+        self.guarded = Guarded()
+        self._end = ctypes.cast(ctypes.CDLL(None)._exit, ctypes.c_void_p).value or 0  # noqa: SLF001  its name in C
+        self._spaces: dict[tuple[str, int], Row] = {}
+
+    def space(self, use: str, room: int = ws.TRACE) -> Row:
+        """The workspace for a use, with room for so many words of trace; the same each time."""
+        if (use, room) not in self._spaces:
+            import numpy as np
+
+            made = self.guarded.row(f"space {use}", np.zeros(_at("trace.word") + room, np.int64))
+            self._prepare(made, f"robot {use} {room}")
+            self._spaces[use, room] = made
+        return self._spaces[use, room]
+
+    def _prepare(self, space: Row, robot_name: str) -> None:
+        """Let the mapper be given the robot of this workspace."""
+        import numpy as np
+
+        here = space.ctypes.data
+        robot = self.guarded.row(robot_name, np.array([VERSION, here, *_addresses()], np.int64))
+        self.guarded.lock(robot)
+        for name, word in (
+            ("mapper", self._function),
+            ("robot", robot.ctypes.data),
+            ("self", here),
+            ("beats", self._beats),
+            ("exit", self._end),
+        ):
+            space[_at(f"native.{name}")] = word
+
+    def require_whole(self) -> None:
+        """End this process if the mapper wrote before one of our rows."""
+        if self.guarded.torn:
+            os._exit(native.WROTE)
+
+    def run(self, world: World) -> tuple[CompiledRun, bool]:
+        """The run of the mapper in one world of the small layout, and whether it decides anything.
+
+        A trace that does not fit is made again with four times the room, up to `MOST_ROOM`. It
+        decides nothing if that does not do, or if the mapper declines the world.
+        """
+        room = ROOM
+        while True:
+            space = self.space("run", room)
+            place_world(space, ws.SMALL, world)
+            space[_at("task.budget")], space[_at("task.tracing")], space[_at("task.room")] = (
+                world.cost_bound,
+                1,
+                room,
+            )
+            space[_at("native.rank")], space[_at("native.first")] = (
+                self.worlds,
+                0,
+            )  # the shard is done
+            run = compiled(native.run_native, ws.SMALL)
+            run(space, len(world.alpha), len(world.vertices))
+            if space[_at("stop")] < ws.STOP_FULL or room >= MOST_ROOM:
+                return made_by(space, world), not is_open(space)
+            room *= 4
+
+
+def _addresses() -> list[int]:
+    return [address_of(getattr(native, f"native_{name}"), ws.SMALL) for name in NAMES]
+
+
+def warm() -> None:
+    """Have compiled what a native mapper needs, before one is opened."""
+    for function in (tally.examine_worlds, tally.enter_open, native.run_native):
+        compiled(function, ws.SMALL)
+    _addresses()
+
+
+def is_open(space: Row) -> bool:
+    """Whether a run in the small layout decides nothing: the mapper declined, or had no room."""
+    return bool(space[_at("stop")] >= ws.STOP_SKIP)
+
+
+def made_by(space: Row, world: World) -> CompiledRun:
+    """What a finished workspace of the small layout says."""
+    stop, reported = int(space[_at("stop")]), int(space[_at("native.reported")])
+    is_map = stop == 0 and space[_at("native.delivered")] != 0
+    why: str | None = None
+    if not is_map:
+        why = STOPPED.get(stop, "the mapper delivered no map")
+        if stop == ws.STOP_BUDGET:
+            why = f"the mapper asked for more than {world.cost_bound} moves"
+    found = None
+    if is_map:
+        found = map_of(space, ws.SMALL) if space[_at("chart.darts")] >= 0 else MapData((), (), None)
+    words = space[_at("trace.word") : _at("trace.word") + int(space[_at("trace.size")])]
+    return CompiledRun(
+        int(space[_at("robot.cost")]),
+        found,
+        why,
+        tuple(words.tolist()),
+        None if reported < 0 else reported,
+    )
