@@ -142,7 +142,7 @@ def tree(chart: ChartWords, root: int, until: int) -> None:
 
 @kernel
 def tree_of_v0(chart: ChartWords) -> None:
-    """The complete breadth-first tree rooted at v0, as S is now: DEP, PAR."""
+    """The complete breadth-first tree rooted at v0, as S is now: `depth`, `up`."""
     if chart.has_tree != 0:
         return
     chart.has_tree = 1

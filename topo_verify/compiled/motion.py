@@ -2,7 +2,7 @@
 
 Mirrors: algorithms/motion.py, `Pilot`, `Hypothesis`, `retrace`, `overlap`; algorithms/policies.py,
 `nearest` and `shortest`. Differs: a hypothesis is its dart alone; its way home is followed along
-PAR where it is needed and is written down nowhere. Of the policies there are only these two, which
+`up` where it is needed and is written down nowhere. Of the policies there are only these two, which
 define the reference costs. Few hypotheses are sorted by insertion, many by counting distances; both
 keep the order of darts.
 

@@ -126,7 +126,7 @@ class ChartWords(EndWords):
     vertices: int  # vertices of S
     darts: int  # darts of S
     unexplored: int  # darts in U
-    has_tree: int  # whether DEP and PAR are those of S as it is now
+    has_tree: int  # whether `depth` and `up` are those of S as it is now
     alpha: PerDart  # alpha of each dart; -1: unexplored
     vertex: PerDart  # vertex of each dart
     percept: PerDart  # percept with each dart as the reference dart
