@@ -24,7 +24,6 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "topo_verify"
 
 FLOORS = {
-    "text": -2,
     "errors": -1,
     "world": 0,
     "robot": 1,
@@ -371,7 +370,7 @@ def test_contributing_names_every_room_on_its_floor() -> None:
         named |= {
             room.removesuffix(".py"): floor for room in re.findall(r"`(\w+(?:\.py)?)/?`", rooms)
         }
-    outside = {"text", "errors", "search", "", "__main__"}
+    outside = {"errors", "search", "", "__main__"}
     assert named == {room: number for room, number in FLOORS.items() if room not in outside}
 
 

@@ -1,12 +1,23 @@
-"""Exceptions, grouped by who must act: the caller, the mapper's author, or us.
+"""Exceptions, grouped by who must act: the caller, the mapper's author, or us; and their words.
 
 They are `InputError`, `ClaimFailed` (with `ClaimUndecided`) and `InternalError`; the command line
-turns them into the exit codes 2, 1 (3) and 70.
+turns them into the exit codes 2, 1 (3) and 70. A message puts input of unknown origin on one line.
 """
 
 from __future__ import annotations
 
-from topo_verify.text import LINE, shown
+import os
+import re
+from os import PathLike
+
+LINE = 4000
+"""The most characters of a line in a report; what is quoted within a line is cut sooner."""
+
+
+def shown(text: str | PathLike[str], *, limit: int = 200) -> str:
+    """The text on one line of a message: control characters escaped, cut after `limit`."""
+    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in os.fspath(text))
+    return line if len(line) <= limit else line[: limit - 1] + "…"
 
 
 class TopoVerifyError(Exception):
@@ -37,3 +48,31 @@ class ClaimUndecided(TopoVerifyError, AssertionError):
 
 class InternalError(TopoVerifyError):
     """topo_verify contradicts itself: please report it with the world and the command line."""
+
+
+# ---------------------------------------------------------------- words of messages
+
+
+def is_utf8(text: str) -> bool:
+    """Whether the text can be written as UTF-8: a file's name may hold other bytes."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def plural(number: int, thing: str, things: str = "") -> str:
+    """The number with its noun: `1 world`, `2 worlds`."""
+    return f"{number} {thing if number == 1 else things or thing + 's'}"
+
+
+_LONG_ID = re.compile(r"\b(m[0-9]+/[0-9]{5})[0-9]{5,}([0-9]{5})\b")
+
+
+def shortened(text: str) -> str:
+    """The text with long world ids cut in the middle: `m30/13579…86420`.
+
+    For reading only: commands to copy, and JSON, have them whole.
+    """
+    return _LONG_ID.sub(r"\1…\2", text)

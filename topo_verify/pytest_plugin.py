@@ -32,7 +32,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 
-from topo_verify.text import shown
+from topo_verify.errors import shown
 
 if TYPE_CHECKING:
     from topo_verify.campaign.judge import Report

@@ -265,7 +265,7 @@ def test_a_worker_with_another_topo_verify_is_refused(
         (package / "__init__.py").touch()
     else:
         shutil.copytree(Path(errors.__file__).parent, package)
-        with (package / "text.py").open("a") as file:
+        with (package / "errors.py").open("a") as file:
             file.write("# another version\n")
     with (
         started(0) as address,

@@ -30,8 +30,7 @@ from pathlib import Path
 
 import msgspec
 
-from topo_verify.errors import InputError
-from topo_verify.text import is_utf8, shown
+from topo_verify.errors import InputError, is_utf8, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World

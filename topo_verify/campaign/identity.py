@@ -27,14 +27,13 @@ from pathlib import Path
 
 from topo_verify import errors
 from topo_verify.algorithms import Algorithm, Steered
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, shown
 from topo_verify.programs import loaded
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.library import LIBRARY, library_file
 from topo_verify.programs.loaded import Loaded, values_hash
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX, Program, split
-from topo_verify.text import shown
 
 _PACKAGE = Path(errors.__file__).resolve().parent
 

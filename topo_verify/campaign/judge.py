@@ -19,12 +19,19 @@ from topo_verify.campaign.run import Exploration, explore
 from topo_verify.campaign.targets import is_found_again, target_arguments
 from topo_verify.checkers import CLAIMS, Finding, Judgement, Status, check
 from topo_verify.checkers.claims import LARGE
-from topo_verify.errors import ClaimFailed, ClaimUndecided, InputError, InternalError
+from topo_verify.errors import (
+    LINE,
+    ClaimFailed,
+    ClaimUndecided,
+    InputError,
+    InternalError,
+    plural,
+    shown,
+)
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import OPTIONS
 from topo_verify.robot.events import Event, MapData, Move, Policies
 from topo_verify.robot.limits import Limits
-from topo_verify.text import LINE, plural, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 

@@ -40,9 +40,8 @@ from topo_verify.campaign.campaign import Shard, ShardResult
 from topo_verify.campaign.identity import merged, require_unchanged
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Tally, notable
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, shown
 from topo_verify.programs.loaded import Loaded
-from topo_verify.text import shown
 
 FORMAT = "topo-verify/store"
 VERSION = 3

@@ -22,7 +22,7 @@ from topo_verify.cli.output import Ending, Output, Result, output_options
 from topo_verify.cli.reporting import ReportFiles, report_options, write_reports
 from topo_verify.cli.runs import unjudged
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
@@ -34,7 +34,6 @@ from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import League, LeagueEntry
 from topo_verify.studies.arena.match import matches, measure
 from topo_verify.studies.arena.suites import DEFAULT, SUITES, Suite, chosen_suites
-from topo_verify.text import plural
 
 
 @options.command(

@@ -17,7 +17,7 @@ from topo_verify.checkers import Finding
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result, entry_of, output_options
 from topo_verify.cli.runs import finding_line
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import InputError, InternalError, plural
 from topo_verify.proofs.mechanised import certificate_format, certificates, evidence
 from topo_verify.proofs.mechanised.certificates import CertificateCheck
 from topo_verify.report.blocks import Block, Bullets, Text, TextTable
@@ -25,7 +25,6 @@ from topo_verify.robot.events import Trace, read_events
 from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.studies.log_report import Certificate, OpenDoor, open_doors
 from topo_verify.studies.log_report import certify as judge
-from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
 

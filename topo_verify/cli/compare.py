@@ -19,6 +19,7 @@ from topo_verify.cli.output import Output, Result, entry_of, output_options
 from topo_verify.cli.record import MapperOpener, mapper_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns, exhibit_of
+from topo_verify.errors import plural
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
@@ -34,7 +35,6 @@ from topo_verify.studies.baseline.compare import (
 )
 from topo_verify.studies.baseline.compare import compare as join
 from topo_verify.studies.baseline.record import baseline_runs
-from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
 TITLES: dict[ChangeKind, str] = {

@@ -22,6 +22,7 @@ from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.runs import NamedWorld, judged, unjudged
 from topo_verify.cli.walks import MOST_EXHIBITS, FoundRuns, exhibit_of, target_title
+from topo_verify.errors import plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
@@ -32,7 +33,6 @@ from topo_verify.robot.limits import Limits
 from topo_verify.studies.conform.batch import batched
 from topo_verify.studies.conform.conform import Conform, LevelResult
 from topo_verify.studies.conform.outcome import Asked, WorldFinding
-from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
 SHOWN = 3

@@ -31,14 +31,13 @@ from topo_verify.cli.runs import (
     unjudged,
 )
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.search.states.every import ListedChoices
-from topo_verify.text import plural
 from topo_verify.world.formats import files
 
 

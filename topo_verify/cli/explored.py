@@ -24,13 +24,12 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.runs import NamedWorld, claims_cell, finding_blocks, judged
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.gap import gap as measure
-from topo_verify.text import plural
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import Code
 

@@ -25,8 +25,7 @@ from typing import IO
 
 import click
 
-from topo_verify.errors import InputError
-from topo_verify.text import LINE, shown
+from topo_verify.errors import LINE, InputError, shown
 
 TRACEBACK = "TOPO_VERIFY_TRACEBACK"
 """If this environment variable is 1, a bug is reported with its whole traceback."""

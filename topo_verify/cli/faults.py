@@ -13,7 +13,7 @@ from topo_verify.cli.failures import version
 from topo_verify.cli.output import Live, Output, Result, output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.studies.faults import (
@@ -31,7 +31,6 @@ from topo_verify.studies.faults import (
     try_faults,
     warm,
 )
-from topo_verify.text import plural
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")
 WIDTHS = (29, 21, 13, 5, 3)

@@ -10,8 +10,8 @@ from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.store import Store
 from topo_verify.cli.output import Output
+from topo_verify.errors import plural
 from topo_verify.programs.loaded import watch
-from topo_verify.text import plural
 
 STORE, OLD_STORE = "runs.db", "runs.jsonl"
 """The file in the folder that keeps the runs; the one in which version 0.2 kept them."""

@@ -16,10 +16,9 @@ from topo_verify.campaign.run import ENGINES
 from topo_verify.campaign.targets import target_text
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import epilog
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, shown
 from topo_verify.programs.library import LIBRARY
 from topo_verify.robot.limits import MOST_SECONDS, Limits
-from topo_verify.text import shown
 
 
 class OnceCommand(click.Command):

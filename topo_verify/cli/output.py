@@ -26,12 +26,11 @@ import msgspec
 
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.failures import ExitCode, exit_code, say, silence, version
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text
 from topo_verify.report.markdown import markdown
 from topo_verify.report.terminal import pretty
-from topo_verify.text import plural
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar

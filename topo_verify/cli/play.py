@@ -12,11 +12,10 @@ from topo_verify.campaign.targets import targets
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.runs import judged, named_world
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.limits import Limits
-from topo_verify.text import plural
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 

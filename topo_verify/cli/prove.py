@@ -15,13 +15,12 @@ from topo_verify.cli import options
 from topo_verify.cli.output import Live, Output, Result, entry_of, output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import InputError, InternalError, plural
 from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem, TheoremKind
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Cell, Text, TextTable
 from topo_verify.report.style import Tone
 from topo_verify.robot.limits import MOST_SECONDS
-from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
 KINDS: tuple[TheoremKind, ...] = get_args(TheoremKind)

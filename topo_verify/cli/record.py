@@ -20,6 +20,7 @@ from topo_verify.cli import options
 from topo_verify.cli.kept_runs import opened, stored_rows
 from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.runs import finding_blocks
+from topo_verify.errors import plural
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
 from topo_verify.report.blocks import Block, Text, TextTable
@@ -28,7 +29,6 @@ from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline.file import Baseline, encode
 from topo_verify.studies.baseline.record import MAX_TIMEOUTS, baseline_runs, replay_command
 from topo_verify.studies.baseline.record import record as run_all
-from topo_verify.text import plural
 from topo_verify.world.formats import files
 
 MapperOpener = Callable[..., AbstractContextManager[Target]]

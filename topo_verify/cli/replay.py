@@ -19,14 +19,13 @@ from topo_verify.cli.output import Output, Result, entry_of, output_options
 from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import NamedWorld, judged, named_world, unjudged
 from topo_verify.cli.walks import other_findings, walk_view
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.walk import Extent
 from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.events import Finish, Start, read_trace
 from topo_verify.robot.limits import Limits
-from topo_verify.text import plural
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 

@@ -21,12 +21,11 @@ import click
 
 from topo_verify.cli.failures import ExitCode, version
 from topo_verify.cli.output import Ending, Output
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, shown
 from topo_verify.report.account import Account
 from topo_verify.report.badge import badge
 from topo_verify.report.junit import JunitRun, junit
 from topo_verify.report.page import PageFacts, report_page
-from topo_verify.text import shown
 from topo_verify.world.formats import files
 
 P = ParamSpec("P")

@@ -23,10 +23,9 @@ from topo_verify.campaign.judge import (
 from topo_verify.campaign.run import Exploration
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.report.blocks import Block, Bullets, Command, Text
 from topo_verify.robot.limits import Limits
-from topo_verify.text import plural
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World

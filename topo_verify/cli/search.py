@@ -23,7 +23,7 @@ from topo_verify.cli.output import Output, Result, output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.runs import unjudged
 from topo_verify.cli.walks import FoundRuns
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
@@ -40,7 +40,6 @@ from topo_verify.studies.search.search import (
     SearchEntry,
     search_campaign,
 )
-from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass
 
 

@@ -13,13 +13,12 @@ from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result, entry_of, output_options
 from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import named_world
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import Event, Move, Start, Trace, read_events, write_trace
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.studies.map_check import check_map, tour_log
-from topo_verify.text import plural
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import Dart, World
 

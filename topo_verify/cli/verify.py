@@ -15,13 +15,13 @@ from topo_verify.cli.output import Live, Output, Result, output_options
 from topo_verify.cli.reporting import report_options
 from topo_verify.cli.runs import finding_blocks, unjudged
 from topo_verify.cli.walks import FoundRuns
+from topo_verify.errors import plural
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify import verify as campaign
 from topo_verify.studies.verify.parts import Part
-from topo_verify.text import plural
 
 
 @options.command("verify", "verify my_mapper.py:explore", "verify --quick --format json")

@@ -17,9 +17,8 @@ from topo_verify.cli import options
 from topo_verify.cli.failures import epilog
 from topo_verify.cli.output import Live, Output, Result, entry_of, output_options
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
-from topo_verify.text import plural
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, Table

@@ -28,9 +28,8 @@ from topo_verify.compiled.events import decoded
 from topo_verify.compiled.exploration import explore_rounds
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.kernel import compiled
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.robot.events import Event, Finish, MapData
-from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:

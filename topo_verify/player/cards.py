@@ -12,10 +12,9 @@ from collections.abc import Iterator, Sequence
 from html import escape
 
 from topo_verify.checkers.findings import Finding, Judgement, Status
-from topo_verify.errors import InputError
+from topo_verify.errors import LINE, InputError, plural, shown
 from topo_verify.player import walk
 from topo_verify.player.scenes import Playback
-from topo_verify.text import LINE, plural, shown
 from topo_verify.world.rooted_map import World
 
 MOST_DRAWN = 80

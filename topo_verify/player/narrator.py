@@ -19,7 +19,7 @@ from functools import cached_property
 from typing import Literal, NamedTuple, assert_never, get_args
 
 from topo_verify.checkers.darts import KnownDart
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural, shown
 from topo_verify.player.detours import SupposedWalk, tested_guesses
 from topo_verify.player.fold_places import FoldPlaces, fold_places
 from topo_verify.player.remarks import (
@@ -34,7 +34,6 @@ from topo_verify.player.remarks import (
 from topo_verify.player.scenes import Mismatch, Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
-from topo_verify.text import plural, shown
 from topo_verify.world.rooted_map import World
 
 Sense = Literal["", "ask", "ok", "bad"]

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 
+from topo_verify.errors import shown
 from topo_verify.player.recording import PlayedRun, recording
-from topo_verify.text import shown
 from topo_verify.world.rooted_map import World
 
 SCRIPTS = (

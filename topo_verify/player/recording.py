@@ -30,13 +30,13 @@ from math import hypot, inf
 from typing import TYPE_CHECKING, Any, assert_never, get_args
 
 from topo_verify.checkers import Finding, Judgement
+from topo_verify.errors import LINE, shown
 from topo_verify.player.detours import turns
 from topo_verify.player.narrator import SEES, SENSES, Narrator
 from topo_verify.player.remarks import remarks
 from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
-from topo_verify.text import LINE, shown
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 

@@ -20,7 +20,7 @@ from itertools import chain
 
 from topo_verify.checkers import Finding
 from topo_verify.checkers.darts import KnownDart, WorldDart
-from topo_verify.errors import InputError
+from topo_verify.errors import LINE, InputError, plural, shortened, shown
 from topo_verify.player.detours import circle, turns
 from topo_verify.player.narrator import Narrator
 from topo_verify.player.remarks import (
@@ -33,7 +33,6 @@ from topo_verify.player.remarks import (
 )
 from topo_verify.player.scenes import DeclaredMap, Moment, Playback
 from topo_verify.robot import events as ev
-from topo_verify.text import LINE, plural, shortened, shown
 from topo_verify.world.rooted_map import World
 
 WIDTH = 80

@@ -15,11 +15,10 @@ from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 from topo_verify import errors
-from topo_verify.errors import InputError
+from topo_verify.errors import LINE, InputError, shown
 from topo_verify.programs.loaded import is_users
 from topo_verify.robot.events import Finish, MapData
 from topo_verify.robot.limits import MapperStopped
-from topo_verify.text import LINE, shown
 from topo_verify.world.validation import map_parts, optional_part
 
 R = TypeVar("R")

@@ -18,11 +18,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, get_args
 
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, shown
 from topo_verify.robot.events import Robot, RuleName
 from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.percept import PURPOSES, Percept
-from topo_verify.text import shown
 
 LIBRARY = "--library "
 """The beginning of a TARGET that is a native mapper."""

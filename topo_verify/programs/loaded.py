@@ -31,8 +31,7 @@ from typing import Any, cast
 import msgspec
 
 from topo_verify import errors
-from topo_verify.errors import InputError
-from topo_verify.text import is_utf8
+from topo_verify.errors import InputError, is_utf8
 
 _PACKAGE = str(Path(errors.__file__).resolve().parent)
 

@@ -12,10 +12,10 @@ from typing import Any, Literal, get_args
 
 import msgspec
 
+from topo_verify.errors import shown
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import Child
 from topo_verify.robot.limits import MapperStopped
-from topo_verify.text import shown
 
 Misbehaviour = Literal[
     "crashed",

@@ -27,8 +27,8 @@ import sys
 from contextlib import suppress
 from typing import Any, NamedTuple
 
+from topo_verify.errors import shown
 from topo_verify.robot.stopwatch import tasks_of
-from topo_verify.text import shown
 
 LOOK_AGAIN = 16
 """After so many worlds see whether the program has become more than one thread."""

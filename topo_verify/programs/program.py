@@ -26,7 +26,7 @@ from typing import Any, ClassVar, Literal, Self
 
 import msgspec
 
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, shown
 from topo_verify.programs import isolation
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import GRACE, Child, Ended, ReaperProcess, TooLong
@@ -42,7 +42,6 @@ from topo_verify.programs.misbehaviour import (
 from topo_verify.robot.events import Finish, Robot
 from topo_verify.robot.limits import BudgetExceeded, TimeLimitExceeded, helped_by
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
-from topo_verify.text import shown
 
 IN_A_ROW = 100_000
 """The most decisions that a program may declare without a move between them."""

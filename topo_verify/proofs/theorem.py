@@ -23,7 +23,7 @@ from time import perf_counter
 from typing import Literal
 
 from topo_verify.checkers.findings import Verdict
-from topo_verify.text import plural
+from topo_verify.errors import plural
 
 TheoremKind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
 

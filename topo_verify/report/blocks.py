@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+from topo_verify.errors import LINE, shortened, shown
 from topo_verify.report.style import TONES, VERDICTS, Tone, marked
-from topo_verify.text import LINE, shortened, shown
 
 WIDTH = 80
 """The columns of a view in a form that has none of its own."""

@@ -10,9 +10,9 @@ from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping
 from html import escape
 
+from topo_verify.errors import LINE, shown
 from topo_verify.report import blocks as bl
 from topo_verify.report.style import TONES, Tone, marked
-from topo_verify.text import LINE, shown
 
 
 def xml_text(text: str, *, limit: int = LINE) -> str:

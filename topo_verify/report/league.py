@@ -20,12 +20,12 @@ from typing import NamedTuple
 
 from topo_verify.campaign.judge import in_words
 from topo_verify.campaign.row import Row
+from topo_verify.errors import plural
 from topo_verify.report.blocks import Block, Bullets, Cell, Command, Text, TextTable
 from topo_verify.report.html import xml_text
 from topo_verify.report.style import PALETTE
 from topo_verify.studies.arena.league import LeagueBehind, LeagueEntry, MeanInterval
 from topo_verify.studies.arena.suites import Suite
-from topo_verify.text import plural
 
 Memory = Callable[[LeagueEntry], float | None]
 """The mebibytes that a mapper took in its dearest world of a suite, if they are known."""

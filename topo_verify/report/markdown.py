@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from topo_verify.errors import LINE, shown
 from topo_verify.report import blocks as bl
-from topo_verify.text import LINE, shown
 
 
 def markdown(blocks: Iterable[bl.Block]) -> str:

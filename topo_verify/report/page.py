@@ -17,6 +17,7 @@ from functools import cache
 from importlib import resources
 from itertools import count
 
+from topo_verify.errors import plural
 from topo_verify.player.page import PageShell, json_in_page, page_shell, source_hash, squeezed
 from topo_verify.player.recording import recording
 from topo_verify.report.account import Account, Exhibit, JudgedCase, JudgedSuite
@@ -24,7 +25,6 @@ from topo_verify.report.blocks import clean
 from topo_verify.report.html import blocks_as_html, code, mark_up, picture, toned, xml_text
 from topo_verify.report.junit import UNFINISHED
 from topo_verify.report.style import PALETTE, TONES
-from topo_verify.text import plural
 
 MOST_DRAWN = 200
 """The most edges of a world that is drawn and played: larger ones take seconds."""

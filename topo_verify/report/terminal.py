@@ -11,9 +11,9 @@ import os
 from collections.abc import Iterable, Sequence
 from typing import IO, TYPE_CHECKING
 
+from topo_verify.errors import LINE, shown
 from topo_verify.report import blocks as bl
 from topo_verify.report.style import ON_TERMINAL, TONES, VERDICTS
-from topo_verify.text import LINE, shown
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType

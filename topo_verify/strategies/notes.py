@@ -22,8 +22,8 @@ from typing import Protocol
 from hypothesis import currently_in_test_context, event, note
 from hypothesis.internal.observability import observability_enabled
 
+from topo_verify.errors import plural, shown
 from topo_verify.robot.events import Augment, Policies, Trace
-from topo_verify.text import plural, shown
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.rooted_map import World
 

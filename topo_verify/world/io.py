@@ -21,8 +21,7 @@ import os
 from os import PathLike
 from typing import TypeVar
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)

@@ -28,8 +28,7 @@ from importlib import resources
 from pathlib import Path
 from typing import IO, TypeVar, cast
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.families import FAMILIES
 from topo_verify.world.formats import files, world_json
 from topo_verify.world.rooted_map import World

@@ -13,8 +13,7 @@ from math import isfinite
 from operator import index
 from typing import Any, SupportsIndex, cast
 
-from topo_verify.errors import InputError
-from topo_verify.text import plural
+from topo_verify.errors import InputError, plural
 
 
 def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int | None) -> None:

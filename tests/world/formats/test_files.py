@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import files
 
 ROOT = hasattr(os, "geteuid") and os.geteuid() == 0

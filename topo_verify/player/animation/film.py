@@ -21,13 +21,12 @@ from itertools import accumulate
 from textwrap import wrap
 from typing import TypeVar
 
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural, shown
 from topo_verify.player.animation.tracks import Leg, Tracks, timed
 from topo_verify.player.narrator import Narrator, Saying
 from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
-from topo_verify.text import plural, shown
 from topo_verify.world.drawing import lay_out
 from topo_verify.world.drawing.curves import number
 from topo_verify.world.drawing.svg import FONT, arrow, text

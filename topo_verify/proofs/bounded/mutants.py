@@ -33,6 +33,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 
+from topo_verify.errors import plural
 from topo_verify.proofs.bounded import encoding as enc
 from topo_verify.proofs.bounded import statements
 from topo_verify.proofs.bounded.cnf import REFUTED, CnfRow, Formula, first_model
@@ -47,7 +48,6 @@ from topo_verify.proofs.bounded.replay import (
 from topo_verify.proofs.bounded.statements import EncodedCounterexample
 from topo_verify.proofs.solvers.z3_solver import z3_result
 from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult, timed
-from topo_verify.text import plural
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,11 +20,10 @@ from typing import Literal
 
 import msgspec
 
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.proofs.mechanised import evidence
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
-from topo_verify.text import plural
 
 HEADER = "topo-verify/certificate 1"
 """The first line of a certificate: the format and its version."""

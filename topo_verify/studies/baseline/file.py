@@ -27,11 +27,10 @@ from typing import Any, Literal, TypeVar
 
 import msgspec
 
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, shown
 from topo_verify.programs.protocol import dialect
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
-from topo_verify.text import shown
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 

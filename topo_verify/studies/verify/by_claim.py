@@ -23,11 +23,11 @@ from topo_verify.campaign.corpus import corpus_from
 from topo_verify.campaign.judge import Report, undecided
 from topo_verify.campaign.progress import no_progress
 from topo_verify.checkers import Finding
+from topo_verify.errors import LINE, shown
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify.parts import Part
 from topo_verify.studies.verify.trials import Trials
-from topo_verify.text import LINE, shown
 
 ClaimVerdict = Literal["holds", "fails", "undecided", "not-declared"]
 

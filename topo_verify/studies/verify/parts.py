@@ -22,7 +22,7 @@ import msgspec
 
 from topo_verify.campaign.progress import Progress
 from topo_verify.checkers.findings import Finding, Judgement, Verdict
-from topo_verify.text import plural
+from topo_verify.errors import plural
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 

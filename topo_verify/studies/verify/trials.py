@@ -38,11 +38,10 @@ from topo_verify.campaign.work import processors
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.checkers.findings import Status, Verdict
 from topo_verify.compiled import available
-from topo_verify.errors import InternalError
+from topo_verify.errors import InternalError, plural
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify.parts import MapperCost, Part
-from topo_verify.text import plural
 from topo_verify.world.rooted_map import World
 
 MAX_TIMEOUTS = 3

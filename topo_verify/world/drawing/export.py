@@ -6,8 +6,7 @@ from base64 import b64encode
 from hashlib import sha256
 from typing import Literal
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.drawing.layout import Layout
 from topo_verify.world.drawing.svg import STYLE, caption, text, to_svg
 from topo_verify.world.rooted_map import World

@@ -15,7 +15,7 @@ from html import escape
 
 import numpy as np
 
-from topo_verify.text import plural, shown
+from topo_verify.errors import plural, shown
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats
 from topo_verify.world.drawing.curves import number

@@ -24,8 +24,7 @@ import re
 from dataclasses import dataclass
 from random import Random
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.counts import count_genus, count_graphs
 from topo_verify.world.rooted_map import World

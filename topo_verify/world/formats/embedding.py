@@ -31,8 +31,7 @@ from itertools import pairwise
 from math import hypot
 from typing import Any, NamedTuple, TypeVar
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)

@@ -14,8 +14,7 @@ from pathlib import Path
 from secrets import token_hex
 from typing import IO, TextIO
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 
 LIMIT = 64 * 2**20
 """Bytes that a file may have: room for a world of a million darts with positions, twice."""

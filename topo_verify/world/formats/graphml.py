@@ -24,8 +24,7 @@ from io import BytesIO
 from os import PathLike
 from typing import Any, NamedTuple, TypeVar, cast
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import embedding, files, markup, rotated
 from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Point
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex

@@ -20,8 +20,7 @@ from typing import Annotated, Any, TypeVar
 import msgspec
 from msgspec import UNSET, Meta, UnsetType
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import files, rotated, world_json
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World

@@ -24,8 +24,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import embedding, rotated
 from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex, Point
 from topo_verify.world.formats.planar_code import require_simple_and_planar

@@ -23,8 +23,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any, Final, NamedTuple, TypeVar
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world import validation
 from topo_verify.world.formats import embedding
 from topo_verify.world.rooted_map import World

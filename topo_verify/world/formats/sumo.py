@@ -23,8 +23,7 @@ import re
 from os import PathLike
 from typing import TypeVar
 
-from topo_verify.errors import InputError
-from topo_verify.text import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import embedding, files, markup
 from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Point
 from topo_verify.world.rooted_map import World
