@@ -251,8 +251,9 @@ def test_no_tick_strikes_in_a_callback_of_the_garbage_collector(
     assert late not in torn
 
 
-def test_no_tick_strikes_in_the_tracer_of_coverage() -> None:
-    """It holds a lock, and torn out of there would never give it back."""
+@pytest.mark.parametrize("module", ["coverage.collector", "_weakrefset"])
+def test_no_tick_strikes_in_a_tracer_or_in_the_callback_of_a_weak_reference(module: str) -> None:
+    """A tracer holds a lock, and torn out of there would never give it back."""
     source = """
 def trace(rings):
     for _ in range(2):
@@ -260,7 +261,7 @@ def trace(rings):
     return True
 """
     traced: list[bool] = []
-    tracer: dict[str, Any] = {"__name__": "coverage.collector"}
+    tracer: dict[str, Any] = {"__name__": module}
     exec(source, tracer)  # noqa: S102  a function of that module
 
     def work() -> None:

@@ -27,6 +27,8 @@ from typing import (
     Protocol,
     Self,
     TypeVar,
+    cast,
+    get_args,
     get_origin,
     get_type_hints,
 )
@@ -168,7 +170,7 @@ def _named(letter: str, part: str, view: type[WordView]) -> Iterator[Field]:
                 setattr(owner, name, Field(letter, name, "", hint))
                 yield from _named(letter, name, hint)
             else:
-                capacity = hint.__metadata__[0] if get_origin(hint) is Annotated else ""
+                capacity: str = get_args(hint)[1] if get_origin(hint) is Annotated else ""
                 kind = Field if capacity else WordField
                 field = kind(letter, f"{part}.{name}".lstrip("."), capacity, None)
                 setattr(owner, name, field)
@@ -281,7 +283,7 @@ class Flat(ast.NodeTransformer):
                 if not named.capacity:
                     raise TypeError(f"{ast.unparse(row)} is one word: it has no index")
                 return self._word(row.value, view, named, self.visit(node.slice), node.ctx)
-        return self.generic_visit(node)  # type: ignore[return-value]
+        return cast("ast.expr", self.generic_visit(node))
 
     def visit_Call(self, node: ast.Call) -> ast.expr:
         """`chart.place_of("first")` is an offset; a cursor that is made is its place."""
@@ -295,7 +297,7 @@ class Flat(ast.NodeTransformer):
             if view is not None and isinstance(name, ast.Constant):
                 named = _named_in(view, ast.Attribute(node.func.value, str(name.value), ast.Load()))
                 return self._place(node.func.value, view, named)
-        return self.generic_visit(node)  # type: ignore[return-value]
+        return cast("ast.expr", self.generic_visit(node))
 
     def _view(self, node: ast.expr) -> type[WordView] | None:
         """The view that an expression is, if it is one."""

@@ -174,20 +174,20 @@ def pose_native(run: RunWords, e: int, number: int, hypotheses: int) -> int:
         return REFUSED
     sound = is_number(e) and 0 <= number <= MOST_WORDS
     if sound:
-        H = row_at(hypotheses, number)
+        asked = row_at(hypotheses, number)
         for k in range(number):
-            sound = sound and is_number(H[k])
+            sound = sound and is_number(asked[k])
     if not sound:
         run.stop = STOP_EVENT
         return REFUSED
     i = run.trace.place_of("word") + took(run, 3 + number)
     if run.stop == 0:
-        H = row_at(hypotheses, number)
+        posed = row_at(hypotheses, number)
         run[i] = POSE
         run[i + 1] = e
         run[i + 2] = number
         for k in range(number):
-            run[i + 3 + k] = H[k]
+            run[i + 3 + k] = posed[k]
     return 0 if run.stop == 0 else REFUSED
 
 

@@ -211,12 +211,12 @@ def _called_by(frame: FrameType | None, caller: FrameType | None) -> bool:
 def _is_a_hook(frame: FrameType) -> bool:
     """Does the interpreter call this in the middle of other code?
 
-    It swallows what a callback of the garbage collector raises (Hypothesis has one), and a tracer
-    of coverage.py that is torn out never gives back its lock.
+    It swallows what a callback of the garbage collector (Hypothesis has one) or of a weak reference
+    raises, and a tracer of coverage.py that is torn out never gives back its lock.
     """
     callbacks = [getattr(callback, "__code__", None) for callback in gc.callbacks]
     package = str(frame.f_globals.get("__name__")).partition(".")[0]
-    return frame.f_code in callbacks or package == "coverage"
+    return frame.f_code in callbacks or package in ("coverage", "_weakrefset")
 
 
 def _by_thread(watch: _Watch, tick: float, work: Callable[[], T]) -> T:

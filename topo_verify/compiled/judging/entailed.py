@@ -50,7 +50,7 @@ def fold_history(run: RunWords, case: CaseWords) -> bool:
                 return False
             i += 4
             continue
-        if asked and kind != POSE and drawn.stands != 0:
+        if asked and kind != POSE and drawn.stands != 0:  # pyright: ignore[reportUnnecessaryComparison]  calls change it
             conclude_event(run, case, DecisionWords(run, i))
         elif kind == REJECT:
             note_rejection(drawn, 0)  # S is not proved any more
