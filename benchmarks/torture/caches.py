@@ -28,7 +28,7 @@ from trial import objection, run
 from topo_verify.compiled import available, kernel
 from topo_verify.compiled.events import digest
 from topo_verify.compiled.kernel import compiled, module_source
-from topo_verify.compiled.workspace import NTR, SMALL, TR
+from topo_verify.compiled.workspace import SMALL
 from topo_verify.errors import InputError
 
 
@@ -39,8 +39,9 @@ def result(folder: Path) -> int:
     os.environ["TOPO_VERIFY_CACHE"] = str(folder)
     kernel.cache_folder.cache_clear()
     kernel.machine_code.cache_clear()
-    words = np.zeros(TR + 3, np.int64)
-    words[NTR], words[TR:] = 3, (3, 5, 7)
+    trace = SMALL.at("trace.word")
+    words = np.zeros(trace + 3, np.int64)
+    words[SMALL.at("trace.size")], words[trace:] = 3, (3, 5, 7)
     return int(compiled(digest, SMALL)(words))
 
 
