@@ -70,8 +70,8 @@ def test_the_report_shows_where_two_runs_diverge(call: Call) -> None:
         "decisions  ! REFUTED",
         "decisions in 1 world, first m4/41:",
         "rejects that edge 7 leads to 3 (by motion)",  # both do, before they part
-        "Here they part:\n  enhancement-ii: reject 4 for dart 7 by history",
-        "  basic: move by door 0 to (degree 5, no marker)",
+        "Here they part:\n  enhancement-ii: rejects that edge 7 leads to 4 (by history)",
+        "  basic: takes door 0 and sees (5)",
         "v1 (w1): 1-0  2-6  3-?[4]  4-?[3]  5-?[7]",
         "again: topo-verify conform basic --like enhancement-ii --worlds m4/41",
         "Cost over 1 world: 11 edge traversals, enhancement-ii 9: 1.222 of it.",

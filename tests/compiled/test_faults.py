@@ -74,8 +74,8 @@ def test_a_mistake_is_seen_as_a_difference_from_the_reference() -> None:
     seen = [difference(world, "basic", fault=name) for world in worlds(edges=3)]
     found = next(filter(None, seen))
     assert found.splitlines()[0].endswith("differs")
-    assert "  reference: move by door" in found
-    assert "  compiled: move by door" in found
+    assert "  reference: takes door" in found
+    assert "  compiled: takes door" in found
 
 
 def beyond_its_fields(space: Sequence[int], layout: WordLayout) -> list[str]:

@@ -10,10 +10,10 @@ from topo_verify import World
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.compiled.events import words
 from topo_verify.compiled.explore import CompiledRun, run_world
+from topo_verify.player.narrator import event_words
 from topo_verify.robot.events import Event, Finish, MapData, Robot
 from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.simulator import SimulatedRobot
-from topo_verify.studies.conform.likeness import event_text
 from topo_verify.world.enumeration import rank_order
 
 LOST = 100
@@ -60,7 +60,7 @@ def difference(
             name = world.name or f"{len(world.edges)} edges"
             said = [f"event {place} of {fault or algorithm} in {name} differs"]
             said += [
-                f"  {side}: {'nothing more' if event is None else f'{event_text(event)}  {event}'}"
+                f"  {side}: {'nothing more' if event is None else f'{event_words(event)}  {event}'}"
                 for side, event in (("reference", one), ("compiled", other))
             ]
             return "\n".join(said)

@@ -276,7 +276,7 @@ def _difference(
         yield Bullets((f"{where}{found.message}",))
         return
     sides = ((level.like, parted.expected), (level.target, parted.seen))
-    told = [(name, does or "nothing more") for name, does in sides]
+    told = [(name, does or "does nothing more") for name, does in sides]
     yield Text("")
     yield View(lambda width: parting(run, parted.at, told, width))
     yield Text("")

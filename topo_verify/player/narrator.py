@@ -3,6 +3,7 @@
     narrator = Narrator(playback)
     narrator.sayings             # of every moment: a title, sentences, the percepts that differ
     narrator.line(moment)        # of a decision, for the text walk: exact, with its darts
+    event_words(event)           # the same as the mapper states it, without a replay
 
 A saying is for everybody: a vertex is a place, an edge a road, a dart an exit, a hypothesis a
 guess. The page and the animation show it. A line has the field's terms. Both rest on the same
@@ -290,48 +291,84 @@ class Narrator:
     # ------------------------------------------------------------ exactly
 
     def line(self, moment: Moment) -> str:
-        """What an event other than a move says, in one exact sentence."""
-        match moment.event:
-            case ev.Pose(edge, hypotheses):
-                to = f"to {listed(hypotheses)} or" if hypotheses else "no hypothesis, so"
-                words = f"asks where edge {edge} leads: {to} to a new vertex"
-            case ev.Reject():
-                words = self._rejects(moment.number, moment.event, moment.mismatch)
-            case ev.Confirm(edge, hypothesis, rule):
-                words = f"confirms that edge {edge} leads to {hypothesis} (by {rule})"
-            case ev.Augment(edge, "loop", dart):
-                words = f"S grows: edge {edge} leads to {dart}"
-            case ev.Augment(edge, _, dart, degree):
-                darts = f"dart {dart}" if degree == 1 else f"darts {dart} to {dart + degree - 1}"
-                words = f"S grows: edge {edge} leads to a new vertex, {darts}"
-            case ev.Finish(cost, delivered):
-                size = plural(len(delivered.vertices), "vertex", "vertices")
-                told = "" if cost is None else f", and a cost of {cost}"
-                words = f"delivers a map of {size} and {plural(len(delivered.edges), 'edge')}{told}"
-            case ev.Start() | ev.Move():
-                words = f"sees {percept_in_brackets(moment.event.percept)}"
-            case _:
-                assert_never(moment.event)
-        return words
+        """What an event says, in one exact sentence; a rejection with where its evidence lies."""
+        if isinstance(moment.event, ev.Reject):
+            return self._rejects(moment.number, moment.event, moment.mismatch)
+        return event_words(moment.event, brief=True)
 
     def _rejects(self, number: int, event: ev.Reject, found: Mismatch | None) -> str:
         """A rejection with its evidence, and where that lies."""
         cited, spoiled = event.evidence, self.playback.replayed.spoiled
-        words = f"rejects that edge {event.edge} leads to {event.hypothesis} (by {event.rule}): "
         if cited.contradiction is not None:
-            return f"{words}{cited.contradiction}"
-        expected, observed = map(percept_in_brackets, (cited.expected, cited.observed))
-        told = f"expects {expected}, saw {observed}"
+            return event_words(event)
+        words = _rejection(event)
         if found is None:
             why = "cannot be found in the walk"
             if spoiled is not None and spoiled < number:
                 why = f"is not looked for: the mapper's map is false since event {spoiled}"
-            return f"{words}{told} at step {cited.step}, which {why}"
+            return f"{words}{_cited(cited)} at step {cited.step}, which {why}"
         start = map_place(self.playback, found.traced[0])
         behind = f"behind {door_words(found.doors)} from {start}"
         behind = behind if found.doors else "behind the edge"
         of = "" if found.sequence is None else f" (sequence {found.sequence})"
-        return f"{words}{behind}{of} it {told} at {world_place(self.playback, found.trail[-1])}"
+        at = world_place(self.playback, found.trail[-1])
+        return f"{words}{behind}{of} it {_cited(cited)} at {at}"
+
+
+def event_words(event: ev.Event, *, brief: bool = False) -> str:
+    """An event in one exact sentence, as the mapper states it: no world and no replay is needed.
+
+    Args:
+        brief: a long list of hypotheses is cut, and the degree behind a loop is left out.
+    """
+    match event:
+        case ev.Start(percept):
+            words = f"starts and sees {percept_in_brackets(percept)}"
+        case ev.Move(door, percept):
+            words = f"takes door {door} and sees {percept_in_brackets(percept)}"
+        case ev.Pose(edge, hypotheses):
+            names = listed(hypotheses) if brief else ", ".join(map(str, hypotheses))
+            to = f"to {names} or" if hypotheses else "no hypothesis, so"
+            words = f"asks where edge {edge} leads: {to} to a new vertex"
+        case ev.Reject():
+            words = f"{_rejection(event)}{_declared_evidence(event.evidence)}"
+        case ev.Confirm(edge, hypothesis, rule):
+            words = f"confirms that edge {edge} leads to {hypothesis} (by {rule})"
+        case ev.Augment(edge, "loop", dart, degree):
+            words = f"S grows: edge {edge} leads to {dart}"
+            words += "" if brief else f", of degree {degree}"
+        case ev.Augment(edge, _, dart, degree):
+            darts = f"dart {dart}" if degree == 1 else f"darts {dart} to {dart + degree - 1}"
+            words = f"S grows: edge {edge} leads to a new vertex, {darts}"
+        case ev.Finish(cost, delivered):
+            size = plural(len(delivered.vertices), "vertex", "vertices")
+            told = "" if cost is None else f", and a cost of {cost}"
+            words = f"delivers a map of {size} and {plural(len(delivered.edges), 'edge')}{told}"
+        case _:
+            assert_never(event)
+    return words
+
+
+def _rejection(event: ev.Reject) -> str:
+    return f"rejects that edge {event.edge} leads to {event.hypothesis} (by {event.rule}): "
+
+
+def _cited(cited: ev.Evidence) -> str:
+    expected, observed = map(percept_in_brackets, (cited.expected, cited.observed))
+    return f"expects {expected}, saw {observed}"
+
+
+def _declared_evidence(cited: ev.Evidence) -> str:
+    """The evidence of a rejection with every field that a mapper states."""
+    if cited.contradiction is not None:
+        return cited.contradiction
+    words = f"{_cited(cited)} at step {cited.step}"
+    words += "" if cited.sequence is None else f" of sequence {cited.sequence}"
+    words += "" if cited.at is None else f", at dart {cited.at}"
+    if cited.record is not None:
+        doors = door_words(cited.record.doors)
+        words += f", from the record behind dart {cited.record.dart}, {doors}"
+    return words
 
 
 def _testing(guess: int, seen: Percept | None, expected: Percept | None) -> Saying:

@@ -52,7 +52,7 @@ def test_each_level_is_reported_apart() -> None:
     assert [(s.passed, s.failed) for s in found.values()] == [(2, 0), (2, 0), (1, 1), (2, 0)]
     (parted,) = found["decisions"].findings
     assert parted.world == "m4/41"
-    assert parted.message.startswith("enhancement-ii does: reject 4 for dart 7 by history")
+    assert parted.message.startswith("enhancement-ii rejects that edge 7 leads to 4 (by history)")
     cost = found["cost"].cost
     assert (cost.mapper, cost.reference, cost.ratio) == (12, 10, 1.2)
 

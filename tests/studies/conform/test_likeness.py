@@ -7,7 +7,19 @@ import pytest
 
 from tests.helpers import edited, place, trace_of, worlds
 from topo_verify import CATALOGUE
-from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Pose, Reject, Trace
+from topo_verify.player.narrator import event_words
+from topo_verify.robot.events import (
+    Augment,
+    Confirm,
+    Event,
+    Finish,
+    Move,
+    Pose,
+    Record,
+    Reject,
+    Trace,
+)
+from topo_verify.robot.percept import Percept
 from topo_verify.studies.conform.likeness import Difference, KnownState, declares, first_difference
 
 
@@ -31,16 +43,16 @@ def test_the_smallest_world_in_which_two_algorithms_part() -> None:
     parted = first_difference(trace_of("m4/41", "enhancement-ii"), trace_of("m4/41", "basic"))
     assert parted == Difference(
         event=11,
-        expected="reject 4 for dart 7 by history: step 1, expected (degree 2, no marker),"
-        " saw (degree 5, no marker), sequence 0 at dart 6",
-        seen="move by door 0 to (degree 5, no marker)",
+        expected="rejects that edge 7 leads to 4 (by history): expects (2), saw (5)"
+        " at step 1 of sequence 0, at dart 6",
+        seen="takes door 0 and sees (5)",
         before=(
-            "move by door 1 to (degree 5, no marker)",
-            "pose for dart 7: [3, 4, 5]",
-            "move by door 3 to (degree 5, no marker)",
+            "takes door 1 and sees (5)",
+            "asks where edge 7 leads: to 3, 4, 5 or to a new vertex",
+            "takes door 3 and sees (5)",
             (
-                "reject 3 for dart 7 by motion: step 1, expected (degree 1, marker at door 0),"
-                " saw (degree 5, no marker)"
+                "rejects that edge 7 leads to 3 (by motion): expects (1, marker 0), saw (5)"
+                " at step 1"
             ),
         ),
         state=KnownState(
@@ -107,4 +119,24 @@ def test_of_a_mapper_that_declares_nothing_the_moves_are_compared() -> None:
     parted = first_difference(other, moves_alone(basic))
     assert parted is not None
     assert parted.expected is not None
-    assert parted.expected.startswith("move by door")
+    assert parted.expected.startswith("takes door")
+
+
+def test_what_differs_can_be_read() -> None:
+    """Two events that are compared and differ have different words, however little it is."""
+    trace = trace_of("m4/41", "enhancement-ii")
+    pose, grown, reject = (trace[place(trace, kind)] for kind in (Pose, Augment, Reject))
+    assert isinstance(reject, Reject)
+    hypotheses = tuple(range(40))
+    record = Record(3, (1, 2))
+    evidence = {"step": 9, "sequence": 4, "at": 8, "record": record, "expected": Percept(9, None)}
+    changed = [
+        (msgspec.structs.replace(pose, hypotheses=hypotheses), {"hypotheses": (*hypotheses, 40)}),
+        (msgspec.structs.replace(grown, kind="loop"), {"degree": 40}),
+        *(
+            (reject, {"evidence": msgspec.structs.replace(reject.evidence, **{name: value})})
+            for name, value in evidence.items()
+        ),
+    ]
+    for event, fields in changed:
+        assert event_words(event) != event_words(msgspec.structs.replace(event, **fields))

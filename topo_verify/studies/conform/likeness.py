@@ -11,16 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import zip_longest
-from typing import assert_never
 
 import msgspec
 
+from topo_verify.player.narrator import event_words
 from topo_verify.robot.events import (
     Augment,
     Confirm,
     Event,
     Evidence,
-    Finish,
     Move,
     Pose,
     Reject,
@@ -109,9 +108,11 @@ def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
             upto = len(reference) if one is None else one[0]
             return Difference(
                 event=len(mapper) if other is None else other[0],
-                expected=None if expected is None else event_text(expected),
-                seen=None if seen is None else event_text(seen),
-                before=tuple(event_text(event) for _, event in ours[max(0, place - SHOWN) : place]),
+                expected=None if expected is None else event_words(expected),
+                seen=None if seen is None else event_words(seen),
+                before=tuple(
+                    event_words(event) for _, event in ours[max(0, place - SHOWN) : place]
+                ),
                 state=_state(reference[:upto]),
                 at=upto,
             )
@@ -132,39 +133,6 @@ def _bare(event: Event) -> Event:
         # Several contradictions may follow, and the percepts beside them may be left out.
         return msgspec.structs.replace(event, evidence=Evidence(event.evidence.step))
     return event
-
-
-def event_text(event: Event) -> str:
-    """An event in words."""
-    match event:
-        case Start(percept=percept):
-            words = f"start at {percept}"
-        case Move(door, percept):
-            words = f"move by door {door} to {percept}"
-        case Pose(edge, hypotheses):
-            words = f"pose for dart {edge}: {list(hypotheses)}"
-        case Reject():
-            words = f"reject {event.hypothesis} for dart {event.edge} {_why(event)}"
-        case Confirm(edge, hypothesis, rule):
-            words = f"confirm {hypothesis} for dart {edge} by {rule}"
-        case Augment(edge, kind, dart, degree):
-            words = f"augment dart {edge} by {kind} dart {dart}, degree {degree}"
-        case Finish():
-            words = f"finish at cost {event.cost}"
-        case _:
-            assert_never(event)
-    return words
-
-
-def _why(event: Reject) -> str:
-    """The rule and the evidence of a rejection in words."""
-    cited = event.evidence
-    words = f"by {event.rule}: step {cited.step}, expected {cited.expected}, saw {cited.observed}"
-    words += "" if cited.sequence is None else f", sequence {cited.sequence}"
-    words += "" if cited.at is None else f" at dart {cited.at}"
-    if cited.record is not None:
-        words += f", record behind {cited.record.dart} {list(cited.record.doors)}"
-    return words
 
 
 def _state(trace: Sequence[Event]) -> KnownState:

@@ -179,7 +179,7 @@ def _likeness(note: Likeness | None, open_ended: LevelState | None, *, lost: boo
 
 def _parted(row: Row, like: str, difference: Difference) -> WorldFinding:
     """The first difference from the reference as a finding."""
-    ours, theirs = (side or "nothing more" for side in (difference.expected, difference.seen))
+    ours, theirs = (side or "does nothing more" for side in (difference.expected, difference.seen))
     return WorldFinding(
         claim="decisions",
         kind="decisions",
@@ -187,7 +187,7 @@ def _parted(row: Row, like: str, difference: Difference) -> WorldFinding:
         event=difference.event,
         expected=difference.expected,
         seen=difference.seen,
-        message=f"{like} does: {ours}; the mapper: {theirs}",
+        message=f"{like} {ours}; the mapper {theirs}",
         difference=difference,
     )
 
