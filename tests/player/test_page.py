@@ -8,12 +8,16 @@ import json
 import re
 from dataclasses import replace
 
+import pytest
+
 from tests.html_parts import Parts
 from tests.player.played import page_of, played
 from topo_verify import families
 from topo_verify.campaign.run import explore
 from topo_verify.checkers import Finding, Judgement
 from topo_verify.player.page import SCRIPTS, part, player_page
+from topo_verify.player.recording import GALLERY, GalleryWorld
+from topo_verify.world.resolve import resolve_world
 
 HOSTILE = "</script><script>alert(1)</script>\"'\x1b[31m{script}&lt;\ud800"
 """Text that would end a script, an attribute or a colour, or stand in for a part of the page."""
@@ -71,8 +75,6 @@ def test_every_part_of_the_page_is_written_into_it() -> None:
 
 
 def test_the_street_network_with_1468_moves_takes_less_than_150_kilobytes() -> None:
-    from topo_verify.world.resolve import resolve_world
-
     page = page_of(resolve_world("nyc"), "basic")
     assert len(page.encode()) < 150_000
 
@@ -89,3 +91,12 @@ def test_a_notebook_shows_a_run_in_a_frame_that_may_run_scripts_and_nothing_else
     assert (tag, attributes["sandbox"]) == ("iframe", "allow-scripts")
     page = attributes["srcdoc"]
     assert page == page_of(run.world, "basic")
+
+
+@pytest.mark.parametrize("shown", GALLERY, ids=lambda shown: shown.text)
+def test_the_gallery_says_the_genus_and_the_symmetries_of_its_worlds(shown: GalleryWorld) -> None:
+    world = resolve_world(shown.text)
+    assert world.genus == shown.genus
+    assert ("torus" in shown.name) == (world.genus == 1)
+    marked = [replace(world, root=dart).code for edge in world.edges for dart in edge]
+    assert marked.count(world.code) == shown.symmetries

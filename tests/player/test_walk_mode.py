@@ -81,7 +81,7 @@ def test_who_guesses_right_is_told_that_it_was_luck(show: Open, text: str) -> No
 def test_a_wrong_declaration_is_shown_where_it_is_wrong(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     keys(page, "0 n 1 n 1 n 1 a 1")
-    assert said(page) == "Something on your map is wrong"
+    assert said(page) == "Your map contradicts what you see"
     keys(page, "Enter")
     assert said(page) == "A declaration is wrong"
     assert page.locator("#walk .says li.wrong").inner_text() == (
@@ -90,6 +90,31 @@ def test_a_wrong_declaration_is_shown_where_it_is_wrong(show: Open, text: str) -
     assert page.locator("#walk .pane").nth(0).locator(".road.wrong").count() == 1
     assert page.locator("#walk .pane").nth(1).locator('.road.wrong[data-darts="3 6"]').count() == 0
     assert page.locator("#walk .pane").nth(1).locator(".road.wrong").count() == 1
+
+
+def test_at_the_marker_only_an_exit_at_the_marker_is_offered(show: Open) -> None:
+    page = show(page_of(World.from_id("m1/1"), "basic"), at="#walk")
+    keys(page, "0")
+    assert page.locator('#walk .says [data-key="n"]').is_disabled()
+    words = (
+        "You see the marker, so no place is new here: the road ends at the exit with the letter."
+    )
+    assert page.inner_text("#walk .says p").startswith(words)
+
+
+def test_where_nothing_can_be_said_the_map_is_wrong_and_one_can_go_back(show: Open) -> None:
+    page = show(page_of(World.from_id("m3/14"), "basic"), at="#walk")
+    keys(page, "0 n 0 1 b")  # the wrong exit
+    assert not said(page).startswith("Your map contradicts")
+    keys(page, "2")  # a road to the marker's place, where no other exit is left
+    assert said(page) == "Your map contradicts what you see"
+    assert page.locator('#walk .says [data-key="n"]').is_disabled()
+    assert page.locator("#walk .badge").count() == 0
+    back = page.locator("#walk .says button.main")
+    assert back.inner_text().startswith("Go back to the last decision")
+    back.click()
+    assert page.locator("#walk .badge").count() == 2
+    assert not said(page).startswith("Your map contradicts")
 
 
 def test_it_may_be_said_at_once_and_taken_back(show: Open, text: str) -> None:

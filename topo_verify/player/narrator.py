@@ -322,7 +322,7 @@ def event_words(event: ev.Event, *, brief: bool = False) -> str:
         brief: a long list of hypotheses is cut, and the degree behind a loop is left out.
     """
     match event:
-        case ev.Start(percept):
+        case ev.Start(percept=percept):
             words = f"starts and sees {percept_in_brackets(percept)}"
         case ev.Move(door, percept):
             words = f"takes door {door} and sees {percept_in_brackets(percept)}"

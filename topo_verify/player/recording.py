@@ -27,7 +27,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import hypot, inf
-from typing import TYPE_CHECKING, Any, assert_never, get_args
+from typing import TYPE_CHECKING, Any, NamedTuple, assert_never, get_args
 
 from topo_verify.checkers import Finding, Judgement
 from topo_verify.errors import LINE, shown
@@ -50,21 +50,37 @@ WIDEST_WITNESS = 200
 """The most edges of a witness world that is drawn: larger ones take seconds."""
 
 
+class GalleryWorld(NamedTuple):
+    """A world to walk, with every page.
+
+    Attributes:
+        name: what the page calls it.
+        text: its name as a WORLD.
+        genus: the number of handles of its surface.
+        symmetries: in how many ways it can be laid onto itself, if the marker is ignored.
+    """
+
+    name: str
+    text: str
+    genus: int
+    symmetries: int
+
+
 GALLERY = (
-    ("one road", "m1/0"),
-    ("one loop", "m1/1"),
-    ("three roads", "m3/14"),
-    ("four roads", "m4/41"),
-    ("two loops that cross: a torus", "m2/9"),
-    ("a ring of five", "family:cycle(5)"),
-    ("a wheel", "family:wheel(4)"),
-    ("two by three", "family:lattice(3,2)"),
-    ("three by three", "family:lattice(3,3)"),
-    ("seven places", "family:lattice(2,4,holes=0.1,seed=2)"),
-    ("a small torus", "family:torus(3,3)"),
-    ("a cube", "family:cube()"),
+    GalleryWorld("one road", "m1/0", 0, 2),
+    GalleryWorld("one loop", "m1/1", 0, 2),
+    GalleryWorld("three roads", "m3/14", 0, 1),
+    GalleryWorld("four roads", "m4/41", 0, 1),
+    GalleryWorld("two loops that cross: a torus", "m2/8", 1, 4),
+    GalleryWorld("a ring of five", "family:cycle(5)", 0, 10),
+    GalleryWorld("a wheel", "family:wheel(4)", 0, 4),
+    GalleryWorld("two by three", "family:lattice(3,2)", 0, 2),
+    GalleryWorld("three by three", "family:lattice(3,3)", 0, 4),
+    GalleryWorld("seven places", "family:lattice(2,4,holes=0.1,seed=2)", 0, 1),
+    GalleryWorld("a small torus", "family:torus(3,3)", 1, 36),
+    GalleryWorld("a cube", "family:cube()", 0, 24),
 )
-"""Worlds to walk, with every page: what each is called in the page, and its name as a WORLD."""
+"""Easy ones first."""
 
 DIGITS = string.digits + string.ascii_letters + "-_"
 """Digits of numbers in text: none of them is escaped in JSON."""
@@ -123,8 +139,8 @@ def pictured(world: World) -> dict[str, Any]:
 
 
 def _gallery() -> list[dict[str, Any]]:
-    """The worlds of the gallery as data for JSON, easy ones first."""
-    worlds = [(name, text, resolve_world(text)) for name, text in GALLERY]
+    """The worlds of the gallery as data for JSON."""
+    worlds = [(one.name, one.text, resolve_world(one.text)) for one in GALLERY]
     return [
         {
             "name": f"{name} ({text})",

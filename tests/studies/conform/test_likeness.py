@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import msgspec
 import pytest
 
@@ -130,7 +132,7 @@ def test_what_differs_can_be_read() -> None:
     hypotheses = tuple(range(40))
     record = Record(3, (1, 2))
     evidence = {"step": 9, "sequence": 4, "at": 8, "record": record, "expected": Percept(9, None)}
-    changed = [
+    changed: list[tuple[Event, dict[str, Any]]] = [
         (msgspec.structs.replace(pose, hypotheses=hypotheses), {"hypotheses": (*hypotheses, 40)}),
         (msgspec.structs.replace(grown, kind="loop"), {"degree": 40}),
         *(

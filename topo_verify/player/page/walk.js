@@ -220,11 +220,13 @@ class WalkMode {
     const row = html('div', 'bar', says);
     this.button(row, 'It is a new place', 'n', () => this.act(() => walk.declare(null))).disabled = !walk.mayBeNew();
     const declared = walk.events.some(({ type }) => type === 'augment');
-    this.button(row, 'Take back', 'u', () => this.act(() => walk.takeBack())).disabled = !declared;
+    const back = this.button(row, walk.contradiction ? 'Go back to the last decision' : 'Take back', 'u', () => this.act(() => walk.takeBack()));
+    back.disabled = !declared;
+    back.classList.toggle('main', Boolean(walk.contradiction));
     const done = this.button(row, walk.complete ? 'The map is complete' : 'Stop and judge', '↵', () => this.end());
     done.classList.toggle('main', walk.complete);
     html('span', 'end', row, `${walk.moves} move${walk.moves === 1 ? '' : 's'}`);
-    if (walk.surprise) says.classList.add('bad');
+    if (walk.contradiction) says.classList.add('bad');
     else if (walk.complete) says.classList.add('good');
     if (pending && walk.hypotheses().length > LETTERS.length) html('p', '', says, 'Not all exits have a letter: click them.');
   }
@@ -232,13 +234,13 @@ class WalkMode {
   told() {
     const { walk } = this, { pending } = walk, last = this.atOnce.checked && walk.judged().found.at(-1);
     const fate = !last ? '' : { followed: 'Your last declaration followed. ', luck: `Your last declaration is true, but did not follow: ${WHY[last.event.kind]}. `, wrong: 'Your last declaration is wrong. ' }[last.fate];
-    if (walk.surprise) return ['Something on your map is wrong', `${walk.surprise} Take back a declaration, or stop and see which one.`];
+    if (walk.contradiction) return ['Your map contradicts what you see', `${walk.contradiction} One of your decisions is wrong: go back to it, or stop and see which one.`];
     if (walk.complete) return ['Nothing on your map is unexplored', `${fate}Is every declaration certain? Walk on, or have it judged.`];
     if (!pending) return ['You know where you are', `${fate}Choose a door, by click or by its number. Door 0 leads back; the others count clockwise.`];
-    if (pending.word.length) return [`${pending.word.length} door${pending.word.length === 1 ? '' : 's'} behind the end of the new road`, `${fate}If you know now where the road (?) ends, say so: it is a new place, or an exit of your map.`];
-    const guesses = walk.hypotheses().length;
-    const places = guesses ? `or ${guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`}` : 'and no unexplored exit of your map looks like it';
-    return ['A new road: where does it end?', `${fate}It may be a new place, ${places}. Walk on to find out, or say so.`];
+    const guesses = walk.hypotheses().length, exits = guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`;
+    const places = !walk.mayBeNew() ? `You see the marker, so no place is new here: the road ends at ${exits}` : guesses ? `It may be a new place, or ${exits}` : 'No unexplored exit of your map looks like it, so it is a new place';
+    if (pending.word.length) return [`${pending.word.length} door${pending.word.length === 1 ? '' : 's'} behind the end of the new road`, `${fate}If you know now where the road (?) ends, say so: ${walk.mayBeNew() ? 'it is a new place, or an exit of your map' : 'it is an exit at the marker'}.`];
+    return ['A new road: where does it end?', `${fate}${places}. Walk on to find out, or say so.`];
   }
 
   // ---------------------------------------------------------------- the end

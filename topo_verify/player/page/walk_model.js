@@ -57,6 +57,12 @@ class Walk {
     return this.pending !== null && this.pending.percept.marker === null;
   }
 
+  /** Why what is seen cannot be, if S is right; empty: it can. */
+  get contradiction() {
+    if (this.surprise || !this.pending || this.mayBeNew() || this.hypotheses().length) return this.surprise;
+    return 'The new road ends at the marker, where no other exit of your map is unexplored.';
+  }
+
   // ---------------------------------------------------------------- what the reader does
 
   move(door) {
