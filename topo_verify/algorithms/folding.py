@@ -49,7 +49,8 @@ class SeenPlaces:
     """What was seen, and what follows from that alone. Node by node, its darts clockwise.
 
     Attributes, per dart: `node` (the first dart of its node), `around` (the darts of its node,
-    clockwise from it), `looks` (the signature of its node); `leader` (0, or a dart that it is),
+    clockwise from it, once `clockwise` was asked; rows for each dart of a vertex with many loops
+    would be too many), `looks` (the signature of its node); `leader` (0, or a dart that it is),
     `behind` (if it has no leader: 0, or the other end, or a dart that this leads). `weight`, per
     node: how many it stands for, itself not counted. `known`: the nodes that are vertices of S.
     """
@@ -67,13 +68,20 @@ class SeenPlaces:
     def add(self, percept: Percept) -> NodeDart:
         """Add a node with this percept at its first dart, which is returned."""
         first, degree = len(self.node), percept.degree
-        darts = range(first, first + degree)
         self.node += [first] * degree
-        self.around += [(*darts[door:], *darts[:door]) for door in range(degree)]
+        self.around += [()] * degree
         self.looks += [percept.signature] * degree
         for numbers in (self.leader, self.behind, self.weight):
             numbers.extend([0] * degree)
         return first
+
+    def clockwise(self, dart: NodeDart) -> tuple[NodeDart, ...]:
+        """The darts of a dart's node, clockwise from it."""
+        if not self.around[dart]:
+            first = self.node[dart]
+            beyond = first + self.looks[dart][0]
+            self.around[dart] = (*range(dart, beyond), *range(first, dart))
+        return self.around[dart]
 
 
 class PartialFold:
@@ -114,7 +122,8 @@ class PartialFold:
 
     def resolve(self, dart: NodeDart) -> NodeDart:
         """The dart that stands for all that are the same dart."""
-        while up := self.leader.get(dart) or self.seen.leader[dart]:
+        leader, leader_seen = self.leader, self.seen.leader
+        while up := leader_seen[dart] or leader.get(dart):
             dart = up
         return dart
 
@@ -138,13 +147,19 @@ class PartialFold:
         one, other = self.resolve(one), self.resolve(other)
         if one == other:
             return OWN_END
-        had, has = self.across(one), self.across(other)
-        if not had:
-            self.behind[one] = other
-        if not has:
-            self.behind[other] = one
+        behind, seen = self.behind, self.seen.behind
+        had, has = behind.get(one) or seen[one], behind.get(other) or seen[other]
         # The last pair is folded first: what is behind h, if anything, with the vertex of e in S.
-        return self._drawn([pair for pair in ((had, other), (has, one)) if pair[0]])
+        pairs: list[tuple[NodeDart, NodeDart]] = []
+        if had:
+            pairs.append((had, other))
+        else:
+            behind[one] = other
+        if has:
+            pairs.append((has, one))
+        else:
+            behind[other] = one
+        return self._drawn(pairs)
 
     def identify(self, one: NodeDart, other: NodeDart) -> str:
         """Make two darts one, and fold."""
@@ -172,35 +187,37 @@ class PartialFold:
         seen, leader, behind, weight = self.seen, self.leader, self.behind, self.weight
         node, around, looks, known = seen.node, seen.around, seen.looks, seen.known
         leader_seen, behind_seen, weight_seen = seen.leader, seen.behind, seen.weight
-        if any(looks[one] != looks[other] for one, other in waiting):
-            return UNLIKE
+        for one, other in waiting:
+            if looks[one] != looks[other]:
+                return UNLIKE
         while waiting:
             small, large = waiting.pop()
-            while up := leader.get(small) or leader_seen[small]:
+            while up := leader_seen[small] or leader.get(small):
                 small = up
-            while up := leader.get(large) or leader_seen[large]:
+            while up := leader_seen[large] or leader.get(large):
                 large = up
             if small == large:
                 continue
-            if node[small] == node[large]:
+            s, n = node[small], node[large]
+            if s == n:
                 return "a vertex would be itself, turned"
-            if node[small] in known:  # it leads whatever is identified with it
-                if node[large] in known:
+            if s in known:  # it leads whatever is identified with it
+                if n in known:
                     return "two vertices of S would be one"
                 small, large = large, small
-            elif node[large] not in known:
-                s, n = node[small], node[large]
+            elif n not in known:
                 light, heavy = weight.get(s) or weight_seen[s], weight.get(n) or weight_seen[n]
                 if light > heavy:  # keeps every chain of leaders short
                     small, large, n = large, small, s
                 weight[n] = light + 1 + heavy
             # Alike, so of one degree.
-            for dart, same in zip(around[small], around[large]):  # noqa: B905  made by the million
+            darts = around[small] or seen.clockwise(small)
+            for dart, same in zip(darts, around[large] or seen.clockwise(large)):  # noqa: B905  made by the million
                 leader[dart] = same
                 end = behind.get(dart) or behind_seen[dart]
                 if not end or (one_partner and dart == small):
                     continue
-                while up := leader.get(end) or leader_seen[end]:
+                while up := leader_seen[end] or leader.get(end):
                     end = up
                 if end == same:
                     return OWN_END

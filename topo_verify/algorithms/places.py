@@ -74,7 +74,7 @@ class Places:
 
     def darts(self, place: PlaceNode) -> tuple[NodeDart, ...]:
         """The darts of a place, clockwise."""
-        return self.seen.around[place]
+        return self.seen.clockwise(place)
 
     def looks(self, dart: NodeDart) -> tuple[int, bool]:
         """The degree of a dart's place, and whether the marker is there."""

@@ -60,7 +60,7 @@ class _Unturned(PartialFold):
     def add(self, percept: Percept, *, known: bool = False) -> NodeDart:
         first = super().add(percept, known=known)
         # The reference lays two nodes on each other from any dart on, this one from their first.
-        self.seen.around[first:] = [self.seen.around[first]] * percept.degree
+        self.seen.around[first:] = [self.seen.clockwise(first)] * percept.degree
         return first
 
 
