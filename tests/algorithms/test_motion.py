@@ -60,24 +60,26 @@ def test_a_common_prefix_ends_where_the_shorter_one_ends() -> None:
     assert motion.common_prefix((), (1,)) == 0
 
 
-def test_overlap_stays_where_the_whole_executed_sequence_is_shared() -> None:
-    assert sketch(trace_of("m4/16", "enhancement-i")[11:16]) == [
-        "pose", "validate 1", "reject", "validate 2", "confirm",
-    ]  # fmt: skip
-
-
-def test_overlap_goes_back_only_to_the_end_of_the_common_prefix() -> None:
-    # Doors (1, 1) were executed, (1, 2, …) comes next: one move back, to the end of (1).
-    assert sketch(trace_of("m6/722", "enhancement-i")[20:28]) == [
-        "pose", "validate 1", "validate 1", "reject", "retrace 0", "validate 1", "validate 1",
-        "confirm",
-    ]  # fmt: skip
-
-
-def test_retrace_goes_back_to_vu_where_overlap_would_not() -> None:
-    assert sketch(trace_of("m6/722")[20:27]) == [
-        "pose", "validate 1", "validate 1", "reject", "retrace 0", "retrace 2", "validate 0",
-    ]  # fmt: skip
+@pytest.mark.parametrize(
+    ("world", "name", "first", "seen"),
+    [
+        # The whole executed sequence is shared.
+        ("m4/16", "enhancement-i", 11, ["pose", "validate 1", "reject", "validate 2", "confirm"]),
+        # Doors (1, 1) were executed, (1, 2, …) comes next: one move back, to the end of (1).
+        ("m6/722", "enhancement-i", 20, [
+            "pose", "validate 1", "validate 1", "reject", "retrace 0", "validate 1", "validate 1",
+            "confirm",
+        ]),
+        # Retrace goes back to vu.
+        ("m6/722", "basic", 20, [
+            "pose", "validate 1", "validate 1", "reject", "retrace 0", "retrace 2", "validate 0",
+        ]),
+    ],
+)  # fmt: skip
+def test_overlap_goes_back_only_to_the_end_of_the_common_prefix_and_retrace_to_vu(
+    world: str, name: str, first: int, seen: list[str]
+) -> None:
+    assert sketch(trace_of(world, name)[first : first + len(seen)]) == seen
 
 
 def test_what_is_executed_already_is_confirmed_without_motion() -> None:

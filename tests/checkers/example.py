@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from tests.helpers import EIGHT, failing, place, trace_of
+from typing import Any
+
+import msgspec
+
+from tests.helpers import EIGHT, edited, failing, place, trace_of
 from topo_verify import World
 from topo_verify.checkers import check
-from topo_verify.robot.events import Augment, Event, Finish, Trace
+from topo_verify.robot.events import Augment, Event, Finish, Reject, Trace
 
 WORLD = World.from_id("m5/434")
 """v0 is a leaf; its neighbour v1 has degree 7, with two loops and two more leaves."""
@@ -36,3 +40,10 @@ def inserted(trace: Trace, index: int, *events: Event) -> Trace:
 def without(trace: Trace, index: int) -> Trace:
     """The trace without one event."""
     return (*trace[:index], *trace[index + 1 :])
+
+
+def with_evidence(trace: Trace, index: int, **changes: Any) -> Trace:
+    """The trace with other evidence in one rejection."""
+    event = trace[index]
+    assert isinstance(event, Reject)
+    return edited(trace, index, evidence=msgspec.structs.replace(event.evidence, **changes))

@@ -16,6 +16,9 @@ from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot, exit_dart, first_percept
 from topo_verify.studies.log_report import open_doors
 
+LEAF, THERE, BACK = Start(percept=Percept(1, 0)), Move(0, Percept(1, None)), Move(0, Percept(1, 0))
+"""The world of one edge, walked there and back."""
+
 
 def plain(trace: Trace) -> list[Event]:
     """The doors and percepts alone, as a real robot writes them."""
@@ -133,24 +136,21 @@ def test_a_false_decision_is_found_with_its_world_proved() -> None:
 
 
 def test_a_false_decision_at_the_end_of_a_log_is_found_in_its_world() -> None:
-    there, back = Move(0, Percept(1, None)), Move(0, Percept(1, 0))
-    certificate = certify([Start(percept=Percept(1, 0)), there, back, Augment(0, "new", 1, 9)])
+    certificate = certify([LEAF, THERE, BACK, Augment(0, "new", 1, 9)])
     assert certificate.map == World.from_id("m1/0")
     wrong = {finding.claim for finding in certificate.findings if finding.event == 3}
     assert wrong == {"map-isomorphic", "decisions-entailed"}
 
 
 def test_a_log_is_not_a_mapper_and_may_walk_an_edge_as_often_as_it_likes() -> None:
-    there, back = Move(0, Percept(1, None)), Move(0, Percept(1, 0))
-    certificate = certify([Start(percept=Percept(1, 0)), there, back, there, back, there])
+    certificate = certify([LEAF, THERE, BACK, THERE, BACK, THERE])
     assert (certificate.verdict, certificate.findings) == ("PROVED", ())
     assert certificate.map == World.from_id("m1/0")
 
 
 def test_a_log_with_decisions_may_walk_an_edge_as_often_as_it_likes() -> None:
-    there, back = Move(0, Percept(1, None)), Move(0, Percept(1, 0))
-    walk = [there, back] * 20  # m1/0 has one edge: a mapper owes less
-    certificate = certify([Start(percept=Percept(1, 0)), *walk, there, Augment(0, "new", 1, 1)])
+    walk = [THERE, BACK] * 20  # m1/0 has one edge: a mapper owes less
+    certificate = certify([LEAF, *walk, THERE, Augment(0, "new", 1, 1)])
     assert (certificate.verdict, certificate.decisions) == ("PROVED", 1)
     assert certificate.findings == ()
 
@@ -159,8 +159,7 @@ def test_decisions_are_judged_however_large_the_proved_world(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("topo_verify.checkers.claims.LARGE", 0)
-    there, back = Move(0, Percept(1, None)), Move(0, Percept(1, 0))
-    certificate = certify([Start(percept=Percept(1, 0)), there, back, Augment(0, "new", 1, 9)])
+    certificate = certify([LEAF, THERE, BACK, Augment(0, "new", 1, 9)])
     assert "decisions-entailed" in {finding.claim for finding in certificate.findings}
 
 

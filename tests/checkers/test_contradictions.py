@@ -7,8 +7,8 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.checkers.example import said
-from tests.helpers import edited, failing, of_type, trace_of
+from tests.checkers.example import said, with_evidence
+from tests.helpers import edited, failing, of_type, place, trace_of
 from topo_verify import World
 from topo_verify.checkers import decision_conclusions
 from topo_verify.robot import events as ev
@@ -41,9 +41,7 @@ def renamed(
 
 def citing(**changes: Any) -> ev.Trace:
     """The trace with other evidence in its first rejection."""
-    event = TRACE[FIRST]
-    assert isinstance(event, ev.Reject)
-    return edited(TRACE, FIRST, evidence=msgspec.structs.replace(event.evidence, **changes))
+    return with_evidence(TRACE, FIRST, **changes)
 
 
 @pytest.mark.parametrize("rule", ["folding", "planar"])
@@ -94,11 +92,11 @@ def test_false_evidence_of_the_complete_rule_is_caught(changes: dict[str, Any], 
     assert why in message
 
 
-@pytest.mark.parametrize(("place", "kinds"), [("m2/4", {TURNED, OWN}), ("m4/36", {CLASH})])
+@pytest.mark.parametrize(("where", "kinds"), [("m2/4", {TURNED, OWN}), ("m4/36", {CLASH})])
 def test_every_kind_of_contradiction_that_follows_may_be_cited_and_no_other(
-    place: str, kinds: set[str]
+    where: str, kinds: set[str]
 ) -> None:
-    world = World.from_id(place)
+    world = World.from_id(where)
     trace = trace_of(world, "folding")
     index = next(i for i, e in enumerate(trace) if isinstance(e, ev.Reject) and e.rule == "folding")
     for kind in (CLASH, TURNED, OWN, TWO):
@@ -108,22 +106,16 @@ def test_every_kind_of_contradiction_that_follows_may_be_cited_and_no_other(
 
 def test_percepts_that_disagree_need_no_contradiction_and_may_cite_none() -> None:
     trace = trace_of(WORLD, "basic")
-    index = next(i for i, event in enumerate(trace) if isinstance(event, ev.Reject))
-    event = trace[index]
-    assert isinstance(event, ev.Reject)
-    evidence = msgspec.structs.replace(event.evidence, contradiction=CLASH)
-    (message,) = said(edited(trace, index, evidence=evidence), "rejection-justified", WORLD)
+    lie = with_evidence(trace, place(trace, ev.Reject), contradiction=CLASH)
+    (message,) = said(lie, "rejection-justified", WORLD)
     assert message.endswith("rule 'motion' rests on two percepts, and cites a contradiction")
 
 
 @pytest.mark.parametrize("part", ["expected", "observed"])
 def test_percepts_that_disagree_must_stand_there(part: str) -> None:
     trace = trace_of(WORLD, "basic")
-    index = next(i for i, event in enumerate(trace) if isinstance(event, ev.Reject))
-    event = trace[index]
-    assert isinstance(event, ev.Reject)
-    evidence = msgspec.structs.replace(event.evidence, **{part: None})
-    (message,) = said(edited(trace, index, evidence=evidence), "rejection-justified", WORLD)
+    lie = with_evidence(trace, place(trace, ev.Reject), **{part: None})
+    (message,) = said(lie, "rejection-justified", WORLD)
     assert message.endswith(", not None")
 
 

@@ -105,16 +105,13 @@ def test_confirming_a_false_hypothesis_is_caught(hypothesis: int) -> None:
     ]
 
 
-def test_confirming_anything_for_an_edge_to_a_new_vertex_is_caught() -> None:
-    lie = inserted(TRACE, FINISH - 1, Confirm(6, 4, "motion"))
+@pytest.mark.parametrize(
+    ("edge", "end"),
+    [(6, "a new vertex of degree 1"), (77, "nowhere (it is not an unexplored dart of S)")],
+)
+def test_confirming_anything_for_an_edge_that_leads_to_no_dart_is_caught(
+    edge: int, end: str
+) -> None:
+    lie = inserted(TRACE, FINISH - 1, Confirm(edge, 4, "motion"))
     assert wrong(lie) == {"no-false-confirm"}
-    assert said(lie, "no-false-confirm") == [
-        "edge 6 leads to a new vertex of degree 1, but dart 4 is confirmed"
-    ]
-
-
-def test_confirming_something_for_an_edge_that_is_not_there_is_caught() -> None:
-    lie = inserted(TRACE, FINISH - 1, Confirm(77, 4, "motion"))
-    assert said(lie, "no-false-confirm") == [
-        "edge 77 leads to nowhere (it is not an unexplored dart of S), but dart 4 is confirmed"
-    ]
+    assert said(lie, "no-false-confirm") == [f"edge {edge} leads to {end}, but dart 4 is confirmed"]

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-import msgspec
 import pytest
 
-from tests.helpers import trace_of, variant, worlds
+from tests.helpers import edited, place, trace_of, variant, worlds
 from topo_verify import World, examine
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
@@ -18,8 +17,8 @@ from topo_verify.campaign.judge import Report
 from topo_verify.checkers import check, claims, decision_conclusions
 from topo_verify.checkers.entailment import map_conclusion
 from topo_verify.faults import FAULTS
+from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.robot import events as ev
-from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import first_percept
 
 
@@ -35,16 +34,8 @@ class TheRestIsNew(NoRule):
         return Refutation("history", ev.Evidence(0, percept, percept))
 
 
-class Mute:
+class Mute(ForwardingRobot):
     """A robot that keeps to itself what its mapper declares."""
-
-    def __init__(self, robot: ev.Robot) -> None:
-        self.robot = robot
-        self.move = robot.move
-
-    @property
-    def percept(self) -> Percept:
-        return self.robot.percept
 
     def declare(self, event: ev.Decision) -> None:
         """Nobody is told."""
@@ -107,14 +98,14 @@ def test_a_silent_guess_is_convicted_by_its_history_alone() -> None:
     assert convicted >= 10
 
 
-@pytest.mark.parametrize("place", ["m5/105", "m5/205", "m5/207", "m5/209", "m5/965", "m5/1019"])
-def test_a_place_taken_for_new_too_early_is_convicted_though_the_map_is_proved(place: str) -> None:
+@pytest.mark.parametrize("where", ["m5/105", "m5/205", "m5/207", "m5/209", "m5/965", "m5/1019"])
+def test_a_place_taken_for_new_too_early_is_convicted_though_the_map_is_proved(where: str) -> None:
     """In six worlds with five edges, and in none with fewer, it was merely lucky."""
 
     def guesser(robot: ev.Robot) -> object:
         return variant(TheRestIsNew)(Tactful(robot))
 
-    report = examine(guesser, World.from_id(place))
+    report = examine(guesser, World.from_id(where))
     assert lucky(report)
     assert report.claims["map-entailed"] == "ok"
     (finding, *_) = report.findings
@@ -139,13 +130,6 @@ def test_a_mapper_that_declares_nothing_is_still_convicted_of_guessing() -> None
 
 def why(trace: ev.Trace) -> list[str]:
     return [conclusion.why for conclusion in decision_conclusions(trace) if conclusion.why]
-
-
-def doctored(trace: ev.Trace, kind: type, **fields: object) -> ev.Trace:
-    """The trace with fields of its first event of a kind replaced."""
-    place = next(i for i, event in enumerate(trace) if isinstance(event, kind))
-    event = msgspec.structs.replace(trace[place], **fields)
-    return (*trace[:place], event, *trace[place + 1 :])
 
 
 def test_a_decision_made_too_early_does_not_follow() -> None:
@@ -173,7 +157,7 @@ def test_nonsense_is_a_finding(kind: type, fields: dict[str, object], message: s
         if {ev.Confirm, ev.Reject} <= {type(e) for e in trace_of(w)}
         and next(e for e in trace_of(w) if isinstance(e, ev.Augment)).kind == "new"
     )
-    assert message in " ".join(why(doctored(trace_of(world), kind, **fields)))
+    assert message in " ".join(why(edited(trace_of(world), place(trace_of(world), kind), **fields)))
 
 
 def test_an_edge_that_was_never_crossed_proves_no_new_vertex() -> None:
@@ -187,7 +171,8 @@ def test_an_edge_that_was_never_crossed_proves_no_new_vertex() -> None:
 
 def test_a_history_that_no_world_shows_is_a_finding_and_no_crash() -> None:
     at_home = first_percept(World.from_id("m4/300"))
-    trace = doctored(trace_of("m4/300"), ev.Move, percept=at_home)
+    trace = trace_of("m4/300")
+    trace = edited(trace, place(trace, ev.Move), percept=at_home)
     assert "no world shows this history" in map_conclusion(trace).why
     assert "no world shows this history" in " ".join(why(trace))
 

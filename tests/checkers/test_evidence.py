@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import msgspec
 import pytest
 
-from tests.checkers.example import LOOP, TRACE, WORLD, inserted, said, wrong
+from tests.checkers.example import LOOP, TRACE, WORLD, inserted, said, with_evidence, wrong
 from tests.helpers import edited, failing, place, trace_of
 from topo_verify import World
 from topo_verify.checkers import check
@@ -29,13 +28,6 @@ BY_DEEP_RECORD = next(
     for i, e in enumerate(DEEP_TRACE)
     if isinstance(e, ev.Reject) and e.evidence.record is not None and e.evidence.record.doors
 )
-
-
-def with_evidence(trace: ev.Trace, index: int, **changes: Any) -> ev.Trace:
-    """The trace with other evidence in one rejection."""
-    event = trace[index]
-    assert isinstance(event, ev.Reject)
-    return edited(trace, index, evidence=msgspec.structs.replace(event.evidence, **changes))
 
 
 SEEN, OTHER = Percept(7, None), Percept(3, None)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from textwrap import wrap
 from typing import Any
 
 import msgspec
 import pytest
 
+from tests.player.played import confirms_at_once
+from tests.player.played import playback_of as played
 from topo_verify import CATALOGUE, Percept, World, families
 from topo_verify.campaign.run import explore
-from topo_verify.checkers import check
 from topo_verify.faults import FAULTS
 from topo_verify.player.animation.film import BESIDE, COLUMNS
 from topo_verify.player.narrator import Narrator, Saying
@@ -24,16 +25,6 @@ WORLDS = ("m2/1", "m2/5", "m3/8", "m3/20", "m4/41")
 LOOKED = "Every place on the way looked as it should"
 LONG = 500
 """Events of a run that is not looked at: a wrong mapper may go on and on."""
-
-
-def played(
-    world: World | str, mapper: Mapper | str, edit: Callable[[Any], Any] = tuple
-) -> Playback:
-    """The run of a mapper in a world, judged; `edit` changes its trace before that."""
-    there = World.from_id(world) if isinstance(world, str) else world
-    run = explore(there, mapper)
-    trace = edit(run.trace)
-    return Playback(there, trace, check(there, trace, run.stopped), run.stopped)
 
 
 def told(playback: Playback) -> list[tuple[Moment, Saying]]:
@@ -131,11 +122,6 @@ def test_a_confirmation_whose_percepts_differ_shows_both() -> None:
     saying = Narrator(run).sayings[3]
     assert saying.text == "Behind the new road the marker would have to point another way."
     assert (saying.kind, saying.seen, saying.expected) == ("bad", Percept(3, 1), Percept(3, 2))
-
-
-def confirms_at_once(h: int) -> Callable[[ev.Trace], list[ev.Event]]:
-    """An edit of m4/41: dart h is confirmed directly behind edge 7."""
-    return lambda trace: [*trace[:9], ev.Confirm(7, h, "motion")]
 
 
 def test_a_confirmation_that_was_not_walked_says_so_even_if_it_is_right() -> None:

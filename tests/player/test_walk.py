@@ -3,37 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from typing import Any
 
 import msgspec
 import pytest
 
 from tests.helpers import trace_of, worlds
+from tests.player.played import confirms_at_once
+from tests.player.played import playback_of as played
 from topo_verify import CATALOGUE, Percept, Robot, World
-from topo_verify.campaign.run import explore
-from topo_verify.checkers import Finding, Judgement, check
+from topo_verify.checkers import Finding, Judgement
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.faults.hypotheses import leaves_out_the_darts_of_vk
 from topo_verify.faults.motion import goes_on_as_if_just_come_in, sets_out_unturned
 from topo_verify.player.detours import circle, turns, way_home
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import Extent, is_shown, lines, parting
-from topo_verify.programs.loader import Mapper
 from topo_verify.robot import events as ev
 from topo_verify.world.families import lattice
 
 ALL = Extent(0, to_end=True)
-
-
-def played(
-    world: World | str, mapper: Mapper | str, *, edit: Callable[[Any], Any] = list
-) -> Playback:
-    """The run of a mapper in a world, judged; `edit` changes its trace before that."""
-    there = World.from_id(world) if isinstance(world, str) else world
-    run = explore(there, mapper)
-    trace = edit(run.trace)
-    return Playback(there, trace, check(there, trace, run.stopped), run.stopped)
 
 
 def text(playback: Playback, width: int = 200, extent: Extent | None = None) -> str:
@@ -203,11 +192,6 @@ def test_what_was_never_crossed_is_listed_where_the_map_is_not_proved() -> None:
     assert "Never crossed: w1:2 to w1:4, w1:3 to w1:5." in shown
     assert "vertex 1 has degree 5 in the world and 1 in the map" in shown
     assert "The mapper does not declare how its map S grows." in shown
-
-
-def confirms_at_once(h: int) -> Callable[[ev.Trace], list[ev.Event]]:
-    """An edit of m4/41: dart h is confirmed directly behind edge 7."""
-    return lambda trace: [*trace[:9], ev.Confirm(7, h, "motion")]
 
 
 def test_a_confirmation_that_was_not_walked_says_what_the_way_home_is() -> None:

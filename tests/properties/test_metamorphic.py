@@ -17,6 +17,7 @@ from tests.properties.worlds import STRATEGIES
 from topo_verify import Algorithm, Percept, Robot, World, explore
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.algorithms.chart import Survey
+from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.robot.events import Decision, Move, Start, Trace
 from topo_verify.robot.percept import Door, Purpose
 from topo_verify.robot.simulator import SimulatedRobot
@@ -24,21 +25,14 @@ from topo_verify.strategies import mappers, symmetric_worlds
 from topo_verify.world.families import lattice
 
 
-class InAMirror:
+class InAMirror(ForwardingRobot):
     """A robot that counts its doors the other way round."""
 
-    def __init__(self, robot: Robot) -> None:
-        self._robot = robot
-
-    @property
-    def percept(self) -> Percept:
-        return mirrored(self._robot.percept)
+    def seen(self, percept: Percept) -> Percept:
+        return mirrored(percept)
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        return mirrored(self._robot.move(-door % self.percept.degree, purpose))
-
-    def declare(self, event: Decision) -> None:
-        self._robot.declare(event)
+        return super().move(-door % self.percept.degree, purpose)
 
 
 def mirrored(percept: Percept) -> Percept:
@@ -122,7 +116,7 @@ class InABadMirror(InAMirror):
     """Percepts are mirrored, doors are not."""
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        return mirrored(self._robot.move(door, purpose))
+        return mirrored(self.robot.move(door, purpose))
 
 
 def test_a_mirror_that_leaves_the_doors_is_seen() -> None:

@@ -12,6 +12,7 @@ import sys
 import time
 from collections.abc import Mapping
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -168,10 +169,7 @@ def test_a_time_in_which_nobody_ran_exceeds_no_limit(machine: Machine) -> None:
 def test_without_accounts_it_is_the_wall_clock(
     machine: Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def nothing(_path: str) -> str:
-        return ""
-
-    monkeypatch.setattr(stopwatch, "_read", nothing)
+    monkeypatch.setattr(stopwatch, "_read", Mock(return_value=""))
     watch = Stopwatch(lambda: ["a"])
     machine.now = 107
     assert watch.seconds() == pytest.approx(7)
@@ -252,10 +250,7 @@ child.wait()
 def test_a_process_that_ends_while_it_is_read_has_no_account(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def ended(_file: int, _size: int) -> bytes:
-        raise ProcessLookupError
-
-    monkeypatch.setattr(os, "read", ended)
+    monkeypatch.setattr(os, "read", Mock(side_effect=ProcessLookupError))
     assert Stopwatch().seconds() < 5
 
 

@@ -114,22 +114,9 @@ ABOUT_MAPS = [
     for obligation in OBLIGATIONS
     if obligation.name
     in {
-        "percept",
-        "trace-init",
-        "trace-step",
-        "motion-keeps",
-        "prefix-keeps",
-        "history-keeps",
-        "confirm-final",
-        "confirm-back",
-        "confirm-conclude",
-        "posed",
-        "new-is-new",
-        "fold-conclude",
-        "closed-turns",
-        "closed-crosses",
-        "retrace-back",
-        "retrace-turned",
+        *("percept", "trace-init", "trace-step", "motion-keeps", "prefix-keeps", "history-keeps"),
+        *("confirm-final", "confirm-back", "confirm-conclude", "posed", "new-is-new"),
+        *("fold-conclude", "closed-turns", "closed-crosses", "retrace-back", "retrace-turned"),
     }
 ]
 
@@ -151,16 +138,9 @@ def test_the_obligations_hold_of_any_places_and_doors(
 
 
 CONSTANTS = {
-    "a1": "W",
-    "b1": "W",
-    "x1": "M",
-    "y1": "M",
-    "e": "M",
-    "h": "M",
-    "d1": "K",
-    "j1": "K",
-    "k1": "K",
-    "own1": "K",
+    name: sort
+    for sort, names in {"W": "a1 b1", "M": "x1 y1 e h", "K": "d1 j1 k1 own1"}.items()
+    for name in names.split()
 }
 
 

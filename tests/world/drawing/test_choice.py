@@ -28,22 +28,19 @@ def test_positions_that_show_the_order_are_kept() -> None:
     assert ax < bx
 
 
-def test_positions_that_show_another_order_are_not_used() -> None:
-    world = families.lattice(3, 3)
-    mirrored = replace(world, positions=tuple((-x, y) for x, y in world.positions))
-    assert drawn(mirrored).kind == "planar"
-
-
-def test_positions_with_an_edge_through_a_vertex_are_not_used() -> None:
-    world = families.lattice(1, 3)
-    bent = replace(world, positions=((0.0, 0.0), (2.0, 0.0), (1.0, 0.0)))
-    assert drawn(bent).kind == "planar"
-
-
-def test_positions_with_crossings_in_a_planar_world_are_not_used() -> None:
-    world = families.cycle(4)
-    crossed = replace(world, positions=((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)))
-    assert drawn(crossed).kind == "planar"
+@pytest.mark.parametrize(
+    ("world", "positions"),
+    [
+        (families.lattice(3, 3), [(-x, y) for x, y in families.lattice(3, 3).positions]),
+        (families.lattice(1, 3), [(0.0, 0.0), (2.0, 0.0), (1.0, 0.0)]),
+        (families.cycle(4), [(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)]),
+    ],
+    ids=["another order", "an edge through a vertex", "crossings in a planar world"],
+)
+def test_positions_that_are_not_true_are_not_used(
+    world: World, positions: list[tuple[float, float]]
+) -> None:
+    assert drawn(replace(world, positions=tuple(positions))).kind == "planar"
 
 
 def test_crowded_positions_are_spread() -> None:

@@ -7,6 +7,8 @@ import os
 import stat
 from io import BytesIO
 from pathlib import Path
+from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
@@ -127,32 +129,20 @@ def test_a_pipe_is_written_to_not_replaced(tmp_path: Path) -> None:
     assert pipe.is_fifo()
 
 
-def test_what_fails_leaves_the_old_file_and_no_other(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("error", "raised", "words"),
+    [
+        (OSError(28, "No space left on device"), InputError, r"cannot write .*: No space left on "),
+        (KeyboardInterrupt("stopped"), KeyboardInterrupt, "stopped"),
+    ],
+)
+def test_what_fails_or_is_interrupted_leaves_the_old_file_and_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException, raised: Any, words: str
 ) -> None:
     file = tmp_path / "world.json"
     file.write_text("old")
-
-    def fail(_file: int) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "fsync", fail)
-    with pytest.raises(InputError, match=r"cannot write .*: No space left on device; name a file"):
-        files.write(file, "new")
-    assert [path.read_text() for path in tmp_path.iterdir()] == ["old"]
-
-
-def test_an_interrupt_leaves_the_old_file_and_no_other(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    file = tmp_path / "world.json"
-    file.write_text("old")
-
-    def interrupt(_file: int) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(os, "fsync", interrupt)
-    with pytest.raises(KeyboardInterrupt):
+    monkeypatch.setattr(os, "fsync", Mock(side_effect=error))
+    with pytest.raises(raised, match=words):
         files.write(file, "new")
     assert [path.read_text() for path in tmp_path.iterdir()] == ["old"]
 

@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.world.formats.worlds import simple_planar
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
-from topo_verify.world.enumeration import rank_order
 from topo_verify.world.formats.nx import from_planar_embedding, from_positions, to_planar_embedding
 from topo_verify.world.resolve import resolve_world
 
@@ -44,11 +44,10 @@ def around(world: World, vertex: int = 0) -> list[str]:
 
 @pytest.mark.parametrize("edges", range(6))
 def test_every_small_simple_planar_world_comes_back(edges: int) -> None:
-    for world in map(World.from_code, rank_order.tables(edges)):
-        if world.is_simple and world.is_planar:
-            embedding = to_planar_embedding(world)
-            embedding.check_structure()
-            assert from_planar_embedding(embedding).code == world.code
+    for world in simple_planar(edges):
+        embedding = to_planar_embedding(world)
+        embedding.check_structure()
+        assert from_planar_embedding(embedding).code == world.code
 
 
 def test_the_marker_comes_back_wherever_it_is() -> None:

@@ -8,21 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.world.formats.worlds import sentence_of
+from tests.world.formats.worlds import sentence_of, simple_planar
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
-from topo_verify.world.enumeration import rank_order
 from topo_verify.world.formats import planar_code
 
 DATA = Path(__file__).parents[2] / "data" / "planar_code"
 HEAD = b">>planar_code<<"
 TRIANGLE = HEAD + bytes([3, 2, 3, 0, 1, 3, 0, 1, 2, 0])
-
-
-def simple_planar(edges: int) -> list[World]:
-    """Every simple planar world of this size."""
-    worlds = map(World.from_code, rank_order.tables(edges))
-    return [world for world in worlds if world.is_simple and world.is_planar]
 
 
 def refusal_of(data: bytes, graph: int | None = None) -> str:

@@ -68,3 +68,8 @@ def named(names: tuple[str, ...] = HOSTILE) -> World:
 def is_same(one: World, other: World) -> bool:
     """Is the other world the one, with all that it carries and its vertices in their order?"""
     return one == other and one.to_json() == other.to_json()
+
+
+def simple_planar(edges: int) -> list[World]:
+    """Every simple planar world of this size."""
+    return list(tv.worlds(edges=edges, cls="simple,planar"))
