@@ -275,16 +275,21 @@ def test_a_worker_with_another_topo_verify_is_refused(
         search("basic", edges=2, dask=address)
 
 
-def test_a_worker_with_another_mapper_is_refused(address: str, folder: Path) -> None:
+def test_a_worker_with_another_mapper_or_with_none_is_refused(address: str, folder: Path) -> None:
     work = work_of("mappers.py:right")
     with (folder / "mappers.py").open("a") as file:  # what a worker finds there
         file.write("changed = True\n")
+    worker_refuses(work, address, r"^worker tcp://.* of the cluster: .* or is another one on")
+    (folder / "mappers.py").unlink()
+    worker_refuses(work, address, r"of the cluster: .*there is no file 'mappers\.py'")
+
+
+def worker_refuses(work: Work[Shard, ShardResult], address: str, words: str) -> None:
+    """Require that a worker of the cluster refuses the work."""
     with (
         connected(address) as cluster,
         ClusterPool(cluster, work) as pool,
-        pytest.raises(
-            InputError, match=r"^worker tcp://.* of the cluster: .* or is another one on"
-        ),
+        pytest.raises(InputError, match=words),
     ):
         list(pool.run([Shard(1, 0, 2)]))
 
@@ -338,17 +343,6 @@ def test_a_worker_with_another_helper_that_it_loads_late_is_refused(
 
     monkeypatch.setattr(loaded, "file_hash", on_our_machine)
     refused(folder, rf" read .*theirs/{helper}\.py, which is another file here: give every machine")
-
-
-def test_a_mapper_that_is_not_there_is_refused(address: str, folder: Path) -> None:
-    work = work_of("mappers.py:right")
-    (folder / "mappers.py").unlink()
-    with (
-        connected(address) as cluster,
-        ClusterPool(cluster, work) as pool,
-        pytest.raises(InputError, match=r"of the cluster: .*there is no file 'mappers\.py'"),
-    ):
-        list(pool.run([Shard(1, 0, 2)]))
 
 
 # ---------------------------------------------------------------- no cluster

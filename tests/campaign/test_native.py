@@ -36,12 +36,6 @@ MISDEEDS = {
 """Each misdeed of hostile.c, and what is said of it by the world where it was done alone."""
 
 
-@pytest.fixture(autouse=True)
-def few_worlds_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    for most in ("MOST", "ROW"):  # a search runs many worlds again; test_again.py tries that
-        monkeypatch.setattr(f"topo_verify.studies.search.again.{most}", 2)
-
-
 def numbers(entry: SearchEntry) -> list[tuple[int, ...]]:
     return [
         (one.edges, one.checked, one.total, one.failing, one.max_cost, one.total_cost)

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import chain
 from pathlib import Path
 
@@ -141,19 +141,33 @@ def test_all_worlds_that_kill_their_workers_are_found() -> None:
     assert numbers[0]["map-isomorphic"] == numbers[1]["map-isomorphic"] == 5
 
 
-def test_a_shard_that_a_stranger_kills_once_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def stranger(monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[Shard]]:
+    """Lets workers be killed at shards of at least this size, so many times; says at which."""
     hears = Pool[Shard, ShardResult]._hear
     kills: list[Shard] = []
 
-    def hear(pool: Pool[Shard, ShardResult], worker: WorkerProcess) -> None:
-        if worker.ready and not kills:
-            os.kill(worker.process.pid, signal.SIGKILL)
-            kills.append(pool._at[worker].task)
-            pool._lose(worker, None)
-        else:
-            hears(pool, worker)
+    def stranger(*, size: int = 1, most: int | None = None) -> list[Shard]:
+        def hear(pool: Pool[Shard, ShardResult], worker: WorkerProcess) -> None:
+            piece = pool._at.get(worker)
+            large = piece is not None and piece.task.stop - piece.task.start >= size
+            if piece is not None and large and worker.ready and len(kills) != most:
+                os.kill(worker.process.pid, signal.SIGKILL)
+                kills.append(piece.task)
+                pool._lose(worker, None)
+            else:
+                hears(pool, worker)
 
-    monkeypatch.setattr(Pool, "_hear", hear)
+        monkeypatch.setattr(Pool, "_hear", hear)
+        return kills
+
+    return stranger
+
+
+def test_a_shard_that_a_stranger_kills_once_is_tried_again(
+    stranger: Callable[..., list[Shard]],
+) -> None:
+    kills = stranger(most=1)
     assert undisturbed(search("basic", edges=3, workers=2)) == json(search("basic", edges=3))
     assert len(kills) == 1
 
@@ -220,21 +234,9 @@ def test_a_shard_whose_worker_was_killed_is_not_kept_in_a_store(folder: Path) ->
 
 
 def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_done(
-    monkeypatch: pytest.MonkeyPatch,
+    stranger: Callable[..., list[Shard]],
 ) -> None:
-    hears = Pool[Shard, ShardResult]._hear
-    kills: list[Shard] = []
-
-    def hear(pool: Pool[Shard, ShardResult], worker: WorkerProcess) -> None:
-        piece = pool._at.get(worker)
-        if piece is not None and worker.ready and piece.task.stop - piece.task.start > 1:
-            os.kill(worker.process.pid, signal.SIGKILL)
-            kills.append(piece.task)
-            pool._lose(worker, None)
-        else:
-            hears(pool, worker)
-
-    monkeypatch.setattr(Pool, "_hear", hear)
+    kills = stranger(size=2)
     assert undisturbed(search("basic", edges=2, workers=1)) == json(search("basic", edges=2))
     assert kills
     assert all(kills.count(shard) <= 2 for shard in kills)
@@ -316,22 +318,21 @@ def test_a_mapper_whose_source_changes_meanwhile_is_refused(
         search("mappers.py:right", edges=2, workers=1)
 
 
-def test_a_mapper_that_kills_whoever_loads_it_is_refused(folder: Path) -> None:
-    here = os.getpid()
-    (folder / "deadly.py").write_text(
-        f"import os\nif os.getpid() != {here}: os._exit(7)\ndef explore(robot): ...\n"
-    )
-    with pytest.raises(InputError, match=r"a process that loads it ends \(exit code 7\)"):
-        search("deadly.py:explore", edges=2, workers=2)
-
-
-def test_a_mapper_that_only_a_worker_cannot_load_is_refused(folder: Path) -> None:
-    here = os.getpid()
+@pytest.mark.parametrize(
+    ("deed", "words"),
+    [
+        ("os._exit(7)", r"a process that loads it ends \(exit code 7\)"),
+        ("raise ValueError('no')", r"'shy\.py' fails: ValueError: no"),
+    ],
+)
+def test_a_mapper_that_only_a_worker_cannot_load_is_refused(
+    folder: Path, deed: str, words: str
+) -> None:
     (folder / "shy.py").write_text(
-        f"import os\nif os.getpid() != {here}: raise ValueError('no')\ndef explore(robot): ...\n"
+        f"import os\nif os.getpid() != {os.getpid()}: {deed}\ndef explore(robot): ...\n"
     )
-    with pytest.raises(InputError, match=r"'shy\.py' fails: ValueError: no"):
-        search("shy.py:explore", edges=2, workers=1)
+    with pytest.raises(InputError, match=words):
+        search("shy.py:explore", edges=2, workers=2)
 
 
 # ---------------------------------------------------------------- nobody is left behind

@@ -57,6 +57,12 @@ def opened(campaign: Campaign = BASIC, *, path: str = "search.db") -> Generator[
         yield store.campaign(campaign.identity(source_hash(campaign.load())), Loaded())
 
 
+def refused(words: str, campaign: Campaign = BASIC, *, path: str = "search.db") -> None:
+    """Require that the store is not opened for this campaign."""
+    with pytest.raises(InputError, match=words), opened(campaign, path=path):
+        pass
+
+
 def searched(campaign: Campaign = BASIC, *, workers: int = 0) -> SearchEntry:
     """The result of a search with the store, however much of it the store knew."""
     with opened(campaign) as known:
@@ -209,8 +215,7 @@ def test_killed_at_random_moments_it_ends_with_the_same_totals(
 def test_another_campaign_is_refused(other: Campaign, words: str) -> None:
     with opened():
         pass
-    with pytest.raises(InputError, match="holds another campaign: " + words), opened(other):
-        pass
+    refused("holds another campaign: " + words, other)
 
 
 def test_another_version_of_the_tool_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -221,8 +226,7 @@ def test_another_version_of_the_tool_is_refused(monkeypatch: pytest.MonkeyPatch)
         return "9.9"
 
     monkeypatch.setattr("importlib.metadata.version", version)
-    with pytest.raises(InputError, match=r"its tool is \S+, now it is 9\.9"), opened():
-        pass
+    refused(r"its tool is \S+, now it is 9\.9")
 
 
 def test_how_far_a_campaign_goes_and_what_it_keeps_is_no_part_of_it() -> None:
@@ -287,8 +291,7 @@ def test_another_version_is_refused(version: str, words: str) -> None:
     with opened():
         pass
     _change("UPDATE meta SET value = ? WHERE key = 'version'", version)
-    with pytest.raises(InputError, match=words), opened():
-        pass
+    refused(words)
 
 
 @pytest.mark.parametrize("version", ["1", "2"])
@@ -296,26 +299,20 @@ def test_a_ledger_of_an_older_version_is_named_as_such(version: str) -> None:
     _change("CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID")
     for pair in (("format", "topo-verify/ledger"), ("version", version), ("tool", "0.2.0")):
         _change("INSERT INTO meta VALUES (?, ?)", *pair)
-    words = r"topo-verify 0\.2\.0 wrote this ledger .* remove it, or name another file"
-    with pytest.raises(InputError, match=words), opened():
-        pass
+    refused(r"topo-verify 0\.2\.0 wrote this ledger .* remove it, or name another file")
 
 
 @pytest.mark.parametrize("table", ["meta (key, value)", "other (a)"])
 def test_another_database_is_refused_and_left_alone(table: str) -> None:
     _change(f"CREATE TABLE {table}")
     before = Path("search.db").read_bytes()
-    words = "is a database, but no store of topo-verify: name another file"
-    with pytest.raises(InputError, match=words), opened():
-        pass
+    refused("is a database, but no store of topo-verify: name another file")
     assert Path("search.db").read_bytes() == before
 
 
 def test_a_file_that_is_no_database_is_refused_and_left_alone(here: Path) -> None:
     before = (here / "mappers.py").read_bytes()
-    words = "it is no store of topo-verify: name another file"
-    with pytest.raises(InputError, match=words), opened(path="mappers.py"):
-        pass
+    refused("it is no store of topo-verify: name another file", path="mappers.py")
     assert (here / "mappers.py").read_bytes() == before
 
 
@@ -386,8 +383,7 @@ def _change(statement: str, *values: str) -> None:
 
 @pytest.mark.parametrize("path", ["", ":memory:"])
 def test_a_database_in_memory_is_refused(path: str) -> None:
-    with pytest.raises(InputError, match="expected the name of a file"), opened(path=path):
-        pass
+    refused("expected the name of a file", path=path)
 
 
 @pytest.mark.parametrize("replaced", [False, True])
@@ -404,8 +400,7 @@ def test_a_store_that_is_removed_midway_is_noticed(here: Path, *, replaced: bool
 def test_two_searches_do_not_share_a_store() -> None:
     words = "another process has it open: wait for its end"
     with opened():
-        with pytest.raises(InputError, match=words), opened():
-            pass
+        refused(words)
         second = python("-c", SEARCHER)
     assert words in second.stderr
 
@@ -431,18 +426,12 @@ def test_a_store_that_cannot_be_written_is_told() -> None:
 
 @pytest.mark.parametrize("path", ["no/folder/store", "."])
 def test_a_place_where_no_file_can_be_is_told(path: str) -> None:
-    words = "it cannot be opened: name a file in a folder that can"
-    with pytest.raises(InputError, match=words), opened(path=path):
-        pass
+    refused("it cannot be opened: name a file in a folder that can", path=path)
 
 
 def test_whatever_else_the_database_objects_to_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stores, "_SCHEMA", "CREATE NONSENSE")
-    with (
-        pytest.raises(InputError, match=r"store search.db: .*syntax error; name another"),
-        opened(),
-    ):
-        pass
+    refused(r"store search.db: .*syntax error; name another")
 
 
 def test_the_store_is_described_by_its_own_tables() -> None:

@@ -18,6 +18,8 @@ from topo_verify.campaign.attempt import Attempt, row_of
 from topo_verify.campaign.judge import examine
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.targets import one_target
+from topo_verify.faults import FAULTS
+from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.programs.loader import Mapper
 from topo_verify.programs.program import Program
 from topo_verify.robot.events import Augment, Confirm, Decision, Event, Evidence, Move, Pose, Reject
@@ -36,30 +38,13 @@ WORLD = World.from_id("m9/67076232")
 """A world in which enhancement-i rejects without motion what basic walks for."""
 
 
-class Through:
-    """A robot that passes everything on."""
-
-    def __init__(self, robot: Robot) -> None:
-        self.robot = robot
-
-    @property
-    def percept(self) -> Percept:
-        return self.robot.percept
-
+class Purposeless(ForwardingRobot):
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
         del purpose
-        return self.robot.move(door)
-
-    def declare(self, event: Decision) -> None:
-        self.robot.declare(event)
+        return super().move(door)
 
 
-class Mute(Through):
-    def declare(self, event: Decision) -> None:
-        pass
-
-
-class Vague(Through):
+class Vague(ForwardingRobot):
     """Rejects for another reason, in words that differ."""
 
     def declare(self, event: Decision) -> None:
@@ -70,18 +55,6 @@ class Vague(Through):
             self.robot.declare({**told, "rule": event.rule, "evidence": evidence})  # type: ignore[arg-type]  # its JSON  # pyright: ignore[reportArgumentType]
         else:
             self.robot.declare(event)
-
-
-def purposeless(robot: Robot) -> object:
-    return CATALOGUE["basic"](Through(robot))
-
-
-def mute(robot: Robot) -> object:
-    return CATALOGUE["basic"](Mute(robot))
-
-
-def vague(robot: Robot) -> object:
-    return CATALOGUE["basic"](Vague(robot))
 
 
 def seen(mapper: Mapper | str, world: World = WORLD) -> BaselineEntry:
@@ -103,8 +76,8 @@ def test_another_algorithm_has_other_moves_and_other_decisions() -> None:
 
 def test_the_purpose_of_a_move_and_the_evidence_are_no_decisions() -> None:
     basic = seen("basic")
-    assert seen(purposeless) == basic
-    other = seen(vague)
+    assert seen(lambda robot: CATALOGUE["basic"](Purposeless(robot))) == basic
+    other = seen(lambda robot: CATALOGUE["basic"](Vague(robot)))
     assert (other.moves, other.decisions) == (basic.moves, basic.decisions)
     assert other.failed == ("rejection-justified",)
 
@@ -140,7 +113,7 @@ def test_every_field_of_a_decision_counts_and_so_does_its_moment(
 
 
 def test_a_mapper_that_declares_nothing_has_moves_alone() -> None:
-    basic, other = seen("basic"), seen(mute)
+    basic, other = seen("basic"), seen(FAULTS["declares-nothing"])
     assert other.decisions is None
     assert other.moves == basic.moves
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
+from unittest.mock import Mock
 
 import msgspec
 import pytest
@@ -152,15 +153,6 @@ def runs_in(world: World, name: str = "basic") -> list[Attempt]:
     return list(every_choice(target, world, run, (target,)))
 
 
-def answering(answer: object) -> Callable[..., object]:
-    """A function that gives this answer, whatever it is asked."""
-
-    def answered(*_: object) -> object:
-        return answer
-
-    return answered
-
-
 LARGE = World.from_id("m5/402")
 """A world that the kernel decides."""
 
@@ -176,7 +168,7 @@ def test_a_cost_that_the_mapper_does_not_have_is_a_bug_of_ours(
 ) -> None:
     found = table.found_in(LARGE, CATALOGUE["basic"])
     wrong = found._replace(cheapest=found.cheapest - 1)
-    monkeypatch.setattr(table, "found_in", answering(wrong))
+    monkeypatch.setattr(table, "found_in", Mock(return_value=wrong))
     with pytest.raises(InternalError, match="where the model says"):
         runs_in(LARGE)
 
@@ -187,7 +179,7 @@ def test_a_claim_that_only_the_kernel_finds_false_is_a_bug_of_ours(
     world = World.from_id("m2/9")
     monkeypatch.setattr(every, "MOST_BY_MAPPER", 1)
     wrong = table.found_in(world, CATALOGUE["basic"])._replace(wrong=1)
-    monkeypatch.setattr(table, "found_in", answering(wrong))
+    monkeypatch.setattr(table, "found_in", Mock(return_value=wrong))
     with pytest.raises(InternalError, match="no run of the mapper shows it"):
         runs_in(world)
 
@@ -198,7 +190,7 @@ def test_larger_worlds_than_can_be_searched_are_refused(monkeypatch: pytest.Monk
     with pytest.raises(InputError, match="for folding it goes to 4 edges"):
         require_edges("folding", CATALOGUE["folding"], 5)
     require_edges("basic", CATALOGUE["basic"], 6)
-    monkeypatch.setattr(table, "find_spec", answering(None))
+    monkeypatch.setattr(table, "find_spec", Mock(return_value=None))
     require_edges("basic", CATALOGUE["basic"], 4)
     with pytest.raises(InputError, match="the extra `fast`"):
         require_edges("basic", CATALOGUE["basic"], 5)
@@ -238,7 +230,7 @@ def test_as_plain_python_it_finds_nothing_wrong(name: str) -> None:
 @pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
 @pytest.mark.usefixtures("uncompiled")
 def test_a_rule_that_rejects_what_is_true_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(behind, "refutes", answering(True))
+    monkeypatch.setattr(behind, "refutes", Mock(return_value=True))
     assert seen_in_3_edges("enhancement-ii") == {behind.GOOD, behind.KILLED}
     assert seen_in_3_edges("basic") == {behind.GOOD}  # which asks no rule
 
