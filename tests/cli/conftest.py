@@ -19,25 +19,19 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
+from tests.campaign.conftest import few_worlds_run_again
 from tests.proofs.mechanised.conftest import library
 from topo_verify.campaign.campaign import Shard, ShardResult
 from topo_verify.campaign.store import StoredCampaign
 from topo_verify.cli import main
 
-__all__ = ["library"]
-"""A fixture of another room, for the tests of this one."""
+__all__ = ["few_worlds_run_again", "library"]
+"""Fixtures of other rooms, for the tests of this one."""
 
 Call = Callable[..., Result]
 Results = Callable[..., dict[str, Any]]
 Refused = Callable[..., None]
 Program = Callable[..., "subprocess.CompletedProcess[str]"]
-
-
-@pytest.fixture(autouse=True)
-def few_worlds_run_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A search runs many worlds again; tests/studies/search/test_again.py tries that."""
-    monkeypatch.setattr("topo_verify.studies.search.again.MOST", 2)
-    monkeypatch.setattr("topo_verify.studies.search.again.ROW", 2)
 
 
 @pytest.fixture

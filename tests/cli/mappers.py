@@ -7,36 +7,17 @@ from pathlib import Path
 from typing import Any
 
 from topo_verify import CATALOGUE, Percept, Robot
+from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.robot.events import Decision, Evidence, Pose, Reject
 from topo_verify.robot.percept import Door, Purpose
 
 
-class Wrapped:
-    """A robot that passes everything on; what is wrong with a mapper is changed in one method."""
-
-    def __init__(self, robot: Robot) -> None:
-        self.robot = robot
-
-    @property
-    def percept(self) -> Percept:
-        return self.seen(self.robot.percept)
-
-    def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        return self.seen(self.robot.move(door, purpose))
-
-    def declare(self, event: Decision) -> None:
-        self.robot.declare(event)
-
-    def seen(self, percept: Percept) -> Percept:
-        return percept
-
-
-class Mute(Wrapped):
+class Mute(ForwardingRobot):
     def declare(self, event: Decision) -> None:
         pass
 
 
-class Curt(Wrapped):
+class Curt(ForwardingRobot):
     told = False
 
     def declare(self, event: Decision) -> None:  # noqa: ARG002  it says what it likes
@@ -52,7 +33,7 @@ class Curt(Wrapped):
         self.home = robot.percept
 
 
-class Undirected(Wrapped):
+class Undirected(ForwardingRobot):
     def seen(self, percept: Percept) -> Percept:
         return Percept(percept.degree, None if percept.marker is None else 0)
 
@@ -102,7 +83,7 @@ def walks(robot: Robot) -> object:
 def strolls(robot: Robot) -> object:
     """Right, but it takes its time between moves."""
 
-    class Slow(Wrapped):
+    class Slow(ForwardingRobot):
         def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
             time.sleep(0.05)
             return super().move(door, purpose)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from functools import partial
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
@@ -81,10 +82,8 @@ def test_a_search_that_is_cut_short_is_incomplete(
 def test_a_mapper_that_breaks_a_claim_has_no_costs(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def costs(mapper: str, m: int) -> MapperCosts:
-        return MapperCosts(mapper, m, "nothing", "any", 2, 0, 0, "m1/0")
-
-    monkeypatch.setattr(arena_game, "mapper_costs", costs)
+    costs = MapperCosts("mine", 1, "nothing", "any", 2, 0, 0, "m1/0")
+    monkeypatch.setattr(arena_game, "mapper_costs", Mock(return_value=costs))
     code, text = played(capsys, "markdown", 1, "mine")
     assert code == 1
     assert "| 1 | mine | any | fails in m1/0 | 1 | - | 1.00 | - |" in text
@@ -93,10 +92,8 @@ def test_a_mapper_that_breaks_a_claim_has_no_costs(
 def test_a_sound_mapper_below_the_value_contradicts_the_game(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def costs(mapper: str, m: int) -> MapperCosts:
-        return MapperCosts(mapper, m, "nothing", "any", 2, 1, 1, None)
-
-    monkeypatch.setattr(arena_game, "mapper_costs", costs)
+    costs = MapperCosts("mine", 1, "nothing", "any", 2, 1, 1, None)
+    monkeypatch.setattr(arena_game, "mapper_costs", Mock(return_value=costs))
     with pytest.raises(InternalError, match="mine costs less than the value"):
         played(capsys, "markdown", 1, "mine")
 

@@ -15,9 +15,6 @@ RING = """\
 {"type": "move", "door": 0, "percept": {"degree": 2, "marker": null}}
 {"type": "move", "door": 1, "percept": {"degree": 2, "marker": 1}}
 """
-FIELDS = {
-    "trace", "verdict", "vertices", "edges", "open_darts", "decisions", "witnesses", "findings",
-}  # fmt: skip
 
 
 @pytest.fixture(autouse=True)
@@ -29,7 +26,6 @@ def logs(folder: Path) -> None:
 
 def test_a_proved_map_is_written(results: Results) -> None:
     (entry,) = results("certify ring.jsonl -o map.json")["results"]
-    assert entry.keys() >= FIELDS
     assert (entry["verdict"], entry["edges"], entry["open_darts"]) == ("PROVED", 2, 0)
     assert entry["decisions"] == {"entailed": 0, "total": 0}
     assert World.load("map.json").degrees == (2, 2)

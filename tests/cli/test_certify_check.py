@@ -10,6 +10,7 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from unittest.mock import Mock
 
 import msgspec
 import pytest
@@ -102,12 +103,10 @@ HIDDEN = (Confirm(0, 10**6 + 1, "motion"), Augment(-1, "new", 0, 2))
 def test_what_a_certificate_cannot_state_of_a_log_counts_as_not_proved(
     call: Call, results: Results, monkeypatch: pytest.MonkeyPatch, hidden: tuple[Event, ...]
 ) -> None:
-    def check(*_: object) -> certificates.CertificateCheck:
-        return certificates.CertificateCheck(
-            accepted=True, by="coqc 0", statement="map", delivered=True, certified=20, decisions=20
-        )
-
-    monkeypatch.setattr(certificates._Checker, "check", check)
+    checked = certificates.CertificateCheck(
+        accepted=True, by="coqc 0", statement="map", delivered=True, certified=20, decisions=20
+    )
+    monkeypatch.setattr(certificates._Checker, "check", Mock(return_value=checked))
     Path("hide.jsonl").write_bytes(write_trace((*RUN[:-1], *hidden, RUN[-1])))
     line = "certify --check run.cert --log hide.jsonl"
     (entry,) = results(line, code=3)["results"]

@@ -6,6 +6,7 @@ import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -33,10 +34,8 @@ def logs(folder: Path) -> None:
 
 
 def judging(monkeypatch: pytest.MonkeyPatch, checked: certificates.CertificateCheck) -> None:
-    def check(*_: object) -> certificates.CertificateCheck:
-        return checked
-
-    monkeypatch.setattr("topo_verify.proofs.mechanised.certificates._Checker.check", check)
+    target = "topo_verify.proofs.mechanised.certificates._Checker.check"
+    monkeypatch.setattr(target, Mock(return_value=checked))
 
 
 COQC = certificates.CertificateCheck(accepted=True, by="coqc 0")

@@ -14,19 +14,14 @@ BASIC = f"--cmd '{sys.executable} -m topo_verify.programs.serve basic'"
 SKIPS = f"--cmd '{sys.executable} {ROOM / 'misbehaving.py'} skips'"
 BATCH = f"--cmd '{sys.executable} {ROOM / 'batch_program.py'} right'"
 
-PROMISED = {
-    *("target", "level", "worlds", "passed", "skipped", "errored", "verdict", "findings", "cost")
-}
 
-
-def test_an_entry_a_level_with_every_promised_field(results: Results) -> None:
+def test_each_level_has_an_entry(results: Results) -> None:
     found = results(f"conform {BASIC} --like basic --worlds edges<=2 --workers 1")
     assert found["format"] == "topo-verify/conform"
     assert [entry["level"] for entry in found["results"]] == [
         *("result", "claims", "decisions", "cost")
     ]
     for entry in found["results"]:
-        assert entry.keys() >= PROMISED
         assert entry["cost"].keys() == {"mapper", "reference", "ratio"}
         assert (entry["worlds"], entry["passed"], entry["verdict"]) == (12, 12, "EXHAUSTED")
 
@@ -35,7 +30,6 @@ def test_a_finding_exits_1_and_says_how_to_see_it_again(results: Results) -> Non
     line = "conform mappers.py:guesses --worlds edges<=2 --workers 0"
     found = results(line, code=1)
     finding = found["results"][0]["findings"][0]
-    assert finding.keys() >= {"claim", "world", "event", "expected", "seen", "message", "replay"}
     again = shlex.split(finding["replay"])
     assert again[:3] == ["topo-verify", "conform", "mappers.py:guesses"]
     once = results(shlex.join([*again[1:], "--workers", "0"]), code=1)
@@ -94,11 +88,6 @@ def test_the_report_names_the_claims_that_were_not_judged(call: Call) -> None:
     done = call(f"conform {SKIPS} --worlds edges<=1 --workers 0")
     assert "Not decided: 1 skipped." in done.stdout
     assert "no loops, please" in done.stdout
-
-
-def test_markdown_has_the_same_table(call: Call) -> None:
-    done = call("conform basic --worlds edges<=1 --workers 0 --format markdown")
-    assert "| result | EXHAUSTED | 2 | 0 | 0 | 2 |" in done.stdout
 
 
 def test_transcripts_are_kept(call: Call, folder: Path) -> None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from unittest.mock import Mock
 
 import pytest
 
 from tests.cli.conftest import Call, Results
-from topo_verify.faults import FAULTS, Fault
+from topo_verify.faults import FAULTS
 from topo_verify.studies import faults as campaign
 from topo_verify.studies.faults import STRATEGIES, Examples, Proof
 
@@ -64,10 +65,7 @@ def test_the_theorem_with_the_same_mistake_is_named(call: Call) -> None:
 
 def test_an_undecided_proof_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
 
-    def proof(_fault: Fault) -> Proof:
-        return Proof("planar-keeps", "UNKNOWN")
-
-    monkeypatch.setattr(campaign, "proof", proof)
+    monkeypatch.setattr(campaign, "proof", Mock(return_value=Proof("planar-keeps", "UNKNOWN")))
     done = call("faults assumes-a-plane-world --by proofs")
     assert done.exit_code == 3
     assert "?: not decided, because a time limit ended" in done.stdout
@@ -75,10 +73,8 @@ def test_an_undecided_proof_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch)
 
 def test_an_asterisk_marks_the_second_strategy(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
 
-    def examples(_fault: Fault) -> Examples:
-        return Examples(9, STRATEGIES[1], {STRATEGIES[1]: (9,)}, 100)
-
-    monkeypatch.setattr(campaign, "examples", examples)
+    drawn = Examples(9, STRATEGIES[1], {STRATEGIES[1]: (9,)}, 100)
+    monkeypatch.setattr(campaign, "examples", Mock(return_value=drawn))
     done = call(f"faults {NAME} --by properties")
     assert " 9*  ok" in done.stdout
 

@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 from itertools import count
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 from xml.etree import ElementTree as ET
 
 import msgspec
@@ -28,9 +29,9 @@ from tests.cli.conftest import Call
 from topo_verify.campaign import progress
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.output import ProgressBar, entry_of
-from topo_verify.faults import FAULTS, Fault
+from topo_verify.faults import FAULTS
 from topo_verify.proofs import catalogue as proofs_catalogue
-from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem, TheoremResult
+from topo_verify.proofs.theorem import RefutationCertificate, Theorem, TheoremResult
 from topo_verify.studies import faults as study
 from topo_verify.studies.faults import Proof
 
@@ -137,10 +138,8 @@ def stocked(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (one, *_) = proofs_catalogue.choose(["percept"])
 
     def planted(name: str, verdict: Verdict, expected: Verdict) -> Theorem:
-        def prove(_budget: Budget) -> TheoremResult:
-            return TheoremResult(verdict=verdict, solver="none", premises_satisfiable=True)
-
-        return replace(one, name=name, expected=expected, prove=prove)
+        result = TheoremResult(verdict=verdict, solver="none", premises_satisfiable=True)
+        return replace(one, name=name, expected=expected, prove=Mock(return_value=result))
 
     shelf = (
         planted("proved", "PROVED", "PROVED"),
@@ -148,11 +147,7 @@ def stocked(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         planted("unproved", "UNKNOWN", "PROVED"),
         planted("unrefuted", "PROVED", "REFUTED"),
     )
-
-    def catalogue(_edges: int | None = None) -> tuple[Theorem, ...]:
-        return shelf
-
-    monkeypatch.setattr(proofs_catalogue, "catalogue", catalogue)
+    monkeypatch.setattr(proofs_catalogue, "catalogue", Mock(return_value=shelf))
 
 
 @pytest.fixture
@@ -199,10 +194,7 @@ def test_every_form_of_a_missed_fault_agrees(call: Call, monkeypatch: pytest.Mon
 def test_every_form_of_an_undecided_fault_agrees(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def proof(_fault: Fault) -> Proof:
-        return Proof("planar-keeps", "UNKNOWN")
-
-    monkeypatch.setattr(study, "proof", proof)
+    monkeypatch.setattr(study, "proof", Mock(return_value=Proof("planar-keeps", "UNKNOWN")))
     require_agreement(forms(call, "faults assumes-a-plane-world --by proofs"), 3)
 
 

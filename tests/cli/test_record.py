@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-import shlex
-import sys
 from pathlib import Path
 
 from tests.cli.conftest import Call, Refused, Results
 from topo_verify.studies.baseline import file
-
-FIELDS = {"target", "worlds", "equal", "wrong", "dearer", "cheaper", "other_decisions"}
-PROGRAM = """
-import json, sys
-sys.stdin.readline()
-print(json.dumps({"type": "error", "why": "not today"}), flush=True)
-sys.stdin.readline()
-"""
 
 
 def test_the_default_corpus_is_recorded(results: Results, folder: Path) -> None:
     envelope = results("record basic --out b.jsonl.gz")
     assert (envelope["format"], envelope["seed"]) == ("topo-verify/record", 0)
     (entry,) = envelope["results"]
-    assert entry.keys() >= FIELDS
     assert (entry["worlds"], entry["equal"], entry["wrong"]) == (953, 953, 0)
     assert entry["corpus"] == "edges<=4 (792), generated:160 (160), nyc (1)"
     written = file.load(folder / "b.jsonl.gz")
@@ -107,13 +96,3 @@ def test_a_mapper_that_is_too_slow_is_incomplete(results: Results) -> None:
     line = "record mappers.py:strolls --worlds m2/0 --world-timeout 0.02 --out b"
     (entry,) = results(line, code=3)["results"]
     assert (entry["equal"], entry["wrong"], entry["undecided"]) == (0, 0, 1)
-
-
-def test_a_program_that_gives_a_world_up_leaves_it_undecided(
-    results: Results, folder: Path
-) -> None:
-    (folder / "program.py").write_text(PROGRAM)
-    command = shlex.quote(f"{shlex.quote(sys.executable)} program.py")
-    (entry,) = results(f"record --cmd {command} --worlds m2/0 --out b", code=3)["results"]
-    assert entry["undecided"] == 1
-    assert entry["target"].startswith("--cmd ")

@@ -120,10 +120,6 @@ def test_a_broken_trace_is_refused_with_its_place(
     refused("replay broken.jsonl", "broken.jsonl", words)
 
 
-def test_a_name_that_no_file_can_have_is_no_bug(call: Call) -> None:
-    assert call(f"replay {'x' * 5000}").exit_code == 2
-
-
 def test_a_run_out_of_time_is_not_decided(call: Call) -> None:
     done = call("replay nyc --target mappers.py:strolls --world-timeout 0.2")
     assert done.exit_code == 3

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
+from unittest.mock import Mock
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -111,9 +112,7 @@ def test_what_is_printed_is_the_same_with_a_report_and_without(call: Call) -> No
 def test_a_file_that_cannot_be_written_is_refused_before_the_work(
     options: str, words: str, refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def never(*_: object, **__: object) -> None:
-        raise AssertionError("the work has begun")
-
+    never = Mock(side_effect=AssertionError("the work has begun"))
     monkeypatch.setattr("topo_verify.studies.search.search.Search.work", never)
     refused(f"search basic --edges 2 {options}", words)
 
@@ -121,19 +120,14 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_work(
 def test_a_folder_without_permission_is_refused(
     refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def never(*_: object) -> bool:
-        return False
-
-    monkeypatch.setattr(os, "access", never)  # root may write anywhere
+    monkeypatch.setattr(os, "access", Mock(return_value=False))  # root may write anywhere
     refused(
         "search basic --edges 1 --report r.html", "--report r.html: no permission to write there"
     )
 
 
 def test_after_an_interrupt_the_report_says_so(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(*_: object, **__: object) -> None:
-        raise KeyboardInterrupt
-
+    interrupted = Mock(side_effect=KeyboardInterrupt)
     monkeypatch.setattr("topo_verify.studies.search.search.Search.work", interrupted)
     assert call(f"search basic --edges 2 {FILES}").exit_code == 3
     assert "interrupted" in Path("r.html").read_text()
@@ -159,6 +153,8 @@ NARROW = (
     "faults assumes-a-plane-world forgets-that-vu-may-be-new --by proofs --workers 0",
     "explore m4/41 m3/14 --algorithm basic,folding",
     "explore m4/41 --gap",
+    "explore 'family:lattice(10,10,holes=0.2,seed=7)' --algorithm enhancement-iii-all+i",
+    "explore m3/14 --algorithm mappers.py:ignores_direction",
     "world show m4/41",
     "world count --edges 1..7",
     "world list --edges 2 -n 3",

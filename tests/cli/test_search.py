@@ -9,37 +9,23 @@ import pytest
 
 from tests.cli.conftest import Call, Results, interrupted
 
-FIELDS = {"target", "class", "edges", "checked", "total", "verdict", "counterexample", "by_edges"}
-SIZES = {"edges", "checked", "total", "max_cost", "total_cost", "worst"}
 
-
-def test_the_entry_of_an_exhausted_class_has_the_promised_fields(results: Results) -> None:
+def test_the_entry_of_an_exhausted_class_has_its_numbers_and_worst_worlds(results: Results) -> None:
     (entry,) = results("search basic --edges 3 --class planar")["results"]
-    assert entry.keys() >= FIELDS
     assert (entry["target"], entry["class"], entry["edges"]) == ("basic", "planar", 3)
     assert (entry["verdict"], entry["checked"], entry["total"]) == ("EXHAUSTED", 65, 65)
     assert entry["counterexample"] is None
-    assert [size.keys() >= SIZES for size in entry["by_edges"]] == [True] * 3
     assert [size["max_cost"] for size in entry["by_edges"]] == [1, 3, 10]
     assert entry["by_edges"][2]["worst"] == ["m3/9"]
 
 
-@pytest.mark.parametrize("workers", [0, 1, 2])
-def test_a_counterexample_exits_1_and_is_the_same_with_any_workers(
-    results: Results, call: Call, workers: int
-) -> None:
-    line = f"search mappers.py:guesses --edges 3 --workers {workers}"
-    (entry,) = results(line, code=1)["results"]
+def test_a_counterexample_exits_1_and_its_line_shows_it_again(results: Results, call: Call) -> None:
+    (entry,) = results("search mappers.py:guesses --edges 3 --workers 2", code=1)["results"]
     first = entry["counterexample"]
     assert first.keys() == {"world", "edges", "claim", "message", "replay"}
     assert (first["world"], first["edges"], first["claim"]) == ("m1/1", 1, "map-isomorphic")
     assert (entry["verdict"], entry["checked"]) == ("REFUTED", 2)
     assert call(first["replay"].removeprefix("topo-verify ")).exit_code == 1
-
-
-def test_several_targets_are_searched_one_after_the_other(results: Results) -> None:
-    entries = results("search basic,folding --edges 2 --workers 0")["results"]
-    assert [entry["target"] for entry in entries] == ["basic", "folding"]
 
 
 def test_a_mapper_out_of_time_exits_3(results: Results, call: Call) -> None:
@@ -106,11 +92,6 @@ def test_claims_without_declarations_are_named(call: Call) -> None:
     )
 
 
-def test_markdown_has_tables(call: Call) -> None:
-    text = call("search basic --edges 2 --workers 0 --format markdown").stdout
-    assert "| edges | checked | total | failing |" in text
-
-
 # ---------------------------------------------------------------- ledger, Ctrl-C
 
 
@@ -123,10 +104,9 @@ def test_a_ledger_is_resumed(results: Results, folder: Path) -> None:
     assert after["checked"] == 86
 
 
-@pytest.mark.parametrize("workers", ["0", "2"])
-def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path, workers: str) -> None:
-    line = "search mappers.py:starts_and_sleeps --move-timeout 60 --format json --workers"
-    code, out, error = interrupted(folder, *line.split(), workers)
+def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path) -> None:
+    line = "search mappers.py:starts_and_sleeps --move-timeout 60 --format json --workers 2"
+    code, out, error = interrupted(folder, *line.split())
     envelope = json.loads(out)
     (entry,) = envelope["results"]
     assert code == envelope["exit"] == 3

@@ -110,23 +110,10 @@ def test_the_player_shows_the_walk(call: Call, folder: Path, line: str) -> None:
     assert '"name":"tour"' in page.replace('": "', '":"')
 
 
-@pytest.mark.parametrize(
-    ("line", "sentence"),
-    [
-        ("tour nowhere", "no such world: 'nowhere'"),
-        ("tour m3/40 -o -", "-o -: standard output is for the results"),
-        ("tour m3/40 --player -", "--player -: standard output is for the results"),
-        ("tour - --against -", "expected '-' once"),
-        ("tour m3/40 --against nowhere", "cannot read nowhere"),
-        ("tour m3/40 --against mappers.py", "mappers.py, line 1"),
-        ("tour m3/40 --against moves.jsonl", "moves.jsonl"),
-        ("tour m3/40 --marker 99", "--marker 99"),
-    ],
-)
-def test_bad_input_is_one_sentence(
-    refused: Refused, folder: Path, line: str, sentence: str
+def test_a_log_that_does_not_begin_with_its_start_is_refused(
+    refused: Refused, folder: Path
 ) -> None:
     (folder / "moves.jsonl").write_text(
         '{"type": "move", "door": 0, "percept": {"degree": 2, "marker": null}}\n'
     )
-    refused(line, sentence)
+    refused("tour m3/40 --against moves.jsonl", "moves.jsonl")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 import pytest
 
 from tests.cli.conftest import Call, Results
@@ -108,13 +106,6 @@ def test_a_refuted_part_shows_its_smallest_counterexample(call: Call) -> None:
     _, _, walk = text.partition("The walk of mappers.py:guesses in m1/1:")
     assert "delivers a map of 2 vertices and 1 edge" in walk
     assert walk.endswith("  again: topo-verify replay m1/1 --target mappers.py:guesses\n")
-
-
-def test_markdown_is_a_report_with_valid_tables(call: Call) -> None:
-    text = call("verify mappers.py:guesses --quick --format markdown").stdout
-    for table in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
-        assert len({row.count("|") for row in table.splitlines()}) == 1
-    assert "`topo-verify replay m1/1 --target mappers.py:guesses`" in text
 
 
 def test_time_outs_leave_a_part_undecided(results: Results, call: Call) -> None:
