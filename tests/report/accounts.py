@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from datetime import UTC, datetime
 
 from tests.player.played import played
-from topo_verify.report.account import Account, Exhibit, JudgedCase, JudgedExtent, JudgedSuite
+from topo_verify.report.account import (
+    Account,
+    Ending,
+    Exhibit,
+    JudgedCase,
+    JudgedExtent,
+    JudgedSuite,
+)
 from topo_verify.report.blocks import Bullets, Command, Raw, Text, TextTable, View
-from topo_verify.report.page import PageFacts
 from topo_verify.world import World
 
 HOSTILE = (
@@ -17,14 +24,14 @@ HOSTILE = (
 
 LONG_ID = f"m30/{'1234567890' * 4}321"
 
-FACTS = PageFacts(
+RUN = Ending(
     command="verify",
     again="topo-verify verify",
-    exit_code=1,
-    exit_words="a claim fails",
+    code=1,
     finished=True,
+    date=datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC),
+    seconds=1,
     versions={"topo-verify": "1.2.3"},
-    timing={"written": "today"},
 )
 
 

@@ -7,10 +7,8 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from tests.report.accounts import HOSTILE, LONG_ID, account
-from topo_verify.report.junit import JunitRun, junit
-
-RUN = JunitRun("verify", "topo-verify verify", finished=True, date="2026-01-02T03:04:05", seconds=1)
+from tests.report.accounts import HOSTILE, LONG_ID, RUN, account
+from topo_verify.report.junit import junit
 
 ATTRIBUTES = {
     "testsuites": set[str](),

@@ -18,10 +18,9 @@ from topo_verify.cli import options
 from topo_verify.cli.arena_files import REPORT, dearest_exhibits, write_folder
 from topo_verify.cli.arena_game import game_of_catalogue
 from topo_verify.cli.kept_runs import open_store, stored_rows
-from topo_verify.cli.output import Ending, Output, Result, output_options
-from topo_verify.cli.reporting import ReportFiles, report_options, write_reports
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.reporting import ReportFiles
 from topo_verify.cli.runs import unjudged
-from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError, plural
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import watch
@@ -41,6 +40,7 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, Suite, chosen_suit
     "arena basic,folding my_mapper.py:explore --suite lattices,regular",
     "arena --game 3",
     "arena all --cmd './mapper --fast' --suite all --seed 20261 --out league",
+    reports=True,
 )
 @click.argument("texts", nargs=-1, metavar="[TARGET]...")
 @click.option(
@@ -84,8 +84,6 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, Suite, chosen_suit
     " of the catalogue are from it.",
 )
 @options.limits
-@output_options
-@report_options
 def arena(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
@@ -113,11 +111,12 @@ def arena(  # noqa: PLR0913  an argument an option
     asked = _asked(texts, named, commands, libraries)
     folder = None if out is None else options.make_folder(out, "--out")
     if folder is not None:
-        _add_page(output, folder)
+        watch()  # before a mapper is loaded
+        output.ask(ReportFiles(report=str(folder / REPORT)))
     mappers = _loaded(asked, in_process=in_process)
     league = League(mappers, suites, seed)
     _require_players(league)
-    found, dearest = FoundRuns(output), list[acc.Exhibit]()
+    dearest: list[acc.Exhibit] = []
 
     def entries() -> Iterator[Result[LeagueEntry]]:
         try:
@@ -126,21 +125,21 @@ def arena(  # noqa: PLR0913  an argument an option
             yield from map(_result, league.entries())  # what is done is printed
             raise
         table = league.entries()
-        _run_again(league, found, table, limits)
+        _run_again(output, league, table, limits)
         if output.exhibits:
             dearest.extend(dearest_exhibits(league, limits))
         if folder is not None:
-            write_folder(folder, league, table, dearest, found.exhibits)
+            write_folder(folder, league, table, dearest, output.found.exhibits)
         _add_timing(output, league, table)
         yield from map(_result, table)
         close(mappers)
 
     def account(table: Sequence[LeagueEntry]) -> acc.Account:
         blocks = _show(league, table, memory=None, pictures=True)
-        return _account(table, blocks, found, dearest, exact=all(s.exact for s in suites))
+        return _account(table, blocks, dearest, exact=all(s.exact for s in suites))
 
     close(mappers)
-    show = partial(_with_walk, league, found=found)
+    show = partial(_show, league, memory=league.memory)
     words = [one.name for one in suites]
     return output.run(
         "arena", entries, show, account=account, suite=words, seed=seed, in_process=in_process
@@ -208,13 +207,13 @@ def _play(
 
 
 def _run_again(
-    league: League, found: FoundRuns, table: Sequence[LeagueEntry], limits: Limits
+    output: Output, league: League, table: Sequence[LeagueEntry], limits: Limits
 ) -> None:
     """Run each mapper that broke a claim once more, to show where."""
     broken = {e.mapper: e.counterexample for e in table if e.counterexample is not None}
     for mapper in league.mappers:
         if (first := broken.get(mapper.text)) is not None:
-            found.run_again([mapper], first.world, first.claim, limits, first.message)
+            output.found.run_again([mapper], first.world, first.claim, limits, first.message)
 
 
 def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) -> None:
@@ -227,29 +226,7 @@ def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) ->
     output.timing.update(ms_per_move=dict(time), memory_mib=dict(memory))
 
 
-def _add_page(output: Output, folder: Path) -> None:
-    """Have the page written into the folder, beside the files that other options ask for."""
-    watch()  # before a mapper is loaded
-    files, others = ReportFiles(report=str(folder / REPORT)), output.report
-    files.check()
-    output.exhibits = True
-
-    def both(account: acc.Account, ending: Ending) -> None:
-        write_reports(files, account, ending)
-        if others is not None:
-            others(account, ending)
-
-    output.report = both
-
-
 # ---------------------------------------------------------------- for people
-
-
-def _with_walk(
-    league: League, table: Sequence[LeagueEntry], *, found: FoundRuns
-) -> Iterator[Block]:
-    yield from _show(league, table, memory=league.memory)
-    yield from found.blocks()
 
 
 def _show(
@@ -285,7 +262,6 @@ def _plot(league: League, suite: Suite, entries: Sequence[LeagueEntry]) -> Itera
 def _account(
     table: Sequence[LeagueEntry],
     blocks: Iterable[Block],
-    found: FoundRuns,
     dearest: Sequence[acc.Exhibit],
     *,
     exact: bool,
@@ -304,12 +280,12 @@ def _account(
     if broken:
         words = acc.counted(len(broken), len(mappers), "mappers break a claim")
         judged = acc.JudgedExtent("REFUTED", words)
-    return found.account(
+    return acc.Account(
         mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
         judged,
-        ((f"{entry.mapper} in {entry.suite}", _cases(entry)) for entry in table),
-        blocks,
-        dearest,
+        acc.suites((f"{entry.mapper} in {entry.suite}", _cases(entry)) for entry in table),
+        tuple(blocks),
+        others=tuple(dearest),
     )
 
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import click
 import msgspec
-from click.core import ParameterSource
 
+from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.errors import InputError, InternalError
 from topo_verify.report.blocks import Block, Text, TextTable
@@ -83,7 +82,7 @@ class MapperEntry(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag
 GameEntry = ValueEntry | MapperEntry
 
 
-ALLOWED = {"game", "texts", "named", "style", "quiet"}
+ALLOWED = {"--game", "texts", "--target", "--format", "--quiet"}
 """The parameters of `arena` that mean something to `--game`."""
 
 
@@ -94,11 +93,8 @@ def game_of_catalogue(output: Output, edges: int, names: Sequence[str]) -> int:
     Raises:
         InputError: there is no such game or mapper, or another option was given.
     """
-    context = click.get_current_context()
-    for parameter in context.command.params:
-        source = context.get_parameter_source(parameter.name or "")
-        if source is ParameterSource.COMMANDLINE and parameter.name not in ALLOWED:
-            raise InputError(f"{parameter.opts[0]} means nothing to --game: leave out one of them")
+    if others := [name for name in options.given() if name not in ALLOWED]:
+        raise InputError(f"{others[0]} means nothing to --game: leave out one of them")
     asked = [name for text in names for name in text.split(",") if name != "all"]
     for name in asked:
         if name not in PLAYERS:

@@ -15,7 +15,7 @@ import msgspec
 
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, entry_of, output_options
+from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, InternalError, plural
 from topo_verify.proofs.mechanised import certificate_format, certificates, evidence
@@ -162,7 +162,6 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     metavar="SECONDS",
     meaning="Time limit of each program that checks a certificate.",
 )
-@output_options
 def certify(  # noqa: PLR0913  an argument an option
     output: Output,
     *,

@@ -15,10 +15,9 @@ from topo_verify.campaign.run import explore
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
 from topo_verify.cli.kept_runs import opened, stored_rows
-from topo_verify.cli.output import Output, Result, entry_of, output_options
-from topo_verify.cli.record import MapperOpener, mapper_options
-from topo_verify.cli.reporting import report_options
-from topo_verify.cli.walks import FoundRuns, exhibit_of
+from topo_verify.cli.options import Mappers
+from topo_verify.cli.output import Output, Result, entry_of
+from topo_verify.cli.walks import exhibit_of
 from topo_verify.errors import plural
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
@@ -135,9 +134,12 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
 @options.command(
     "compare baseline.jsonl.gz my_mapper.py:explore",
     "compare baseline.jsonl.gz my_mapper.py:explore --tolerance 5 --format markdown",
+    reports=True,
 )
 @click.argument("baseline", metavar="BASELINE")
-@mapper_options
+@options.mappers(with_policies=True)
+@options.workers(0)
+@options.store
 @click.option(
     "--tolerance",
     default="0",
@@ -146,14 +148,11 @@ def _percent(_context: click.Context, _option: click.Parameter, value: str) -> s
     metavar="PERCENT",
     help="How much dearer each world may be; a larger increase is a regression.",
 )
-@output_options
-@report_options
 def compare(
     output: Output,
     *,
     baseline: str,
-    mapper: MapperOpener,
-    in_process: bool,
+    mappers: Mappers,
     workers: int,
     store: str | None,
     tolerance: str,
@@ -167,28 +166,21 @@ def compare(
     def compared() -> Iterator[Result[CompareEntry]]:
         then = file.load(baseline)
         named, limits = BaselineWorlds(then, baseline), then.header.limits
-        with opened(store) as kept, mapper(then.header.policies) as target:
+        with opened(store) as kept, mappers.opened(then.header.policies) as target:
             made = baseline_runs(target, named, len(then.entries), limits=limits, store=kept)
             rows = stored_rows(output, [made], workers, kept)
             # An exact number: a float may put a world on the wrong side.
             found = join(then, target, rows, tolerance=Fraction(tolerance))
             if output.exhibits:
-                _run_again(then, target, found, runs)
+                _run_again(output, then, target, found)
         entry = _entry(found, target, then.header, baseline, tolerance)
         regressed = found.kinds["wrong"] > 0 or found.beyond > 0
         yield Result(entry, failed=regressed, incomplete=entry.undecided > 0)
 
-    runs = FoundRuns(output)
-    return output.run(
-        "compare",
-        compared,
-        _show,
-        account=lambda entries: _account(entries, runs),
-        in_process=in_process,
-    )
+    return output.run("compare", compared, _show, account=_account, in_process=mappers.in_process)
 
 
-def _run_again(then: file.Baseline, target: Target, found: Comparison, runs: FoundRuns) -> None:
+def _run_again(output: Output, then: file.Baseline, target: Target, found: Comparison) -> None:
     """Keep the runs of the mapper where a claim fails, and where it is dearer than allowed."""
     texts = {entry.called: entry.world for entry in then.entries}
     for change in found.examples:
@@ -198,7 +190,7 @@ def _run_again(then: file.Baseline, target: Target, found: Comparison, runs: Fou
             exhibit = exhibit_of(report)
             if exhibit is not None:
                 note = (_line(change),) if change.beyond else exhibit.notes
-                runs.show(replace(exhibit, notes=note, again=change.replay))
+                output.found.show(replace(exhibit, notes=note, again=change.replay))
 
 
 def _entry(
@@ -319,7 +311,7 @@ def _conclusion(entry: CompareEntry) -> str:
 # ---------------------------------------------------------------- for page, JUnit and badge
 
 
-def _account(entries: Sequence[CompareEntry], runs: FoundRuns) -> acc.Account:
+def _account(entries: Sequence[CompareEntry]) -> acc.Account:
     """The account of a comparison: a suite a baseline, a case for each question."""
     checked = sum(entry.worlds - entry.undecided for entry in entries)
     total = sum(entry.worlds for entry in entries)
@@ -331,11 +323,10 @@ def _account(entries: Sequence[CompareEntry], runs: FoundRuns) -> acc.Account:
     said = acc.extent(verdict, checked, total, regressed, things)
     if regressed:
         said = replace(said, words=f"a regression in {regressed:,} of {checked:,} worlds")
-    return runs.account(
+    return acc.Account(
         ", ".join(f"{entry.target} against {entry.baseline.file}" for entry in entries),
         said,
-        ((entry.baseline.file, _cases(entry)) for entry in entries),
-        _show(entries),
+        acc.suites((entry.baseline.file, _cases(entry)) for entry in entries),
     )
 
 

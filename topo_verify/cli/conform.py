@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import secrets
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -15,13 +15,13 @@ from topo_verify.campaign.campaign import Backend, Campaign, ListedWorlds
 from topo_verify.campaign.corpus import corpus_from
 from topo_verify.campaign.judge import Report, judge
 from topo_verify.campaign.run import explore
-from topo_verify.campaign.targets import each_text, one_target, target_arguments, target_text
+from topo_verify.campaign.targets import each_text, one_target, target_arguments
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, output_options
-from topo_verify.cli.reporting import report_options
+from topo_verify.cli.options import Mappers
+from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import NamedWorld, judged, unjudged
-from topo_verify.cli.walks import MOST_EXHIBITS, FoundRuns, exhibit_of, target_title
+from topo_verify.cli.walks import MOST_EXHIBITS, exhibit_of, target_title
 from topo_verify.errors import plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.scenes import Playback
@@ -54,10 +54,9 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
     "conform --cmd './mapper --fast' --like enhancement-ii",
     "conform --cmd ./mapper --worlds 'edges<=5' --worlds nyc --transcript DIR",
     "conform --cmd ./simulator --batch --worlds generated:10000",
+    reports=True,
 )
-@options.target
-@options.program
-@options.in_process
+@options.mappers()
 @click.option(
     "--worlds",
     "texts",
@@ -84,14 +83,10 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
     "  [default: 0, and an order drawn anew]",
 )
 @options.limits
-@output_options
-@report_options
 def conform(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
-    target: str | None,
-    command: str | None,
-    in_process: bool,
+    mappers: Mappers,
     texts: tuple[str, ...],
     like: str | None,
     pick: str | None,
@@ -114,7 +109,6 @@ def conform(  # noqa: PLR0913  an argument an option
     seed, order_seed = seeds
 
     def standings() -> Iterator[Result[LevelResult]]:
-        text = target_text(target, command)
         corpus = corpus_from(texts, seed=seed)
         usual = Asked()
         asked = Asked(like or "", pick or usual.pick, order or usual.order, transcript or "")
@@ -125,33 +119,31 @@ def conform(  # noqa: PLR0913  an argument an option
         # The order is no part of the results; so they are the same whatever it is.
         output.timing["seed"] = f"{seed}:{order_seed}"
         output.note(f"seed {seed}:{order_seed}")
-        flags = dict(batch=batch, validate=validate, strict=strict, in_process=in_process)  # noqa: C408
-        for one in _texts(text):
+        flags = dict(batch=batch, validate=validate, strict=strict, in_process=mappers.in_process)  # noqa: C408
+        for one in _texts(mappers.texts[0]):
             campaign = Campaign(
                 worlds=ListedWorlds(corpus.total),
                 mappers=(one,),
                 limits=limits,
                 strict=strict,
                 validate=validate,
-                in_process=in_process,
+                in_process=mappers.in_process,
                 seed=order_seed,
                 drawn=not batch,  # such a program is given the worlds in their order
             )
             again = _replay_command(one, like, (pick, order), flags, limits)
             study = Conform(campaign, corpus, asked, again)
-            yield from _tried(output, study, backend, shared, found)
+            yield from _tried(output, study, backend, shared)
 
     shared: dict[str, Playback] = {}
-    found = FoundRuns(output)
-    show = partial(_show, shared=shared, found=found)
     return output.run(
         "conform",
         standings,
-        show,
-        account=lambda levels: _account(levels, show(levels), found),
+        partial(_show, shared=shared),
+        account=_account,
         seed=seed,
         corpus=list(texts) or ["corpus"],
-        in_process=in_process,
+        in_process=mappers.in_process,
     )
 
 
@@ -165,7 +157,7 @@ def _texts(text: str) -> list[str]:
 
 
 def _tried(
-    output: Output, study: Conform, backend: Backend, shared: dict[str, Playback], found: FoundRuns
+    output: Output, study: Conform, backend: Backend, shared: dict[str, Playback]
 ) -> Iterator[Result[LevelResult]]:
     """The results of one implementation; after Ctrl-C, those so far.
 
@@ -181,10 +173,10 @@ def _tried(
     levels = tuple(study.level_results())
     batch = backend is batched
     if output.style != "json" and not batch:
-        found.walk(_failing_run(study, levels))
+        output.found.walk(_failing_run(study, levels))
     if output.exhibits:
         for exhibit in _exhibits(study, levels, batch=batch):
-            found.show(exhibit)
+            output.found.show(exhibit)
     for level in levels:
         if output.style != "json" or output.exhibits:
             shared.update(_shared(study, level))
@@ -215,12 +207,9 @@ def _replay_command(
 # ---------------------------------------------------------------- for people
 
 
-def _show(
-    entries: Sequence[LevelResult], shared: Mapping[str, Playback], found: FoundRuns
-) -> Iterator[Block]:
+def _show(entries: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
     for target in dict.fromkeys(entry.target for entry in entries):
         yield from _shown([entry for entry in entries if entry.target == target], shared)
-    yield from found.blocks()
 
 
 _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")
@@ -317,9 +306,7 @@ def _costs(level: LevelResult) -> Iterator[Block]:
 # ---------------------------------------------------------------- the account
 
 
-def _account(
-    levels: Sequence[LevelResult], blocks: Iterable[Block], found: FoundRuns
-) -> acc.Account:
+def _account(levels: Sequence[LevelResult]) -> acc.Account:
     """The account of `conform`: a suite a mapper, a case a level and a claim of it."""
     names = list(dict.fromkeys(level.target for level in levels))
     verdict = acc.joint_verdict([level.verdict for level in levels])
@@ -331,7 +318,8 @@ def _account(
     if verdict == "REFUTED":
         words = acc.counted(failed, total, f"{acc.worlds(total)} fail")
     suites = ((name, _cases([one for one in levels if one.target == name])) for name in names)
-    return found.account(", ".join(names), acc.JudgedExtent(verdict, words), suites, blocks)
+    extent = acc.JudgedExtent(verdict, words)
+    return acc.Account(", ".join(names), extent, acc.suites(suites))
 
 
 def _cases(levels: Sequence[LevelResult]) -> Iterator[acc.JudgedCase]:

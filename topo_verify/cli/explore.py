@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain
 from typing import Literal
 
 import click
 
 from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.run import explore as run_mapper
-from topo_verify.campaign.targets import targets
 from topo_verify.cli import explored, options
-from topo_verify.cli.output import Output, Result, output_options
+from topo_verify.cli.options import Mappers
+from topo_verify.cli.output import Output, Result
 from topo_verify.cli.play import (
     player_option,
     require_one_world,
@@ -21,7 +20,6 @@ from topo_verify.cli.play import (
     write_animation,
     write_page,
 )
-from topo_verify.cli.reporting import report_options
 from topo_verify.cli.runs import (
     NamedWorld,
     claims_cell,
@@ -30,7 +28,6 @@ from topo_verify.cli.runs import (
     named_worlds,
     unjudged,
 )
-from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
@@ -60,13 +57,16 @@ class _ExploreOptions:
     "explore m2/8 --target folding+planar --choices 0,1",
     "explore nyc --target folding --marker all --svg heat.svg",
     "explore 'family:lattice(10,10,holes=0.2)' --target my_mapper.py:explore",
+    reports=True,
 )
 @click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
-@options.algorithms(
-    "all", "Names of the catalogue, module:attribute or file.py:attribute, with commas."
+@options.mappers(
+    "all",
+    meaning="Names of the catalogue, module:attribute or file.py:attribute, with commas."
+    " May be repeated.",
+    several=True,
+    with_policies=True,
 )
-@options.in_process
-@options.policies
 @click.option(
     "--choices",
     metavar="LIST",
@@ -82,16 +82,11 @@ class _ExploreOptions:
     "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
 )
 @options.limits
-@output_options
-@report_options
 def explore(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
     worlds: tuple[str, ...],
-    algorithms: Sequence[str],
-    in_process: bool,
-    pick: str | None,
-    order: str | None,
+    mappers: Mappers,
     choices: str | None,
     engine: Engine,
     marker: int | Literal["all"] | None,
@@ -109,16 +104,11 @@ def explore(  # noqa: PLR0913  an argument an option
     """
 
     def runs() -> Iterator[Result[explored.ExploreEntry]]:
-        named = chain.from_iterable(
-            targets(text, pick=pick, order=order, in_process=in_process) for text in algorithms
-        )
-        found = on_engine(engine, named, limits)
+        found = on_engine(engine, mappers.load(), limits)
         if marker == "all":
             explored.require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
             starts = named_worlds(worlds)
-            return explored.marker_results(
-                output, starts, found, limits, walk, strict=strict, svg=svg
-            )
+            return explored.marker_results(output, starts, found, limits, strict=strict, svg=svg)
         starts = named_worlds(worlds, marker)
         for option, file in (("--trace", trace), ("--svg", svg)):
             if file is not None:
@@ -127,20 +117,19 @@ def explore(  # noqa: PLR0913  an argument an option
         listed = None
         if choices is not None:
             _require_one_run("--choices", choices, found, starts)
-            explored.require_no_policies(choices, pick, order)
+            explored.require_no_policies(choices, mappers)
             listed = ListedChoices(found[0], choices)
             found = (listed.target,)
         asked = _ExploreOptions(limits, trace, player, svg, strict, gap, listed)
-        return _results(output, starts, found, asked, walk)
+        return _results(output, starts, found, asked)
 
-    walk = FoundRuns(output)
     table = explored.show_markers if marker == "all" else show
     return output.run(
         "explore",
         runs,
-        lambda entries: chain(table(entries), walk.blocks()),
-        account=lambda entries: explored.explore_account(entries, table(entries), walk),
-        in_process=in_process,
+        table,
+        account=explored.explore_account,
+        in_process=mappers.in_process,
     )
 
 
@@ -161,7 +150,6 @@ def _results(
     starts: Sequence[NamedWorld],
     found: Sequence[Target],
     asked: _ExploreOptions,
-    walk: FoundRuns,
 ) -> Iterator[Result[explored.ExploreEntry]]:
     total = len(starts) * len(found)
     played: list[PlayedRun] = []
@@ -177,7 +165,7 @@ def _results(
             report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
             if asked.choices is not None:
                 report = asked.choices.named(report, asked.limits)
-            walk.keep(report)
+            output.found.keep(report)
             played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
             if asked.svg is not None:
                 write_animation(asked.svg, at.world, played[0])

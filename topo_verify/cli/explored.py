@@ -8,7 +8,7 @@ and `same_as` says so.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from statistics import mean
 from typing import Literal
@@ -21,9 +21,9 @@ from topo_verify.campaign.run import Exploration
 from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.findings import Verdict
+from topo_verify.cli.options import Mappers
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.runs import NamedWorld, claims_cell, finding_blocks, judged
-from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError, plural
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
@@ -135,9 +135,7 @@ def explore_result(
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
 
-def explore_account(
-    entries: Sequence[ExploreEntry], blocks: Iterable[Block], found: FoundRuns
-) -> acc.Account:
+def explore_account(entries: Sequence[ExploreEntry]) -> acc.Account:
     """The account of `explore`: a suite a run; the run, and a case a claim."""
     verdicts = [_verdict(entry) for entry in entries]
     failing, decided = verdicts.count("REFUTED"), verdicts.count("SAMPLED")
@@ -145,11 +143,12 @@ def explore_account(
     if failing:
         words = acc.counted(failing, len(entries), "runs fail")
     mappers = list(dict.fromkeys(entry.algorithm for entry in entries))
-    return found.account(
+    return acc.Account(
         mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
         acc.JudgedExtent(acc.joint_verdict(verdicts), words),
-        ((_run_name(entry), _run_cases(entry)) for entry in entries if entry.same_as is None),
-        blocks,
+        acc.suites(
+            (_run_name(entry), _run_cases(entry)) for entry in entries if entry.same_as is None
+        ),
     )
 
 
@@ -177,9 +176,9 @@ def _run_cases(entry: ExploreEntry) -> Iterator[acc.JudgedCase]:
 # ---------------------------------------------------------------- --choices LIST
 
 
-def require_no_policies(choices: str, pick: str | None, order: str | None) -> None:
+def require_no_policies(choices: str, mappers: Mappers) -> None:
     """Raise an InputError if policies are given beside the choices."""
-    if pick is not None or order is not None:
+    if mappers.pick is not None or mappers.order is not None:
         raise InputError(
             f"--choices {choices}: the choices are the policies; leave out --pick and --order"
         )
@@ -225,7 +224,6 @@ def marker_results(
     starts: Sequence[NamedWorld],
     found: Sequence[Target],
     limits: Limits,
-    walk: FoundRuns,
     *,
     strict: bool,
     svg: str | None,
@@ -248,7 +246,7 @@ def marker_results(
     for at in starts:
         for target in found:
             entries: list[ExploreEntry] = []
-            for result in _of_each_dart(at, target, limits, walk, strict=strict):
+            for result in _of_each_dart(output, at, target, limits, strict=strict):
                 done += 1
                 output.progress(f"{target.text} in {at.name}", done, total)
                 entries.append(result.entry)
@@ -262,7 +260,7 @@ def marker_results(
 
 
 def _of_each_dart(
-    at: NamedWorld, target: Target, limits: Limits, walk: FoundRuns, *, strict: bool
+    output: Output, at: NamedWorld, target: Target, limits: Limits, *, strict: bool
 ) -> Iterator[Result[ExploreEntry]]:
     known: dict[Code, Result[ExploreEntry]] = {}
     for dart in range(len(at.world.alpha)):
@@ -277,7 +275,7 @@ def _of_each_dart(
         placed = NamedWorld(there, at.text, dart)
         run = run_mapper(there, target, limits=limits)
         report, incomplete = judged(run, placed, limits, strict=strict)
-        walk.keep(report)
+        output.found.keep(report)
         known[there.code] = explore_result(run, placed, report, incomplete=incomplete)
         yield known[there.code]
 

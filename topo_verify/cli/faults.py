@@ -10,9 +10,7 @@ from topo_verify.campaign.run import Engine
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.output import Live, Output, Result, output_options
-from topo_verify.cli.reporting import report_options
-from topo_verify.cli.walks import FoundRuns
+from topo_verify.cli.output import Live, Output, Result
 from topo_verify.errors import InputError, plural
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
@@ -38,7 +36,10 @@ WIDTHS = (29, 21, 13, 5, 3)
 
 
 @options.command(
-    "faults", "faults restores-with-the-wrong-sign", "faults --by properties --format markdown"
+    "faults",
+    "faults restores-with-the-wrong-sign",
+    "faults --by properties --format markdown",
+    reports=True,
 )
 @click.argument("names", nargs=-1, metavar="[NAME...]")
 @click.option(
@@ -57,8 +58,6 @@ WIDTHS = (29, 21, 13, 5, 3)
     help="Count the failing worlds of 6 and 7 edges, too, and try the harmless differences in all"
     f" worlds of {LARGEST_THOROUGH} edges: an hour.",
 )
-@output_options
-@report_options
 def faults(
     output: Output,
     *,
@@ -75,7 +74,6 @@ def faults(
     difference. A theorem with the same mistake must be refuted by the solver. NAME is a fault; by
     default all are tried.
     """
-    found = FoundRuns(output)
 
     def tried() -> Iterator[Result[Caught]]:
         processes = processors() if workers is None else workers
@@ -94,7 +92,7 @@ def faults(
         )
         for done, entry in enumerate(entries, 1):
             if output.exhibits and entry.search is not None and entry.search.world is not None:
-                _run_again(entry, entry.search.world, found)
+                _run_again(output, entry, entry.search.world)
             yield Result(entry, failed=not (entry.ok or entry.undecided), incomplete=not entry.ok)
             output.progress(entry.name, done, len(chosen))
 
@@ -114,17 +112,18 @@ def faults(
         tried,
         _show,
         live=Live(head, live, _end),
-        account=lambda entries: _account(entries, checks, found),
+        account=lambda entries: _account(entries, checks),
+        walk=False,
         by=checks,
         engine=engine,
     )
 
 
-def _run_again(entry: Caught, world: str, found: FoundRuns) -> None:
+def _run_again(output: Output, entry: Caught, world: str) -> None:
     """Keep the run of a fault in the smallest world in which it fails."""
     assert entry.search is not None
     if claim := next(iter(entry.search.claims), None):
-        found.run_again((mapper_of(entry),), world, claim, A_SECOND, entry.search.message)
+        output.found.run_again((mapper_of(entry),), world, claim, A_SECOND, entry.search.message)
 
 
 def _part(entry: Caught) -> str:
@@ -144,7 +143,7 @@ def _checks(text: str) -> list[Check]:
 # ---------------------------------------------------------------- the account
 
 
-def _account(entries: Sequence[Caught], checks: str, found: FoundRuns) -> acc.Account:
+def _account(entries: Sequence[Caught], checks: str) -> acc.Account:
     """The account of `faults`: a suite a part of the mapper, a case a fault."""
     suites: dict[str, list[acc.JudgedCase]] = {}
     for entry in entries:
@@ -152,11 +151,10 @@ def _account(entries: Sequence[Caught], checks: str, found: FoundRuns) -> acc.Ac
     asked = [entry for entry in entries if entry.asked]
     mappers = "mapper" if len(asked) == 1 else "mappers"
     right = acc.counted(sum(e.ok for e in asked), len(asked), f"{mappers} told right from wrong")
-    return found.account(
+    return acc.Account(
         plural(len(entries), "faulty mapper"),
         acc.JudgedExtent("SAMPLED" if asked else "UNKNOWN", right),
-        suites.items(),
-        _show(entries),
+        acc.suites(suites.items()),
     )
 
 

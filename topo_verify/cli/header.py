@@ -8,7 +8,7 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, output_options
+from topo_verify.cli.output import Output, Result
 from topo_verify.programs.library import VERSION, header_text
 from topo_verify.report.blocks import Block, Raw, TextTable
 from topo_verify.world.formats import files
@@ -30,7 +30,6 @@ class HeaderEntry(msgspec.Struct, frozen=True):
 
 @options.command("header", "header -o topo_verify.h")
 @click.option("-o", "file", metavar="FILE", help="Write the header to FILE.")
-@output_options
 def header(output: Output, *, file: str | None) -> int:
     """Print topo_verify.h, the C interface of native mappers.
 

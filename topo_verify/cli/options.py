@@ -3,21 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+import sys
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager, redirect_stdout
 from copy import copy
+from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
-from topo_verify.campaign.run import ENGINES
-from topo_verify.campaign.targets import target_text
+from topo_verify.campaign.campaign import close
+from topo_verify.campaign.run import ENGINES, policies_of
+from topo_verify.campaign.targets import one_target, target_text, targets
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import epilog
+from topo_verify.cli.output import Output
+from topo_verify.cli.reporting import ReportFiles
 from topo_verify.errors import InputError, shown
 from topo_verify.programs.library import LIBRARY
+from topo_verify.programs.loader import Target
+from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import MOST_SECONDS, Limits
 
 
@@ -78,11 +87,56 @@ def aliases(option: click.Parameter) -> Sequence[str]:
 
 
 def command(
-    *examples: str, group: click.Group | None = None, name: str | None = None
+    *examples: str, reports: bool = False, group: click.Group | None = None, name: str | None = None
 ) -> Callable[[Callable[..., int]], click.Command]:
-    """Make a command, of a group of its own if there is one, whose --help ends with examples."""
+    """Make a command that gets an `Output`, and whose --help ends with examples.
+
+    Args:
+        reports: it gives an account of its results, which --report, --junit and --badge write.
+        group: of commands, if it is in one.
+    """
     make = click.command if group is None else group.command
-    return make(name, cls=OnceCommand, epilog=epilog(*examples))
+
+    def decorate(run: Callable[..., int]) -> click.Command:
+        @wraps(run)
+        def wrapper(
+            style: str,
+            quiet: bool,  # noqa: FBT001  click passes it by name
+            report: str | None = None,
+            junit: str | None = None,
+            badge: str | None = None,
+            **kwargs: Any,
+        ) -> int:
+            output = Output(style, quiet=quiet)
+            with redirect_stdout(sys.stderr):  # what a mapper prints is no result
+                output.ask(ReportFiles(report, junit, badge))
+                return run(output, **kwargs)
+
+        made = make(name, cls=OnceCommand, epilog=epilog(*examples))(wrapper)
+        made.params += OUTPUT_OPTIONS + (REPORT_OPTIONS if reports else [])
+        return made
+
+    return decorate
+
+
+OUTPUT_OPTIONS: list[click.Parameter] = [
+    click.Option(
+        ["--format", "style"],
+        type=click.Choice(["pretty", "json", "markdown"]),
+        default="pretty",
+        show_default=True,
+        help="How results are printed.",
+    ),
+    click.Option(["--quiet"], is_flag=True, help="No progress, no warnings."),
+]
+
+REPORT_OPTIONS: list[click.Parameter] = [
+    click.Option(["--report"], metavar="FILE.html", help="Write one self-contained page."),
+    click.Option(
+        ["--junit"], metavar="FILE.xml", help="Write a JUnit file, a case a judged thing."
+    ),
+    click.Option(["--badge"], metavar="FILE.svg", help="Write a badge: verdict, and of how much."),
+]
 
 
 def _seconds(_context: click.Context, _option: click.Parameter, value: str) -> float:
@@ -238,85 +292,146 @@ in_process = click.option(
 )
 
 
-def target(command: Callable[..., int]) -> Callable[..., int]:
-    """Add the argument TARGET; the command gets it as `target`. --target is a hidden alias."""
+@dataclass(frozen=True)
+class Mappers:
+    """The mappers that a command line names, and how they are run.
 
-    @click.argument("target", required=False, metavar="[TARGET]")
-    @click.option("--target", "named", metavar="TARGET", hidden=True, help="the argument TARGET")
-    @wraps(command)
-    def wrapper(*args: Any, target: str | None, named: str | None, **kwargs: Any) -> int:
-        return command(*args, target=one_of(target, named), **kwargs)
-
-    return wrapper
-
-
-def one_of(target: str | None, named: str | None) -> str | None:
-    """The TARGET that is given in one of two ways, the second being --target.
-
-    Raises:
-        InputError: it is given in both.
+    Attributes:
+        texts: a TARGET each; none: none is named.
+        in_process: a mapper that is not of the catalogue shares this process.
+        pick, order: policies for algorithms of the catalogue.
     """
-    if target is not None and named is not None:
-        raise InputError(f"expected one TARGET, got {target!r} and --target {named}; leave one out")
-    return named if target is None else target
+
+    texts: tuple[str, ...]
+    in_process: bool
+    pick: str | None = None
+    order: str | None = None
+
+    def load(self) -> tuple[Target, ...]:
+        """All of these mappers; see `topo_verify.campaign.targets.targets`."""
+        return tuple(
+            target
+            for text in self.texts
+            for target in targets(
+                text, pick=self.pick, order=self.order, in_process=self.in_process
+            )
+        )
+
+    def load_one(self, usual: Policies | None = None) -> Target:
+        """The one mapper that is named, with the usual policies unless others are given.
+
+        Raises:
+            InputError: several mappers are named, or `load` raises it.
+        """
+        how: dict[str, Any] = {"pick": self.pick, "order": self.order}
+        target = one_target(self.texts[0], in_process=self.in_process, **how)
+        if usual is None or policies_of(target) is None:
+            return target
+        return one_target(target, pick=self.pick or usual.pick, order=self.order or usual.order)
+
+    @contextmanager
+    def opened(self, usual: Policies | None = None) -> Generator[Target]:
+        """The mapper that `load_one` returns; a program runs until the block ends."""
+        target = self.load_one(usual)
+        try:
+            yield target
+        finally:
+            close((target,))
 
 
-def program(run: Callable[..., int]) -> Callable[..., int]:
-    """Add --cmd and --library; the command gets what `target_text` takes as `command`."""
+def given() -> list[str]:
+    """The arguments and options of this command that stand on the command line."""
+    context = click.get_current_context()
+    return [
+        parameter.opts[0]
+        for parameter in context.command.params
+        if context.get_parameter_source(parameter.name or "") is ParameterSource.COMMANDLINE
+    ]
 
-    @click.option(
+
+_ARGUMENT = (
+    click.argument("target", required=False, metavar="[TARGET]"),
+    click.option("--target", "named", metavar="TARGET", hidden=True, help="the argument TARGET"),
+)
+
+_PROGRAM = (
+    click.option(
         "--cmd",
-        "command",
         metavar="'PROGRAM ARGS'",
         help="Run this program as the TARGET, without a shell; see docs/oracle.md.",
-    )
-    @click.option(
+    ),
+    click.option(
         "--library",
         metavar="FILE[:SYMBOL]",
         help="Run this native mapper as the TARGET; see docs/tutorials/native.md."
         "  [default SYMBOL: map_world]",
-    )
-    @wraps(run)
-    def wrapper(*args: Any, command: str | None, library: str | None, **kwargs: Any) -> int:
-        if library is not None:
-            if command is not None:
-                raise InputError(
-                    f"expected one TARGET, got --cmd {command} and --library {library}; leave one"
-                    " out"
-                )
-            command = LIBRARY + library
-        return run(*args, command=command, **kwargs)
-
-    return wrapper
+    ),
+    in_process,
+)
 
 
-def algorithms(default: str, meaning: str) -> Callable[[Callable[..., int]], Callable[..., int]]:
-    """Add --target and --cmd; the command gets the text of each TARGET as `algorithms`.
+def mappers(
+    default: str | None = None,
+    *,
+    required: bool = True,
+    meaning: str = "",
+    several: bool = False,
+    with_policies: bool = False,
+) -> Callable[[Callable[..., int]], Callable[..., int]]:
+    """Add the options that name a mapper; the command gets `mappers`.
 
-    --algorithm is a hidden alias.
+    TARGET is an argument, with --target as a hidden alias; or the option --target alone.
 
     Args:
-        default: the text if none is given.
-        meaning: the help of --target.
+        default: the TARGET if none is given.
+        required: without a default, a TARGET must be given.
+        meaning: the help of the option --target; empty: TARGET is an argument.
+        several: --target may be repeated, and has the hidden alias --algorithm.
+        with_policies: add --pick and --order.
     """
+    option = click.option(
+        *("--target", "--algorithm") if several else ("--target",),
+        "target",
+        cls=AliasedOption,
+        multiple=several,
+        metavar="TARGET",
+        help=f"{meaning}  [default: {default}]",
+    )
 
     def decorate(run: Callable[..., int]) -> Callable[..., int]:
-        @click.option(
-            "--target",
-            "--algorithm",
-            "texts",
-            cls=AliasedOption,
-            multiple=True,
-            metavar="TARGET",
-            help=f"{meaning} May be repeated.  [default: {default}]",
-        )
-        @program
         @wraps(run)
-        def wrapper(*args: Any, texts: Sequence[str], command: str | None, **kwargs: Any) -> int:
-            first = target_text(texts[0] if texts else None, command, default)
-            return run(*args, algorithms=(first, *texts[1:]), **kwargs)
+        def wrapper(
+            *args: Any,
+            target: str | tuple[str, ...] | None,
+            cmd: str | None,
+            library: str | None,
+            in_process: bool,
+            named: str | None = None,
+            **kwargs: Any,
+        ) -> int:
+            single = () if target is None else (target,)
+            texts = [*(target if isinstance(target, tuple) else single)]
+            if texts and named is not None:
+                raise InputError(
+                    f"expected one TARGET, got {target!r} and --target {named}; leave one out"
+                )
+            if cmd is not None and library is not None:
+                raise InputError(
+                    f"expected one TARGET, got --cmd {cmd} and --library {library}; leave one out"
+                )
+            texts += [] if named is None else [named]
+            command = cmd if library is None else LIBRARY + library
+            if required or texts or command is not None:
+                texts[:1] = [target_text(texts[0] if texts else None, command, default)]
+            names = ("pick", "order") if with_policies else ()  # others may mean another mapper's
+            how = {name: kwargs.pop(name) for name in names}
+            return run(*args, mappers=Mappers(tuple(texts), in_process, **how), **kwargs)
 
-        return wrapper
+        added = [*([option] if meaning else _ARGUMENT), *_PROGRAM]
+        command = policies(wrapper) if with_policies else wrapper
+        for add in reversed(added):
+            command = add(command)
+        return command
 
     return decorate
 

@@ -13,19 +13,22 @@ import json
 import os
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import contextmanager, redirect_stdout
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from functools import wraps
+from datetime import UTC, datetime
+from functools import cached_property
 from pathlib import Path
 from threading import Lock, Timer
 from time import perf_counter
-from typing import IO, TYPE_CHECKING, Any, Concatenate, Generic, ParamSpec, TypeVar
+from typing import IO, TYPE_CHECKING, Any, Generic, TypeVar
 
 import click
 import msgspec
 
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.failures import ExitCode, exit_code, say, silence, version
+from topo_verify.cli.reporting import ReportFiles, command_line, versions
+from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError, plural
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text
@@ -36,7 +39,6 @@ if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
 
-P = ParamSpec("P")
 E = TypeVar("E", bound=msgspec.Struct)
 
 VERSION = 1
@@ -85,26 +87,6 @@ class Live(Generic[E]):
     end: Callable[[Sequence[E]], Iterable[Block]]
 
 
-@dataclass(frozen=True)
-class Ending:
-    """How the work of a command ended.
-
-    Attributes:
-        command: its name, as `verify`.
-        code: the exit code.
-        finished: whether the work came to its end.
-        seconds, timing: how long it took, and what else differs from run to run.
-        by_result: how long each result took.
-    """
-
-    command: str
-    code: int
-    finished: bool
-    seconds: float
-    timing: dict[str, Any]
-    by_result: tuple[float, ...]
-
-
 def entry_of(kind: type[E], *sources: object, **more: object) -> E:
     """An entry of `results` that reports on these objects.
 
@@ -132,17 +114,34 @@ class Output:
 
     Attributes:
         timing: what differs from run to run, for `timing` in the JSON; a command may add to it.
-        report: writes the files that --report, --junit and --badge ask for; None: none does.
-        exhibits: whether a page is asked for, which shows the counterexamples.
     """
 
     def __init__(self, style: str, *, quiet: bool) -> None:
         self.timing: dict[str, Any] = {}
-        self.report: Callable[[acc.Account, Ending], None] | None = None
-        self.exhibits = False
         self.style, self.quiet = style, quiet
         self.stdout: IO[str] = sys.stdout or _nowhere()
         self.progress = ProgressBar(quiet=quiet)
+        self._files: list[ReportFiles] = []
+
+    def ask(self, files: ReportFiles) -> None:
+        """Have these files written at the end, beside those that were asked for before.
+
+        Raises:
+            InputError: it can be seen now that one of them cannot be written.
+        """
+        files.check()
+        if files.named:
+            self._files.append(files)
+
+    @property
+    def exhibits(self) -> bool:
+        """Whether a page is asked for, which shows the counterexamples."""
+        return any(files.report is not None for files in self._files)
+
+    @cached_property
+    def found(self) -> FoundRuns:
+        """The counterexamples that the command meets."""
+        return FoundRuns(people=self.style != "json", page=self.exhibits)
 
     def note(self, sentence: str) -> None:
         """Print a warning or a remark on stderr, unless --quiet."""
@@ -158,6 +157,7 @@ class Output:
         *,
         live: Live[E] | None = None,
         account: Callable[[Sequence[E]], acc.Account] | None = None,
+        walk: bool = True,
         **more: Any,
     ) -> int:
         """Do the command's work, print its results and return the exit code.
@@ -167,34 +167,64 @@ class Output:
             show: turns all entries into blocks, for people.
             live: prints the entries one by one in `pretty` form, in place of `show`.
             account: says what the entries come to, if the command can be asked for a report.
+            walk: show the walk of the first counterexample behind the entries.
             more: further fields of the JSON envelope.
         """
         done: _Done[E] = _Done()
         # JSON and Markdown are one document each; only people see entries as they come.
         live = live if self.style == "pretty" else None
-        last = _with_remark(live.end if live else show, in_process=bool(more.get("in_process")))
+
+        def accounted(account: Callable[[Sequence[E]], acc.Account]) -> acc.Account:
+            """The account with the verdict of the exit code, for each form of it.
+
+            An account says what its entries are if all of them pass; it knows of no interrupt.
+            """
+            made = account(done.entries)
+            words = made.extent.words + ("" if done.finished else ", interrupted")
+            return replace(
+                made,
+                about=made.about or command,  # no entry names a mapper
+                extent=acc.JudgedExtent(_VERDICTS.get(done.code, made.extent.verdict), words),
+                blocks=made.blocks or tuple(show(done.entries)),
+                exhibits=self.found.exhibits,
+                left_out=self.found.left_out,
+            )
+
+        def last() -> Iterator[Block]:
+            if account is not None and self.style == "markdown":
+                made = accounted(account)  # first, since a summary is read from its first line
+                yield Text(f"{made.extent.verdict}: {made.about}, {made.extent.words}")
+            yield from (live.end if live else show)(done.entries)
+            yield from self.found.blocks() if walk else ()
+            if more.get("in_process"):
+                yield Text("")
+                yield Text("In process: a mapper of your own could see what judges it.")
+
         begin = perf_counter()
         try:
             if live is not None:
                 self._pretty(live.head)
             self._collect(done, results(), live)
-            if account is not None and self.style == "markdown":
-                last = _with_verdict(last, lambda entries: _ended(account(entries), command, done))
-            self._print(command, done, last, perf_counter() - begin, more)
+            self._print(command, done, last(), perf_counter() - begin, more)
             if not done.finished:
                 say(f"topo-verify: interrupted after {plural(len(done.results), 'result')}")
         except _ReaderGone:
             pass  # what was asked for in files is written all the same
-        if self.report is not None and account is not None:
-            ending = Ending(
-                command,
-                int(done.code),
-                done.finished,
-                perf_counter() - begin,
-                self.timing,
-                tuple(done.seconds),
+        if account is not None and self._files:
+            ending = acc.Ending(
+                command=command,
+                again=command_line(click.get_current_context().obj or ()),
+                code=int(done.code),
+                finished=done.finished,
+                date=datetime.now(UTC),
+                seconds=perf_counter() - begin,
+                by_suite=done.seconds,
+                timing=self.timing,
+                versions=versions(),
             )
-            self.report(_ended(account(done.entries), command, done), ending)
+            made = accounted(account)
+            for files in self._files:
+                files.write(made, ending)
         return done.code
 
     def _collect(self, done: _Done[E], results: Iterator[Result[E]], live: Live[E] | None) -> None:
@@ -218,12 +248,12 @@ class Output:
         self,
         command: str,
         done: _Done[E],
-        show: Callable[[Sequence[E]], Iterable[Block]],
+        blocks: Iterable[Block],
         seconds: float,
         more: dict[str, Any],
     ) -> None:
         if self.style == "pretty":
-            self._pretty(show(done.entries))
+            self._pretty(blocks)
             return
         with _reader(self.stdout) as out:
             if self.style == "json":
@@ -240,7 +270,7 @@ class Output:
                 # One object, written at the end: a script never reads half a result.
                 out.write(json.dumps(envelope) + "\n")
             else:
-                out.write(markdown(show(done.entries)))
+                out.write(markdown(blocks))
 
     def _pretty(self, blocks: Iterable[Block]) -> None:
         with _reader(self.stdout) as out:
@@ -268,46 +298,6 @@ def _reader(out: IO[str]) -> Generator[IO[str]]:
         raise InputError(f"cannot write to standard output: {error.strerror}") from error
 
 
-def _with_remark(
-    show: Callable[[Sequence[E]], Iterable[Block]], *, in_process: bool
-) -> Callable[[Sequence[E]], Iterable[Block]]:
-    """Show the entries, and behind them what a report must say of `--in-process`."""
-
-    def shown(entries: Sequence[E]) -> Iterator[Block]:
-        yield from show(entries)
-        if in_process:
-            yield Text("")
-            yield Text("In process: a mapper of your own could see what judges it.")
-
-    return shown
-
-
-def _with_verdict(
-    show: Callable[[Sequence[E]], Iterable[Block]], account: Callable[[Sequence[E]], acc.Account]
-) -> Callable[[Sequence[E]], Iterable[Block]]:
-    """Show the verdict on all above the entries: a summary is read from its first line."""
-
-    def shown(entries: Sequence[E]) -> Iterator[Block]:
-        made = account(entries)
-        yield Text(f"{made.extent.verdict}: {made.about}, {made.extent.words}")
-        yield from show(entries)
-
-    return shown
-
-
-def _ended(account: acc.Account, command: str, done: _Done[E]) -> acc.Account:
-    """The account with the verdict of the exit code, for first line, page, JUnit file and badge.
-
-    An account says what its entries are if all of them pass; it knows of no interrupt.
-    """
-    words = account.extent.words
-    verdict = _VERDICTS.get(done.code, account.extent.verdict)
-    if not done.finished:
-        words += ", interrupted"
-    about = account.about or command  # no entry names a mapper
-    return replace(account, about=about, extent=acc.JudgedExtent(verdict, words))
-
-
 _VERDICTS: dict[ExitCode, Verdict] = {
     ExitCode.CLAIM_FAILED: "REFUTED",
     ExitCode.INCOMPLETE: "UNKNOWN",
@@ -317,27 +307,6 @@ _VERDICTS: dict[ExitCode, Verdict] = {
 def _nowhere() -> IO[str]:
     """The null device, for a standard output that was closed before the start."""
     return Path(os.devnull).open("w", encoding="utf-8")
-
-
-def output_options(command: Callable[Concatenate[Output, P], int]) -> Callable[..., int]:
-    """Add --format and --quiet; the command gets an `Output` as its first argument."""
-
-    @click.option(
-        "--format",
-        "style",
-        type=click.Choice(["pretty", "json", "markdown"]),
-        default="pretty",
-        show_default=True,
-        help="How results are printed.",
-    )
-    @click.option("--quiet", is_flag=True, help="No progress, no warnings.")
-    @wraps(command)
-    def wrapper(style: str, quiet: bool, *args: P.args, **kwargs: P.kwargs) -> int:  # noqa: FBT001  click passes them by name
-        output = Output(style, quiet=quiet)
-        with redirect_stdout(sys.stderr):  # what a mapper prints must not stand among the results
-            return command(output, *args, **kwargs)
-
-    return wrapper
 
 
 DELAY = 1.0

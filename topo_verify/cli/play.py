@@ -8,9 +8,9 @@ import click
 import msgspec
 
 from topo_verify.campaign.run import explore as run_mapper
-from topo_verify.campaign.targets import targets
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, output_options
+from topo_verify.cli.options import Mappers
+from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import judged, named_world
 from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
@@ -84,22 +84,21 @@ def write_animation(file: str, world: World, run: PlayedRun) -> None:
     "play m5/17 --target my_mapper.py:explore",
 )
 @click.argument("world", metavar="WORLD")
-@options.algorithms("enhancement-ii", "Whose runs to show; of several, two stand side by side.")
-@options.in_process
-@options.policies
+@options.mappers(
+    "enhancement-ii",
+    meaning="Whose runs to show; of several, two stand side by side. May be repeated.",
+    several=True,
+    with_policies=True,
+)
 @options.marker
 @click.option("-o", "file", metavar="FILE", default="player.html", show_default=True)
 @options.strict
 @options.limits
-@output_options
-def play(  # noqa: PLR0913  an argument an option
+def play(
     output: Output,
     *,
     world: str,
-    algorithms: Sequence[str],
-    in_process: bool,
-    pick: str | None,
-    order: str | None,
+    mappers: Mappers,
     marker: int | None,
     file: str,
     strict: bool,
@@ -112,11 +111,7 @@ def play(  # noqa: PLR0913  an argument an option
     """
 
     def played() -> Iterator[Result[PlayEntry]]:
-        found = [
-            target
-            for text in algorithms
-            for target in targets(text, pick=pick, order=order, in_process=in_process)
-        ]
+        found = mappers.load()
         at = named_world(world, marker)
         require_one_world(file, 1)
         runs: list[PlayedRun] = []
@@ -129,7 +124,7 @@ def play(  # noqa: PLR0913  an argument an option
         findings = sum(len(one.findings) for run in runs for one in run.judgements)
         yield Result(PlayEntry(at.name, file, tuple(run.name for run in runs), findings))
 
-    return output.run("play", played, _show, in_process=in_process)
+    return output.run("play", played, _show, in_process=mappers.in_process)
 
 
 def _show(entries: Sequence[PlayEntry]) -> Iterator[Block]:

@@ -12,9 +12,7 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.output import Live, Output, Result, entry_of, output_options
-from topo_verify.cli.reporting import report_options
-from topo_verify.cli.walks import FoundRuns
+from topo_verify.cli.output import Live, Output, Result, entry_of
 from topo_verify.errors import InputError, InternalError, plural
 from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem, TheoremKind
 from topo_verify.report import account as acc
@@ -130,6 +128,7 @@ class ProveListEntry(msgspec.Struct, frozen=True):
     "prove percept word-confirm-step --list",
     "prove --kind inductive --solver cvc5",
     "prove --kind bounded --certify",
+    reports=True,
 )
 @click.argument("names", nargs=-1, metavar="[NAME...]")
 @click.option("--list", "listing", is_flag=True, help="List the theorems and prove nothing.")
@@ -156,8 +155,6 @@ class ProveListEntry(msgspec.Struct, frozen=True):
 @click.option("--certify", is_flag=True, help="Make and check certificates of bounded theorems.")
 @click.option("--smt2", "folder", metavar="DIR", help="Write each question to DIR as SMT-LIB 2.")
 @options.seed("Seed of the solver.")
-@output_options
-@report_options
 def prove(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
@@ -204,20 +201,19 @@ def prove(  # noqa: PLR0913  an argument an option
         return _live(entry, seconds[entry.name])
 
     live = Live((Text(_head(theorems, budget)),), one, _end)
-    found = FoundRuns(output)
 
     return output.run(
         "prove",
         proved,
         _show,
         live=live,
-        account=lambda entries: _account(entries, _again(solver, timeout, seed), found),
+        account=lambda entries: _account(output, entries, _again(solver, timeout, seed)),
         seed=seed,
         deep=deep,
     )
 
 
-def _account(entries: Sequence[ProveEntry], options: str, found: FoundRuns) -> acc.Account:
+def _account(output: Output, entries: Sequence[ProveEntry], options: str) -> acc.Account:
     """The account of `prove`: a suite a kind, a case a theorem.
 
     Args:
@@ -225,20 +221,19 @@ def _account(entries: Sequence[ProveEntry], options: str, found: FoundRuns) -> a
     """
     # What is not as expected comes first.
     for entry in sorted(entries, key=lambda one: (one.ok, one.kind != "negative")):
-        found.show(_exhibit(entry))
+        output.found.show(_exhibit(entry))
     positive = [entry.verdict for entry in entries if entry.expected != "REFUTED"]
     things = "theorem" if len(entries) == 1 else "theorems"
     words = acc.counted(sum(entry.ok for entry in entries), len(entries), f"{things} as expected")
     suites: dict[str, list[acc.JudgedCase]] = {}
     for entry in sorted(entries, key=lambda one: KINDS.index(one.kind)):
         suites.setdefault(entry.kind, []).append(_case(entry, options))
-    return found.account(
+    return acc.Account(
         plural(len(entries), "theorem"),
         acc.JudgedExtent(
             "PROVED" if acc.joint_verdict(positive) == "PROVED" else "EXHAUSTED", words
         ),
-        suites.items(),
-        _show(entries),
+        acc.suites(suites.items()),
     )
 
 

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
-from functools import wraps
-from typing import Any
+from collections.abc import Iterable, Iterator, Sequence
 
 import click
 import msgspec
@@ -13,26 +10,20 @@ import msgspec
 from topo_verify.campaign.campaign import CorpusWorlds
 from topo_verify.campaign.corpus import DEFAULT, Corpus, corpus_from
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import Engine, on_engine, policies_of
-from topo_verify.campaign.targets import one_target, target_text
+from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.checkers import Finding
 from topo_verify.cli import options
 from topo_verify.cli.kept_runs import opened, stored_rows
-from topo_verify.cli.output import Output, Result, output_options
+from topo_verify.cli.options import Mappers
+from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import finding_blocks
 from topo_verify.errors import plural
-from topo_verify.programs.loader import Target
-from topo_verify.programs.program import Program
 from topo_verify.report.blocks import Block, Text, TextTable
-from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline.file import Baseline, encode
 from topo_verify.studies.baseline.record import MAX_TIMEOUTS, baseline_runs, replay_command
 from topo_verify.studies.baseline.record import record as run_all
 from topo_verify.world.formats import files
-
-MapperOpener = Callable[..., AbstractContextManager[Target]]
-"""Opens the mapper of a command; a program runs until the block ends."""
 
 SHOWN = 3
 """The number of failing worlds whose findings are shown."""
@@ -66,60 +57,6 @@ class RecordEntry(msgspec.Struct, frozen=True):
     findings: tuple[Finding, ...]
 
 
-def mapper_options(run: Callable[..., int]) -> Callable[..., int]:
-    """Add TARGET, --cmd and so on; the command gets `mapper`, which opens it, and `in_process`.
-
-    Its argument, if given, replaces the default policies of an algorithm of the catalogue. Of the
-    options of the runs the command gets `workers` and `store`.
-    """
-
-    @options.target
-    @options.program
-    @options.in_process
-    @options.policies
-    @options.workers(0)
-    @options.store
-    @wraps(run)
-    def wrapper(
-        *args: Any,
-        target: str | None,
-        command: str | None,
-        in_process: bool,
-        pick: str | None,
-        order: str | None,
-        **kwargs: Any,
-    ) -> int:
-        def mapper(usual: Policies | None = None) -> AbstractContextManager[Target]:
-            return _opened(target, command, (pick, order), usual, in_process=in_process)
-
-        return run(*args, mapper=mapper, in_process=in_process, **kwargs)
-
-    return wrapper
-
-
-@contextmanager
-def _opened(
-    name: str | None,
-    cmd: str | None,
-    asked: tuple[str | None, str | None],
-    usual: Policies | None,
-    *,
-    in_process: bool,
-) -> Generator[Target]:
-    """The mapper that the options name; a program runs until the block ends."""
-    pick, order = asked
-    text = target_text(name, cmd)
-    target = one_target(text, pick=pick, order=order, in_process=in_process)
-    if usual is not None and policies_of(target) is not None:
-        # Policies on the command line go before those of the baseline.
-        target = one_target(target, pick=pick or usual.pick, order=order or usual.order)
-    try:
-        yield target
-    finally:
-        if isinstance(target.mapper, Program):
-            target.mapper.close()
-
-
 @options.command(
     "record my_mapper.py:explore --out baseline.jsonl.gz",
     "record basic --worlds 'edges<=5' --worlds nyc --out basic.jsonl.gz",
@@ -132,15 +69,15 @@ def _opened(
     help="corpus, edges<=N, generated:N, a folder or a WORLD; repeatable.  [default: corpus]",
 )
 @options.seed("Seed of the generated worlds.")
-@mapper_options
+@options.mappers(with_policies=True)
+@options.workers(0)
+@options.store
 @options.engine
 @options.limits
-@output_options
 def record(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
-    mapper: MapperOpener,
-    in_process: bool,
+    mappers: Mappers,
     engine: Engine,
     out: str,
     worlds: tuple[str, ...],
@@ -165,7 +102,7 @@ def record(  # noqa: PLR0913  an argument an option
                     failing.append(row)
                 yield row
 
-        with opened(store) as file, mapper() as target:
+        with opened(store) as file, mappers.opened() as target:
             on_engine(engine, (target,), limits)  # whether it can be run is said before all else
             named = CorpusWorlds(corpus)
             runs = baseline_runs(
@@ -185,7 +122,7 @@ def record(  # noqa: PLR0913  an argument an option
         kept = _entry(made, corpus, out if whole else None, findings)
         yield Result(kept, failed=kept.wrong > 0, incomplete=kept.undecided > 0)
 
-    return output.run("record", recorded, _show, seed=seed, in_process=in_process)
+    return output.run("record", recorded, _show, seed=seed, in_process=mappers.in_process)
 
 
 def _entry(

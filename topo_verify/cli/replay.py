@@ -12,10 +12,10 @@ import msgspec
 
 from topo_verify.campaign.judge import Report, in_words, judge_trace, strict_option
 from topo_verify.campaign.run import explore as run_mapper
-from topo_verify.campaign.targets import one_target, target_text
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, entry_of, output_options
+from topo_verify.cli.options import Mappers
+from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import NamedWorld, judged, named_world, unjudged
 from topo_verify.cli.walks import other_findings, walk_view
@@ -28,6 +28,9 @@ from topo_verify.robot.events import Finish, Start, read_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
+
+OF_A_MAPPER = ("--target", "--cmd", "--library", "--pick", "--order")
+"""Options that mean nothing to a trace, which has its mapper behind it."""
 
 
 class ReplayEntry(msgspec.Struct, frozen=True):
@@ -57,10 +60,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     "replay trace.jsonl",
 )
 @click.argument("what", metavar="FILE|WORLD")
-@click.option("--target", metavar="TARGET", help="The mapper to run in WORLD.  [default: basic]")
-@options.program
-@options.in_process
-@options.policies
+@options.mappers("basic", meaning="The mapper to run in WORLD.", with_policies=True)
 @options.marker
 @click.option(
     "--world", "world_text", metavar="WORLD", help="The world in which the trace was recorded."
@@ -75,16 +75,11 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 @player_option
 @options.strict
 @options.limits
-@output_options
 def replay(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
     what: str,
-    target: str | None,
-    command: str | None,
-    in_process: bool,
-    pick: str | None,
-    order: str | None,
+    mappers: Mappers,
     marker: int | None,
     world_text: str | None,
     everything: bool,
@@ -107,8 +102,7 @@ def replay(  # noqa: PLR0913  an argument an option
         data = _bytes(what)
         if data is not None and _is_trace(data):
             # A trace has its mapper and limits behind it: an option would be ignored in silence.
-            given = {"--target": target, "--cmd": command, "--pick": pick, "--order": order}
-            words = [name for name, value in given.items() if value is not None]
+            words = [name for name in options.given() if name in OF_A_MAPPER]
             _require_none((*words, *limits.options), what)
             report, stopped = _judged(output, what, data, world_text, marker, strict=strict)
             trace, incomplete = what, report.ok and report.undecided
@@ -117,8 +111,7 @@ def replay(  # noqa: PLR0913  an argument an option
                 raise InputError(
                     f"--world {world_text}: expected a trace, got {what}; leave --world out"
                 )
-            text = target_text(target, command, "basic")
-            mapper = one_target(text, pick=pick, order=order, in_process=in_process)
+            mapper = mappers.load_one()
             trace, at = None, named_world(what, marker, data)
             report, stopped, incomplete = _ran(output, at, mapper, limits, strict=strict)
         reports.append(_told(report, first, player))
@@ -126,7 +119,10 @@ def replay(  # noqa: PLR0913  an argument an option
 
     asked = Extent(0, to_end=True) if everything else Extent(first, to_end=first is not None)
     return output.run(
-        "replay", replayed, lambda entries: _show(entries, reports, asked), in_process=in_process
+        "replay",
+        replayed,
+        lambda entries: _show(entries, reports, asked),
+        in_process=mappers.in_process,
     )
 
 

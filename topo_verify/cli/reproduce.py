@@ -13,7 +13,7 @@ from topo_verify.campaign.run import Engine, explore, require_compiled
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.kept_runs import open_store, stored_rows
-from topo_verify.cli.output import Output, Result, output_options
+from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import finding_blocks
 from topo_verify.errors import InputError
 from topo_verify.report.blocks import Block, Text, TextTable
@@ -87,7 +87,6 @@ _Found = list[tuple[Figure, list[FigurePoint]]]
 @options.seed("Of the graphs.")
 @options.engine
 @options.number("--workers", least=1, meaning="Processes.  [default: all processors]")
-@output_options
 def reproduce(  # noqa: PLR0913  an argument an option
     output: Output,
     *,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from itertools import chain
@@ -16,13 +16,12 @@ from topo_verify.campaign.cluster import Cluster, both_given, connected
 from topo_verify.campaign.identity import Identity, source_hash
 from topo_verify.campaign.run import Engine, is_native
 from topo_verify.campaign.store import Store, StoredCampaign
-from topo_verify.campaign.targets import target_text, targets
+from topo_verify.campaign.targets import targets
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, output_options
-from topo_verify.cli.reporting import report_options
+from topo_verify.cli.options import Mappers
+from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import unjudged
-from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import InputError, plural
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
@@ -49,10 +48,9 @@ from topo_verify.world.enumeration.classes import WorldClass
     "search enhancement-i --edges 6 --ledger FILE --worst",
     "search basic --policies every --edges 4 --worst",
     "search --compare enhancement-ii,enhancement-i --edges 5",
+    reports=True,
 )
-@options.target
-@options.program
-@options.in_process
+@options.mappers(required=False)
 @options.number("--edges", least=1, default=5, meaning="Worlds of 1 to N edges.")
 @options.world_class
 @options.workers()
@@ -81,14 +79,10 @@ from topo_verify.world.enumeration.classes import WorldClass
 @click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
 @options.seed("Seed of the worlds that are run again.")
 @options.limits
-@output_options
-@report_options
 def search(  # noqa: PLR0913  an argument an option
     output: Output,
     *,
-    target: str | None,
-    command: str | None,
-    in_process: bool,
+    mappers: Mappers,
     edges: int,
     kind: str,
     workers: int | None,
@@ -119,7 +113,7 @@ def search(  # noqa: PLR0913  an argument an option
             keep_going=keep_going,
             limits=limits,
             seed=seed,
-            in_process=in_process,
+            in_process=mappers.in_process,
             engine=engine,
         )
         _require_files(depends)
@@ -127,28 +121,17 @@ def search(  # noqa: PLR0913  an argument an option
             if ledger is not None:
                 watch()  # before a mapper is loaded, and after Dask has read its settings
             needed = None if ledger is None else depends
-            for mappers in _mappers(target, command, compare, ledger, in_process=in_process):
-                campaign = campaign_of(mappers)
-                backend = _backend(mappers, workers, cluster, needed)
-                with _opened(output, ledger, depends, campaign, mappers) as store:
-                    study = Search(campaign, mappers, backend, store)
-                    yield from _searched(output, study, found, compare=compare is not None)
-
-    def body(entries: Sequence[SearchEntry]) -> Iterator[Block]:
-        return chain.from_iterable(_shown(entry, worst=worst) for entry in entries)
+            for searched in _searches(mappers, compare, ledger):
+                campaign = campaign_of(searched)
+                backend = _backend(searched, workers, cluster, needed)
+                with _opened(output, ledger, depends, campaign, searched) as store:
+                    study = Search(campaign, searched, backend, store)
+                    yield from _searched(output, study, compare=compare is not None)
 
     def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
-        yield from body(entries)
-        yield from found.blocks()
+        return chain.from_iterable(_shown(entry, worst=worst) for entry in entries)
 
-    found = FoundRuns(output)
-    return output.run(
-        "search",
-        searches,
-        show,
-        account=lambda entries: _account(entries, body(entries), found),
-        in_process=in_process,
-    )
+    return output.run("search", searches, show, account=_account, in_process=mappers.in_process)
 
 
 def _require_files(depends: Sequence[str]) -> None:
@@ -181,16 +164,11 @@ def _backend(
     return here(mappers, depends=depends)
 
 
-def _mappers(
-    target: str | None,
-    command: str | None,
-    compare: str | None,
-    ledger: str | None,
-    *,
-    in_process: bool,
+def _searches(
+    mappers: Mappers, compare: str | None, ledger: str | None
 ) -> list[tuple[Target, ...]]:
     """The mappers of each search: one, or the two that are compared."""
-    if (target is None and command is None) == (compare is None):
+    if bool(mappers.texts) == (compare is not None):
         raise InputError("expected either a TARGET or two mappers with --compare A,B")
     if compare is not None:
         pair = targets(compare)
@@ -199,8 +177,7 @@ def _mappers(
                 f"--compare {compare}: expected two different algorithms of the catalogue, as A,B"
             )
         return [pair]
-    text = target_text(target, command)
-    found: list[tuple[Target, ...]] = [(mapper,) for mapper in targets(text, in_process=in_process)]
+    found: list[tuple[Target, ...]] = [(mapper,) for mapper in mappers.load()]
     if ledger is not None and len(found) != 1:
         raise InputError(
             f"--ledger {ledger}: expected one TARGET, got {len(found)}; search them one by one"
@@ -208,9 +185,7 @@ def _mappers(
     return found
 
 
-def _searched(
-    output: Output, study: Search, found: FoundRuns, *, compare: bool
-) -> Iterator[Result[SearchEntry]]:
+def _searched(output: Output, study: Search, *, compare: bool) -> Iterator[Result[SearchEntry]]:
     """The result of one search; after Ctrl-C, of the worlds done so far."""
     campaign = study.campaign
 
@@ -234,7 +209,7 @@ def _searched(
     reports = None if campaign.ways is None else partial(reports_of, campaign)
     for one in (entry.counterexample, *(claim.smallest for claim in entry.claims)):
         if one is not None:
-            found.run_again(
+            output.found.run_again(
                 study.mappers,
                 *(one.world, one.claim, campaign.limits, one.message),
                 reports=reports,
@@ -266,18 +241,15 @@ def _opened(
 # ---------------------------------------------------------------- the account
 
 
-def _account(
-    entries: Sequence[SearchEntry], blocks: Iterable[Block], found: FoundRuns
-) -> acc.Account:
+def _account(entries: Sequence[SearchEntry]) -> acc.Account:
     """The account of `search`: a suite a search; its verdict, and a case a claim."""
     verdict = acc.joint_verdict([entry.verdict for entry in entries])
     failing = sum(size.failing for entry in entries for size in entry.by_edges)
     checked, total = sum(e.checked for e in entries), sum(e.total for e in entries)
-    return found.account(
+    return acc.Account(
         ", ".join(entry.target for entry in entries),
         acc.extent(verdict, checked, total, failing),
-        ((_suite(entry), _cases(entry)) for entry in entries),
-        blocks,
+        acc.suites((_suite(entry), _cases(entry)) for entry in entries),
     )
 
 

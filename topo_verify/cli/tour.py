@@ -10,7 +10,7 @@ import msgspec
 
 from topo_verify.checkers import check
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result, entry_of, output_options
+from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.play import player_option, require_one_world, write_page
 from topo_verify.cli.runs import named_world
 from topo_verify.errors import InputError, plural
@@ -76,7 +76,6 @@ class TourEntry(msgspec.Struct, frozen=True):
 @click.option(
     "--against", "log", metavar="LOG", help="Judge the map by this log, and go on where it ends."
 )
-@output_options
 def tour(
     output: Output,
     *,

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import click
 
-from topo_verify.campaign.targets import target_text, targets
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.output import Live, Output, Result, output_options
-from topo_verify.cli.reporting import report_options
+from topo_verify.cli.options import Mappers
+from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.runs import finding_blocks, unjudged
-from topo_verify.cli.walks import FoundRuns
 from topo_verify.errors import plural
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
@@ -24,21 +22,17 @@ from topo_verify.studies.verify import verify as campaign
 from topo_verify.studies.verify.parts import Part
 
 
-@options.command("verify", "verify my_mapper.py:explore", "verify --quick --format json")
-@options.target
-@options.program
-@options.in_process
+@options.command(
+    "verify", "verify my_mapper.py:explore", "verify --quick --format json", reports=True
+)
+@options.mappers("all")
 @click.option("--quick", is_flag=True, help="Check smaller worlds, in a few seconds.")
 @options.seed("Seed of the sampled and generated worlds.", campaign.SEED)
 @options.limits
-@output_options
-@report_options
 def verify(
     output: Output,
     *,
-    target: str | None,
-    command: str | None,
-    in_process: bool,
+    mappers: Mappers,
     quick: bool,
     seed: int,
     limits: Limits,
@@ -49,41 +43,33 @@ def verify(
     path/file.py:attribute. A mapper takes a robot and returns a map. For a mapper of your own the
     parts counts and proofs are left out: they do not depend on it.
     """
-    text = target_text(target, command, "all")
-    mappers = targets(text, in_process=in_process)
+    loaded = mappers.load()
 
     def parts() -> Iterator[Result[Part]]:
         tell = output.progress
-        for part in campaign.verify(mappers, quick=quick, seed=seed, limits=limits, tell=tell):
+        for part in campaign.verify(loaded, quick=quick, seed=seed, limits=limits, tell=tell):
             incomplete = part.verdict == "UNKNOWN"
             if part.findings:
                 for first in _first_of_each(part):
-                    found.run_again(mappers, first.world, first.claim, limits, first.message)
+                    output.found.run_again(loaded, first.world, first.claim, limits, first.message)
             yield Result(part, failed=part.verdict == "REFUTED", incomplete=incomplete)
 
-    def end(entries: Sequence[Part]) -> Iterator[Block]:
-        yield from _end(entries)
-        yield from found.blocks()
-
-    found = FoundRuns(output)
-
-    others = campaign.left_out(mappers)
-    head = tuple(map(Text, _head(mappers, seed, others)))
+    others = campaign.left_out(loaded)
+    head = tuple(map(Text, _head(loaded, seed, others)))
     return output.run(
         "verify",
         parts,
-        lambda entries: _show(head, entries, end),
-        live=Live(head, _live, end),
-        account=lambda entries: found.account(
-            _who(mappers),
+        lambda entries: _show(head, entries),
+        live=Live(head, _live, _end),
+        account=lambda entries: acc.Account(
+            _who(loaded),
             _extent(entries),
-            ((part.part, cases_of(part)) for part in entries),
-            _show(head, entries, _end),
+            acc.suites((part.part, cases_of(part)) for part in entries),
         ),
-        target=text,
+        target=mappers.texts[0],
         quick=quick,
         seed=seed,
-        in_process=in_process,
+        in_process=mappers.in_process,
         left_out=others,
     )
 
@@ -154,17 +140,15 @@ def _head(mappers: Sequence[Target], seed: int, others: Sequence[str]) -> Iterat
         )
 
 
-def _show(
-    head: Iterable[Block], entries: Sequence[Part], end: Callable[[Sequence[Part]], Iterable[Block]]
-) -> Iterator[Block]:
-    """All parts in one table, then what `_first` and `end` say of them."""
+def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
+    """All parts in one table, then what `_first` and `_end` say of them."""
     yield from head
     columns = ("part", "verdict", ">checked", ">total", "summary")
     rows = [(e.part, e.verdict, str(e.checked), str(e.total), e.summary) for e in entries]
     yield TextTable(columns, rows)
     for entry in entries:
         yield from _first(entry)
-    yield from end(entries)
+    yield from _end(entries)
 
 
 def _live(entry: Part) -> Iterator[Block]:

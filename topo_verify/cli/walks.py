@@ -6,11 +6,10 @@ more, and its walk is shown if the same claim fails again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from topo_verify.campaign.judge import Report
 from topo_verify.campaign.run import explore
-from topo_verify.cli.output import Output
 from topo_verify.cli.runs import NamedWorld, finding_line, judged
 from topo_verify.errors import InputError
 from topo_verify.player import walk
@@ -58,13 +57,14 @@ class FoundRuns:
     """The counterexamples that a command meets: the walk of the first, and exhibits for a page.
 
     Args:
-        output: of the command. People see a walk; a page shows all, up to `MOST_EXHIBITS`.
+        people: whether people read what is printed; they see a walk.
+        page: whether a page is asked for; it shows all, up to `MOST_EXHIBITS`.
     """
 
-    def __init__(self, output: Output) -> None:
-        self._people = output.style != "json"
-        self._most = MOST_EXHIBITS if output.exhibits else int(self._people)
-        self._alone = output.exhibits
+    def __init__(self, *, people: bool, page: bool) -> None:
+        self._people = people
+        self._most = MOST_EXHIBITS if page else int(people)
+        self._alone = page
         self._report: Report | None = None
         self._exhibits: dict[tuple[str, str], acc.Exhibit] = {}
         self._seen: set[tuple[str, str]] = set()
@@ -143,30 +143,6 @@ class FoundRuns:
     def left_out(self) -> int:
         """How many more there were."""
         return len(self._seen) - len(self._exhibits)
-
-    def account(
-        self,
-        about: str,
-        extent: acc.JudgedExtent,
-        suites: Iterable[tuple[str, Iterable[acc.JudgedCase]]],
-        blocks: Iterable[Block],
-        others: Iterable[acc.Exhibit] = (),
-    ) -> acc.Account:
-        """What the command came to, with its counterexamples.
-
-        Args:
-            suites: the name of each suite, and its cases.
-            others: exhibits of runs in which nothing is wrong.
-        """
-        return acc.Account(
-            about,
-            extent,
-            tuple(acc.JudgedSuite(name, tuple(cases)) for name, cases in suites),
-            tuple(blocks),
-            self.exhibits,
-            self.left_out,
-            tuple(others),
-        )
 
     def blocks(self) -> Iterator[Block]:
         """The walk with its title, and the command that shows it again; none if there is none."""

@@ -15,7 +15,7 @@ import msgspec
 from topo_verify.campaign.corpus import drawn as worlds_drawn
 from topo_verify.cli import options
 from topo_verify.cli.failures import epilog
-from topo_verify.cli.output import Live, Output, Result, entry_of, output_options
+from topo_verify.cli.output import Live, Output, Result, entry_of
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.errors import InputError, plural
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
@@ -79,7 +79,6 @@ class ShowEntry(msgspec.Struct, frozen=True):
 @options.command("world show nyc", "world show m5/17 --format json", group=world)
 @click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
 @options.marker
-@output_options
 def show(output: Output, *, worlds: tuple[str, ...], marker: int | None) -> int:
     """Show a world: its size, genus, degrees and id, and its rotation as the world file has it."""
 
@@ -187,7 +186,6 @@ class ConvertEntry(msgspec.Struct, frozen=True):
     "-o", "file", default="-", metavar="FILE", help="Write to FILE.  [default: standard output]"
 )
 @options.marker
-@output_options
 def convert(output: Output, *, world: str, to: str | None, file: str, marker: int | None) -> int:
     """Write a world in another format."""
 
@@ -258,7 +256,6 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
     "--edges", callback=_range, required=True, metavar="N", help="Number of edges, or a range A..B."
 )
 @options.world_class
-@output_options
 def count(output: Output, *, edges: range, kind: str) -> int:
     """Count the worlds with N edges, up to isomorphism (rooted maps)."""
 
@@ -296,7 +293,6 @@ class ListEntry(msgspec.Struct, frozen=True):
 @options.number(
     "-n", "number", least=1, most=MOST_LISTED, meaning="The first N worlds only.  [default: all]"
 )
-@output_options
 def list_worlds(output: Output, *, edges: int, kind: str, number: int | None) -> int:
     """List the ids of all worlds with N edges in their order: as they are found, one a line."""
     worlds = WorldClass.parse(kind)
@@ -378,7 +374,6 @@ class SampleEntry(msgspec.Struct, frozen=True):
     help="Number of worlds.",
 )
 @click.option("-o", "folder", metavar="FOLDER", help="Write world files to FOLDER.")
-@output_options
 def sample(
     output: Output,
     *,
@@ -503,7 +498,6 @@ class DrawEntry(msgspec.Struct, frozen=True):
     "  [default: that of the marker]",
 )
 @options.marker
-@output_options
 def draw(
     output: Output,
     *,

@@ -6,9 +6,10 @@ three forms of it. It holds no time and no date, so the same run has the same ac
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from typing import Any, Literal, NamedTuple
 
 from topo_verify.checkers import Judgement, Status
 from topo_verify.checkers.findings import Verdict
@@ -56,17 +57,16 @@ class JudgedCase:
         return TONE_OF[self.outcome]
 
 
-@dataclass(frozen=True)
-class JudgedSuite:
-    """Cases that one command line repeats.
-
-    Attributes:
-        again: that command line; empty: the one of the whole run.
-    """
+class JudgedSuite(NamedTuple):
+    """Cases that belong together."""
 
     name: str
     cases: tuple[JudgedCase, ...]
-    again: str = ""
+
+
+def suites(named: Iterable[tuple[str, Iterable[JudgedCase]]]) -> tuple[JudgedSuite, ...]:
+    """The suites with these names and cases."""
+    return tuple(JudgedSuite(name, tuple(cases)) for name, cases in named)
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ class Account:
         about: what was checked, in a few words.
         extent: the verdict on all of it.
         suites: everything that was judged.
-        blocks: what the command says about it.
+        blocks: what the command says about it; none: what it prints.
         exhibits: the counterexamples that are shown.
         left_out: how many more there are.
         others: worlds in which nothing is wrong, to be looked at.
@@ -122,11 +122,32 @@ class Account:
     left_out: int = 0
     others: tuple[Exhibit, ...] = ()
 
-    @property
-    def cases(self) -> Iterator[JudgedCase]:
-        """The cases of all suites."""
-        for suite in self.suites:
-            yield from suite.cases
+
+@dataclass(frozen=True)
+class Ending:
+    """How a run of a command ended: what its account leaves out.
+
+    Attributes:
+        command: of topo-verify, as `verify`.
+        again: the command line that repeats the run.
+        code: the exit code.
+        finished: whether the work came to its end.
+        date: when the work ended, in UTC.
+        seconds: how long it took.
+        by_suite: how long each suite took, if that is known.
+        timing: what else differs from run to run, by name; a value may be such a mapping.
+        versions: of the package, of Python and of the libraries that take part.
+    """
+
+    command: str
+    again: str
+    code: int
+    finished: bool
+    date: datetime
+    seconds: float
+    by_suite: Sequence[float] = ()
+    timing: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    versions: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
 _OUTCOMES: dict[Status, Outcome] = {

@@ -16,37 +16,16 @@ run. The host is not named.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator
 
-from topo_verify.report.account import Account, JudgedCase, JudgedSuite, Outcome
+from topo_verify.report.account import Account, Ending, JudgedCase, JudgedSuite, Outcome
 from topo_verify.report.html import xml_text
 
 _CHILD: dict[Outcome, str] = {"failed": "failure", "undecided": "error", "not-judged": "skipped"}
 
 
-@dataclass(frozen=True)
-class JunitRun:
-    """What the file says of a run beside its account.
-
-    Attributes:
-        command: of topo-verify, as `verify`.
-        again: the command line that repeats the run.
-        finished: whether the work came to its end; if not, a case says so.
-        date, seconds: when the work ended (ISO 8601, UTC), and how long it took.
-        by_suite: how long each suite took, if that is known.
-    """
-
-    command: str
-    again: str
-    finished: bool
-    date: str
-    seconds: float
-    by_suite: Sequence[float] = ()
-
-
-def junit(account: Account, run: JunitRun) -> str:
-    """The account as JUnit XML."""
+def junit(account: Account, run: Ending) -> str:
+    """The account as JUnit XML; a case says so if the work did not come to its end."""
     suites = list(account.suites)
     times = [run.seconds] if len(suites) == 1 else list(run.by_suite)
     if len(times) != len(suites):
@@ -71,15 +50,15 @@ NOTHING = JudgedCase("judged something", "UNKNOWN", "undecided", message="nothin
 
 
 def _suite(
-    number: int, suite: JudgedSuite, seconds: float, account: Account, run: JunitRun
+    number: int, suite: JudgedSuite, seconds: float, account: Account, run: Ending
 ) -> Iterator[str]:
     count = Counter(case.outcome for case in suite.cases)
     place = xml_text(f"topo-verify.{run.command}")
     yield (
         f'<testsuite id="{number}" package="{place}" name="{xml_text(suite.name)}"'
         f' tests="{len(suite.cases)}" failures="{count["failed"]}" errors="{count["undecided"]}"'
-        f' skipped="{count["not-judged"]}" hostname="localhost" timestamp="{run.date}"'
-        f' time="{seconds:.3f}">'
+        f' skipped="{count["not-judged"]}" hostname="localhost"'
+        f' timestamp="{run.date:%Y-%m-%dT%H:%M:%S}" time="{seconds:.3f}">'
     )
     told = {
         "about": account.about,
@@ -96,7 +75,7 @@ def _suite(
             f'<testcase name="{xml_text(case.name)}"'
             f' classname="{place}.{xml_text(suite.name)}" time="{alone:.3f}"'
         )
-        inner = _inner(case, case.again or suite.again or run.again)
+        inner = _inner(case, case.again or run.again)
         yield f"{opened}>{inner}</testcase>" if inner else f"{opened}/>"
     yield "<system-out/><system-err/>"
     yield "</testsuite>"

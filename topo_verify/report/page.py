@@ -11,16 +11,16 @@ a frame is made when it is opened. Whatever a mapper, a world or a file name bri
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import resources
 from itertools import count
+from typing import Any, cast
 
 from topo_verify.errors import plural
 from topo_verify.player.page import PageShell, json_in_page, page_shell, source_hash, squeezed
 from topo_verify.player.recording import recording
-from topo_verify.report.account import Account, Exhibit, JudgedCase, JudgedSuite
+from topo_verify.report.account import Account, Ending, Exhibit, JudgedCase, JudgedSuite
 from topo_verify.report.blocks import clean
 from topo_verify.report.html import blocks_as_html, code, mark_up, picture, toned, xml_text
 from topo_verify.report.junit import UNFINISHED
@@ -29,39 +29,24 @@ from topo_verify.report.style import PALETTE, TONES
 MOST_DRAWN = 200
 """The most edges of a world that is drawn and played: larger ones take seconds."""
 
-
-@dataclass(frozen=True)
-class PageFacts:
-    """What a page says of a run beside its account.
-
-    Attributes:
-        command: of topo-verify, as `verify`.
-        again: the command line that repeats the run.
-        exit_code, exit_words: how it ended, as a number and in words.
-        finished: whether the work came to its end.
-        versions: of the package, of Python and of the libraries that take part.
-        timing: what differs from run to run, in words.
-    """
-
-    command: str
-    again: str
-    exit_code: int
-    exit_words: str
-    finished: bool
-    versions: Mapping[str, str]
-    timing: Mapping[str, str]
+EXITS = {
+    0: "nothing found in what was checked",
+    1: "a claim fails, or something is not as expected",
+    3: "incomplete; what was not decided is no pass",
+}
+"""What the exit codes say of a run that has a page."""
 
 
-def report_page(account: Account, facts: PageFacts) -> str:
+def report_page(account: Account, run: Ending) -> str:
     """The page of a run."""
     shell = page_shell() if any(_can_be_played(one) for one in _all_exhibits(account)) else None
     style, script = _style(), _part("report.js") if shell is not None else ""
     values = {
         "policy": _policy(style, script, shell),
-        "title": xml_text(f"topo-verify {facts.command}: {clean(account.about)}"),
+        "title": xml_text(f"topo-verify {run.command}: {clean(account.about)}"),
         "style": style,
-        "header": _header(account, facts),
-        "main": "\n".join(_sections(account, facts)),
+        "header": _header(account, run),
+        "main": "\n".join(_sections(account, run)),
         "data": "\n".join(_data(_all_exhibits(account), shell)),
         "script": script,
     }
@@ -99,21 +84,21 @@ def _style() -> str:
 # ---------------------------------------------------------------- the parts
 
 
-def _header(account: Account, facts: PageFacts) -> str:
+def _header(account: Account, run: Ending) -> str:
     extent = account.extent
     tone = TONES[extent.verdict]
-    unfinished = "" if facts.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
+    unfinished = "" if run.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
     links = {"counterexamples": "Counterexamples"} if account.exhibits else {}
     links |= {"judged": "What was judged", "results": "Results"}
     links |= {"worlds": "Worlds"} if account.others else {}
     links |= {"versions": "Versions", "timing": "Timing"}
     menu = " ".join(f'<a href="#{name}">{title}</a>' for name, title in links.items())
     return (
-        f"<h1>topo-verify {xml_text(facts.command)}: {xml_text(clean(account.about))}</h1>\n"
+        f"<h1>topo-verify {xml_text(run.command)}: {xml_text(clean(account.about))}</h1>\n"
         f'<p class="verdict {tone}"><span class="letter"><span>{extent.verdict[0]}</span></span>'
         f" {extent.verdict}: {xml_text(clean(extent.words))}</p>\n{unfinished}"
-        f"<p>Exit code {facts.exit_code}: {xml_text(facts.exit_words)}.</p>\n"
-        f"{_again(facts.again)}\n<nav>{menu}</nav>"
+        f"<p>Exit code {run.code}: {EXITS[run.code]}.</p>\n"
+        f"{_again(run.again)}\n<nav>{menu}</nav>"
     )
 
 
@@ -121,7 +106,7 @@ def _again(line: str) -> str:
     return f'<p class="again">again: {code(line)}</p>' if line else ""
 
 
-def _sections(account: Account, facts: PageFacts) -> Iterator[str]:
+def _sections(account: Account, run: Ending) -> Iterator[str]:
     found = [*map(_exhibit, count(1), account.exhibits)]
     if account.left_out:
         found.append(f"<p>{account.left_out} more are not shown here.</p>")
@@ -136,22 +121,27 @@ def _sections(account: Account, facts: PageFacts) -> Iterator[str]:
     if account.others:
         numbered = map(_exhibit, count(1 + len(account.exhibits)), account.others)
         yield _section("worlds", "Worlds to look at", numbered)
-    for name, title, told in (
-        ("versions", "Versions", facts.versions),
-        ("timing", "Timing", facts.timing),
-    ):
-        yield _section(name, title, [_facts(told)])
+    yield _section("versions", "Versions", [_facts(run.versions.items())])
+    times = (("written", f"{run.date:%Y-%m-%d %H:%M:%S} UTC"), ("took", f"{run.seconds:.1f} s"))
+    yield _section("timing", "Timing", [_facts([*times, *_flat(run.timing)])])
+
+
+def _flat(timing: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, str]]:
+    """Each figure with the names that lead to it, as `ms_per_move, lattices, folding`."""
+    for name, value in timing.items():
+        path = f"{before}, {name}" if before else name
+        if isinstance(value, dict):
+            yield from _flat(cast("dict[str, Any]", value), path)
+        else:
+            yield path, str(value)
 
 
 def _section(name: str, title: str, parts: Iterator[str] | Sequence[str]) -> str:
     return "\n".join([f'<section id="{name}">', f"<h2>{title}</h2>", *parts, "</section>"])
 
 
-def _facts(told: Mapping[str, str]) -> str:
-    rows = (
-        f"<tr><th>{xml_text(name)}</th><td>{xml_text(value)}</td></tr>"
-        for name, value in told.items()
-    )
+def _facts(told: Iterable[tuple[str, str]]) -> str:
+    rows = (f"<tr><th>{xml_text(name)}</th><td>{xml_text(value)}</td></tr>" for name, value in told)
     return f'<div class="wide"><table>{"".join(rows)}</table></div>'
 
 
@@ -159,7 +149,7 @@ def _suite(suite: JudgedSuite) -> str:
     head = "<tr><th>what</th><th>verdict</th><th>judged</th><th></th></tr>"
     rows = "\n".join(map(_case, suite.cases))
     return (
-        f"<h3>{xml_text(clean(suite.name))}</h3>\n{_again(suite.again)}"
+        f"<h3>{xml_text(clean(suite.name))}</h3>\n"
         f'<div class="wide" tabindex="0"><table class="cases"><thead>{head}</thead>\n'
         f"<tbody>{rows}</tbody></table></div>"
     )
