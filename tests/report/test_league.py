@@ -8,10 +8,11 @@ import pytest
 
 from topo_verify.campaign.row import Judged, Row
 from topo_verify.checkers import CLAIMS
+from topo_verify.cli.arena_files import plot_of, table_csv
 from topo_verify.programs.loader import Target
 from topo_verify.report.blocks import PictureBlock, Text
 from topo_verify.report.html import blocks_as_html
-from topo_verify.report.league import Axis, ratio_plot, table_csv
+from topo_verify.report.league import Axis
 from topo_verify.report.markdown import markdown
 from topo_verify.studies.arena.league import League
 from topo_verify.studies.arena.suites import Suite, drawn, every
@@ -41,7 +42,7 @@ def league() -> League:
 
 def picture(league: League) -> str:
     entries = league.entries()
-    return ratio_plot(SUITE, entries, {e.mapper: league.runs(e.mapper, SUITE) for e in entries})
+    return plot_of(league, SUITE, entries)
 
 
 def test_it_has_a_sign_for_each_family_and_one_in_the_legend(league: League) -> None:

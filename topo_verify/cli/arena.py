@@ -15,7 +15,15 @@ from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
-from topo_verify.cli.arena_files import REPORT, dearest_exhibits, write_folder
+from topo_verify.cli.arena_files import (
+    REPORT,
+    Memory,
+    broken_blocks,
+    dearest_exhibits,
+    plot_of,
+    suite_blocks,
+    write_folder,
+)
 from topo_verify.cli.arena_game import game_of_catalogue
 from topo_verify.cli.kept_runs import open_store, stored_rows
 from topo_verify.cli.output import Output, Result
@@ -28,11 +36,10 @@ from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, PictureBlock, Text
-from topo_verify.report.league import Memory, broken_blocks, ratio_plot, suite_blocks
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import League, LeagueEntry
 from topo_verify.studies.arena.match import matches, measure
-from topo_verify.studies.arena.suites import DEFAULT, SUITES, Suite, chosen_suites
+from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites
 
 
 @options.command(
@@ -238,22 +245,15 @@ def _show(
         if number:
             yield Text("")
         yield from suite_blocks(suite, mine, league.seed, memory)
-        if pictures:
-            yield from _plot(league, suite, mine)
+        if pictures and (plot := plot_of(league, suite, table)):
+            alt = f"cost / LB against the number of edges in suite {suite.name}"
+            yield PictureBlock(plot, alt)
     ranked = {entry.mapper: entry for entry in table if entry.place is not None}
     for mapper, entry in ranked.items():
         for sentence in unjudged(mapper, "these worlds", entry.judgements):
             yield Text("")
             yield sentence
     yield from broken_blocks(table)
-
-
-def _plot(league: League, suite: Suite, entries: Sequence[LeagueEntry]) -> Iterator[Block]:
-    ranked = [entry for entry in entries if entry.place is not None]
-    if ranked:
-        runs = {entry.mapper: league.runs(entry.mapper, suite) for entry in ranked}
-        alt = f"cost / LB against the number of edges in suite {suite.name}"
-        yield PictureBlock(ratio_plot(suite, ranked, runs), alt)
 
 
 # ---------------------------------------------------------------- the account

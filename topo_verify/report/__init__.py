@@ -9,6 +9,6 @@ account.py    what was judged, how much of it, and the counterexamples to look a
 page.py       an account as one self-contained page; its style and script lie in page/
 junit.py      an account as a JUnit file
 badge.py      an account as a badge
-league.py     the tables and plots of the arena
+league.py     the plot of the arena
 figures/      the paper's figures as pictures, and the paragraph under each; imported late
 """
