@@ -14,7 +14,7 @@ from topo_verify.algorithms import CATALOGUE, NAMED, Algorithm
 from topo_verify.algorithms.exploration import Rule
 from topo_verify.algorithms.motion import Motion, retrace
 from topo_verify.campaign.run import explore
-from topo_verify.checkers import Status, check
+from topo_verify.checkers import CLAIMS, Status, check
 from topo_verify.programs.loader import Mapper
 from topo_verify.robot.events import Event, MapData, Move, Reject, Trace
 from topo_verify.robot.percept import Percept
@@ -26,16 +26,7 @@ EMPTY = World((), (), None)
 """One vertex and nothing else: the legal world without a dart."""
 
 
-EIGHT = {
-    "percepts-true",
-    "true-hypothesis-posed",
-    "true-hypothesis-kept",
-    "no-false-confirm",
-    "map-isomorphic",
-    "cost-honest",
-    "cost-within-bound",
-    "rejection-justified",
-}
+EIGHT = {*list(CLAIMS)[:8]}
 """The claims that ask whether the mapper was right in this world."""
 
 

@@ -32,29 +32,16 @@ def test_an_entry_a_value_and_one_a_mapper(capsys: pytest.CaptureFixture[str]) -
     assert [entry["knows"] for entry in entries if entry["of"] == "value"] == [
         "nothing", "n", "m", "m and n", "nothing", "planar", "m", "m and planar",
     ]  # fmt: skip
+    game = {"game": 2, "knows": "nothing", "drawn": "any", "worlds": 10}
     value = {"worst": 3, "mean": 2.3, "worst_is_value": True, "mean_is_value": True}
+    least = value | {"mean": 2.2}
     assert entries[0] | {"states": 0} == {
-        "of": "value",
-        "game": 2,
-        "knows": "nothing",
-        "drawn": "any",
-        "worlds": 10,
-        "value": value,
-        "least": value | {"mean": 2.2},
-        "states": 0,
-    }
+        **game, "of": "value", "value": value, "least": least, "states": 0,
+    }  # fmt: skip
     assert next(entry for entry in entries if entry["of"] == "mapper") == {
-        "of": "mapper",
-        "game": 2,
-        "mapper": "folding",
-        "knows": "nothing",
-        "drawn": "any",
-        "worlds": 10,
-        "worst": 3,
-        "mean": 2.3,
-        "value": value,
+        **game, "of": "mapper", "mapper": "folding", "worst": 3, "mean": 2.3, "value": value,
         "failing": None,
-    }
+    }  # fmt: skip
 
 
 def test_three_tables(capsys: pytest.CaptureFixture[str]) -> None:

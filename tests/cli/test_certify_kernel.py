@@ -11,16 +11,11 @@ from unittest.mock import Mock
 import pytest
 
 from tests.cli.conftest import Call, Results
+from tests.cli.test_certify import RING
 from tests.helpers import of_type, place, trace_of
 from tests.proofs.mechanised.conftest import nowhere
 from topo_verify.proofs.mechanised import certificates, toolchain
 from topo_verify.robot.events import Augment, Confirm, Reject, write_trace
-
-RING = """\
-{"type": "start", "percept": {"degree": 2, "marker": 0}}
-{"type": "move", "door": 0, "percept": {"degree": 2, "marker": null}}
-{"type": "move", "door": 1, "percept": {"degree": 2, "marker": 1}}
-"""
 
 needs_coq = pytest.mark.skipif(bool(toolchain.missing()), reason=toolchain.missing())
 

@@ -161,24 +161,21 @@ def test_without_address_space_the_limit_is_named(monkeypatch: pytest.MonkeyPatc
         explore.workspace(workspace.LARGE, 1)
 
 
-def test_an_algorithm_that_has_no_kernel_is_refused() -> None:
-    with pytest.raises(InputError, match="expected an algorithm of the catalogue, got 'mine'"):
-        run_world(WORLD, "mine")
-
-
-def test_a_mistake_that_has_no_kernel_is_refused() -> None:
-    with pytest.raises(InputError, match="expected a fault that has a kernel, got 'typo'"):
-        run_world(WORLD, fault="typo")
-
-
-def test_mistakes_are_planted_in_small_worlds_only() -> None:
-    with pytest.raises(InputError, match="up to 12 edges"):
-        run_world(families.lattice(4, 4), fault="sets-out-unturned")
-
-
-def test_a_world_that_is_too_large_is_refused() -> None:
-    with pytest.raises(InputError, match=r"up to 65536 edges .* use the reference engine"):
-        run_world(families.path(65538))
+@pytest.mark.parametrize(
+    ("world", "run", "words"),
+    [
+        (WORLD, {"algorithm": "mine"}, "expected an algorithm of the catalogue, got 'mine'"),
+        (WORLD, {"fault": "typo"}, "expected a fault that has a kernel, got 'typo'"),
+        (families.lattice(4, 4), {"fault": "sets-out-unturned"}, "up to 12 edges"),
+        (families.path(65538), {}, r"up to 65536 edges .* use the reference engine"),
+    ],
+    ids=["algorithm", "fault", "fault in a large world", "large world"],
+)
+def test_what_has_no_kernel_or_no_room_is_refused(
+    world: World, run: dict[str, Any], words: str
+) -> None:
+    with pytest.raises(InputError, match=words):
+        run_world(world, **run)
 
 
 def test_without_numba_the_mend_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
