@@ -261,7 +261,7 @@ def test_an_interrupted_explore_keeps_the_runs_that_are_done(
 
 
 def test_ctrl_c_before_any_work_exits_3(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("topo_verify.cli.verify.targets", Mock(side_effect=KeyboardInterrupt))
+    monkeypatch.setattr("topo_verify.cli.options.targets", Mock(side_effect=KeyboardInterrupt))
     done = call("verify")
     assert done.exit_code == 3
     assert done.stderr == "topo-verify: interrupted before the first result\n"
