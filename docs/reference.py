@@ -33,7 +33,7 @@ scripts may rely on; [Results for scripts](../commands.md) explains what needs m
 
 ENTRIES = {
     "verify": "verify.Part",
-    "explore": "explored.ExploreEntry",
+    "explore": "explore.ExploreEntry",
     "world show": "world.ShowEntry",
     "world list": "world.ListEntry",
     "world count": "world.CountEntry",

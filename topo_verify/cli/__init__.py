@@ -1,13 +1,12 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
-verify.py, explore.py (explored.py), world.py, search.py, prove.py, faults.py,
+verify.py, explore.py, world.py, search.py, prove.py, faults.py,
 conform.py, record.py, compare.py, replay.py, play.py, certify.py, tour.py,
 arena.py (arena_files.py, arena_game.py), header.py, reproduce.py  the commands
-runs.py       worlds as the user names them, findings as shown
+runs.py       worlds as the user names them; judged runs, findings and walks as shown
 options.py    options that commands share
 output.py     from results to stdout: pretty, json, markdown; the bar on stderr
 reporting.py  --report, --junit, --badge
-walks.py      the walks and worlds of counterexamples
 kept_runs.py  the store of runs of some commands
 failures.py   exit codes, and the sentences that go with them
 

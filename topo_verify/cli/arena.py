@@ -180,7 +180,7 @@ def _loaded(asked: Sequence[str], *, in_process: bool) -> tuple[Target, ...]:
 
 
 def _require_players(league: League) -> None:
-    """Refuse a suite that nobody can play, and a mapper that can play none."""
+    """Refuse a mapper that can play none of the suites."""
     for mapper in league.mappers:
         if not any(league.plays(mapper, suite) for suite in league.suites):
             raise InputError(
@@ -291,10 +291,9 @@ def _account(
 
 def _cases(entry: LeagueEntry) -> Iterator[acc.JudgedCase]:
     broken, late = entry.counterexample, entry.worlds < entry.total
-    yield acc.JudgedCase(
-        name="every world of the suite",
-        verdict="REFUTED" if broken else "UNKNOWN" if late else "SAMPLED",
-        outcome="failed" if broken else "undecided" if late else "passed",
+    yield acc.verdict_case(
+        "every world of the suite",
+        "REFUTED" if broken else "UNKNOWN" if late else "SAMPLED",
         judged=f"{entry.worlds:,} of {entry.total:,}",
         message=f"{broken.claim} in {broken.world}: {broken.message}"
         if broken

@@ -27,7 +27,7 @@ from topo_verify.campaign.judge import in_words
 from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
 from topo_verify.cli.failures import version
-from topo_verify.cli.walks import target_title
+from topo_verify.cli.runs import target_title
 from topo_verify.errors import plural
 from topo_verify.player.page import player_page
 from topo_verify.player.recording import PlayedRun

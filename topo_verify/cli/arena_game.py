@@ -104,7 +104,7 @@ def game_of_catalogue(output: Output, edges: int, names: Sequence[str]) -> int:
 
 
 def play_game(output: Output, edges: int, mappers: Sequence[str] = PLAYERS) -> int:
-    """Print the values of the games with 1 to so many edges, and how far the mappers are from them.
+    """Print the values of the games with 1 to `edges` edges, and how far the mappers are from them.
 
     Args:
         mappers: names of the catalogue.
@@ -255,7 +255,7 @@ def _mean(costs: CostsOfRobot) -> str:
 
 
 def _more(mean: float | None, than: CostsOfRobot | None, *, least: bool = False) -> str:
-    """By how much a mean is above another one, in per cent; a bound where one of them is."""
+    """Excess of one mean over another in percent, with ≥ or ≤ if either is only a bound."""
     if mean is None or than is None:
         return "-"
     sign = "≥ " if least else "" if than.mean_is_value else "≤ "
@@ -263,9 +263,9 @@ def _more(mean: float | None, than: CostsOfRobot | None, *, least: bool = False)
 
 
 def _saved(costs: CostsOfRobot, nothing: CostsOfRobot) -> str:
-    """By how much a mean is below that of the robot that is told nothing, in per cent.
+    """How far a mean is below that of the robot that is told nothing, in percent.
 
-    A difference to a bound is no bound: nothing is said where the cheaper one is a bound.
+    Where the lower mean is itself only a bound, the difference is not even bounded: `-`.
     """
     if costs is nothing or not costs.mean_is_value:
         return "-"

@@ -31,7 +31,7 @@ from topo_verify.world.formats import files
 NumbersChecker = Callable[[Sequence[int]], CertificateCheck]
 
 MOST_OPEN_DOORS = 100
-"""So many open doors of a log are listed, the nearest; more would not help who has to walk them."""
+"""Most open doors of a log that are listed, nearest first."""
 
 
 class DecisionCount(msgspec.Struct, frozen=True):
@@ -298,20 +298,17 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Bullets(tuple(map(finding_line, entry.findings[:5])))
         if entry.open_doors:
             yield Text("")
-            yield Text(f"{entry.trace}: {_incomplete(entry)}")
+            nearest = ", the nearest five" if entry.open_darts > 5 else ""
+            yield Text(
+                f"{entry.trace}: incomplete, true of several worlds, with"
+                f" {plural(entry.open_darts, 'door')} never crossed{nearest}:"
+            )
             yield Bullets(tuple(map(_door_line, entry.open_doors[:5])))
         if entry.witnesses:
             yield Text(f"{plural(len(entry.witnesses), 'world')} that show this log and differ:")
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
             yield from _show_proof(entry.kernel)
-
-
-def _incomplete(entry: CertifyEntry) -> str:
-    """The sentence above the open doors."""
-    doors = plural(entry.open_darts, "door")
-    nearest = ", the nearest five" if entry.open_darts > 5 else ""
-    return f"incomplete, true of several worlds, with {doors} never crossed{nearest}:"
 
 
 def _door_line(door: OpenDoor) -> str:
@@ -409,22 +406,18 @@ def _show_proof(proof: KernelCheck) -> Iterator[Block]:
     """The lines that tell of a certificate: what it states, who accepted it, how to check it."""
     outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
     delivered = " The delivered map is that world." if proof.delivered else ""
-    decisions = _decisions_sentence(proof.decisions)
+    proved, decisions = proof.decisions, ""
+    if proved.entailed:
+        by = f" by {proved.by}" if proved.by else ""
+        why = f": {proved.why}" if proved.why else ""
+        of = f"{proved.certified} of {proved.entailed}"
+        decisions = f" Of the decisions that follow, {of} are certified{by}{why}."
     yield Text("")
     yield Text(
         f"{proof.file}: {_STATED[proof.statement]}; {outcome}.{delivered}{decisions}"
         " To check it again, in the folder of that file:"
     )
     yield Bullets((proof.command,))
-
-
-def _decisions_sentence(proved: CertifiedDecisions) -> str:
-    if not proved.entailed:
-        return ""
-    by = f" by {proved.by}" if proved.by else ""
-    why = f": {proved.why}" if proved.why else ""
-    of = f"{proved.certified} of {proved.entailed}"
-    return f" Of the decisions that follow, {of} are certified{by}{why}."
 
 
 # ---------------------------------------------------------------- a certificate received

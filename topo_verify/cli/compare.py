@@ -17,7 +17,7 @@ from topo_verify.cli import options
 from topo_verify.cli.kept_runs import opened, stored_rows
 from topo_verify.cli.options import Mappers
 from topo_verify.cli.output import Output, Result, entry_of
-from topo_verify.cli.walks import exhibit_of
+from topo_verify.cli.runs import exhibit_of
 from topo_verify.errors import plural
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
@@ -221,7 +221,8 @@ def _show(entries: Sequence[CompareEntry]) -> Iterator[Block]:
             f"{entry.target} against {then.file}: {then.target} in {plural(entry.worlds, 'world')}"
             f" ({then.corpus}), recorded with topo-verify {then.tool}"
         )
-        yield _summary(entry)
+        rows = [(TITLES[kind], f"{_count(entry, kind):,}") for kind in KINDS]
+        yield TextTable(("", ">worlds"), rows)
         before, after = entry.cost.before, entry.cost.after
         yield Text(f"cost where right in both: {_costs(before, after)}")
         changed = [group for group in entry.groups if group.changed]
@@ -232,11 +233,6 @@ def _show(entries: Sequence[CompareEntry]) -> Iterator[Block]:
             yield from _examples(kind, entry)
         yield Text("")
         yield Text(_conclusion(entry))
-
-
-def _summary(entry: CompareEntry) -> TextTable:
-    rows = [(TITLES[kind], f"{_count(entry, kind):,}") for kind in KINDS]
-    return TextTable(("", ">worlds"), rows)
 
 
 def _count(entry: CompareEntry, kind: ChangeKind) -> int:

@@ -20,8 +20,14 @@ from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.options import Mappers
 from topo_verify.cli.output import Output, Result
-from topo_verify.cli.runs import NamedWorld, judged, unjudged
-from topo_verify.cli.walks import MOST_EXHIBITS, exhibit_of, target_title
+from topo_verify.cli.runs import (
+    MOST_EXHIBITS,
+    NamedWorld,
+    exhibit_of,
+    judged,
+    target_title,
+    unjudged,
+)
 from topo_verify.errors import plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.scenes import Playback
@@ -325,10 +331,9 @@ def _account(levels: Sequence[LevelResult]) -> acc.Account:
 def _cases(levels: Sequence[LevelResult]) -> Iterator[acc.JudgedCase]:
     for level in levels:
         first = level.findings[0] if level.findings else None
-        yield acc.JudgedCase(
-            name=f"level {level.level}",
-            verdict=level.verdict,
-            outcome=acc.outcome_of(level.verdict),
+        yield acc.verdict_case(
+            f"level {level.level}",
+            level.verdict,
             judged=f"{level.passed:,} of {level.worlds:,}",
             message=(level.why or ("",))[0] if first is None else f"{first.world}: {first.message}",
             again="" if first is None else first.replay,

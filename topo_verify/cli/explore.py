@@ -1,18 +1,29 @@
-"""`topo-verify explore`: run algorithms in given worlds; cost and verdict of each run."""
+"""`topo-verify explore`: run algorithms in given worlds; cost and verdict of each run.
+
+--choices LIST makes one run whose every choice is told, as in a counterexample of `search`.
+--marker all runs the mapper with the marker at every place, in every direction. Two darts from
+which the world looks the same make one rooted map, so one run serves both: its entry is repeated,
+and `same_as` says so.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from statistics import mean
 from typing import Literal
 
 import click
+import msgspec
 
-from topo_verify.campaign.run import Engine, on_engine
+from topo_verify.campaign.judge import Report
+from topo_verify.campaign.run import Engine, Exploration, on_engine
 from topo_verify.campaign.run import explore as run_mapper
-from topo_verify.cli import explored, options
+from topo_verify.checkers import Finding, Judgement, Status
+from topo_verify.checkers.findings import Verdict
+from topo_verify.cli import options
 from topo_verify.cli.options import Mappers
-from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.play import (
     player_option,
     require_one_world,
@@ -31,11 +42,105 @@ from topo_verify.cli.runs import (
 from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.gap import gap as measure
 from topo_verify.studies.search.states.every import ListedChoices
 from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import Code
+
+
+class ChosenPolicies(msgspec.Struct, frozen=True):
+    """The policies of a run; None for a mapper that has none."""
+
+    pick: str | None
+    order: str | None
+
+
+class MeasuredGap(msgspec.Struct, frozen=True):
+    """The gap of a rule to the best possible one; see `topo_verify.studies.gap`.
+
+    Attributes:
+        false: false hypotheses posed.
+        walked: how many of them were rejected by motion.
+        refutable: how many were walked although the history before the walk refuted them.
+        share: refutable / false.
+    """
+
+    false: int
+    walked: int
+    refutable: int
+    share: float
+
+
+class ExploreEntry(msgspec.Struct, frozen=True):
+    """One run: an entry of `results`.
+
+    Attributes:
+        least_cost: the least cost of a proof (docs/semantics.md, section 11).
+        isomorphic: the map is the world.
+        entailed: the history alone proves the map.
+        ok: no claim failed, and the run ended in time.
+        claims: the status of each claim.
+        judgements: the same, with how much of the run each status rests on.
+        stopped: why the mapper delivered no map, or None.
+        gap: with --gap, if the mapper declares every decision; otherwise None.
+        marker: the dart that the marker points at, as the world's file numbers darts.
+        place: the vertex where the marker lies, likewise.
+        same_as: with `--marker all`, the least dart from which the world looks the same, if that
+            is another one: the two are one rooted map, so this run is that one's.
+        rejected_free, rejected_moving: hypotheses rejected without motion, and by motion.
+        confirmed: hypotheses confirmed.
+    """
+
+    world: str
+    algorithm: str
+    policies: ChosenPolicies
+    vertices: int
+    edges: int
+    genus: int
+    cost: int
+    least_cost: int
+    isomorphic: bool
+    entailed: bool
+    ok: bool
+    findings: tuple[Finding, ...]
+    rejected_free: int
+    rejected_moving: int
+    confirmed: int
+    claims: dict[str, Status]
+    judgements: tuple[Judgement, ...]
+    stopped: str | None
+    gap: MeasuredGap | None
+    marker: int | None
+    place: int
+    same_as: int | None = None
+
+
+All = Literal["all"]
+
+
+def _dart_or_all(
+    _context: click.Context, _option: click.Parameter, value: str | None
+) -> int | All | None:
+    """The number in the text, or `all`."""
+    if value is None or value == "all":
+        return "all" if value else None
+    try:
+        return int(value)
+    except ValueError:
+        raise click.BadParameter(f"expected a dart (a number) or all, got {value!r}") from None
+
+
+marker_option = click.option(
+    "--marker",
+    callback=_dart_or_all,
+    metavar="DART|all",
+    help="Let the marker point at this DART instead; all: at each dart in turn, best and worst"
+    " named, with --svg as a heat map.",
+)
 
 
 @dataclass(frozen=True)
@@ -73,7 +178,7 @@ class _ExploreOptions:
     help="Choose by these numbers, as 0,2,1: which e, which h next (one run only).",
 )
 @options.engine
-@explored.marker_option
+@marker_option
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
 @player_option
 @svg_option
@@ -103,12 +208,12 @@ def explore(  # noqa: PLR0913  an argument an option
     network) or - (world JSON on standard input).
     """
 
-    def runs() -> Iterator[Result[explored.ExploreEntry]]:
+    def runs() -> Iterator[Result[ExploreEntry]]:
         found = on_engine(engine, mappers.load(), limits)
         if marker == "all":
-            explored.require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
+            require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
             starts = named_worlds(worlds)
-            return explored.marker_results(output, starts, found, limits, strict=strict, svg=svg)
+            return marker_results(output, starts, found, limits, strict=strict, svg=svg)
         starts = named_worlds(worlds, marker)
         for option, file in (("--trace", trace), ("--svg", svg)):
             if file is not None:
@@ -117,18 +222,22 @@ def explore(  # noqa: PLR0913  an argument an option
         listed = None
         if choices is not None:
             _require_one_run("--choices", choices, found, starts)
-            explored.require_no_policies(choices, mappers)
+            if mappers.pick is not None or mappers.order is not None:
+                raise InputError(
+                    f"--choices {choices}: the choices are the policies; leave out --pick and"
+                    " --order"
+                )
             listed = ListedChoices(found[0], choices)
             found = (listed.target,)
         asked = _ExploreOptions(limits, trace, player, svg, strict, gap, listed)
         return _results(output, starts, found, asked)
 
-    table = explored.show_markers if marker == "all" else show
+    table = show_markers if marker == "all" else show
     return output.run(
         "explore",
         runs,
         table,
-        account=explored.explore_account,
+        account=explore_account,
         in_process=mappers.in_process,
     )
 
@@ -150,7 +259,7 @@ def _results(
     starts: Sequence[NamedWorld],
     found: Sequence[Target],
     asked: _ExploreOptions,
-) -> Iterator[Result[explored.ExploreEntry]]:
+) -> Iterator[Result[ExploreEntry]]:
     total = len(starts) * len(found)
     played: list[PlayedRun] = []
     try:
@@ -169,7 +278,7 @@ def _results(
             played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
             if asked.svg is not None:
                 write_animation(asked.svg, at.world, played[0])
-            yield explored.explore_result(run, at, report, incomplete=incomplete, gap=asked.gap)
+            yield explore_result(run, at, report, incomplete=incomplete, gap=asked.gap)
     finally:  # an interrupt keeps the runs that are done
         if asked.player is not None and played:
             write_page(asked.player, starts[0].world, starts[0].name, played)
@@ -178,7 +287,7 @@ def _results(
 # ---------------------------------------------------------------- for people
 
 
-def show(entries: Sequence[explored.ExploreEntry]) -> Iterator[Block]:
+def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
     """One table a world; for a single algorithm in many worlds, one table in all."""
     if len(entries) > 1 and len({entry.algorithm for entry in entries}) == 1:
         rows = [(entry.world, str(entry.edges), *_row(entry)) for entry in entries]
@@ -208,7 +317,7 @@ def show(entries: Sequence[explored.ExploreEntry]) -> Iterator[Block]:
     yield from _gap_table(entries)
 
 
-def _gap_table(entries: Sequence[explored.ExploreEntry]) -> Iterator[Block]:
+def _gap_table(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
     """The table of --gap: hypotheses that were walked although the history refuted them."""
     measured = [(entry, entry.gap) for entry in entries if entry.gap is not None]
     if not measured:
@@ -225,7 +334,7 @@ def _gap_table(entries: Sequence[explored.ExploreEntry]) -> Iterator[Block]:
 _COLUMNS = (">cost", ">of least", ">rejected free", ">moving", "claims")
 
 
-def _row(entry: explored.ExploreEntry) -> tuple[str, ...]:
+def _row(entry: ExploreEntry) -> tuple[str, ...]:
     return (
         str(entry.cost),
         f"{entry.cost / entry.least_cost:.2f}" if entry.least_cost else "-",
@@ -235,13 +344,13 @@ def _row(entry: explored.ExploreEntry) -> tuple[str, ...]:
     )
 
 
-def _by_world(entries: Sequence[explored.ExploreEntry]) -> Iterator[list[explored.ExploreEntry]]:
+def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
     """The runs grouped by world.
 
     Runs come world by world, with the algorithms in the same order each time. Two worlds may have
     one name, so a group ends where the first algorithm comes again, not where the name changes.
     """
-    group: list[explored.ExploreEntry] = []
+    group: list[ExploreEntry] = []
     for entry in entries:
         if group and entry.algorithm == group[0].algorithm:
             yield group
@@ -251,7 +360,7 @@ def _by_world(entries: Sequence[explored.ExploreEntry]) -> Iterator[list[explore
         yield group
 
 
-def _world_table(group: Sequence[explored.ExploreEntry]) -> TextTable:
+def _world_table(group: Sequence[ExploreEntry]) -> TextTable:
     """The cost of each algorithm in one world, relative to `basic` if that was run."""
     one = group[0]
     size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
@@ -265,3 +374,211 @@ def _world_table(group: Sequence[explored.ExploreEntry]) -> TextTable:
         rows.append((entry.algorithm, cost, f"{entry.cost / basic:.2f}", *rest))
     cost, *others = _COLUMNS
     return TextTable(("algorithm", cost, ">of basic", *others), rows, title)
+
+
+# ---------------------------------------------------------------- entry and account
+
+
+def explore_result(
+    run: Exploration, at: NamedWorld, report: Report, *, incomplete: bool, gap: bool = False
+) -> Result[ExploreEntry]:
+    """The entry of a judged run, and what it means for the exit code.
+
+    Args:
+        incomplete: the run was out of time, or declined by its mapper.
+        gap: measure the gap of the rule.
+    """
+    # The gap is a share of all false hypotheses: a mapper that declares only some has none.
+    measured = None
+    if gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:
+        found = measure(run.trace)
+        measured = MeasuredGap(*found, share=found.share)
+    entry = entry_of(
+        ExploreEntry,
+        run,
+        report,
+        world=at.name,
+        policies=run.policies or ChosenPolicies(None, None),
+        vertices=len(at.world.vertices),
+        edges=len(at.world.edges),
+        genus=at.world.genus,
+        least_cost=at.world.least_cost(),
+        isomorphic=report.claims["map-isomorphic"] == "ok",
+        entailed=report.claims["map-entailed"] == "ok",
+        ok=not report.findings and not incomplete,
+        gap=measured,
+        marker=at.world.root,
+        place=0 if at.world.root is None else at.world.vertex_of[at.world.root],
+    )
+    return Result(entry, failed=bool(report.findings), incomplete=incomplete)
+
+
+def explore_account(entries: Sequence[ExploreEntry]) -> acc.Account:
+    """The account of `explore`: a suite a run; the run, and a case a claim."""
+    verdicts = [_verdict(entry) for entry in entries]
+    failing, decided = verdicts.count("REFUTED"), verdicts.count("SAMPLED")
+    words = acc.counted(decided, len(entries), "runs")
+    if failing:
+        words = acc.counted(failing, len(entries), "runs fail")
+    mappers = list(dict.fromkeys(entry.algorithm for entry in entries))
+    return acc.Account(
+        mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
+        acc.JudgedExtent(acc.joint_verdict(verdicts), words),
+        acc.suites(
+            (_run_name(entry), _run_cases(entry)) for entry in entries if entry.same_as is None
+        ),
+    )
+
+
+def _verdict(entry: ExploreEntry) -> Verdict:
+    return "REFUTED" if entry.findings else "SAMPLED" if entry.ok else "UNKNOWN"
+
+
+def _run_name(entry: ExploreEntry) -> str:
+    at = "" if entry.marker is None else f", marker at dart {entry.marker}"
+    return f"{entry.algorithm} in {entry.world}{at}"
+
+
+def _run_cases(entry: ExploreEntry) -> Iterator[acc.JudgedCase]:
+    first, verdict = entry.findings[0] if entry.findings else None, _verdict(entry)
+    yield acc.verdict_case(
+        "the run as a whole",
+        verdict,
+        message=(entry.stopped or "") if first is None else f"{first.claim}: {first.message}",
+        again="" if first is None else first.replay,
+    )
+    yield from acc.claim_cases(entry.judgements)
+
+
+# ---------------------------------------------------------------- --marker all
+
+
+def require_one_marker(others: Mapping[str, object]) -> None:
+    """Raise InputError if one of the options that are for one run is given."""
+    for name, value in others.items():
+        if value:
+            raise InputError(
+                f"{name} is for one marker: leave it out, or name one with --marker DART"
+            )
+
+
+def marker_results(
+    output: Output,
+    starts: Sequence[NamedWorld],
+    found: Sequence[Target],
+    limits: Limits,
+    *,
+    strict: bool,
+    svg: str | None,
+) -> Iterator[Result[ExploreEntry]]:
+    """An entry for each world, algorithm and dart, in this order.
+
+    Raises:
+        InputError: a world has no dart; or a heat map is asked for, of more than one algorithm.
+    """
+    for at in starts:
+        if not at.world.alpha:
+            raise InputError(f"--marker all: {at.name} has no edge that a marker could point at")
+    if svg is not None and (svg == "-" or len(starts) * len(found) != 1):
+        raise InputError(
+            f"--svg {svg}: expected the name of a file, one WORLD and one algorithm, with"
+            " --target, since a heat map shows one cost for each place"
+        )
+    total = len(found) * sum(len(at.world.alpha) for at in starts)
+    done = 0
+    for at in starts:
+        for target in found:
+            entries: list[ExploreEntry] = []
+            for result in _of_each_dart(output, at, target, limits, strict=strict):
+                done += 1
+                output.progress(f"{target.text} in {at.name}", done, total)
+                entries.append(result.entry)
+                yield result
+            if svg is not None and all(entry.ok for entry in entries):
+                from topo_verify.world.drawing.heat import heat_svg
+
+                costs = [entry.cost for entry in entries]
+                files.write(svg, heat_svg(at.world, costs, title=f"{target.text} in {at.name}"))
+            elif svg is not None:
+                output.note(f"--svg {svg}: not written, since not every run delivered a true map")
+
+
+def _of_each_dart(
+    output: Output, at: NamedWorld, target: Target, limits: Limits, *, strict: bool
+) -> Iterator[Result[ExploreEntry]]:
+    known: dict[Code, Result[ExploreEntry]] = {}
+    for dart in range(len(at.world.alpha)):
+        there = replace(at.world.with_marker(dart), name=at.name)
+        first = known.get(there.code)
+        if first is not None:
+            entry = msgspec.structs.replace(
+                first.entry, marker=dart, place=there.vertex_of[dart], same_as=first.entry.marker
+            )
+            yield replace(first, entry=entry)
+            continue
+        placed = NamedWorld(there, at.text, dart)
+        run = run_mapper(there, target, limits=limits)
+        report, incomplete = judged(run, placed, limits, strict=strict)
+        output.found.keep(report)
+        known[there.code] = explore_result(run, placed, report, incomplete=incomplete)
+        yield known[there.code]
+
+
+def show_markers(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
+    """A table a world: the best and the worst place for each algorithm."""
+    groups: dict[tuple[str, str], list[ExploreEntry]] = {}
+    for entry in entries:
+        groups.setdefault((entry.world, entry.algorithm), []).append(entry)
+    for number, world in enumerate(dict.fromkeys(entry.world for entry in entries)):
+        of_world = [group for (name, _), group in groups.items() if name == world]
+        if number:
+            yield Text("")
+        yield TextTable(
+            _MARKER_COLUMNS, [_marker_row(group) for group in of_world], _marker_title(of_world[0])
+        )
+    yield Text("")
+    yield Text(
+        "At: the vertex where the marker lies, and the dart that it points at, as the world's file"
+        " numbers them (of equal places the first). Saved: what the best place saves of the mean"
+        " over all darts."
+    )
+    for entry in (one for group in groups.values() for one in group if one.same_as is None):
+        run = f"{entry.algorithm} in {entry.world}, marker at dart {entry.marker}"
+        yield from finding_blocks(entry.findings, run)
+        if entry.stopped is not None and not entry.findings:
+            yield Text(f"{run}, is not decided: {entry.stopped}")
+
+
+_MARKER_COLUMNS = ("algorithm", ">mean", ">best", ">at", ">worst", ">at", ">saved", "claims")
+
+
+def _marker_title(group: Sequence[ExploreEntry]) -> str:
+    one = group[0]
+    size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
+    kinds = sum(entry.same_as is None for entry in group)
+    return (
+        f"{one.world}: {size}, genus {one.genus}, the marker at each of"
+        f" {plural(len(group), 'dart')}, {kinds} of them different"
+    )
+
+
+def _marker_row(group: Sequence[ExploreEntry]) -> tuple[str, ...]:
+    decided = [entry for entry in group if entry.ok]
+    bad = next((entry for entry in group if not entry.ok), None)
+    claims = claims_cell((bad or group[0]).claims, incomplete=bad is not None and not bad.findings)
+    if not decided:
+        return (group[0].algorithm, "-", "-", "-", "-", "-", "-", claims)
+    average = mean(entry.cost for entry in decided)
+    best, worst = (pick(decided, key=lambda entry: entry.cost) for pick in (min, max))
+    saved = f"{1 - best.cost / average:.0%}" if average else "-"
+    return (
+        group[0].algorithm,
+        f"{average:.0f}",
+        *(str(best.cost), _where(best), str(worst.cost), _where(worst)),
+        saved,
+        claims,
+    )
+
+
+def _where(entry: ExploreEntry) -> str:
+    return f"{entry.place}:{entry.marker}"

@@ -8,9 +8,9 @@ import click
 import msgspec
 
 from topo_verify.cli import options
-from topo_verify.cli.output import Output, Result
+from topo_verify.cli.output import Output, Result, written
 from topo_verify.programs.library import VERSION, header_text
-from topo_verify.report.blocks import Block, Raw, TextTable
+from topo_verify.report.blocks import Block
 from topo_verify.world.formats import files
 
 
@@ -50,7 +50,4 @@ def header(output: Output, *, file: str | None) -> int:
 
 def _show(entries: Sequence[HeaderEntry]) -> Iterator[Block]:
     for entry in entries:
-        if entry.text is not None:
-            yield Raw(entry.text)
-        else:
-            yield TextTable(("interface", "file"), [(str(entry.interface), str(entry.file))])
+        yield written(entry.text, interface=str(entry.interface), file=entry.file)

@@ -28,10 +28,10 @@ import msgspec
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.failures import ExitCode, exit_code, say, silence, version
 from topo_verify.cli.reporting import ReportFiles, command_line, versions
-from topo_verify.cli.walks import FoundRuns
+from topo_verify.cli.runs import FoundRuns
 from topo_verify.errors import InputError, plural
 from topo_verify.report import account as acc
-from topo_verify.report.blocks import Block, Text
+from topo_verify.report.blocks import Block, Raw, Text, TextTable
 from topo_verify.report.markdown import markdown
 from topo_verify.report.terminal import pretty
 
@@ -105,6 +105,11 @@ def entry_of(kind: type[E], *sources: object, **more: object) -> E:
     return msgspec.convert(fields, kind, from_attributes=True)
 
 
+def written(text: str | None, **row: str | None) -> Block:
+    """What was written to standard output, as it is; else a table that names the file."""
+    return TextTable(tuple(row), [tuple(map(str, row.values()))]) if text is None else Raw(text)
+
+
 class _ReaderGone(Exception):
     """The reader of stdout has closed it, as `| head` does: stop printing."""
 
@@ -166,7 +171,7 @@ class Output:
             results: does the work and yields one entry after the other.
             show: turns all entries into blocks, for people.
             live: prints the entries one by one in `pretty` form, in place of `show`.
-            account: says what the entries come to, if the command can be asked for a report.
+            account: sums up the entries, if the command can be asked for a report.
             walk: show the walk of the first counterexample behind the entries.
             more: further fields of the JSON envelope.
         """

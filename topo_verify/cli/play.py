@@ -45,7 +45,7 @@ svg_option = click.option(
 
 
 def require_one_world(file: str | None, number: int) -> None:
-    """Raise InputError unless a page of so many worlds can be written to this file, if any."""
+    """Raise InputError if the file is standard output, or the number of worlds is not 1."""
     if file is None:
         return
     if file == "-":

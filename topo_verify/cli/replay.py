@@ -17,8 +17,14 @@ from topo_verify.cli import options
 from topo_verify.cli.options import Mappers
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.play import player_option, require_one_world, write_page
-from topo_verify.cli.runs import NamedWorld, judged, named_world, unjudged
-from topo_verify.cli.walks import other_findings, walk_view
+from topo_verify.cli.runs import (
+    NamedWorld,
+    judged,
+    named_world,
+    other_findings,
+    unjudged,
+    walk_view,
+)
 from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.walk import Extent
@@ -103,7 +109,11 @@ def replay(  # noqa: PLR0913  an argument an option
         if data is not None and _is_trace(data):
             # A trace has its mapper and limits behind it: an option would be ignored in silence.
             words = [name for name in options.given() if name in OF_A_MAPPER]
-            _require_none((*words, *limits.options), what)
+            if words := [*words, *limits.options]:
+                raise InputError(
+                    f"{words[0]} with the trace {what}: a trace is judged as it stands; leave the"
+                    " option out, or name a WORLD to run a mapper in"
+                )
             report, stopped = _judged(output, what, data, world_text, marker, strict=strict)
             trace, incomplete = what, report.ok and report.undecided
         else:
@@ -114,8 +124,17 @@ def replay(  # noqa: PLR0913  an argument an option
             mapper = mappers.load_one()
             trace, at = None, named_world(what, marker, data)
             report, stopped, incomplete = _ran(output, at, mapper, limits, strict=strict)
-        reports.append(_told(report, first, player))
-        yield _result(report, trace, stopped, incomplete=incomplete)
+        events = len(report.run.trace) if report.run else 1
+        if first is not None and first >= events:
+            raise InputError(f"--from {first}: expected an event of the run, 0 to {events - 1}")
+        if player is not None and report.run is not None:
+            run = report.run
+            played = PlayedRun(report.target, tuple(run.trace), report.judgements, run.stopped)
+            write_page(player, run.world, report.world, [played])
+        reports.append(report)
+        ok = not report.findings and not incomplete
+        entry = entry_of(ReplayEntry, report, ok=ok, trace=trace, stopped=stopped)
+        yield Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
     asked = Extent(0, to_end=True) if everything else Extent(first, to_end=first is not None)
     return output.run(
@@ -124,30 +143,6 @@ def replay(  # noqa: PLR0913  an argument an option
         lambda entries: _show(entries, reports, asked),
         in_process=mappers.in_process,
     )
-
-
-def _told(report: Report, first: int | None, player: str | None) -> Report:
-    """The report, once --from is found to be in its run, and the page of --player is written."""
-    _require_event(first, report)
-    if player is not None and report.run is not None:
-        run = report.run
-        played = PlayedRun(report.target, tuple(run.trace), report.judgements, run.stopped)
-        write_page(player, run.world, report.world, [played])
-    return report
-
-
-def _require_none(given: Sequence[str], what: str) -> None:
-    if given:
-        raise InputError(
-            f"{given[0]} with the trace {what}: a trace is judged as it stands; leave the option"
-            " out, or name a WORLD to run a mapper in"
-        )
-
-
-def _require_event(first: int | None, report: Report) -> None:
-    last = len(report.run.trace) - 1 if report.run else 0
-    if first is not None and first > last:
-        raise InputError(f"--from {first}: expected an event of the run, 0 to {last}")
 
 
 def _bytes(what: str) -> bytes | None:
@@ -233,14 +228,6 @@ def _ran(
     run = run_mapper(at.world, mapper, limits=limits)
     report, incomplete = judged(run, at, limits, strict=strict)
     return msgspec.structs.replace(report, world=at.name).of(report.run), run.stopped, incomplete
-
-
-def _result(
-    report: Report, trace: str | None, stopped: str | None, *, incomplete: bool = False
-) -> Result[ReplayEntry]:
-    ok = not report.findings and not incomplete
-    entry = entry_of(ReplayEntry, report, ok=ok, trace=trace, stopped=stopped)
-    return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
 
 def _show(

@@ -1,4 +1,4 @@
-"""--report, --junit and --badge: what a run came to, written to files when it has ended.
+"""--report, --junit and --badge: the account of a run, written to files when it has ended.
 
 Each file is asked before the work begins whether it can be written, and is written whole or not at
 all. What was done before an interrupt is written, too, and says that it is not all.

@@ -117,7 +117,13 @@ def reproduce(  # noqa: PLR0913  an argument an option
 
     def points() -> Iterator[Result[FigurePoint]]:
         figures = chosen_figures(figure)
-        _require_engine(engine, policies=policies)
+        if engine == "compiled":
+            require_compiled((), Limits())
+            if policies:
+                raise InputError(
+                    "--policies with --engine compiled: that engine knows the reference policies"
+                    " only; leave one of the two out"
+                )
         folder = options.make_folder(out, "--out")
         made = _runs(output, figures, extent, engine, folder, workers or processors())
         found = [(one, figure_points(one, extent, made)) for one in figures]
@@ -135,16 +141,6 @@ def reproduce(  # noqa: PLR0913  an argument an option
         quick=quick,
         graphs=extent.graphs,
     )
-
-
-def _require_engine(engine: Engine, *, policies: bool) -> None:
-    if engine == "compiled":
-        require_compiled((), Limits())
-        if policies:
-            raise InputError(
-                "--policies with --engine compiled: that engine knows the reference policies only;"
-                " leave one of the two out"
-            )
 
 
 def _runs(

@@ -116,7 +116,9 @@ def search(  # noqa: PLR0913  an argument an option
             in_process=mappers.in_process,
             engine=engine,
         )
-        _require_files(depends)
+        for path in depends:
+            if not Path(path).is_file():
+                raise InputError(f"--depends {path}: there is no such file; name one that exists")
         with _cluster(dask, workers) as cluster:
             if ledger is not None:
                 watch()  # before a mapper is loaded, and after Dask has read its settings
@@ -132,12 +134,6 @@ def search(  # noqa: PLR0913  an argument an option
         return chain.from_iterable(_shown(entry, worst=worst) for entry in entries)
 
     return output.run("search", searches, show, account=_account, in_process=mappers.in_process)
-
-
-def _require_files(depends: Sequence[str]) -> None:
-    for path in depends:
-        if not Path(path).is_file():
-            raise InputError(f"--depends {path}: there is no such file; name one that exists")
 
 
 def _cluster(dask: str | None, workers: int | None) -> AbstractContextManager[Cluster | None]:
@@ -249,21 +245,21 @@ def _account(entries: Sequence[SearchEntry]) -> acc.Account:
     return acc.Account(
         ", ".join(entry.target for entry in entries),
         acc.extent(verdict, checked, total, failing),
-        acc.suites((_suite(entry), _cases(entry)) for entry in entries),
+        acc.suites((f"{entry.target}: {_class(entry, ', ')}", _cases(entry)) for entry in entries),
     )
 
 
-def _suite(entry: SearchEntry) -> str:
-    kind = "" if entry.kind == "any" else f", {entry.kind}"
-    return f"{entry.target}: worlds of 1 to {plural(entry.edges, 'edge')}{kind}"
+def _class(entry: SearchEntry, before: str) -> str:
+    """The worlds of a search; before the name of a class other than `any` stands `before`."""
+    kind = "" if entry.kind == "any" else f"{before}{entry.kind}"
+    return f"worlds of 1 to {plural(entry.edges, 'edge')}{kind}"
 
 
 def _cases(entry: SearchEntry) -> Iterator[acc.JudgedCase]:
     first = entry.counterexample
-    yield acc.JudgedCase(
-        name="every world of the class",
-        verdict=entry.verdict,
-        outcome=acc.outcome_of(entry.verdict),
+    yield acc.verdict_case(
+        "every world of the class",
+        entry.verdict,
         judged=f"{entry.checked:,} of {entry.total:,}",
         message="" if first is None else f"{first.claim} in {first.world}: {first.message}",
         again="" if first is None else first.replay,
@@ -288,9 +284,8 @@ SHOWN = 3
 
 def _shown(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     """One search, for people: a table, the verdict, the counterexample."""
-    kind = "" if entry.kind == "any" else f", class {entry.kind}"
     policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
-    title = f"{_who(entry)}: worlds of 1 to {plural(entry.edges, 'edge')}{kind}{policies}"
+    title = f"{_who(entry)}: {_class(entry, ', class ')}{policies}"
     rows = [
         (str(e.edges), str(e.checked), str(e.total), str(e.failing), *(_costs(e) if worst else ()))
         for e in entry.by_edges

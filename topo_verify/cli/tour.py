@@ -118,7 +118,16 @@ def tour(
         if player is not None:
             marked = [one for one in check(at.world, trace) if one.claim == "percepts-true"]
             write_page(player, at.world, at.name, [PlayedRun("tour", trace, marked)])
-        yield _result(at.name, onward, against)
+        moves = [event for event in onward if isinstance(event, Move)]
+        entry = TourEntry(
+            world=at.name,
+            cost=len(moves),
+            doors=tuple(event.door for event in moves),
+            seen=tuple(event.percept for event in moves),
+            against=against,
+        )
+        verdict = against.verdict if against is not None else "PROVED"
+        yield Result(entry, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
 
     return output.run("tour", toured, _show)
 
@@ -141,21 +150,6 @@ def _against(world: World, log: str) -> tuple[Trace, Sequence[Event], LogAgainst
     return trace, found.onward, against
 
 
-def _result(
-    world: str, onward: Sequence[Event], against: LogAgainstMap | None
-) -> Result[TourEntry]:
-    moves = [event for event in onward if isinstance(event, Move)]
-    entry = TourEntry(
-        world=world,
-        cost=len(moves),
-        doors=tuple(event.door for event in moves),
-        seen=tuple(event.percept for event in moves),
-        against=against,
-    )
-    verdict = against.verdict if against is not None else "PROVED"
-    return Result(entry, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
-
-
 def _show(entries: Sequence[TourEntry]) -> Iterator[Block]:
     for entry in entries:
         yield Text(_sentence(entry))
@@ -168,14 +162,15 @@ def _show(entries: Sequence[TourEntry]) -> Iterator[Block]:
             yield TextTable(
                 (">move", ">door", ">degree seen", ">marker seen at door"),
                 [
-                    (str(n), str(door), str(seen.degree), _door(seen.marker))
+                    (
+                        str(n),
+                        str(door),
+                        str(seen.degree),
+                        "-" if seen.marker is None else str(seen.marker),
+                    )
                     for n, (door, seen) in walk
                 ],
             )
-
-
-def _door(marker: Door | None) -> str:
-    return "-" if marker is None else str(marker)
 
 
 def _sentence(entry: TourEntry) -> str:

@@ -83,10 +83,9 @@ WORLDLESS = ("counts", "proofs")
 
 def cases_of(part: Part) -> Iterator[acc.JudgedCase]:
     """A case for the part, and one for each claim."""
-    yield acc.JudgedCase(
-        name="the part as a whole",
-        verdict=part.verdict,
-        outcome=acc.outcome_of(part.verdict),
+    yield acc.verdict_case(
+        "the part as a whole",
+        part.verdict,
         judged=f"{part.checked:,} of {part.total:,}",
         message=part.summary,
         again=part.findings[0].replay if part.findings else "",

@@ -15,7 +15,7 @@ import msgspec
 from topo_verify.campaign.corpus import drawn as worlds_drawn
 from topo_verify.cli import options
 from topo_verify.cli.failures import epilog
-from topo_verify.cli.output import Live, Output, Result, entry_of
+from topo_verify.cli.output import Live, Output, Result, entry_of, written
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.errors import InputError, plural
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
@@ -218,10 +218,7 @@ def convert(output: Output, *, world: str, to: str | None, file: str, marker: in
 
 def _show_converted(entries: Sequence[ConvertEntry]) -> Iterator[Block]:
     for entry in entries:
-        if entry.text is not None:
-            yield Raw(entry.text)
-        else:
-            yield TextTable(("world", "to", "file"), [(entry.world, entry.to, str(entry.file))])
+        yield written(entry.text, world=entry.world, to=entry.to, file=entry.file)
 
 
 # ---------------------------------------------------------------- count
@@ -551,9 +548,7 @@ def _dart_at(world: World, vertex: int | None) -> Dart | None:
 
 def _show_drawn(entries: Sequence[DrawEntry]) -> Iterator[Block]:
     for entry in entries:
-        if entry.text is not None:
-            yield Raw(entry.text.rstrip("\n"))
-            continue
-        yield TextTable(("world", "layout", "file"), [(entry.world, entry.layout, str(entry.file))])
-        if entry.shown < entry.vertices:
+        text = None if entry.text is None else entry.text.rstrip("\n")
+        yield written(text, world=entry.world, layout=entry.layout, file=entry.file)
+        if text is None and entry.shown < entry.vertices:
             yield Raw(f"{entry.shown} of {entry.vertices} vertices are shown; others: --around.")

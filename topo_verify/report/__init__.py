@@ -1,4 +1,4 @@
-"""What a command came to, in every form in which people and machines read it.
+"""The account of a command, in every form in which people and machines read it.
 
 style.py      one style for all: the tone and mark of each verdict, the palette
 blocks.py     what a command has to say: paragraphs, tables, commands to copy; of no form

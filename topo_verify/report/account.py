@@ -1,4 +1,4 @@
-"""What a run of a command came to: what was judged, how much of it, and what to look at.
+"""The account of a run of a command: what was judged, how much of it, and what to look at.
 
 A command that judges says it once, as an `Account`; the page, the JUnit file and the badge are
 three forms of it. It holds no time and no date, so the same run has the same account.
@@ -102,7 +102,7 @@ class Exhibit:
 
 @dataclass(frozen=True)
 class Account:
-    """What a run of a command came to.
+    """The outcome of a run of a command.
 
     Attributes:
         about: what was checked, in a few words.
@@ -188,11 +188,12 @@ def _reason(one: Judgement) -> str:
     return _REASONS.get(one.status, "")
 
 
-def outcome_of(verdict: str) -> Outcome:
-    """The outcome of a case where no REFUTED is expected."""
-    if verdict == "REFUTED":
-        return "failed"
-    return "undecided" if verdict == "UNKNOWN" else "passed"
+def verdict_case(
+    name: str, verdict: str, judged: str = "", message: str = "", again: str = ""
+) -> JudgedCase:
+    """A case with this verdict, where no REFUTED is expected."""
+    outcomes: dict[str, Outcome] = {"REFUTED": "failed", "UNKNOWN": "undecided"}
+    return JudgedCase(name, verdict, outcomes.get(verdict, "passed"), judged, message, again)
 
 
 def joint_verdict(verdicts: Sequence[str]) -> Verdict:

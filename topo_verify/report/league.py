@@ -34,7 +34,7 @@ NAME = 26
 
 TICKS = (1, 2, 5)
 FEWEST = 3
-"""So many values stand beside an axis, if steps of a tenth give them."""
+"""Least number of values beside an axis, if steps of a tenth give that many."""
 
 SHIFT, SPREAD = 5.0, 16.0
 """Pixels between the signs of two mappers at one family, so that equal ones are both seen; and of

@@ -26,7 +26,7 @@ GAP = 2
 """Columns between two columns of a table."""
 
 LEAST_REST = 20
-"""A column that takes the rest of the line takes at least so many columns."""
+"""Least width of a column that takes the rest of the line."""
 
 
 def pretty(blocks: Iterable[bl.Block], out: IO[str]) -> None:
@@ -92,7 +92,7 @@ def _print(block: bl.Text | bl.Command | bl.Bullets | bl.TextTable, console: Con
 
 
 def column_widths(table: bl.TextTable, width: int) -> list[int] | None:
-    """The width of each column in a line of so many columns; None if there is no room for all."""
+    """The width of each column in a line of this width; None if there is no room for all."""
     room = width - GAP * (len(table.columns) - 1)
     least = [_least(table, place) for place in range(len(table.columns))]
     if table.widths:
