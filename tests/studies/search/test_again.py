@@ -10,6 +10,7 @@ import pytest
 
 from tests.helpers import worlds
 from tests.programs.programs import served
+from topo_verify.campaign.campaign import ENGINE_SHARD, Ranks
 from topo_verify.campaign.targets import targets
 from topo_verify.cli import main
 from topo_verify.programs.foreign import Foreign
@@ -83,6 +84,8 @@ def test_the_row_has_every_world_once_and_an_order_drawn_by_the_seed() -> None:
     assert sorted(rows[0]) == sorted(rows[2]) == sorted(every)
     of_three = [[name for name in row if name.startswith("m3/")] for row in (rows[0], every)]
     assert of_three[0] != of_three[1]
+    whole = msgspec.structs.replace(campaign, worlds=Ranks(5, shard=ENGINE_SHARD))
+    assert again.row_of(whole) == again.row_of(msgspec.structs.replace(whole, worlds=Ranks(5)))
 
 
 @pytest.mark.usefixtures("folder")
