@@ -5,11 +5,14 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import msgspec
 import pytest
 
-from tests.programs.natives import built, hostile
+from tests.programs.natives import HOSTILE_NUMBA, ROOT, built, hostile
+from topo_verify.campaign.backend import CampaignJob, remade
 from topo_verify.campaign.campaign import Shard
-from topo_verify.campaign.compiled import examine_compiled
+from topo_verify.campaign.identity import source_hash
+from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.targets import one_target
 from topo_verify.compiled import available
 from topo_verify.errors import InputError
@@ -79,6 +82,23 @@ def test_a_misdeed_convicts_the_mapper_in_its_world(deed: str, tmp_path: Path) -
     assert MISDEEDS[deed] in entry.counterexample.message
 
 
+@pytest.mark.parametrize("deed", ["crash", "leave", "loop", "double_itself"])
+def test_a_misdeed_of_a_numba_function_convicts_it_in_its_world(deed: str) -> None:
+    entry = search(f"{HOSTILE_NUMBA}:{deed}", edges=2)
+    assert (entry.engine, entry.verdict) == ("compiled", "REFUTED")
+    assert entry.counterexample is not None
+    assert entry.counterexample.world == "m2/7"
+    assert MISDEEDS[deed] in entry.counterexample.message
+
+
+def test_a_numba_function_comes_to_what_basic_comes_to() -> None:
+    ours = search(f"{ROOT}/examples/native_numba/mapper.py:explore", edges=4)
+    theirs = search("basic", edges=4, engine="compiled")
+    assert ours.verdict == "EXHAUSTED"
+    assert numbers(ours) == numbers(theirs)
+    assert ours.judgements == theirs.judgements
+
+
 def test_all_other_worlds_are_judged(tmp_path: Path) -> None:
     entry = search(hostile(tmp_path, "crash"), edges=2, keep_going=True)
     by_edges = entry.by_edges[-1]
@@ -91,8 +111,21 @@ def test_a_crash_that_does_not_recur_leaves_its_world_undecided(tmp_path: Path) 
     assert entry.lost
 
 
-def test_a_library_is_called_in_workers_of_this_machine_alone(tmp_path: Path) -> None:
+def test_a_dask_cluster_comes_to_the_same_and_refuses_another_library(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    target = built(tmp_path)
+    ours, theirs = search(target, edges=3, dask="local"), search(target, edges=3)
+    assert (ours.verdict, numbers(ours)) == (theirs.verdict, numbers(theirs))
+    assert ours.judgements == theirs.judgements
+    campaign = search_campaign([one_target(target)], edges=3)
+    job = msgspec.json.encode(CampaignJob(campaign, sources="of another file"))
+    with Pool(remade(job), 1) as pool, pytest.raises(InputError, match="is another one on this"):
+        list(pool.run([Shard(2, 0, 10)]))
+
+
+def test_the_bytes_of_a_library_are_a_part_of_what_a_search_rests_on(tmp_path: Path) -> None:
     mapper = one_target(built(tmp_path))
-    campaign = search_campaign([mapper], edges=2)
-    with pytest.raises(InputError, match="leave out --dask"):
-        examine_compiled(campaign, [mapper], Shard(2, 0, 10), lambda _runs: None)
+    before = source_hash([mapper])
+    path = Path(mapper.text.removeprefix("--library "))
+    path.write_bytes(path.read_bytes() + b"more")
+    assert source_hash([mapper]) != before

@@ -13,6 +13,7 @@ from topo_verify.programs.library import header_text
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "native_c" / "mapper.c"
 HOSTILE = ROOT / "tests" / "programs" / "hostile.c"
+HOSTILE_NUMBA = ROOT / "tests" / "programs" / "hostile_numba.py"
 
 
 def built(folder: Path, *options: str, source: Path = EXAMPLE) -> str:

@@ -51,9 +51,9 @@ from topo_verify.campaign.run import Exploration, explore, is_native
 from topo_verify.campaign.tally import KEPT_FAILING, Costs, Counts, Pairs, Tally, notable
 from topo_verify.campaign.worker import Beat, Heartbeat
 from topo_verify.checkers import CLAIMS
-from topo_verify.errors import InputError, InternalError
-from topo_verify.programs.library import LIBRARY, native_address
-from topo_verify.programs.loader import Target
+from topo_verify.errors import InternalError
+from topo_verify.programs.library import LIBRARY
+from topo_verify.programs.loader import Target, native_function
 from topo_verify.robot.events import Event, Finish, Trace
 from topo_verify.world.rooted_map import World
 
@@ -89,7 +89,7 @@ def _native(text: str, beats: int) -> NativeCalls:
     """A native mapper, opened in this process. Its code runs from now on."""
     from topo_verify.compiled.native_run import NativeCalls
 
-    return NativeCalls(native_address(text), beats)
+    return NativeCalls(native_function(text), beats)
 
 
 def examine_compiled(
@@ -103,11 +103,7 @@ def examine_compiled(
     """
     calls = None
     if is_native(mappers[0]):
-        if not isinstance(beat, Heartbeat):
-            raise InputError(
-                f"{mappers[0].text}: the compiled engine calls a native mapper in worker processes"
-                " of this machine: leave out --dask, or give --engine reference"
-            )
+        assert isinstance(beat, Heartbeat), "only a worker process calls native code"
         calls = _native(mappers[0].text, beat.address)
         calls.first, calls.worlds = shard.start, shard.stop - shard.start
     work = _CompiledShard(campaign, mappers, shard, calls, beat)

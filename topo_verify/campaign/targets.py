@@ -5,6 +5,7 @@
     path/file.py:attribute      a callable of a file, likewise
     --cmd program args          a program behind protocol 1, started when it plays its first world
     --library file.so:symbol    a function of a shared library, in a process of its own
+    --library path/file.py:name a function that numba compiles; as path/file.py:name, too
     all                         the algorithms of the catalogue that are right in every world
     basic,path/file.py:name     several of these, but for programs and libraries
 
@@ -41,6 +42,7 @@ from types import ModuleType
 from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, Algorithm, Steered
 from topo_verify.errors import InputError, is_utf8
 from topo_verify.programs.foreign import Foreign
+from topo_verify.programs.jitted import names_jitted
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target, close_name, load, missing_attribute
 from topo_verify.programs.program import OPTIONS, PREFIX, Program, split
@@ -66,15 +68,19 @@ def targets(
 
 
 def each_text(text: str) -> tuple[str, ...]:
-    """The text of each mapper that a TARGET names: it is divided at commas, `all` into names."""
+    """The text of each mapper that a TARGET names: it is divided at commas, `all` into names.
+
+    A function of a Python file that numba compiles is a native mapper.
+    """
     # The prefix comes first: a command may well hold a comma, a module path never begins with `--`.
     place = text.rpartition(":")[0]
     named = "," in place and os.path.isfile(place)  # noqa: PTH113  Path.is_file raises if a list is longer than a file name
-    if named or text.startswith(OPTIONS):
+    if text.startswith(OPTIONS):
         return (text,)
     general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
-    parts = (part.strip() for part in text.split(","))
-    return tuple(name for part in parts for name in (general if part == "all" else [part]))
+    parts = [text] if named else [part.strip() for part in text.split(",")]
+    names = (name for part in parts for name in (general if part == "all" else [part]))
+    return tuple(LIBRARY + name if names_jitted(name) else name for name in names)
 
 
 def one_target(

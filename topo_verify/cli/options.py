@@ -363,7 +363,8 @@ _PROGRAM = (
     click.option(
         "--library",
         metavar="FILE[:SYMBOL]",
-        help="Run this native mapper as the TARGET; see docs/tutorials/native.md."
+        help="Run this native mapper, also FILE.py:NAME by numba, as the TARGET; see"
+        " docs/tutorials/native.md."
         "  [default SYMBOL: map_world]",
     ),
     in_process,

@@ -109,15 +109,15 @@ class NativeCalls:
     """A native mapper, as this process calls it.
 
     Args:
-        function: the address of its function.
+        function: as ctypes has it.
         beats: the address of two words: how many worlds of the shard lie before the one in which
             the mapper is, and a number that grows with every world and move.
     Attributes:
         first, worlds: the rank of the first world of the shard, and how many it has.
     """
 
-    def __init__(self, function: int, beats: int) -> None:
-        self._function, self._beats = function, beats
+    def __init__(self, function: Any, beats: int) -> None:
+        self._function, self._beats = ctypes.cast(function, ctypes.c_void_p).value or 0, beats
         self.first = self.worlds = 0
         self.guarded = Guarded()
         self._end = ctypes.cast(ctypes.CDLL(None)._exit, ctypes.c_void_p).value or 0  # noqa: SLF001  its name in C

@@ -10,6 +10,7 @@ program.py          a program behind protocol 1 as a mapper, called with a robot
 misbehaviour.py     what a program does instead of delivering a map
 loader.py           a mapper by module:attribute or file.py:attribute
 library.py          a native mapper: a function of a shared library; topo_verify.h
+jitted.py           the same in Python: a function that numba compiles
 delivery.py         calls a mapper and reads what it returns
 serve.py            a Python mapper behind protocol 1; each world in a fork of its own, if asked
 foreign.py          a Python mapper that is not ours, in a process of its own

@@ -1,6 +1,6 @@
-"""A native mapper: a function of a shared library, which is given a robot by `topo_verify.h`.
+"""A native mapper: a function of machine code, which is given a robot by `topo_verify.h`.
 
-    mapper = load_library("./mapper.so:map_world")     # a mapper like any other
+    NativeMapper(library_function("--library ./mapper.so:map_world"))   # a mapper like any other
 
 The robot of the header is a row of callbacks; here they hand on to a robot in Python. After a
 refusal they do nothing, until the function returns: then what stopped the robot is raised.
@@ -93,14 +93,15 @@ def library_file(text: str) -> tuple[str, str]:
     return (path, symbol) if path and not os.path.isfile(place) else (place, SYMBOL)  # noqa: PTH113
 
 
-def native_function(text: str) -> Any:
-    """The function of a native mapper, as ctypes has it. Whoever opens a library runs its code.
+def library_function(text: str) -> Any:
+    """The function of a shared library, as ctypes has it. Whoever opens a library runs its code.
 
     Raises:
         InputError: there is no such library or symbol.
     """
     path, symbol = library_file(text)
     where = f"--library {text.removeprefix(LIBRARY)}"
+    confine()
     if not os.path.isfile(path):  # noqa: PTH113
         raise InputError(f"{where}: there is no file {path!r}: name a shared library")
     try:
@@ -118,12 +119,6 @@ def native_function(text: str) -> Any:
         ) from None
     function.restype, function.argtypes = None, (ctypes.c_void_p,)
     return function
-
-
-def native_address(text: str) -> int:
-    """The address of the function of a native mapper; it is there as long as this process."""
-    confine()
-    return ctypes.cast(native_function(text), ctypes.c_void_p).value or 0
 
 
 def confine() -> None:
@@ -159,18 +154,12 @@ def _first_word(path: str) -> str:
         return "0"
 
 
-def load_library(text: str) -> Callable[[Robot], object]:
-    """The native mapper of a TARGET.
+class NativeMapper:
+    """A native mapper. Called once at a time, as its function is.
 
-    Raises:
-        InputError: there is no such library or symbol.
+    Args:
+        function: as ctypes has it.
     """
-    confine()
-    return _NativeMapper(native_function(text))
-
-
-class _NativeMapper:
-    """A native mapper. Called once at a time, as its function is."""
 
     def __init__(self, function: Any) -> None:
         self._function = function
@@ -181,6 +170,7 @@ class _NativeMapper:
         }
 
     def __call__(self, robot: Robot) -> object:
+        """The map that it delivers."""
         self._robot = robot
         self._stopped: BaseException | None = None
         self._map: dict[str, object] | None = None

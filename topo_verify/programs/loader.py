@@ -13,13 +13,21 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
+from functools import cache
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from types import CodeType
-from typing import cast
+from typing import Any, cast
 
 from topo_verify.errors import InputError
-from topo_verify.programs.library import LIBRARY, load_library
+from topo_verify.programs.jitted import is_jitted, jitted_function
+from topo_verify.programs.library import (
+    LIBRARY,
+    NativeMapper,
+    confine,
+    library_file,
+    library_function,
+)
 from topo_verify.robot.events import Robot
 
 Mapper = Callable[[Robot], object]
@@ -43,7 +51,48 @@ def load(text: str) -> Mapper:
         InputError: there is no such module, file or attribute, or it cannot be called.
     """
     if text.startswith(LIBRARY):
-        return load_library(text)
+        return NativeMapper(native_function(text))
+    found = _found(text)
+    if is_jitted(found):
+        raise InputError(f"target {text!r} is compiled by numba: give it as --library {text}")
+    if not callable(found):
+        raise InputError(
+            f"target {text!r}: expected a callable that takes a robot, got {type(found).__name__}"
+        )
+    return found
+
+
+def native_function(text: str) -> Any:
+    """The function of a native mapper, as ctypes has it; it is there as long as this process.
+
+    Raises:
+        InputError: there is none; or numba does not compile it, or cannot.
+    """
+    if not is_python(text):
+        return library_function(text)
+    found = compiled_once(text)
+    confine()
+    return found
+
+
+def is_python(text: str) -> bool:
+    """Whether a native mapper is a function that numba compiles."""
+    return text.startswith(LIBRARY) and library_file(text)[0].endswith(".py")
+
+
+@cache
+def compiled_once(text: str) -> Any:
+    """The function of a native mapper in a Python file, which is run and compiled at first.
+
+    Raises:
+        InputError: as `native_function`.
+    """
+    place = ":".join(library_file(text))
+    return jitted_function(_found(place), f"--library {place}")
+
+
+def _found(text: str) -> object:
+    """What `package.module:attribute` or `path/file.py:attribute` names."""
     place, _, attribute = text.rpartition(":")
     found = _load_file(Path(place), text) if place.endswith(".py") else _load_module(place, text)
     for name in attribute.split("."):
@@ -54,10 +103,6 @@ def load(text: str) -> Mapper:
                 f"target {text!r}: {place} has no attribute {attribute!r}"
                 f"{close_attribute(found, name)}"
             ) from None
-    if not callable(found):
-        raise InputError(
-            f"target {text!r}: expected a callable that takes a robot, got {type(found).__name__}"
-        )
     return found
 
 

@@ -30,7 +30,7 @@ from topo_verify.programs import isolation, loaded
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.delivery import Undelivered, deliver, finish_of
 from topo_verify.programs.library import Skipped
-from topo_verify.programs.loader import Mapper, load
+from topo_verify.programs.loader import Mapper, compiled_once, is_python, load
 from topo_verify.robot.events import Decision
 from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.percept import Door, Percept, Purpose
@@ -217,12 +217,16 @@ def fresh(text: str) -> None:
 
     This process loads all that a mapper needs but the mapper: a fork takes some milliseconds, to
     start Python anew a few hundred. What a fork does to itself it does to nobody else; if a signal
-    ends it, this process ends itself by the same.
+    ends it, this process ends itself by the same. What numba has to compile, which takes seconds,
+    is compiled here; no world has been played then.
 
     What this does not show: that nothing is left of an earlier world on the disk or in the
     environment. All forks have the same hash seed.
     """
     reader, writer = isolation.private_pipes()
+    if is_python(text):
+        with suppress(InputError):  # each fork will say it
+            compiled_once(text)
     _send(writer, ms.ReadyMessage())
     for line in reader:
         message = _to_child.decode(line)
