@@ -20,7 +20,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
-from numba import njit, types
+from numba import njit
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
@@ -31,7 +31,8 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-ir: Any = import_module("llvmlite.ir")  # has no types
+ir: Any = import_module("llvmlite.ir")
+types: Any = import_module("numba.types")  # neither has types
 _njit: Any = njit
 
 NONE = -1
@@ -70,8 +71,7 @@ class NativePercept(NamedTuple):
 
 def _called(_typing: Any, _robot: Any, _member: Any, given: Any) -> Any:
     """The answer of a member of the robot, which is given its world and these words and rows."""
-    kinds: Any = given
-    for one in kinds:
+    for one in given:
         if isinstance(one, types.Array) and (one.dtype, one.ndim, one.layout) != (
             types.int64,
             1,
@@ -86,7 +86,7 @@ def _called(_typing: Any, _robot: Any, _member: Any, given: Any) -> Any:
         robot, member, each = values
         members = builder.inttoptr(robot, word.as_pointer())
         words = [builder.load(builder.gep(members, [ir.Constant(word, _WORLD)]))]
-        for k, kind in enumerate(kinds):
+        for k, kind in enumerate(given):
             value = builder.extract_value(each, k)
             if isinstance(kind, types.Array):
                 row = context.make_array(kind)(context, builder, value)

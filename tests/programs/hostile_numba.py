@@ -90,7 +90,7 @@ def no_map(robot: int) -> None:
 @njit
 def half_words(robot: int) -> None:
     """Declare a row of other words; numba refuses that."""
-    tv.pose(robot, 0, np.zeros(2, np.int32))
+    tv.pose(robot, 0, np.zeros(2, np.int32))  # pyright: ignore[reportArgumentType]
 
 
 def plain(robot: int) -> None:
