@@ -45,11 +45,13 @@ class Crossed:
         refuted: the hypotheses that no world allows, each with the rule and the contradiction.
         supposed: of hypotheses that some world allows: the places, if it is true.
         vertices: how many vertices S had when they were supposed.
+        possible: the first hypothesis that some world allowed, when that was last asked.
     """
 
     refuted: dict[MapDart, Refutation] = field(default_factory=dict[MapDart, Refutation])
     supposed: dict[MapDart, Places] = field(default_factory=dict[MapDart, Places])
     vertices: int = 0
+    possible: MapDart | None = None
 
 
 class ImpossibleError(Exception):
@@ -258,11 +260,19 @@ class History:
                 h = self.map_dart(self.behind(e))
                 if h is not None:  # H.16
                     self._settle_loop(e, h)
-                elif next(self.hypotheses(e), None) is None:  # H.17
+                elif not self._may_be_known(e):  # H.17
                     self._settle_new(e)
                 else:
                     continue
                 grown = True
+
+    def _may_be_known(self, e: MapDart) -> bool:
+        """Whether some world allows a hypothesis for a crossed e."""
+        about = self.crossed[e]
+        h = about.possible  # those before it are refuted for ever, so it is still the first or none
+        if h is None or h not in self.chart.unexplored or self.suppose(e, h) is None:
+            about.possible = next((h for h, _ in self.hypotheses(e)), None)
+        return about.possible is not None
 
     def _settle_loop(self, e: MapDart, h: MapDart) -> None:
         """S grows by the edge between two of its darts."""

@@ -55,7 +55,8 @@ class Places:
 
     def across(self, dart: NodeDart) -> NodeDart | None:
         """The other end of a dart's edge; None if nothing was seen behind it."""
-        return self.fold.resolve(self.fold.across(dart)) or None
+        end = self.fold.across(dart)
+        return self.fold.resolve(end) if end else None
 
     def turn(self, dart: NodeDart, door: Door) -> NodeDart:
         """The dart that is so many doors clockwise from this one."""

@@ -22,6 +22,7 @@ Source: docs/semantics.md, section 13.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
 from typing import Annotated, Literal, get_args
 
 from topo_verify.compiled.kernel import entry
@@ -208,6 +209,7 @@ def _reject_words(event: Reject) -> tuple[int, ...]:
 # ---------------------------------------------------------------- events of words
 
 
+@lru_cache(maxsize=2**12)
 def percept_of(word: int) -> Percept:
     """The percept that a word stands for."""
     marker = word % P
@@ -239,8 +241,7 @@ def decoded(trace: Sequence[int]) -> Iterator[Event]:
     for at, end in spans(trace):
         kind, *rest = trace[at:end]
         if kind == MOVE:
-            door, percept, purpose = rest
-            yield trace_store.move(door, percept_of(percept), _purpose(purpose))
+            yield _move(*rest)
         elif kind == POSE:
             yield Pose(rest[0], tuple(rest[2:]))
         elif kind == REJECT:
@@ -249,6 +250,11 @@ def decoded(trace: Sequence[int]) -> Iterator[Event]:
             yield Confirm(rest[0], rest[1], RULES[rest[2]])
         elif kind == AUGMENT:
             yield Augment(rest[0], KINDS[rest[1] - 1], rest[2], rest[3])
+
+
+@lru_cache(maxsize=2**16)
+def _move(door: int, percept: int, purpose: int) -> Move:
+    return trace_store.move(door, percept_of(percept), _purpose(purpose))
 
 
 def _purpose(number: int) -> Purpose | None:

@@ -3,9 +3,10 @@
     run = run_world(world, "enhancement-ii", trace=True)     # -> CompiledRun
 
 Worlds of up to 12 edges run in the small layout, others in the large one, which takes up to 65,536
-edges. A run whose trace is longer than there is room for is made again with four times the room; a
-run that needs more of anything else than the small layout has, in the large one. Between rounds of
-the loop a run can be interrupted (Ctrl-C).
+edges. Between rounds of the loop a run can be interrupted (Ctrl-C); in the large layout the words
+of its trace become events then, and their room is free again. Rounds that fill it are made again
+with four times the room, the whole run with them; a run that needs more of anything else than the
+small layout has, in the large one.
 
 A trace may take half of the memory that is free. A run that needs more is refused: by its cost,
 which a run without a trace tells, or once that half is full.
@@ -18,13 +19,13 @@ from __future__ import annotations
 import os
 import resource
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from topo_verify.compiled import require
 from topo_verify.compiled import workspace as ws
-from topo_verify.compiled.events import decoded
+from topo_verify.compiled.events import decoded, words
 from topo_verify.compiled.exploration import explore_rounds
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.kernel import compiled
@@ -77,8 +78,8 @@ MOST_EDGES = 1 << 16
 TRACE_ROOM = 1 << 20
 """Words of trace for which the large layout has room at first."""
 
-WORD_BYTES = 72
-"""Bytes for a word of trace, with the events that are made of it; 33 to 67 were measured."""
+WORD_BYTES = 40
+"""Bytes for a word of trace, as an event that is made of it; 3 (moves) to 36 (poses) are needed."""
 
 MOVE_WORDS = 4
 """Words of a move."""
@@ -95,23 +96,28 @@ class CompiledRun:
         cost: edge traversals.
         map: what it delivered, or None.
         stopped: why it delivered none, or None.
-        trace: the words of its trace (events.py), if they were asked for.
+        decoded: its moves and decisions, if its trace was asked for.
         reported: the cost that it reported with its map.
     """
 
     cost: int
     map: MapData | None
     stopped: str | None
-    trace: tuple[int, ...] | None
+    decoded: tuple[Event, ...] | None
     reported: int | None
+
+    @property
+    def trace(self) -> tuple[int, ...] | None:
+        """The words of its trace (events.py), if it was asked for."""
+        return None if self.decoded is None else tuple(words(self.decoded))
 
     @property
     def events(self) -> tuple[Event, ...]:
         """The events from the first move on, with the map at the end; none without a trace."""
-        if self.trace is None:
+        if self.decoded is None:
             return ()
-        found = tuple(decoded(self.trace))
-        return found if self.map is None else (*found, Finish(self.reported, self.map))
+        finish = () if self.map is None else (Finish(self.reported, self.map),)
+        return self.decoded + finish
 
 
 def run_world(
@@ -159,6 +165,7 @@ def run_world(
             layout = ws.LARGE
         else:
             return job.result(space, layout)
+        job.events.clear()
 
 
 def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
@@ -169,7 +176,7 @@ def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
     """
     most, needed = free_memory() // 2 // WORD_BYTES, room + 1
     if needed <= most:
-        bare = job._replace(trace=False).run(layout, 1)
+        bare = replace(job, trace=False).run(layout, 1)
         needed = max(needed, MOVE_WORDS * int(bare[layout.at("robot.cost")]))
     if needed > most:
         raise InputError(
@@ -229,14 +236,20 @@ def _require_room(world: World) -> None:
         )
 
 
-class CompiledJob(NamedTuple):
-    """What is asked of one run: an algorithm in a world, with a budget and perhaps a mistake."""
+@dataclass(frozen=True, slots=True)
+class CompiledJob:
+    """What is asked of one run: an algorithm in a world, with a budget and perhaps a mistake.
+
+    Attributes:
+        events: those of which the words were taken out of the workspace.
+    """
 
     world: World
     algorithm: str
     trace: bool
     budget: int
     fault: str
+    events: list[Event] = field(default_factory=list[Event])
 
     def run(self, layout: ws.WordLayout, room: int) -> Workspace:
         """The workspace after the run, with room for so many words of trace."""
@@ -251,9 +264,15 @@ class CompiledJob(NamedTuple):
         space[layout.at("task.tracing")] = self.trace
         space[layout.at("task.room")] = room
         open_darts, stop = layout.at("chart.unexplored"), layout.at("stop")
-        at = -1
+        size, at, taken, most = layout.at("trace.size"), -1, 0, room
         while at < 0 or (space[open_darts] > 0 and space[stop] == 0):
             at = explore(space, at, ROUNDS)
+            if layout is ws.LARGE and self.trace and space[stop] < ws.STOP_FULL:
+                taken += int(space[size])
+                if taken > most:
+                    most = _more_room(self, layout, taken)
+                self.events.extend(decoded(trace_of(space, layout)))
+                space[size] = 0
         return space
 
     def result(self, space: Workspace, layout: ws.WordLayout) -> CompiledRun:
@@ -264,8 +283,8 @@ class CompiledJob(NamedTuple):
                 f"the run of {self.fault or self.algorithm} needs more room than the compiled"
                 f" engine has for {KEPT[stop - ws.STOP_FULL]}: use the reference engine"
             )
-        trace = layout.at("trace.word")
-        words = space[trace : trace + int(space[layout.at("trace.size")])] if self.trace else None
+        if self.trace:
+            self.events.extend(decoded(trace_of(space, layout)))
         return CompiledRun(
             int(space[layout.at("robot.cost")]),
             None if stop else map_of(space, layout),
@@ -274,7 +293,7 @@ class CompiledJob(NamedTuple):
                 ws.STOP_BUDGET: f"the mapper asked for more than {self.budget} moves",
                 ws.STOP_DOOR: "the mapper asked for a door that is not there",
             }[stop],
-            None if words is None else tuple(words.tolist()),
+            tuple(self.events) if self.trace else None,
             int(space[layout.at("robot.cost")]),
         )
 
@@ -283,14 +302,21 @@ def workspace(layout: ws.WordLayout, room: int) -> Workspace:
     """A workspace with room for so many words of trace; what is never touched takes no memory."""
     import numpy as np
 
-    words = layout.at("trace.word") + room
+    size = layout.at("trace.word") + room
     try:
-        return np.zeros(words, np.int64)
+        return np.zeros(size, np.int64)
     except MemoryError:
         raise InputError(
-            f"the compiled engine needs {words * 8 / 2**30:.2f} GiB of address space for this run"
+            f"the compiled engine needs {size * 8 / 2**30:.2f} GiB of address space for this run"
             " and gets none: raise the limit (ulimit -v), or use the reference engine"
         ) from None
+
+
+def trace_of(space: Workspace, layout: ws.WordLayout) -> list[int]:
+    """The words of trace in a workspace."""
+    at = layout.at("trace.word")
+    row: list[int] = space[at : at + int(space[layout.at("trace.size")])].tolist()
+    return row
 
 
 def place_world(space: Workspace, layout: ws.WordLayout, world: World) -> None:
@@ -308,15 +334,15 @@ def place_world(space: Workspace, layout: ws.WordLayout, world: World) -> None:
 def map_of(space: Workspace, layout: ws.WordLayout) -> MapData:
     """The map S in a workspace."""
 
-    def field(name: str, length: int) -> list[int]:
+    def row_of(name: str, length: int) -> list[int]:
         at = layout.at(f"chart.{name}")
         row: list[int] = space[at : at + length].tolist()
         return row
 
     darts, vertices = (int(space[layout.at(f"chart.{name}")]) for name in ("darts", "vertices"))
-    firsts, degrees = field("first", vertices), field("degree", vertices)
+    firsts, degrees = row_of("first", vertices), row_of("degree", vertices)
     return MapData(
         tuple(tuple(range(f, f + d)) for f, d in zip(firsts, degrees, strict=True)),
-        tuple((d, o) for d, o in enumerate(field("alpha", darts)) if d < o),
+        tuple((d, o) for d, o in enumerate(row_of("alpha", darts)) if d < o),
         0 if darts else None,
     )

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 from topo_verify.compiled import native, tally
 from topo_verify.compiled import workspace as ws
+from topo_verify.compiled.events import decoded
 from topo_verify.compiled.explore import CompiledRun, map_of, place_world
 from topo_verify.compiled.kernel import address_of, compiled
 from topo_verify.robot.events import MapData
@@ -213,6 +214,6 @@ def made_by(space: Row, world: World) -> CompiledRun:
         int(space[_at("robot.cost")]),
         found,
         why,
-        tuple(words.tolist()),
+        tuple(decoded(words.tolist())),
         None if reported < 0 else reported,
     )
