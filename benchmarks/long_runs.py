@@ -2,6 +2,7 @@
 
     .venv/bin/python benchmarks/long_runs.py          # the lattice of 1,984 edges
     .venv/bin/python benchmarks/long_runs.py 32 50 71 # also 4,900 and 9,940 edges: an hour or so
+    .venv/bin/python benchmarks/long_runs.py --growth # exponents of time and memory, some minutes
 
 Seconds are those of the processor. Each command runs in a process of its own, and memory is the
 most that this process took; Python and the modules take some 30 MB of it.
@@ -13,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
+from math import log
 from pathlib import Path
 from random import Random
 from time import process_time
@@ -47,10 +49,15 @@ so it must be small."""
 
 def used(*words: str) -> Used:
     """What a command of topo-verify takes, in a process of its own; it must not say REFUTED."""
-    command = [sys.executable, "-c", MEASURE, sys.executable, "-m", "topo_verify", *words]
-    told = subprocess.run([*command, "--quiet"], capture_output=True, check=True, text=True).stdout  # noqa: S603  our own command
+    return measured("-m", "topo_verify", *words, "--quiet")
+
+
+def measured(*words: str) -> Used:
+    """What Python takes with these arguments, in a process of its own."""
+    command = [sys.executable, "-c", MEASURE, sys.executable, *words]
+    told = subprocess.run(command, capture_output=True, check=True, text=True).stdout  # noqa: S603  our own command
     code, seconds, kilobytes = told.split()
-    assert code in ("0", "3"), f"topo-verify {' '.join(words)}: exit {code}"
+    assert code in ("0", "3"), f"{' '.join(words)}: exit {code}"
     return Used(float(seconds), int(kilobytes) // 1024)
 
 
@@ -99,8 +106,41 @@ def table(row: Row, sides: Sequence[int] = (32,)) -> None:
             row("    memory", f"{took.megabytes} MB", "")
 
 
+RUN = """
+import sys
+from topo_verify import explore, families
+side = int(sys.argv[1])
+explore(families.lattice(side, side + 1), sys.argv[2], engine=sys.argv[3])
+"""
+"""One run with its trace, which is not judged."""
+
+
+def growth(row: Row, small: int = 15, large: int = 50) -> None:
+    """Print what runs in two lattices take beyond a run in a tiny one, and the exponents."""
+    worlds = [families.lattice(side, side + 1) for side in (small, large)]
+    edges = [len(world.edges) for world in worlds]
+    for engine in ("reference", "compiled"):
+        for name in ("basic", "folding", "enhancement-iii-all+i"):
+            measured("-c", RUN, "2", name, engine)  # kernels are compiled once
+            start, *took = (
+                measured("-c", RUN, str(side), name, engine) for side in (2, small, large)
+            )
+            seconds = [max(0.01, one.seconds - start.seconds) for one in took]
+            memory = [max(1, one.megabytes - start.megabytes) for one in took]
+            for what, unit, used_up in (("time", "s", seconds), ("memory", "MB", memory)):
+                cells = " / ".join(f"{amount:.2f}" for amount in used_up)
+                power = log(used_up[1] / used_up[0]) / log(edges[1] / edges[0])
+                where = f"{engine} {name}, {edges[0]:,} / {edges[1]:,} edges: {what}"
+                row(where, f"{cells} {unit}", f"m^{power:.1f}")
+
+
+def print_row(*cells: str) -> None:
+    """Print a row of the table."""
+    print(f"{cells[0]:<66}{cells[1]:>20}{cells[2]:>12}", flush=True)
+
+
 if __name__ == "__main__":
-    table(
-        lambda *cells: print(f"{cells[0]:<58}{cells[1]:>18}{cells[2]:>18}", flush=True),
-        [*map(int, sys.argv[1:])] or (32,),
-    )
+    if sys.argv[1:2] == ["--growth"]:
+        growth(print_row, *map(int, sys.argv[2:]))
+    else:
+        table(print_row, [*map(int, sys.argv[1:])] or (32,))
