@@ -68,11 +68,47 @@ def title(page: Page) -> str:
     return page.inner_text(".say h3")
 
 
-def test_a_run_without_findings_opens_at_its_start(show: Open, lattice: str) -> None:
+def test_a_run_without_findings_opens_at_its_first_question(show: Open, lattice: str) -> None:
     page = show(lattice)
+    assert step(page) > 0
+    assert title(page) == "Was it here before?"
+    assert page.locator(".badge").count() > 0
+    assert not page.is_visible("#finding")
+    page.keyboard.press("Home")
     assert step(page) == 0
     assert title(page) == "The robot wakes up beside the marker"
-    assert not page.is_visible("#finding")
+
+
+def test_a_run_without_a_question_opens_at_its_first_decision_if_it_has_one(show: Open) -> None:
+    page = show(page_of(World.from_id("m1/0"), "basic"))
+    assert step(page) > 0
+    assert step(show(page_of(World((), (), None), "basic"))) in (0, 1)
+
+
+@pytest.mark.parametrize(("width", "height"), [(1366, 768), (1280, 800), (1600, 900)])
+def test_no_caption_is_cut(show: Open, wrong: str, two: str, width: int, height: int) -> None:
+    for text in (wrong, two):
+        page = show(text, width=width, height=height)
+        cut = page.evaluate("""() => [...Array(+byId('slider').max + 1).keys()].filter((step) => {
+            byId('slider').value = step;
+            byId('slider').dispatchEvent(new Event('input'));
+            const said = [...document.querySelectorAll('.said')];
+            return said.some((one) => one.scrollHeight > one.clientHeight);
+        })""")
+        assert not cut
+
+
+def test_a_small_world_fills_its_pane(show: Open) -> None:
+    page = show(page_of(World.from_id("m4/41"), "basic"), width=1366, height=768)
+    shares = page.evaluate("""() => {
+        const pane = document.querySelector('.layers.world').getBoundingClientRect();
+        const all = [...document.querySelectorAll('.world .road, .world .vertex')];
+        const boxes = all.map((one) => one.getBoundingClientRect());
+        const size = (from, to) => Math.max(...boxes.map((box) => box[to]))
+            - Math.min(...boxes.map((box) => box[from]));
+        return [size('left', 'right') / pane.width, size('top', 'bottom') / pane.height];
+    }""")
+    assert 0.6 < max(shares) <= 1
 
 
 def test_the_address_says_which_step(show: Open, lattice: str) -> None:
@@ -84,7 +120,7 @@ def test_the_address_says_which_step(show: Open, lattice: str) -> None:
 
 
 def test_buttons_and_keys_step_either_way(show: Open, lattice: str) -> None:
-    page = show(lattice)
+    page = show(lattice, at="#step=0")
     for _ in range(3):
         page.click("#on")
     page.click("#back")
@@ -199,7 +235,7 @@ def test_two_mappers_go_in_step_by_cost_or_by_edge(show: Open, two: str) -> None
 
 
 def test_what_the_robot_does_not_know_is_faint_or_hidden(show: Open, lattice: str) -> None:
-    page = show(lattice)
+    page = show(lattice, at="#step=0")
     assert page.locator(".world .vertex.far").count() == 11
     page.keyboard.press("k")
     assert page.locator(".world .vertex:visible").count() == 1

@@ -168,10 +168,16 @@ def test_worlds_of_the_gallery_and_worlds_drawn_by_lot_can_be_walked(show: Open,
     page = show(text, at="#walk")
     names = page.locator("#walk option").all_inner_texts()
     assert names[:2] == ["that of this page", "one road (m1/0)"]
-    for value in [*map(str, range(len(names) - 3)), "random"]:
+    drawings = [page.evaluate("recording.worlds[0].paths.length")]
+    drawings += page.evaluate("recording.gallery.map(({ paths }) => paths.length)")
+    for value in ["page", *map(str, range(len(names) - 3)), "random"]:
         page.select_option("#walk select", value)
         keys(page, "0 Enter")
-        assert page.locator("#walk .pane").nth(0).locator(".vertex").count() > 0
+        pane = page.locator("#walk .pane").nth(0)
+        assert pane.locator(".vertex").count() > 0
+        if value != "random":  # drawn by world/drawing, not by the small layout of the page
+            assert pane.locator("svg > g > .road").count() >= drawings.pop(0)
+    assert not drawings
     page.click("#walk button:has-text('another')")
     page.fill("#walk input[type=number]", "9")
     page.click("#walk h1")

@@ -106,8 +106,9 @@ def play(
 ) -> int:
     """Write one page that shows runs in a browser: the world, the robot, its map, each decision.
 
-    The page needs no network and no other file. It opens at the first finding, if there is one;
-    what is wrong in a run is shown and does not change the exit code (explore and replay do that).
+    The page needs no network and no other file. It opens at the first finding, if there is one,
+    else at the first question. What is wrong in a run is shown and does not change the exit code
+    (explore and replay do that).
     """
 
     def played() -> Iterator[Result[PlayEntry]]:

@@ -26,6 +26,7 @@ import string
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from math import hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple, assert_never, get_args
 
@@ -138,18 +139,11 @@ def pictured(world: World) -> dict[str, Any]:
     return data
 
 
+@cache
 def _gallery() -> list[dict[str, Any]]:
-    """The worlds of the gallery as data for JSON."""
-    worlds = [(one.name, one.text, resolve_world(one.text)) for one in GALLERY]
-    return [
-        {
-            "name": f"{name} ({text})",
-            "vertices": world.vertices,
-            "edges": world.edges,
-            "marker": world.root,
-        }
-        for name, text, world in worlds
-    ]
+    """The worlds of the gallery with their pictures, as data for JSON."""
+    worlds = [(f"{one.name} ({one.text})", resolve_world(one.text)) for one in GALLERY]
+    return [{**pictured(world), "name": name} for name, world in worlds]
 
 
 def _roomy_layout(world: World) -> Layout:

@@ -17,10 +17,10 @@ class Frame {
   }
 
   set(view) {
-    const { width, height } = this.picture;
+    const { left, top, width, height } = this.picture;
     const zoom = Math.max(1, Math.min(40, view.zoom));
-    const inside = (at, size) => Math.max(0, Math.min(size - size / zoom, at));
-    this.view = { zoom, x: inside(view.x, width), y: inside(view.y, height) };
+    const inside = (at, from, size) => Math.max(from, Math.min(from + size - size / zoom, at));
+    this.view = { zoom, x: inside(view.x, left, width), y: inside(view.y, top, height) };
     const { x, y } = this.view;
     const box = `${short(x)} ${short(y)} ${short(width / zoom)} ${short(height / zoom)}`;
     for (const svg of this.layers.children) svg.setAttribute('viewBox', box);

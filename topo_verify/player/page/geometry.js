@@ -134,7 +134,7 @@ const line = (points) => points.map(([x, y], k) => `${k ? 'L' : 'M'}${short(x)} 
 /** A world with its picture. */
 class Picture {
   constructor(world) {
-    Object.assign(this, world); // name, vertices, edges, root, width, height, radius, centres, paths
+    Object.assign(this, world); // vertices, edges, root, width, height, radius, centres, paths, bridges
     this.vertex = [];
     this.place = [];
     this.vertices.forEach((rotation, vertex) =>
@@ -152,6 +152,17 @@ class Picture {
     });
     this.trails = new Map();
     this.near = this.nearest();
+    this.crop();
+  }
+
+  /** Leave out the blank margin of the layout, so that a small world fills its pane. */
+  crop() {
+    const points = [...this.centres, ...this.paths.flatMap(flattened).flat()], pad = 1.8 * this.radius;
+    [['left', 'width', 0], ['top', 'height', 1]].forEach(([from, size, k]) => {
+      const all = points.map((point) => point[k]), least = Math.max(0, Math.min(...all) - pad);
+      this[size] = Math.min(this[size], Math.max(...all) + pad) - least;
+      this[from] = least;
+    });
   }
 
   /** The distance of a vertex to the nearest other one, where the picture is rather crowded. */

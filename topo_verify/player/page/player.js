@@ -35,10 +35,13 @@ class Player {
     return found ? +found[1] : null;
   }
 
-  /** Where a run opens: at its first finding, or at the start. */
+  /** Where a run opens: at its first finding, or at the first question with guesses. */
   opening() {
-    const ticks = this.findings().map(({ tick }) => tick);
-    return ticks.length ? Math.min(...ticks) : 0;
+    const [found] = this.findings(), { events } = this.runs[this.chosen[0]];
+    if (found) return found.tick;
+    const asked = events.findIndex(({ hypotheses }) => hypotheses?.length);
+    const first = asked < 0 ? events.findIndex(({ type }) => type !== 'start' && type !== 'move') : asked;
+    return this.clock.tick(0, Math.max(first, 0));
   }
 
   /** The findings of the shown runs with their ticks, in order. */

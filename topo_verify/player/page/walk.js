@@ -12,9 +12,9 @@ const WHY = {
 class WalkMode {
   constructor(recording) {
     this.recording = recording;
-    const { vertices, edges, root, name } = recording.worlds[0];
-    this.page = { name: recording.name, world: new WalkWorld({ vertices, edges, marker: root }) };
-    this.gallery = recording.gallery.map((one) => ({ name: one.name, world: new WalkWorld(one) }));
+    const walked = (drawn) => new WalkWorld({ ...drawn, marker: drawn.root, drawn });
+    this.page = { name: recording.name, world: walked(recording.worlds[0]) };
+    this.gallery = recording.gallery.map((one) => ({ name: one.name, world: walked(one) }));
     this.seed = 1;
     const button = html('button', '', document.querySelector('.choices'), 'Walk it yourself');
     button.id = 'walk-it';
@@ -308,22 +308,27 @@ class WalkMode {
     const { vertices, edges, marker } = ended.other ?? walk.world;
     title.textContent = ended.other ? 'Another world' : 'The world';
     note.textContent = ended.other ? 'the same doors show the same there' : `${vertices.length} place${vertices.length === 1 ? '' : 's'}, ${edges.length} road${edges.length === 1 ? '' : 's'}, genus ${walk.world.genus()}`;
-    if (!ended.other && walk.world === this.page.world) return this.picture(svg, kinds);
+    if (!ended.other && walk.world.drawn) return this.picture(svg, kinds);
     sketchOf({ vertices, edges }).show(svg, { marker, kinds: ended.other ? new Map() : kinds });
   }
 
-  /** The world of the page, as the page draws it. */
+  /** A world whose drawing the page has, as the player draws it. */
   picture(svg, kinds) {
-    const drawn = new Picture(this.recording.worlds[0]);
+    const drawn = new Picture(this.walk.world.drawn), { left, top, width, height } = drawn;
     svg.replaceChildren();
-    svg.setAttribute('viewBox', `0 0 ${drawn.width} ${drawn.height}`);
+    svg.setAttribute('viewBox', [left, top, width, height].map(short).join(' '));
     drawn.fit(svg.clientWidth || 600, svg.clientHeight || 400);
     const inside = draw('g', {}, svg);
     inside.style.setProperty('--u', drawn.unit);
-    drawn.edges.forEach(([a, b]) => {
-      const road = draw('path', { class: `road ${kinds.get(a) ?? kinds.get(b) ?? ''}`, d: drawn.trail(a).data }, inside);
-      road.style.strokeWidth = `${(kinds.has(a) || kinds.has(b) ? 5 : 3) * drawn.unit}px`;
-    });
+    const road = ([a, b], d) => {
+      const path = draw('path', { class: `road ${kinds.get(a) ?? kinds.get(b) ?? ''}`, d }, inside);
+      path.style.strokeWidth = `${(kinds.has(a) || kinds.has(b) ? 5 : 3) * drawn.unit}px`;
+    };
+    for (const edge of drawn.edges) road(edge, drawn.trail(edge[0]).data);
+    for (const [data, over] of drawn.bridges) {
+      draw('path', { class: 'halo', d: data }, inside);
+      road(drawn.edges[over], data);
+    }
     if (drawn.root !== null) {
       const trail = drawn.trail(drawn.root), along = (far) => trail.at(Math.min(far * drawn.radius, 0.45 * trail.length));
       drawMarker(inside, ...[0, 1.7, 2.5].map(along).map(({ x, y }) => [x, y]));

@@ -1,9 +1,10 @@
 /* A world that a reader walks, and what is needed of it: percepts, doors, costs; and new worlds. */
 
-/** A rotation system: {vertices, edges, marker}, as in a world file. The marker is a dart or null. */
+/** A rotation system: {vertices, edges, marker}, as in a world file. The marker is a dart or null.
+    `drawn`: its drawing, if the page has one. */
 class WalkWorld {
-  constructor({ vertices, edges, marker }) {
-    Object.assign(this, { vertices, edges, marker });
+  constructor({ vertices, edges, marker, drawn }) {
+    Object.assign(this, { vertices, edges, marker, drawn });
     this.vertex = new Map();
     this.other = new Map();
     vertices.forEach((rotation, v) => rotation.forEach((dart) => this.vertex.set(dart, v)));
