@@ -61,6 +61,7 @@ nitpick_ignore = [
         "campaign.campaign.ShardMemory",
         "campaign.row.PolicyCosts",
         "campaign.row.Row",
+        "campaign.tally.Pairs",
         "campaign.tally.Tally",
         "player.scenes.Playback",
         "programs.loader.Target",

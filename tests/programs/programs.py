@@ -14,8 +14,7 @@ import pytest
 from topo_verify.campaign.backend import here
 from topo_verify.campaign.campaign import Campaign, CorpusWorlds, ListedWorlds, results
 from topo_verify.campaign.corpus import Corpus, corpus_from
-from topo_verify.studies.conform.conform import Conform
-from topo_verify.studies.conform.outcome import Asked, WorldOutcome, outcome_of
+from topo_verify.studies.conform.conform import Asked, Conform, WorldOutcome, outcome_of
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]

@@ -32,11 +32,13 @@ from topo_verify.campaign.campaign import (
     Backend,
     Campaign,
     EngineSeconds,
+    InFlight,
     NamedWorlds,
     Ranks,
     Shard,
     ShardMemory,
     ShardResult,
+    ShardResults,
     close,
     examine,
     listed_shards,
@@ -105,9 +107,7 @@ def here(
         look: notes more about each run, in the place of the campaign's `look`.
     """
 
-    def run(
-        campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
-    ) -> Generator[tuple[Shard, ShardResult]]:
+    def run(campaign: Campaign, shards: Iterator[Shard], in_flight: InFlight) -> ShardResults:
         targets = campaign.load() if mappers is None else mappers
         try:
             identity = None if depends is None else Identity(targets, depends)
@@ -126,9 +126,7 @@ def pooled(workers: int, depends: Depends = None) -> Backend:
     The compiled engine calls native mappers in a worker process in any case.
     """
 
-    def run(
-        campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
-    ) -> Generator[tuple[Shard, ShardResult]]:
+    def run(campaign: Campaign, shards: Iterator[Shard], in_flight: InFlight) -> ShardResults:
         native = calls_native(campaign)
         if not (workers or native):
             yield from here(depends=depends)(campaign, shards, in_flight)
@@ -145,9 +143,7 @@ def pooled(workers: int, depends: Depends = None) -> Backend:
 def clustered(cluster: Cluster, depends: Depends = None) -> Backend:
     """The workers of a Dask cluster."""
 
-    def run(
-        campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
-    ) -> Generator[tuple[Shard, ShardResult]]:
+    def run(campaign: Campaign, shards: Iterator[Shard], in_flight: InFlight) -> ShardResults:
         del in_flight  # a cluster says no more than which shards are finished
         # What mappers load is asked for in any case: other machines may have other files.
         depends_on = tuple(depends or ())

@@ -20,7 +20,6 @@ is.
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import closing
 from functools import cache, partial
@@ -39,7 +38,7 @@ from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.tally import Counts, Notable, Tally
 from topo_verify.campaign.targets import targets
-from topo_verify.campaign.worker import Beat
+from topo_verify.campaign.worker import Beat, function_at
 from topo_verify.errors import InputError
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.loaded import Loaded
@@ -275,12 +274,6 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
         }
 
 
-def function_at(place: str) -> Any:
-    """The function at `module:function`."""
-    module, _, name = place.partition(":")
-    return getattr(importlib.import_module(module), name)
-
-
 class EngineSeconds(msgspec.Struct, frozen=True):
     """Seconds of processor time: in the compiled engine, and in the checkers."""
 
@@ -305,6 +298,13 @@ class ShardResult(msgspec.Struct, frozen=True):
     rows: tuple[Row, ...] = ()
     loaded: Loaded | None = None
     seconds: EngineSeconds = EngineSeconds()
+
+
+ShardResults = Generator[tuple[Shard, ShardResult]]
+"""Shards, each with its result."""
+
+InFlight = Callable[[int], None]
+"""Told now and then how many runs are finished in shards that are not."""
 
 
 class Interrupted(KeyboardInterrupt):
@@ -398,23 +398,11 @@ def close(mappers: Iterable[Target]) -> None:
 # ---------------------------------------------------------------- shards in order
 
 
-class Backend(Protocol):
-    """Examines shards: `here`, in worker processes, on a cluster."""
-
-    def __call__(
-        self, campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
-    ) -> Generator[tuple[Shard, ShardResult]]:
-        """Each shard and its result, as they are finished.
-
-        Args:
-            in_flight: told now and then how many runs are finished in shards that are not.
-        """
-        ...
+Backend = Callable[[Campaign, Iterator[Shard], InFlight], ShardResults]
+"""Examines shards and yields each as it is finished: `here`, in worker processes, on a cluster."""
 
 
-def _idle(
-    _campaign: Campaign, _shards: Iterator[Shard], _in_flight: Callable[[int], None]
-) -> Generator[tuple[Shard, ShardResult]]:
+def _idle(_campaign: Campaign, _shards: Iterator[Shard], _in_flight: InFlight) -> ShardResults:
     """A backend that has nothing to do."""
     yield from ()
 
@@ -447,7 +435,7 @@ def results(
     *,
     store: ShardMemory | None = None,
     tell: Progress | None = None,
-) -> Generator[tuple[Shard, ShardResult]]:
+) -> ShardResults:
     """Each shard and its result, in order, until the last or until the campaign stops.
 
     After Ctrl-C the worlds that were finished come, too; then KeyboardInterrupt is raised.
@@ -517,7 +505,7 @@ class _Order:
                 if place in left:
                     yield left.pop(place)
 
-    def results(self) -> Generator[tuple[Shard, ShardResult]]:
+    def results(self) -> ShardResults:
         """See the function of this name."""
         self._rate.in_flight(0)
         seen = Tally()

@@ -29,7 +29,6 @@ from importlib import import_module, metadata
 from importlib.util import find_spec
 from queue import Empty, SimpleQueue
 from time import monotonic
-from types import TracebackType
 from typing import Any, Generic, Protocol, Self, cast
 
 import msgspec
@@ -208,12 +207,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
         self._look()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_error: object) -> None:
         if self._at:
             with suppress(OSError, RuntimeError):  # the scheduler is lost, and its tasks are
                 self._cluster.client.cancel(list(self._at), force=True)

@@ -19,7 +19,6 @@ The process is kept for the next task of the same job; after `IDLE` seconds with
 
 from __future__ import annotations
 
-import importlib
 import signal
 import threading
 import traceback
@@ -32,7 +31,7 @@ import msgspec
 from topo_verify.campaign.identity import own_hash
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.work import Work
-from topo_verify.campaign.worker import WorkerFailed
+from topo_verify.campaign.worker import WorkerFailed, function_at
 from topo_verify.errors import InputError
 from topo_verify.programs.launcher import prepare
 
@@ -168,8 +167,7 @@ class _Kept:
         of = (wanted.remade, bytes(wanted.job), wanted.folder)
         if self._pool is None or self._work is None or self._of != of:
             self._close()
-            module, _, name = wanted.remade.partition(":")
-            work: Work[Any, Any] = getattr(importlib.import_module(module), name)(wanted.job)
+            work: Work[Any, Any] = function_at(wanted.remade)(wanted.job)
             folder = wanted.folder if Path(wanted.folder).is_dir() else None
             self._pool, self._work, self._of = Pool(work, 1, folder=folder), work, of
         return self._pool, self._work
@@ -180,7 +178,7 @@ class _Kept:
 
     def _close(self) -> None:
         if self._pool is not None:
-            self._pool.__exit__(None, None, None)
+            self._pool.__exit__()
         self._pool = self._work = None
 
 

@@ -34,7 +34,6 @@ from __future__ import annotations
 
 import selectors
 from collections.abc import Callable, Generator, Iterable, Iterator
-from types import TracebackType
 from typing import Generic, Self
 
 import msgspec
@@ -75,12 +74,7 @@ class Pool(Generic[TaskT, ResultT]):
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_error: object) -> None:
         for worker in self._workers:  # all of them first, so that they end at the same time
             worker.dismiss(busy=worker in self._at)
         for worker in self._workers:

@@ -27,6 +27,19 @@ class Judged(msgspec.Struct, frozen=True, array_like=True):
     of: int
 
 
+class MostSaved(msgspec.Struct, frozen=True):
+    """A world, what the reference policies cost in it, and the least that a run costs."""
+
+    world: str
+    reference: int
+    cheapest: int
+
+    @property
+    def share(self) -> float:
+        """The part of the reference cost that is saved."""
+        return 1 - self.cheapest / self.reference
+
+
 class PolicyCosts(msgspec.Struct, frozen=True):
     """What any choices of a mapper can cost, in edge traversals.
 
@@ -35,7 +48,7 @@ class PolicyCosts(msgspec.Struct, frozen=True):
         states, choices: the number of states with more than one way, and of their ways.
         cheapest, reference, dearest: sums of costs: the least that a run can cost in each world,
             what the reference policies cost, the most.
-        most_saved: where the cheapest run saves the greatest share: world, reference, cheapest.
+        most_saved: where the cheapest run saves the greatest share.
     """
 
     worlds: int = 0
@@ -44,7 +57,7 @@ class PolicyCosts(msgspec.Struct, frozen=True):
     cheapest: int = 0
     reference: int = 0
     dearest: int = 0
-    most_saved: tuple[str, int, int] | None = None
+    most_saved: MostSaved | None = None
 
     def __add__(self, other: PolicyCosts) -> PolicyCosts:
         saved = [costs.most_saved for costs in (self, other) if costs.most_saved is not None]
@@ -55,7 +68,7 @@ class PolicyCosts(msgspec.Struct, frozen=True):
             self.cheapest + other.cheapest,
             self.reference + other.reference,
             self.dearest + other.dearest,
-            max(saved, key=lambda one: 1 - one[2] / one[1], default=None),
+            max(saved, key=lambda one: one.share, default=None),
         )
 
 

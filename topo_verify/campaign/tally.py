@@ -15,6 +15,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
 from operator import attrgetter, itemgetter
+from typing import Any
 
 import msgspec
 
@@ -95,34 +96,7 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
     choices: PolicyCosts = PolicyCosts()
 
     def __add__(self, other: Tally) -> Tally:
-        statuses = {
-            claim: _summed(self.statuses.get(claim, {}), other.statuses.get(claim, {}))
-            for claim in (*self.statuses, *other.statuses)
-        }
-        shares = {
-            claim: _paired(self.shares.get(claim, (0, 0)), other.shares.get(claim, (0, 0)))
-            for claim in (*self.shares, *other.shares)
-        }
-        costs = {
-            mapper: self.costs.get(mapper, Costs()) + other.costs.get(mapper, Costs())
-            for mapper in (*self.costs, *other.costs)
-        }
-        return Tally(
-            self.worlds + other.worlds,
-            self.failing + other.failing,
-            self.undecided + other.undecided,
-            self.timeouts + other.timeouts,
-            self.late + other.late,
-            self.lost + other.lost,
-            statuses,
-            shares,
-            _summed(self.claims, other.claims),
-            costs,
-            self.pairs + other.pairs,
-            added(self.digest, other.digest),
-            self.by_checkers + other.by_checkers,
-            self.choices + other.choices,
-        )
+        return Tally(*map(added, msgspec.structs.astuple(self), msgspec.structs.astuple(other)))
 
     def amended(self, row: Row) -> Tally:
         """The tally with a lost worker in one of its worlds, whose runs count already."""
@@ -148,11 +122,17 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
         )
 
 
-def added(digest: str, other: str) -> str:
-    """The digest of all worlds of two digests; the empty text is the digest of none."""
-    if not digest or not other:
-        return digest or other
-    return f"{(int(digest, 16) + int(other, 16)) % (1 << 256):064x}"
+def added(one: Any, other: Any) -> Any:
+    """The sum of a field of two tallies; a text is a digest, the empty one the digest of none."""
+    if isinstance(one, dict):
+        both = {key: added(one[key], other[key]) for key in one if key in other}
+        return {**one, **other, **both}
+    if isinstance(one, tuple):
+        return tuple(map(added, one, other))
+    if isinstance(one, str):
+        total = int(one or "0", 16) + int(other or "0", 16)
+        return f"{total % (1 << 256):064x}" if one or other else ""
+    return one + other
 
 
 def joint_status(runs: Mapping[str, int]) -> Status:
@@ -167,14 +147,6 @@ def joint_status(runs: Mapping[str, int]) -> Status:
         if seen == {status}:
             return status
     return "partial"
-
-
-def _paired(pair: tuple[int, int], other: tuple[int, int]) -> tuple[int, int]:
-    return pair[0] + other[0], pair[1] + other[1]
-
-
-def _summed(counts: Mapping[str, int], others: Mapping[str, int]) -> dict[str, int]:
-    return {key: counts.get(key, 0) + others.get(key, 0) for key in (*counts, *others)}
 
 
 @dataclass

@@ -59,6 +59,13 @@ Handler = Callable[[bytes, Beat], Any]
 Serve = Callable[[bytes], AbstractContextManager[Handler]]
 """Takes the job as JSON, and prepares for its tasks; on leaving the context, clears up."""
 
+
+def function_at(place: str) -> Any:
+    """The function at `module:function`."""
+    module, _, name = place.partition(":")
+    return getattr(importlib.import_module(module), name)
+
+
 END_GRACE = 5.0
 """Seconds that an idle worker has to leave its context and end."""
 
@@ -285,7 +292,7 @@ def main(commands: BinaryIO, out: BinaryIO, heartbeat: int) -> None:
     key, serve, job = msgspec.json.decode(first, type=tuple[str, str, msgspec.Raw])
     send = partial(_send, out, Seal(key, os.getpid()), os.getpid())
     try:
-        _work(_function(serve)(bytes(job)), lines, send, Heartbeat(heartbeat))
+        _work(function_at(serve)(bytes(job)), lines, send, Heartbeat(heartbeat))
     except ConnectionError:
         pass  # the parent is gone: nobody wants the result
     except InputError as error:
@@ -307,12 +314,6 @@ def _work(
         while (task := lines.get()) is not None:
             beat(0)
             send(TaskDone(msgspec.Raw(msgspec.json.encode(handle(task, beat)))))
-
-
-def _function(name: str) -> Serve:
-    module, _, attribute = name.partition(":")
-    found: Serve = getattr(importlib.import_module(module), attribute)
-    return found
 
 
 def _send(out: BinaryIO, seal: Seal, process: int, message: WorkerMessage) -> None:

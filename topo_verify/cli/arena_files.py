@@ -44,7 +44,7 @@ from topo_verify.studies.arena.league import (
     MeanInterval,
 )
 from topo_verify.studies.arena.suites import Suite
-from topo_verify.studies.conform.outcome import file_name
+from topo_verify.studies.conform.conform import file_name
 from topo_verify.world.formats import files
 from topo_verify.world.resolve import resolve_world
 

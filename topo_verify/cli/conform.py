@@ -37,8 +37,7 @@ from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, View
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.conform.batch import batched
-from topo_verify.studies.conform.conform import Conform, LevelResult
-from topo_verify.studies.conform.outcome import Asked, WorldFinding
+from topo_verify.studies.conform.conform import Asked, Conform, LevelResult, WorldFinding
 from topo_verify.world.rooted_map import World
 
 SHOWN = 3

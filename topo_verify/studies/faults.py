@@ -44,7 +44,7 @@ from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Augment, Decision, Move, Robot
 from topo_verify.robot.limits import Limits
-from topo_verify.studies.search.search import Counterexample, SearchEntry, search
+from topo_verify.studies.search.search import SearchEntry, search
 from topo_verify.world.rooted_map import World
 
 Check = Literal["search", "properties", "proofs"]
@@ -364,17 +364,14 @@ def smallest(
             workers=workers,
             tell=tell,
         )
-        if found.counterexample is not None:
-            return _smallest(found, found.counterexample)
-        if found.edges == largest:
-            size = found.by_edges[-1]
-            undecided = sum(size.undecided for size in found.by_edges)
-            return Smallest(largest, 0, size.checked, size.total, undecided)
+        if found.counterexample is not None or found.edges == largest:
+            return _smallest(found)
 
 
-def _smallest(found: SearchEntry, first: Counterexample) -> Smallest:
+def _smallest(found: SearchEntry) -> Smallest:
     """What a search found; of its sizes only the last has a world in which a claim fails."""
-    size = found.by_edges[first.edges - 1]
+    first = found.counterexample
+    size = found.by_edges[-1 if first is None else first.edges - 1]
     convicting = (
         claim.smallest.world
         for claim in found.claims
@@ -387,10 +384,10 @@ def _smallest(found: SearchEntry, first: Counterexample) -> Smallest:
         total=size.total,
         undecided=sum(size.undecided for size in found.by_edges),
         claims={claim.claim: claim.failing for claim in found.claims},
-        world=first.world,
+        world=first.world if first else None,
         convicting=min(convicting, key=lambda world: int(world.partition("/")[2]), default=None),
-        message=first.message,
-        replay=first.replay,
+        message=first.message if first else "",
+        replay=first.replay if first else "",
     )
 
 

@@ -9,11 +9,12 @@ import pytest
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.policies import ORDERS, PICKS
 from topo_verify.campaign.attempt import Attempt, attempt
+from topo_verify.campaign.row import MostSaved
 from topo_verify.campaign.run import Exploration
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.search.choices import SEEDS, by_name, every
-from topo_verify.studies.search.search import MostSaved, search
+from topo_verify.studies.search.search import search
 from topo_verify.world.enumeration import rank_order
 
 

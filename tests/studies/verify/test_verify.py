@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -35,12 +35,9 @@ def basic(robot: Robot) -> Any:
 
 def trials(mapper: Mapper, edges: int = 2, **options: Any) -> Trials:
     """One mapper in every world of 1 … edges edges."""
-
-    def worlds() -> Iterator[tuple[str, World]]:
-        for m in range(1, edges + 1):
-            yield from with_ids(map(World.from_code, rank_order.tables(m)))
-
-    total = sum(map(rank_order.count, range(1, edges + 1)))
+    sizes = range(1, edges + 1)
+    worlds = [one for m in sizes for one in with_ids(map(World.from_code, rank_order.tables(m)))]
+    total = sum(map(rank_order.count, sizes))
     return Trials(
         "part", "", total, worlds, [Target("mine", mapper)], Limits(), finite=True, **options
     )

@@ -21,11 +21,11 @@ an approximation. A family of one drawn world has no interval.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import sqrt
 from statistics import fmean, variance
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import msgspec
 
@@ -35,6 +35,8 @@ from topo_verify.campaign.tally import Counts
 from topo_verify.checkers import Judgement, Status
 from topo_verify.programs.loader import Target
 from topo_verify.studies.arena.suites import Suite, SuiteFamily
+
+T = TypeVar("T")
 
 
 class LeagueBehind(msgspec.Struct, frozen=True):
@@ -216,9 +218,9 @@ class League:
             undecided=len(runs) - len(decided),
             why=tuple(f"{r.world}: {r.undecided}" for r in runs if r.undecided)[:KEPT_REASONS],
             place=None,
-            ratio=mean_interval(_samples(suite, decided)) if whole else None,
+            ratio=_interval(suite, [run.ratio for run in decided]) if whole else None,
             behind=None,
-            families=_by_family(suite, decided) if whole else (),
+            families=tuple(_costs(*part) for part in _split(suite, decided)) if whole else (),
             rejected_free=sum(run.free for run in decided),
             rejected_moving=sum(run.moving for run in decided),
             ms_per_move=round(1000 * seconds / moves, 4) if moves else None,
@@ -237,7 +239,7 @@ class League:
         if entry is not best:
             ours, theirs = self.runs(entry.mapper, suite), self.runs(best.mapper, suite)
             pairs = [a.ratio - b.ratio for a, b in zip(ours, theirs, strict=True)]
-            found = mean_interval(_split(suite, pairs))
+            found = _interval(suite, pairs)
             behind = LeagueBehind(best.mapper, found.mean, found.low, found.high)
         return msgspec.structs.replace(entry, place=place, behind=behind)
 
@@ -249,27 +251,17 @@ class League:
         )
 
 
-def _split(suite: Suite, values: Sequence[float]) -> list[FamilySample]:
-    """The values of a suite's worlds, by family."""
-    samples: list[FamilySample] = []
+def _split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Sequence[T]]]:
+    """What is known of the worlds of a suite, by family."""
     start = 0
     for family in suite.families:
-        samples.append(FamilySample(values[start : start + family.size], family.exact))
+        yield family, values[start : start + family.size]
         start += family.size
-    return samples
 
 
-def _samples(suite: Suite, runs: Sequence[Row]) -> list[FamilySample]:
-    return _split(suite, [run.ratio for run in runs])
-
-
-def _by_family(suite: Suite, runs: Sequence[Row]) -> tuple[FamilyCosts, ...]:
-    made: list[FamilyCosts] = []
-    start = 0
-    for family in suite.families:
-        made.append(_costs(family, runs[start : start + family.size]))
-        start += family.size
-    return tuple(made)
+def _interval(suite: Suite, values: Sequence[float]) -> MeanInterval:
+    """The mean over the families of a suite, given a value for each of its worlds."""
+    return mean_interval([FamilySample(part, one.exact) for one, part in _split(suite, values)])
 
 
 def _costs(family: SuiteFamily, runs: Sequence[Row]) -> FamilyCosts:

@@ -17,19 +17,19 @@ worlds; claims 9 and 10 say whether its history proves the map.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
-from types import TracebackType
 from typing import NamedTuple, Self
 
 import msgspec
 
 from topo_verify.campaign.attempt import Attempt, row_of
 from topo_verify.campaign.backend import counted
-from topo_verify.campaign.campaign import Campaign, Shard, ShardResult, function_at
+from topo_verify.campaign.campaign import Campaign, InFlight, Shard, ShardResults
 from topo_verify.campaign.judge import judge
 from topo_verify.campaign.run import explore
+from topo_verify.campaign.worker import function_at
 from topo_verify.errors import InputError
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import GRACE, Child, Ended, ReaperProcess, Silent, TooLong
@@ -111,15 +111,12 @@ def _without_a_map(run: ms.BatchRun) -> Misbehaved:
     return Misbehaved("malformed", "expected 'map', 'skip' or 'error' in the run, got none of them")
 
 
-def batched(
-    campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
-) -> Generator[tuple[Shard, ShardResult]]:
+def batched(campaign: Campaign, shards: Iterator[Shard], _in_flight: InFlight) -> ShardResults:
     """The backend: one process at a time, which is given the worlds in their order.
 
     Raises:
         InputError: the target is no program.
     """
-    del in_flight  # between two chunks nothing is known
     look = None if campaign.look is None else function_at(campaign.look)(*campaign.asked)
     with BatchProgram(campaign) as program:
         while chunk := list(islice(shards, CHUNK)):
@@ -228,12 +225,7 @@ class BatchProgram:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_error: object) -> None:
         if self._child is not None:
             self._child.end()
         self._reaper.close()

@@ -1,49 +1,288 @@
-"""An implementation in every world of a corpus, counted level by level.
+"""An implementation in every world of a corpus, counted on four levels.
 
-Each world is a row of a campaign, and what a level says of it is a view of that row. After
-`MAX_TIMEOUTS` time-outs the rest of the corpus is not tried: each may cost a whole time limit.
+    result      the map is the world, the cost is honest and within the bound
+    claims      the declared decisions are sound and justified, and the history proves the map
+    decisions   the run equals that of the reference, event for event
+    cost        the cost relative to that of the reference
+
+Each world is a row of a campaign, and what a level says of it is a view of that row. A run without
+a map has ONE finding on level `result`, which says what the implementation did instead. A world is
+undecided, neither passed nor failed, if the implementation skips it, gives it up, or exceeds its
+time while it still moves; or if something else may have ended its process. After `MAX_TIMEOUTS`
+time-outs the rest of the corpus is not tried: each may cost a whole time limit.
+
+`look` notes, in the process that makes the run, how like the reference's it is. Of a world with a
+finding it writes the transcript, if that is asked for: the messages of a program, or the trace.
+
+What this does not show: that a program behaves in the same way the next time.
 """
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import get_args
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, get_args
 
 import msgspec
+from msgspec.structs import asdict, replace
 
-from topo_verify.campaign.campaign import (
-    Backend,
-    Campaign,
-    CorpusWorlds,
-    ListedWorlds,
-    Stop,
-    results,
-)
+from topo_verify.campaign import campaign as c
+from topo_verify.campaign.attempt import Attempt, Look, row_of
 from topo_verify.campaign.corpus import Corpus
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.tally import Tally
-from topo_verify.checkers import CLAIMS, Judgement
+from topo_verify.campaign.run import explore
+from topo_verify.campaign.tally import Counts
+from topo_verify.campaign.targets import one_target
+from topo_verify.checkers import Judgement
 from topo_verify.checkers.findings import Verdict
-from topo_verify.studies.conform import outcome as levels
-from topo_verify.studies.conform.outcome import (
-    LEVELS,
-    RESULT,
-    Level,
-    LevelState,
-    WorldFinding,
-    WorldOutcome,
-    outcome_of,
-)
+from topo_verify.programs.loader import Target
+from topo_verify.robot.events import write_trace
+from topo_verify.studies.conform.likeness import Difference, Likeness, declares, first_difference
+from topo_verify.world.formats import files
+
+Level = Literal["result", "claims", "decisions", "cost"]
+
+LEVELS: tuple[Level, ...] = get_args(Level)
+
+LevelState = Literal["passed", "failed", "skipped", "errored", "undecided", "not-declared"]
+"""The state of a world on one level."""
+
+RESULT = ("percepts-true", "map-isomorphic", "cost-honest", "cost-within-bound")
+"""The claims of level `result`. All others belong to level `claims`."""
+
+KEPT_OF_WORLD, KEPT_OF_KIND = 5, 10
+"""The most findings that are kept for a world and a level; the most worlds of a kind of finding."""
+
+
+class WorldFinding(msgspec.Struct, frozen=True, kw_only=True):
+    """A `Finding` with its kind.
+
+    Attributes:
+        kind: what the program did instead of delivering a map (docs/oracle.md), `move-timeout`,
+            `budget`, `no-map`, `decisions`; else the claim.
+        difference: on level `decisions`, the first difference of the runs.
+    """
+
+    claim: str
+    kind: str
+    world: str
+    event: int | None = None
+    expected: Any = None
+    seen: Any = None
+    message: str
+    witness: str | None = None
+    replay: str = ""
+    difference: Difference | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class WorldOutcome:
+    """What a row says on each level.
+
+    Attributes:
+        states: by level; `decisions` only if a reference is to be followed.
+        findings: by level, the first ones.
+        why: the reason why the world is undecided, if it is.
+        cost, reference: edge traversals, the implementation's and the reference's.
+    """
+
+    states: dict[Level, LevelState]
+    findings: dict[Level, tuple[WorldFinding, ...]]
+    why: str | None
+    cost: int
+    reference: int
+
+
+def outcome_of(row: Row, like: str) -> WorldOutcome:
+    """The outcome in one world.
+
+    Args:
+        row: its note is a `Likeness`; None: a worker was lost each time.
+        like: the algorithm whose decisions it should make; empty: decisions are not compared.
+    """
+    note = None if row.note is None else msgspec.convert(row.note, Likeness)
+    # A run that lost its worker once has the map of its second try.
+    lost = row.ended != "map" and row.map is None
+    open_ended = _open_ended(row)
+    findings = [WorldFinding(kind=one.claim, **asdict(one)) for one in row.findings]
+    result = [found for found in findings if found.claim in RESULT]
+    claims = [found for found in findings if found.claim not in RESULT]
+    if row.ended != "map":
+        result = [] if row.lost or open_ended else [_loss(row, note)]
+    if lost:
+        # Without a map, claims about the map and the run as a whole add nothing to the one finding.
+        claims = [
+            found for found in claims if found.event is not None and found.claim != "map-entailed"
+        ]
+    unproved = lost or any(one.status == "undecided" for one in row.claims)
+    states: dict[Level, LevelState] = {
+        "result": open_ended or ("failed" if result else "passed"),
+        "claims": "failed" if claims else open_ended or ("undecided" if unproved else "passed"),
+    }
+    kept: dict[Level, tuple[WorldFinding, ...]] = {
+        "result": tuple(result[:KEPT_OF_WORLD]),
+        "claims": tuple(claims[:KEPT_OF_WORLD]),
+    }
+    if like:
+        difference = None if note is None else note.difference
+        states["decisions"] = _likeness(note, open_ended, lost=lost)
+        failed = states["decisions"] == "failed"
+        kept["decisions"] = (_parted(row, like, difference),) if difference and failed else ()
+    states["cost"] = "passed" if not (lost or result) else open_ended or "undecided"
+    why = row.stopped if open_ended else None
+    if row.lost is not None and "failed" not in states.values():
+        for level in states:
+            states[level] = "undecided"
+        why = row.undecided
+    return WorldOutcome(states, kept, why, row.cost, 0 if note is None else note.reference)
+
+
+def _open_ended(row: Row) -> LevelState | None:
+    """The state of a world in which the implementation cannot be judged; None if it can."""
+    if row.ended in ("skip", "error"):
+        return "skipped" if row.ended == "skip" else "errored"
+    # Only this limit leaves it open: a run stopped by another one stands still or walks for ever.
+    late = row.ended == "world-timeout" or (row.timed_out and row.undecided is not None)
+    return "undecided" if late else None
+
+
+def _loss(row: Row, note: Likeness | None) -> WorldFinding:
+    """The single finding of a run without a map."""
+    detail = "" if note is None else note.detail
+    return WorldFinding(
+        claim="map-isomorphic",
+        kind=row.ended,
+        world=row.world,
+        expected="a map",
+        message=f"no map was delivered: {row.stopped}{detail}",
+    )
+
+
+def _likeness(note: Likeness | None, open_ended: LevelState | None, *, lost: bool) -> LevelState:
+    """The state of level `decisions`."""
+    if note is None:
+        return "undecided"
+    if note.difference is None:
+        return "not-declared" if note.silent else "passed"
+    if note.difference.seen is None and lost:
+        return open_ended or "undecided"  # the run was cut off before any difference
+    return "failed"
+
+
+def _parted(row: Row, like: str, difference: Difference) -> WorldFinding:
+    """The first difference from the reference as a finding."""
+    ours, theirs = (side or "does nothing more" for side in (difference.expected, difference.seen))
+    return WorldFinding(
+        claim="decisions",
+        kind="decisions",
+        world=row.world,
+        event=difference.event,
+        expected=difference.expected,
+        seen=difference.seen,
+        message=f"{like} {ours}; the mapper {theirs}",
+        difference=difference,
+    )
+
+
+# ---------------------------------------------------------------- what is noted of a run
+
+TRANSCRIPT = {"format": "topo-verify/transcript", "version": 1}
+"""The head of a transcript: format and version."""
+
+
+class Asked(NamedTuple):
+    """What is asked about a run, as texts, which other processes can be handed.
+
+    Attributes:
+        like: the algorithm whose decisions it should make; empty: decisions are not compared.
+        pick, order: policies of the reference.
+        transcript: the folder for the transcripts of failing worlds; empty: none is written.
+    """
+
+    like: str = ""
+    pick: str = "nearest"
+    order: str = "shortest"
+    transcript: str = ""
+
+    @property
+    def name(self) -> str:
+        """The algorithm that costs and decisions are compared with."""
+        return self.like or "basic"
+
+    @property
+    def reference(self) -> Target:
+        """The same, to be run.
+
+        Raises:
+            InputError: there is no such algorithm or policy.
+        """
+        return one_target(self.name, pick=self.pick, order=self.order)
+
+
+def look(*texts: str) -> Look:
+    """Notes the likeness of runs to those of the reference.
+
+    Args:
+        texts: the fields of `Asked`.
+    """
+    asked = Asked(*texts)
+    reference = asked.reference
+
+    def noted(made: Attempt) -> Likeness:
+        run, world = made.run, made.run.world
+        like = explore(world, reference)
+        note = Likeness(
+            like.cost,
+            bool(world.edges) and not declares(run.trace),
+            first_difference(like.trace, run.trace) if asked.like else None,
+            "" if run.misbehaved is None else run.misbehaved.detail,
+        )
+        if asked.transcript:
+            row = replace(row_of(made, made.report.world, 0), note=note)
+            outcome = outcome_of(row, asked.like)
+            if any(outcome.findings.values()):
+                _keep(asked.transcript, made, outcome)
+        return note
+
+    return noted
+
+
+def _keep(folder: str, made: Attempt, outcome: WorldOutcome) -> None:
+    """Write a transcript of one world."""
+    world, run = made.report.world, made.run
+    if made.lines is None:
+        text = write_trace(run.kept_trace)
+    else:
+        head = {**TRANSCRIPT, "world": world, "target": run.algorithm, "stopped": run.stopped}
+        rows: list[object] = [head]
+        rows += [{"to" if way == ">" else "from": _text(line)} for way, line in made.lines]
+        rows += [{"found": one.message} for level in outcome.findings.values() for one in level]
+        text = msgspec.json.Encoder().encode_lines(rows)
+    files.write(Path(folder) / f"{file_name(world)}.jsonl", text)
+
+
+def file_name(world: str) -> str:
+    """A file name for a world, valid in every file system and different for each world."""
+    name = re.sub(r"[^A-Za-z0-9_.=,()-]", "-", world)
+    plain = re.fullmatch(r"m[0-9]+/[0-9]+", world) or name == world
+    tag = "" if plain and len(name) <= 80 else f"-{sha256(world.encode()).hexdigest()[:8]}"
+    return name[:80] + tag
+
+
+def _text(line: bytes) -> str:
+    return line.decode(errors="backslashreplace")
+
+
+# ---------------------------------------------------------------- many worlds
 
 MAX_TIMEOUTS = 20
 """After so many time-outs the rest of the corpus is not tried."""
-
-KEPT = 10
-"""How many failing worlds of each kind have their findings kept."""
 
 
 class CostRatio(msgspec.Struct, frozen=True):
@@ -127,7 +366,7 @@ class _LevelCounts:
         self.states[outcome.states[level]] += 1
         found = outcome.findings.get(level, ())
         self.kinds.update(dict.fromkeys((one.kind for one in found), 1))
-        return [one for one in found if self.kinds[one.kind] <= KEPT]
+        return [one for one in found if self.kinds[one.kind] <= KEPT_OF_KIND]
 
 
 class Conform:
@@ -143,40 +382,39 @@ class Conform:
     """
 
     def __init__(
-        self, campaign: Campaign, corpus: Corpus, asked: levels.Asked, again: Sequence[str] = ()
+        self, campaign: c.Campaign, corpus: Corpus, asked: Asked, again: Sequence[str] = ()
     ) -> None:
-        levels.look(*asked)  # before anything is started: the message is then the first
-        self.campaign = msgspec.structs.replace(
+        look(*asked)  # before anything is started: the message is then the first
+        self.campaign = replace(
             campaign,
-            worlds=ListedWorlds(corpus.total),
+            worlds=c.ListedWorlds(corpus.total),
             record=bool(asked.transcript),
-            stop=Stop(timeouts=MAX_TIMEOUTS),
-            look=f"{levels.__name__}:{levels.look.__name__}",
+            stop=c.Stop(timeouts=MAX_TIMEOUTS),
+            look=f"{__name__}:{look.__name__}",
             asked=tuple(asked),
         )
         self.corpus, self.asked, self.again = corpus, asked, again
         self.levels: dict[Level, _LevelCounts] = {
             level: _LevelCounts() for level in LEVELS if self.asked.like or level != "decisions"
         }
-        self.claims = {claim: Counter[str]() for claim in CLAIMS}
-        self.shares: dict[str, tuple[int, int]] = dict.fromkeys(CLAIMS, (0, 0))
+        self._counts = Counts()
         self.priced: list[WorldCost] = []
         self.tried = 0
-        self._worlds = CorpusWorlds(corpus)
+        self._worlds = c.CorpusWorlds(corpus)
 
     @property
     def target(self) -> str:
         """The implementation."""
         return self.campaign.mappers[0]
 
-    def work(self, backend: Backend, tell: Progress | None = None) -> None:
+    def work(self, backend: c.Backend, tell: Progress | None = None) -> None:
         """Try the implementation in every world, or as far as the campaign says.
 
         Raises:
             KeyboardInterrupt: Ctrl-C; `level_results` has what was found before.
             InputError: there is no such mapper or program.
         """
-        for _, result in results(self.campaign, backend, CorpusWorlds(self.corpus), tell=tell):
+        for _, result in c.results(self.campaign, backend, c.CorpusWorlds(self.corpus), tell=tell):
             for row in result.rows:
                 self.enter(row)
 
@@ -187,17 +425,14 @@ class Conform:
         for level, counts in self.levels.items():
             for found in counts.enter(outcome, level):
                 words = (*self.again, *self._worlds.at(row.place).replay_arguments)
-                again = msgspec.structs.replace(found, replay=shlex.join(words))
+                again = replace(found, replay=shlex.join(words))
                 counts.findings.append(again)
         whys = self.levels["result"].whys
-        if outcome.why is not None and len(whys) < KEPT:
+        if outcome.why is not None and len(whys) < KEPT_OF_KIND:
             whys.append(f"{row.world}: {outcome.why}")
         # A run that was not decided decides no claim: it delivered no map, but nothing is wrong.
-        decided = outcome.states["result"] in ("passed", "failed")
-        for one in row.judgements if decided else ():
-            self.claims[one.claim][one.status] += 1
-            judged, of = self.shares[one.claim]
-            self.shares[one.claim] = judged + one.judged, of + one.of
+        if row.claims and outcome.states["result"] in ("passed", "failed"):
+            self._counts.enter([row])
         if outcome.states["cost"] == "passed":
             ratio = _ratio(outcome.cost, outcome.reference)
             self.priced.append(WorldCost(row.world, outcome.cost, outcome.reference, ratio))
@@ -207,14 +442,14 @@ class Conform:
         mapper = sum(one.mapper for one in self.priced)
         paid = sum(one.reference for one in self.priced)
         total = CostRatio(mapper, paid, _ratio(mapper, paid))
+        tally = self._counts.tally()
         for level, counts in self.levels.items():
             numbers = {name: counts.states[name] for name in get_args(LevelState)}
             claims = {
-                claim: dict(seen)
-                for claim, seen in self.claims.items()
+                claim: seen
+                for claim, seen in tally.statuses.items()
                 if level in ("result", "claims") and (claim in RESULT) == (level == "result")
             }
-            judgements = Tally(statuses=claims, shares=self.shares).judgements()
             yield LevelResult(
                 target=self.target,
                 like=self.asked.name,
@@ -225,7 +460,7 @@ class Conform:
                 verdict=self._verdict(numbers),
                 kinds=dict(counts.kinds),
                 claims=claims,
-                judgements=judgements,
+                judgements=replace(tally, statuses=claims).judgements(),
                 findings=tuple(counts.findings),
                 cost=total,
                 priced=tuple(self.priced) if level == "cost" else (),

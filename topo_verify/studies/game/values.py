@@ -154,14 +154,18 @@ def _least(
     games: Sequence[ProofRules | ClassRules], *, mean: bool, most_states: float
 ) -> tuple[Least, int]:
     """The value over all games and their first percepts; and how many states were met."""
-    least, states = [Least(0, is_value=True)], 0
+    met: list[tuple[Least, int]] = []
     for rules in games:
-        for one, met in _by_start(rules, mean=mean, most_states=most_states):
-            least.append(one)
-            states += met
-    costs = [one.cost for one in least]
-    cost = sum(costs) if mean else max(costs)
-    return Least(cost, is_value=all(one.is_value for one in least)), states
+        met += _by_start(rules, mean=mean, most_states=most_states)
+    return _joined(met, mean=mean)
+
+
+def _joined(met: Sequence[tuple[Least, int]], *, mean: bool) -> tuple[Least, int]:
+    """The value over several states, and how many states were met for all of them."""
+    costs = [one.cost for one, _ in met]
+    cost = sum(costs) if mean else max(costs, default=0)
+    is_value = all(one.is_value for one, _ in met)
+    return Least(cost, is_value=is_value), sum(states for _, states in met)
 
 
 def _by_start(
@@ -187,14 +191,13 @@ def _after(rules: Rules[S], start: S, *, mean: bool, most_states: float) -> tupl
     """
     forced = tuple(rules.choices(start))
     paid = forced[0].moves if len(forced) == 1 else 0
-    least, states = list[Least](), 0
+    met: list[tuple[Least, int]] = []
     for state in forced[0].left if paid else (start,):
         solver = Solver(rules, mean=mean, most_states=most_states)
-        least.append(solver.least(state))
-        states += solver.states
-    costs = [one.cost for one in least]
-    cost = paid * rules.worlds(start) + sum(costs) if mean else paid + max(costs, default=0)
-    return Least(cost, is_value=all(one.is_value for one in least)), states
+        met.append((solver.least(state), solver.states))
+    (cost, is_value), states = _joined(met, mean=mean)
+    paid *= rules.worlds(start) if mean else 1
+    return Least(paid + cost, is_value=is_value), states
 
 
 # ---------------------------------------------------------------- what the catalogue pays

@@ -41,6 +41,7 @@ from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.reproduce.figures import (
     EDGES,
+    LEAST,
     PAIRS,
     REFERENCE,
     YARDSTICKS,
@@ -127,22 +128,20 @@ def figure_points(
     Yardsticks come last. A line whose runs are not all there has no points.
     """
     points: list[FigurePoint] = []
+
+    def draw(name: str, pair: PolicyPair | None, runs_of: str, by: PolicyPair) -> None:
+        line = [
+            _point(figure, name, size, pair, rows)
+            for size in extent.sizes(figure.setting)
+            if (rows := _rows(figure, extent, runs_of, size, by, runs))
+        ]
+        points.extend(_grown(line))
+
     for pair in extent.policies:
         for algorithm in figure.lines:
-            line = [
-                _point(figure, algorithm, size, pair, rows)
-                for size in extent.sizes(figure.setting)
-                if (rows := _rows(figure, extent, algorithm, size, pair, runs))
-            ]
-            points += _grown(line)
-    first = figure.lines[0], extent.policies[0]
+            draw(algorithm, pair, algorithm, pair)
     for name in YARDSTICKS:
-        line = [
-            _yardstick(figure, name, size, rows)
-            for size in extent.sizes(figure.setting)
-            if (rows := _rows(figure, extent, first[0], size, first[1], runs))
-        ]
-        points += _grown(line)
+        draw(name, None, figure.lines[0], extent.policies[0])
     return points
 
 
@@ -163,42 +162,36 @@ def _rows(
 
 
 def _point(
-    figure: Figure, algorithm: str, size: int, pair: PolicyPair, rows: Sequence[Row]
+    figure: Figure, name: str, size: int, pair: PolicyPair | None, rows: Sequence[Row]
 ) -> FigurePoint:
-    stated = figure.stated.get((algorithm, size)) if pair == REFERENCE else None
+    """A point of a line; of a yardstick, which has no policies and of which no claim is asked."""
+    stated = figure.stated.get((name, size)) if pair == REFERENCE else None
     decided = [row for row in rows if row.undecided is None]
-    average, error = _mean([row.cost for row in decided])
+    number = {EDGES: "edges", LEAST: "least"}.get(name, "cost")
+    average, error = _mean([getattr(row, number) for row in decided])
+    asked = [] if pair is None else decided
     return FigurePoint(
         figure=figure.name,
-        algorithm=algorithm,
+        algorithm=name,
         size=size,
         graphs=len(decided),
         mean=average,
         stderr=error,
         paper=stated.cost if stated else None,
         stated=stated.words if stated else None,
-        pick=pair.pick,
-        order=pair.order,
+        pick=None if pair is None else pair.pick,
+        order=None if pair is None else pair.order,
         edges=_mean([row.edges for row in decided])[0],
-        held=min((_claims(row, "ok") for row in decided), default=0),
-        of=min((len(row.claims) - _claims(row, "not-asked") for row in decided), default=0),
-        findings=tuple(finding for row in decided for finding in row.findings),
-        undecided=len(rows) - len(decided),
+        held=min((_claims(row, "ok") for row in asked), default=0),
+        of=min((len(row.claims) - _claims(row, "not-asked") for row in asked), default=0),
+        findings=tuple(finding for row in asked for finding in row.findings),
+        undecided=0 if pair is None else len(rows) - len(decided),
     )
 
 
 def _claims(row: Row, status: Status) -> int:
     """The number of claims with a status."""
     return sum(judged.status == status for judged in row.claims)
-
-
-def _yardstick(figure: Figure, name: str, size: int, rows: Sequence[Row]) -> FigurePoint:
-    decided = [row for row in rows if row.undecided is None]
-    average, error = _mean([row.edges if name == EDGES else row.least for row in decided])
-    edges = _mean([row.edges for row in decided])[0]
-    return FigurePoint(
-        figure.name, name, size, len(decided), average, error, None, None, None, None, edges, 0, 0
-    )
 
 
 def _mean(values: Sequence[int]) -> tuple[float, float | None]:

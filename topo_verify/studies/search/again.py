@@ -19,7 +19,7 @@ sure if k is at most the length of the row.
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from random import Random
 
 import msgspec
@@ -27,11 +27,13 @@ import msgspec
 from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.campaign.backend import calls_native, here
 from topo_verify.campaign.campaign import (
+    Backend,
     Campaign,
+    InFlight,
     ListedWorlds,
     Ranks,
     Shard,
-    ShardResult,
+    ShardResults,
     Stop,
     examine,
     results,
@@ -118,7 +120,11 @@ def run_again(campaign: Campaign, rows: Sequence[Row], tell: Progress | None = N
         rows: the notable rows of the whole search.
     """
     before = _drawn(rows, campaign)
-    told = _telling(f"{campaign.mappers[0]}, again", tell or no_progress)
+    tell = tell or no_progress
+
+    def told(_what: str, done: int, _total: int) -> None:
+        tell(f"{campaign.mappers[0]}, again", done, 2 * MOST + 1 + ROW)
+
     worlds = [row.world for row in before]
     alone = _rows(campaign, worlds, _alone, told)
     failures: list[Unlike] = []
@@ -143,10 +149,6 @@ def run_again(campaign: Campaign, rows: Sequence[Row], tell: Progress | None = N
         elif now.undecided is None and now.digest != known.get(now.world, now).digest:
             others += [now.world] if now.world not in others else []
     return RunAgain(len(before), len(in_row), tuple(failures), tuple(others))
-
-
-def _telling(what: str, tell: Progress) -> Progress:
-    return lambda _what, done, _total: tell(what, done, 2 * MOST + 1 + ROW)
 
 
 def _drawn(rows: Sequence[Row], campaign: Campaign) -> list[Row]:
@@ -190,7 +192,7 @@ def row_of(campaign: Campaign) -> list[str]:
 def _rows(
     campaign: Campaign,
     worlds: Sequence[str],
-    backend: Callable[..., Generator[tuple[Shard, ShardResult]]],
+    backend: Backend,
     tell: Progress = no_progress,
     stop: Stop | None = None,
 ) -> list[Row]:
@@ -201,9 +203,7 @@ def _rows(
     return [row for _, result in results(once, backend, named, tell=tell) for row in result.rows]
 
 
-def _alone(
-    campaign: Campaign, shards: Iterator[Shard], _in_flight: Callable[[int], None]
-) -> Generator[tuple[Shard, ShardResult]]:
+def _alone(campaign: Campaign, shards: Iterator[Shard], _in_flight: InFlight) -> ShardResults:
     """Each shard in a process of the mapper's that has played no world."""
     text = campaign.mappers[0]
     if text.startswith(PREFIX):
@@ -218,9 +218,7 @@ def _alone(
             yield shard, examine(campaign, (program.target,), shard)
 
 
-def _one_process(
-    campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
-) -> Generator[tuple[Shard, ShardResult]]:
+def _one_process(campaign: Campaign, shards: Iterator[Shard], in_flight: InFlight) -> ShardResults:
     """All shards in one process of the mapper's."""
     with _program(campaign.mappers[0]) as program:
         program.start()

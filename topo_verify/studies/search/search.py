@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import msgspec
+from msgspec.structs import astuple
 
 from topo_verify.campaign.backend import calls_native, clustered, here, pooled
 from topo_verify.campaign.campaign import (
@@ -26,15 +27,9 @@ from topo_verify.campaign.campaign import (
 )
 from topo_verify.campaign.cluster import both_given, connected
 from topo_verify.campaign.progress import Progress
-from topo_verify.campaign.row import Row
+from topo_verify.campaign.row import PolicyCosts, Row
 from topo_verify.campaign.run import Engine, is_native, require_compiled
-from topo_verify.campaign.tally import (
-    KEPT_PAIRS,
-    KEPT_WORST,
-    Costs,
-    Tally,
-    notable,
-)
+from topo_verify.campaign.tally import KEPT_PAIRS, KEPT_WORST, Costs, Pairs, Tally, notable
 from topo_verify.campaign.targets import one_target, targets
 from topo_verify.checkers import Judgement
 from topo_verify.checkers.findings import Verdict
@@ -91,7 +86,7 @@ class CostPair(msgspec.Struct, frozen=True):
     other: int
 
 
-class CostComparison(msgspec.Struct, frozen=True):
+class CostComparison(Pairs, frozen=True, kw_only=True):
     """The costs of two mappers in the same worlds.
 
     Attributes:
@@ -100,21 +95,10 @@ class CostComparison(msgspec.Struct, frozen=True):
         first: the first worlds in which it costs more.
     """
 
-    dearer: int
-    cheaper: int
-    most: int
     first: tuple[CostPair, ...]
 
 
-class MostSaved(msgspec.Struct, frozen=True):
-    """A world, what the reference policies cost in it, and the least that a run costs."""
-
-    world: str
-    reference: int
-    cheapest: int
-
-
-class EveryCost(msgspec.Struct, frozen=True):
+class EveryCost(PolicyCosts, frozen=True, kw_only=True):
     """With --policies every: what any policy of pick and order can cost.
 
     Attributes:
@@ -127,13 +111,6 @@ class EveryCost(msgspec.Struct, frozen=True):
         judged_by: what judged them.
     """
 
-    worlds: int
-    states: int
-    choices: int
-    cheapest: int
-    reference: int
-    dearest: int
-    most_saved: MostSaved | None
     decided_by: Decider
     judged_by: str
 
@@ -501,25 +478,12 @@ class Search:
             for row in mine
             if row.cost > others.get(row.world, row.cost)
         ]
-        numbers = tally.pairs
-        return CostComparison(
-            numbers.dearer, numbers.cheaper, numbers.most, tuple(pairs[:KEPT_PAIRS])
-        )
+        return CostComparison(*astuple(tally.pairs), first=tuple(pairs[:KEPT_PAIRS]))
 
     def _every(self, tally: Tally, edges: int) -> EveryCost:
         """The range of the costs of the first mapper in the worlds of one size."""
-        costs = tally.choices
-        saved = costs.most_saved
         return EveryCost(
-            worlds=costs.worlds,
-            states=costs.states,
-            choices=costs.choices,
-            cheapest=costs.cheapest,
-            reference=costs.reference,
-            dearest=costs.dearest,
-            most_saved=None if saved is None else MostSaved(*saved),
-            decided_by=decided_by(edges),
-            judged_by=judged_by(edges),
+            *astuple(tally.choices), decided_by=decided_by(edges), judged_by=judged_by(edges)
         )
 
 

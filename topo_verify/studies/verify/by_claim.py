@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from topo_verify.campaign.attempt import Attempt
+from topo_verify.campaign.campaign import CorpusWorlds
 from topo_verify.campaign.corpus import corpus_from
 from topo_verify.campaign.judge import Report, undecided
 from topo_verify.campaign.progress import no_progress
@@ -144,7 +145,7 @@ def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
         name=target.text,
         about=f" of 1 to {edges} edges",
         total=corpus.total,
-        worlds=lambda: ((at.name, at.world) for at in corpus),
+        worlds=CorpusWorlds(corpus),
         targets=[target],
         limits=limits,
         finite=True,

@@ -12,7 +12,7 @@ they counted. A difference is a bug of ours.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import get_args
 
@@ -25,6 +25,7 @@ from topo_verify.campaign.campaign import (
     ENGINE_SHARD,
     Campaign,
     ListedWorlds,
+    NamedWorlds,
     Ranks,
     Stop,
     results,
@@ -59,7 +60,7 @@ class Trials:
         name: of the part.
         about: which worlds these are, in words that follow "792 worlds".
         total: how many worlds there are; counted apart from the worlds themselves.
-        worlds: lists them with their names, smallest first.
+        worlds: each with its name, smallest first.
         finite: the worlds are all of a finite class.
         max_failing: stop after this many failing worlds; None: never.
         look: called for every run.
@@ -68,7 +69,7 @@ class Trials:
     name: str
     about: str
     total: int
-    worlds: Callable[[], Iterable[tuple[str, World]]]
+    worlds: NamedWorlds
     targets: Sequence[Target]
     limits: Limits
     finite: bool = False
@@ -89,7 +90,7 @@ class Trials:
         )
         backend = here(self.targets, look=self.look)
         told = _naming(self.name, tell)
-        for _, result in results(campaign, backend, _Again(self.worlds), tell=told):
+        for _, result in results(campaign, backend, self.worlds, tell=told):
             self.enter(result.tally, result.rows)
 
     def enter(self, tally: Tally, rows: Sequence[Row]) -> None:
@@ -163,23 +164,13 @@ class Trials:
         return words + (f" ({mappers})" if len(self.targets) > 1 else "")
 
 
-@dataclass
-class _Again:
-    """Worlds that can be iterated more than once."""
-
-    worlds: Callable[[], Iterable[tuple[str, World]]]
-
-    def __iter__(self) -> Iterator[tuple[str, World]]:
-        return iter(self.worlds())
-
-
 def _naming(name: str, tell: Progress) -> Progress:
     return lambda _what, done, total: tell(name, done, total)
 
 
-def with_ids(worlds: Iterable[World]) -> Iterator[tuple[str, World]]:
+def with_ids(worlds: Iterable[World]) -> list[tuple[str, World]]:
     """Worlds with the names by which the command line finds them again."""
-    return ((world_argument(world), world) for world in worlds)
+    return [(world_argument(world), world) for world in worlds]
 
 
 def part_claims(statuses: dict[str, dict[str, int]]) -> dict[str, dict[str, int]]:
@@ -215,7 +206,7 @@ class SmallWorlds(Trials):
         self, edges: int, targets: Sequence[Target], limits: Limits, *, further: bool = False
     ) -> None:
         ours = all(CATALOGUE.get(target.text) == target.mapper for target in targets)
-        super().__init__("small-worlds", "", 0, lambda: (), targets, limits, finite=True)
+        super().__init__("small-worlds", "", 0, (), targets, limits, finite=True)
         self._workers = processors() if ours and edges >= WORTH else 0
         self._further = ours and further and available() and limits == Limits()
         self._tallies: dict[int, Tally] = {}
@@ -300,7 +291,7 @@ class CostTrial(Trials):
         self, name: str, where: str, world: World, targets: Sequence[Target], limits: Limits
     ) -> None:
         size = f", {where} ({len(world.vertices)} vertices, {len(world.edges)} edges)"
-        super().__init__(name, size, 1, lambda: [(where, world)], targets, limits)
+        super().__init__(name, size, 1, [(where, world)], targets, limits)
         self.world, self.basic = world, 0
         foreign = any(not isinstance(target.mapper, Algorithm) for target in targets)
         self.references = list(CATALOGUE.values()) if foreign else []

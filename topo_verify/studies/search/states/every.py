@@ -27,7 +27,7 @@ import msgspec
 from topo_verify.algorithms import Algorithm
 from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.judge import Report, world_argument
-from topo_verify.campaign.row import PolicyCosts
+from topo_verify.campaign.row import MostSaved, PolicyCosts
 from topo_verify.campaign.run import Exploration
 from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.loader import Target
@@ -122,7 +122,7 @@ def every_choice(
     by_name = [run(variant) for variant in named]
     if found is not None and all(made.report.ok for made in by_name):
         reference = by_name[0].run.cost
-        saved = world_argument(world), reference, found.cheapest
+        saved = MostSaved(world_argument(world), reference, found.cheapest)
         costs = PolicyCosts(1, *found[:3], reference, found.dearest, saved)
         by_name[-1] = replace(by_name[-1], choices=costs)
     yield from (*runs, *by_name)
