@@ -161,6 +161,17 @@ def test_a_hypothesis_without_a_fate_is_a_finding_of_claim_3(every: int) -> None
     assert judgements["rejection-justified"].of == 28
 
 
+def test_a_hypothesis_that_was_no_dart_of_s_is_wrong_by_claim_2_and_not_dropped() -> None:
+    world = World.from_id("m2/0")
+    trace = trace_of(world, "basic")
+    first = next(e for e in trace if isinstance(e, ev.Pose))
+    # Dart 2 comes with the vertex behind the posed edge: it is new, and not still unexplored.
+    early = ev.Pose(first.edge, (2,))
+    judgements = told(world, tuple(early if event is first else event for event in trace))
+    assert judgements["true-hypothesis-posed"].status == "failed"
+    assert judgements["true-hypothesis-kept"].status == "ok"
+
+
 STAR = World.from_rotations([(0, 1, 2), (3,), (4,), (5,)], [(0, 3), (1, 4), (2, 5)], 0)
 
 

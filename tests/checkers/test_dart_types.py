@@ -58,5 +58,5 @@ def test_the_types_cost_nothing_when_the_program_runs() -> None:
     assert type(OF_S) is int
     assert type(OF_WORLD) is int
     assert type(WorldDart(3)) is int
-    assert IN_WORLD.is_open(0, 0)
-    assert not IN_WORLD.is_open(99, 0)
+    assert IN_WORLD.is_open(0, 1)
+    assert not IN_WORLD.is_open(99, 1)

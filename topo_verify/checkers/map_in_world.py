@@ -81,7 +81,7 @@ class MapInWorld:
     def is_open(self, dart: int, when: int) -> TypeGuard[KnownDart]:
         """Whether this is a dart of S, and unexplored, when event `when` happens."""
         number = KnownDart(dart)
-        return self.born.get(number, when + 1) <= when <= self.joined.get(number, when)
+        return self.born.get(number, when) < when <= self.joined.get(number, when)
 
     def turn(self, dart: KnownDart, door: Door) -> KnownDart:
         """The dart of S that a door means to a robot whose reference dart on S is `dart`."""

@@ -243,8 +243,7 @@ def augment(
     if posed:
         left = case.left[edge] if is_new else 0
         if is_new:
-            # Open when S grows: the darts that were open, and those that come with the new vertex.
-            now_open = ((1 << (size + world.degree[world.vertex[end]])) - 1) ^ ((1 << size) - 1)
+            now_open = 0
             for d in range(size):
                 if case.alpha[d] < 0:
                     now_open |= 1 << d
