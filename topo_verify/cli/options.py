@@ -410,8 +410,9 @@ def mappers(
             named: str | None = None,
             **kwargs: Any,
         ) -> int:
-            single = () if target is None else (target,)
-            texts = [*(target if isinstance(target, tuple) else single)]
+            texts = list(target) if isinstance(target, tuple) else []
+            if isinstance(target, str):
+                texts.append(target)
             if texts and named is not None:
                 raise InputError(
                     f"expected one TARGET, got {target!r} and --target {named}; leave one out"
