@@ -41,7 +41,7 @@ def kills_its_dask_worker_once(robot: Robot) -> Any:
 
 def takes_two_gib(robot: Robot) -> Any:
     """Right, with room for two GiB; nothing is written there."""
-    return _explore(robot, lambda: bytearray(2**31))
+    return _explore(robot, lambda: bytes(2**31))  # bytearray would write zeros
 
 
 def kills_its_dask_worker(robot: Robot) -> Any:

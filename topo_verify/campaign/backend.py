@@ -263,14 +263,14 @@ def _with_our_memory(
     """The result of a worker; if a mapper lacked memory there, what a process of ours finds.
 
     A worker may have less memory than this process, by a limit or because others take it. So a
-    MemoryError refutes only if it comes again; otherwise the world is undecided.
+    MemoryError refutes only if the mapper fails here, too; otherwise the world is undecided.
     """
     short = [row for row in result.rows if _lacks_memory(row)]
     if not short:
         return result
     with Pool(work, 1) as pool:
         ((_, again),) = pool.run([shard])
-    still = {(row.place, row.mapper) for row in again.rows if _lacks_memory(row)}
+    still = {(row.place, row.mapper) for row in again.rows if row.findings or row.undecided}
     for row in short:
         if (row.place, row.mapper) not in still:
             lost = msgspec.structs.replace(
