@@ -15,7 +15,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
 from operator import attrgetter, itemgetter
-from typing import Any, cast
+from typing import Any
 
 import msgspec
 
@@ -124,13 +124,12 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
 
 def added(one: Any, other: Any) -> Any:
     """The sum of a field of two tallies; a text is a digest, the empty one the digest of none."""
-    if isinstance(one, dict):
-        ours, theirs = cast("dict[Any, Any]", one), cast("dict[Any, Any]", other)
-        both = {key: added(ours[key], theirs[key]) for key in ours if key in theirs}
-        return {**ours, **theirs, **both}
-    if isinstance(one, tuple):
-        return tuple(map(added, cast("tuple[Any, ...]", one), cast("tuple[Any, ...]", other)))
-    if isinstance(one, str):
+    # isinstance would leave pyright without the types of the parts.
+    if issubclass(one.__class__, dict):
+        return {**one, **other, **{key: added(one[key], other[key]) for key in one if key in other}}
+    if issubclass(one.__class__, tuple):
+        return tuple(map(added, one, other))
+    if issubclass(one.__class__, str):
         total = int(one or "0", 16) + int(other or "0", 16)
         return f"{total % (1 << 256):064x}" if one or other else ""
     return one + other
