@@ -43,6 +43,12 @@ def commands_on(page: str) -> list[tuple[str, str]]:
     return re.findall(_COMMAND, text, re.MULTILINE | re.DOTALL)
 
 
+def agrees(shown: str, printed: str) -> bool:
+    """Whether a page shows what was printed; its line `…` stands for one line or more."""
+    parts = re.split(r"^…\n", shown, flags=re.MULTILINE)
+    return re.fullmatch(r"(?:.*\n)+?".join(map(re.escape, parts)), printed) is not None
+
+
 def steps(text: str) -> list[Step]:
     """What a page asks its reader to do."""
     blocks = list(_BLOCK.finditer(text))

@@ -19,7 +19,7 @@ from topo_verify import CATALOGUE, InputError, Limits, Robot, World, examine, ex
 from topo_verify.algorithms import Policies
 from topo_verify.campaign.judge import judge, undecided
 from topo_verify.campaign.targets import one_target
-from topo_verify.robot import trace_store
+from topo_verify.robot import simulator
 from topo_verify.robot.events import Event, Finish, Move, Pose, Start, read_trace, write_trace
 from topo_verify.robot.limits import WorldTimeout
 
@@ -247,7 +247,7 @@ def test_a_mapper_that_swallows_what_stops_it_and_then_raises_is_stopped_for_the
 def test_a_limit_that_strikes_in_the_middle_of_a_move_convicts_nobody(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    recorded = trace_store.move
+    recorded = simulator.shared_move
 
     def strikes(*move: Any) -> Event:
         strikes_at.append(0)
@@ -256,7 +256,7 @@ def test_a_limit_that_strikes_in_the_middle_of_a_move_convicts_nobody(
         return recorded(*move)
 
     strikes_at: list[int] = []
-    monkeypatch.setattr(trace_store, "move", strikes)
+    monkeypatch.setattr(simulator, "shared_move", strikes)
     run = explore(World.from_id("m4/41"), "basic")
     monkeypatch.undo()
     report = judge(run)

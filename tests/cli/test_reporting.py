@@ -13,9 +13,9 @@ import pytest
 from tests.cli.conftest import Call, Refused
 from tests.report.test_junit import objections
 from topo_verify.checkers.findings import Judgement
-from topo_verify.cli.reporting import command_line
+from topo_verify.cli.output import command_line
 from topo_verify.cli.verify import cases_of
-from topo_verify.report.style import VERDICTS
+from topo_verify.report.blocks import VERDICTS
 from topo_verify.studies.verify.parts import Part
 
 FILES = "--report r.html --junit r.xml --badge r.svg --quiet"

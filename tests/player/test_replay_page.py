@@ -1,22 +1,12 @@
-"""docs/replay.md: each walk on the page is what the command prints, and shows the mistake."""
+"""docs/replay.md: each walk on the page shows the mistake; tests/docs/test_pages.py runs them."""
 
 from __future__ import annotations
 
-import shlex
-
 import pytest
-from click.testing import CliRunner
 
-from tests.pages import ROOT, commands_on
-from topo_verify.cli import main
+from tests.pages import commands_on
 
 SHOWN = dict(commands_on("replay.md"))
-
-
-@pytest.mark.parametrize("line", SHOWN)
-def test_a_command_prints_what_the_page_shows(line: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(ROOT)
-    assert CliRunner().invoke(main, shlex.split(line)).stdout == SHOWN[line]
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from tests.report.accounts import HOSTILE, account
 from topo_verify.checkers.findings import Verdict
 from topo_verify.report.account import Account, JudgedExtent
 from topo_verify.report.badge import badge
-from topo_verify.report.style import OF_TONE, PALETTE, TONES, VERDICTS
+from topo_verify.report.blocks import OF_TONE, PALETTE, TONES, VERDICTS
 
 SVG = "{http://www.w3.org/2000/svg}"
 

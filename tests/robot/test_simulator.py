@@ -9,7 +9,7 @@ import pytest
 
 from topo_verify import World
 from topo_verify.robot import events as ev
-from topo_verify.robot import trace_store
+from topo_verify.robot import simulator
 from topo_verify.robot.limits import BudgetExceeded, MapperStopped, WorldTimeout
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
@@ -116,7 +116,7 @@ def test_a_move_that_a_time_limit_struck_before_it_was_recorded_is_taken_back(
     def struck(*_: object) -> ev.Event:
         raise WorldTimeout("in the middle of a move")
 
-    monkeypatch.setattr(trace_store, "move", struck)
+    monkeypatch.setattr(simulator, "shared_move", struck)
     with pytest.raises(WorldTimeout):
         robot.move(0)
     assert (robot.cost, len(robot.events)) == (2, 1)

@@ -100,7 +100,7 @@ class CampaignJob(msgspec.Struct, frozen=True):
 def here(
     mappers: Sequence[Target] | None = None, *, depends: Depends = None, look: Look | None = None
 ) -> Backend:
-    """This process.
+    """The backend that works in this process.
 
     Args:
         mappers: those of the campaign, if they are loaded already; they are not closed here.

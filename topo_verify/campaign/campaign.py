@@ -412,7 +412,7 @@ class ShardMemory(Protocol):
 
     @property
     def path(self) -> str:
-        """Its file."""
+        """The path of its file."""
         ...
 
     def get(self, shard: Shard) -> ShardResult | None:

@@ -303,7 +303,7 @@ class StoredCampaign:
 
     @property
     def path(self) -> str:
-        """Its file."""
+        """The path of its file."""
         return self._store.path
 
     @property

@@ -42,7 +42,6 @@ from types import ModuleType
 from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, Algorithm, Steered
 from topo_verify.errors import InputError, is_utf8
 from topo_verify.programs.foreign import Foreign
-from topo_verify.programs.jitted import names_jitted
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target, close_name, load, missing_attribute
 from topo_verify.programs.program import OPTIONS, PREFIX, Program, split
@@ -80,7 +79,32 @@ def each_text(text: str) -> tuple[str, ...]:
     general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
     parts = [text] if named else [part.strip() for part in text.split(",")]
     names = (name for part in parts for name in (general if part == "all" else [part]))
-    return tuple(LIBRARY + name if names_jitted(name) else name for name in names)
+    return tuple(LIBRARY + name if _names_jitted(name) else name for name in names)
+
+
+def _names_jitted(text: str) -> bool:
+    """Whether `path/file.py:name` names a function compiled by numba, as its source shows it."""
+    place, _, name = text.rpartition(":")
+    if not place.endswith(".py"):
+        return False
+    try:
+        body = ast.parse(Path(place).read_bytes()).body
+    except (SyntaxError, ValueError, OSError, RecursionError, MemoryError):
+        return False
+    marks: list[ast.expr] = []
+    for node in body:
+        if isinstance(node, ast.FunctionDef) and node.name == name:
+            marks = node.decorator_list
+        elif isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == name:
+            marks = [node.value]
+    return any(_is_jit(mark) for mark in marks)
+
+
+def _is_jit(mark: ast.expr) -> bool:
+    """Whether this is `numba.njit`, `njit`, `njit(...)`, or a call of what such a call returns."""
+    while isinstance(mark, ast.Call):
+        mark = mark.func
+    return ast.unparse(mark).rpartition(".")[2] in ("njit", "jit")
 
 
 def one_target(

@@ -5,8 +5,7 @@ conform.py, record.py, compare.py, replay.py, play.py, certify.py, tour.py,
 arena.py (arena_files.py, arena_game.py), header.py, reproduce.py  the commands
 runs.py       worlds as the user names them; judged runs, findings and walks as shown
 options.py    options that commands share
-output.py     from results to stdout: pretty, json, markdown; the bar on stderr
-reporting.py  --report, --junit, --badge
+output.py     from results to stdout and files: pretty, json, markdown; --report, --junit, --badge
 kept_runs.py  the store of runs of some commands
 failures.py   exit codes, and the sentences that go with them
 

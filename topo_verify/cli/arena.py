@@ -26,8 +26,7 @@ from topo_verify.cli.arena_files import (
 )
 from topo_verify.cli.arena_game import game_of_catalogue
 from topo_verify.cli.kept_runs import open_store, stored_rows
-from topo_verify.cli.output import Output, Result
-from topo_verify.cli.reporting import ReportFiles
+from topo_verify.cli.output import Output, ReportFiles, Result
 from topo_verify.cli.runs import unjudged
 from topo_verify.errors import InputError, plural
 from topo_verify.programs.library import LIBRARY

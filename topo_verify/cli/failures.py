@@ -41,13 +41,6 @@ class ExitCode(IntEnum):
     OUR_BUG = 70
 
 
-def exit_code(*, failed: bool, incomplete: bool) -> ExitCode:
-    """The exit code of a command that did its work; a failed claim outranks all else."""
-    if failed:
-        return ExitCode.CLAIM_FAILED
-    return ExitCode.INCOMPLETE if incomplete else ExitCode.NOTHING_FOUND
-
-
 def epilog(*examples: str) -> str:
     """The end of a --help: examples, then the exit codes."""
     # The control character tells click to keep the lines of a paragraph.

@@ -21,8 +21,7 @@ from topo_verify.campaign.run import ENGINES, policies_of
 from topo_verify.campaign.targets import one_target, target_text, targets
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import epilog
-from topo_verify.cli.output import Output
-from topo_verify.cli.reporting import ReportFiles
+from topo_verify.cli.output import Output, ReportFiles
 from topo_verify.errors import InputError, shown
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Target

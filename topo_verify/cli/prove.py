@@ -16,8 +16,7 @@ from topo_verify.cli.output import Live, Output, Result, entry_of
 from topo_verify.errors import InputError, InternalError, plural
 from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem, TheoremKind
 from topo_verify.report import account as acc
-from topo_verify.report.blocks import Block, Bullets, Cell, Text, TextTable
-from topo_verify.report.style import Tone
+from topo_verify.report.blocks import Block, Bullets, Cell, Text, TextTable, Tone
 from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.world.rooted_map import World
 

@@ -6,14 +6,13 @@ the one that it mirrors, and functions have the names of the reference's.
 
     kernel.py       what a kernel is; from sources to machine code, and where that is kept
     names.py        names for words: `chart.first[v]`, and the offsets that are written for them
-    workspace.py    the one array: which field stands where
+    workspace.py    the one array: which field stands where; the state of an enumeration
     events.py       the words that a run writes, from and to the events of a trace
     faults.py       some mistakes of topo_verify/faults, by number
 
     robot.py        robot/simulator.py        chart.py        algorithms/chart.py
     motion.py       motion.py, policies.py    evidence.py     enhancement_i, _ii, _iii, planar.py
     folding.py      folding.py                exploration.py  exploration.py
-    growth.py       the state of an enumeration
     pruning.py, enumeration.py                world/enumeration/
     judging/        the ten claims                checkers/
     tally.py        a range of worlds, run and judged in one kernel; shard.py for use from Python
@@ -21,7 +20,7 @@ the one that it mirrors, and functions have the names of the reference's.
     native.py       a native mapper in the place of `explore`: native_call.py, native_run.py
 
 Kernels become one module with one set of constants, so they import the vocabularies whole:
-`from topo_verify.compiled.workspace import *`, and so those of `growth`, `events`, `faults` and
+`from topo_verify.compiled.workspace import *`, and so those of `events`, `faults` and
 `judging.layout`.
 
 Importing this package, or any file of it, imports neither numba nor numpy.

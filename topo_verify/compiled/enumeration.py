@@ -30,7 +30,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from topo_verify.compiled.growth import *
 from topo_verify.compiled.kernel import WordTable, compiled, entry, inlined
 from topo_verify.compiled.pruning import (
     begin_pruned,

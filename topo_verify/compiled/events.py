@@ -29,7 +29,6 @@ from topo_verify.compiled.kernel import entry
 from topo_verify.compiled.names import Words, WordView, cursor
 from topo_verify.compiled.workspace import P, TraceWords
 from topo_verify.errors import InternalError
-from topo_verify.robot import trace_store
 from topo_verify.robot.events import (
     Augment,
     Confirm,
@@ -44,6 +43,7 @@ from topo_verify.robot.events import (
     Start,
 )
 from topo_verify.robot.percept import PURPOSES, Percept, Purpose
+from topo_verify.robot.simulator import shared_move
 
 MOVE, POSE, REJECT, CONFIRM, AUGMENT, FINISH = range(1, 7)
 
@@ -84,7 +84,7 @@ class EventWords(WordView):
 
 @cursor("W")
 class MoveWords(EventWords):
-    """A move."""
+    """The words of a move."""
 
     door: int
     percept: int
@@ -100,7 +100,7 @@ class DecisionWords(EventWords):
 
 @cursor("W")
 class PoseWords(DecisionWords):
-    """A pose."""
+    """The words of a pose."""
 
     number: int
     h: PerWord
@@ -126,7 +126,7 @@ class RejectionWords(DecisionWords):
 
 @cursor("W")
 class ConfirmationWords(DecisionWords):
-    """A confirmation."""
+    """The words of a confirmation."""
 
     h: int
     rule: int
@@ -134,7 +134,7 @@ class ConfirmationWords(DecisionWords):
 
 @cursor("W")
 class AugmentationWords(DecisionWords):
-    """An augmentation."""
+    """The words of an augmentation."""
 
     growth: int
     dart: int
@@ -254,7 +254,7 @@ def decoded(trace: Sequence[int]) -> Iterator[Event]:
 
 @lru_cache(maxsize=2**16)
 def _move(door: int, percept: int, purpose: int) -> Move:
-    return trace_store.move(door, percept_of(percept), _purpose(purpose))
+    return shared_move(door, percept_of(percept), _purpose(purpose))
 
 
 def _purpose(number: int) -> Purpose | None:

@@ -85,7 +85,6 @@ SOURCES = [
     f"topo_verify.compiled.{name}"
     for name in (
         "workspace",
-        "growth",
         "pruning",
         "enumeration",
         "events",

@@ -220,7 +220,7 @@ class Flat(ast.NodeTransformer):
         return node
 
     def visit_arg(self, node: ast.arg) -> ast.arg:
-        """A parameter."""
+        """Convert the annotation of a parameter."""
         view = self._views.get(node.arg)
         return node if view is None or view.is_cursor else ast.arg(view.letter)
 

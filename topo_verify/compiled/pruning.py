@@ -18,7 +18,6 @@ still to create after the step, `opened` the number of open darts after it.
 
 from __future__ import annotations
 
-from topo_verify.compiled.growth import *
 from topo_verify.compiled.kernel import inlined
 from topo_verify.compiled.workspace import *
 

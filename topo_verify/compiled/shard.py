@@ -32,7 +32,6 @@ from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.enumeration import prepare
 from topo_verify.compiled.explore import KERNELS, CompiledJob, CompiledRun, run_world
 from topo_verify.compiled.faults import PLANTED
-from topo_verify.compiled.growth import WalkWords
 from topo_verify.compiled.judging import layout
 from topo_verify.compiled.judging.truth import HASH_PRIME
 from topo_verify.compiled.kernel import compiled
@@ -291,7 +290,7 @@ class _Shard:
     def _world(self) -> World:
         """The world that lies in the workspace."""
         first, ends = self.layout.at("world.degree"), self.layout.at("world.alpha")
-        degrees = self.space[first : first + int(WalkWords(self.worlds).vertices)].tolist()
+        degrees = self.space[first : first + int(ws.WalkWords(self.worlds).vertices)].tolist()
         alpha = self.space[ends : ends + sum(degrees)].tolist()
         return World.from_code((tuple(degrees), tuple(alpha)))
 

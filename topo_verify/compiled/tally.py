@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from topo_verify.compiled.enumeration import next_world
 from topo_verify.compiled.exploration import explore
-from topo_verify.compiled.growth import *
 from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.verdict import is_world, judge
 from topo_verify.compiled.kernel import WordTable, entry, kernel

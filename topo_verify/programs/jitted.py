@@ -8,42 +8,15 @@ leaves nothing to the next one but what it hides behind an address.
 
 from __future__ import annotations
 
-import ast
 import ctypes
 import re
 import sys
-from pathlib import Path
 from typing import Any
 
 from topo_verify.errors import InputError, shown
 
 _lasting: list[object] = []
 """What numba made: its machine code is there as long as it is."""
-
-
-def names_jitted(text: str) -> bool:
-    """Whether `path/file.py:name` names a function compiled by numba, as its source shows it."""
-    place, _, name = text.rpartition(":")
-    if not place.endswith(".py"):
-        return False
-    try:
-        body = ast.parse(Path(place).read_bytes()).body
-    except (SyntaxError, ValueError, OSError, RecursionError, MemoryError):
-        return False
-    marks: list[ast.expr] = []
-    for node in body:
-        if isinstance(node, ast.FunctionDef) and node.name == name:
-            marks = node.decorator_list
-        elif isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == name:
-            marks = [node.value]
-    return any(_is_jit(mark) for mark in marks)
-
-
-def _is_jit(mark: ast.expr) -> bool:
-    """Whether this is `numba.njit`, `njit`, `njit(...)`, or a call of what such a call returns."""
-    while isinstance(mark, ast.Call):
-        mark = mark.func
-    return ast.unparse(mark).rpartition(".")[2] in ("njit", "jit")
 
 
 def is_jitted(found: object) -> bool:

@@ -185,7 +185,7 @@ class _Launcher:
         return answer[1]
 
     def close(self) -> None:
-        """End it."""
+        """End the launcher process."""
         self._control.close()
         if self.owner == os.getpid():
             self._process.wait()

@@ -1,7 +1,6 @@
 """The account of a command, in every form in which people and machines read it.
 
-style.py      one style for all: the tone and mark of each verdict, the palette
-blocks.py     what a command has to say: paragraphs, tables, commands to copy; of no form
+blocks.py     what a command has to say, in no form yet; the tone and mark of verdicts, the palette
 terminal.py   blocks on a terminal, down to 50 columns
 markdown.py   blocks as Markdown, for summaries of continuous integration
 html.py       blocks as HTML, text in XML

@@ -14,8 +14,7 @@ from typing import Any, Literal, NamedTuple
 from topo_verify.checkers import Judgement, Status
 from topo_verify.checkers.findings import Verdict
 from topo_verify.player.recording import PlayedRun
-from topo_verify.report.blocks import Block
-from topo_verify.report.style import Tone
+from topo_verify.report.blocks import Block, Tone
 from topo_verify.world.rooted_map import World
 
 Outcome = Literal["passed", "failed", "undecided", "not-judged"]
@@ -55,6 +54,12 @@ class JudgedCase:
         if self.outcome == "passed" and self.verdict == "SAMPLED":
             return "sampled"
         return TONE_OF[self.outcome]
+
+
+UNFINISHED = JudgedCase(
+    "came to its end", "UNKNOWN", "undecided", message="interrupted: the rest was not judged"
+)
+"""The case of a run that was interrupted."""
 
 
 class JudgedSuite(NamedTuple):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from topo_verify.report.account import Account
+from topo_verify.report.blocks import OF_TONE, PALETTE, TONES
 from topo_verify.report.html import xml_text
-from topo_verify.report.style import OF_TONE, PALETTE, TONES
 
 LONGEST = 60
 """The most characters of the words on a badge."""

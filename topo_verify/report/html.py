@@ -12,7 +12,7 @@ from html import escape
 
 from topo_verify.errors import LINE, shown
 from topo_verify.report import blocks as bl
-from topo_verify.report.style import TONES, Tone, marked
+from topo_verify.report.blocks import TONES, Tone, marked
 
 
 def xml_text(text: str, *, limit: int = LINE) -> str:

@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from topo_verify.report.account import Account, Ending, JudgedCase, JudgedSuite, Outcome
+from topo_verify.report.account import UNFINISHED, Account, Ending, JudgedCase, JudgedSuite, Outcome
 from topo_verify.report.html import xml_text
 
 _CHILD: dict[Outcome, str] = {"failed": "failure", "undecided": "error", "not-judged": "skipped"}
@@ -39,11 +39,6 @@ def junit(account: Account, run: Ending) -> str:
         lines += _suite(number, suite, seconds, account, run)
     return "\n".join([*lines, "</testsuites>", ""])
 
-
-UNFINISHED = JudgedCase(
-    "came to its end", "UNKNOWN", "undecided", message="interrupted: the rest was not judged"
-)
-"""The case of a run that was interrupted."""
 
 NOTHING = JudgedCase("judged something", "UNKNOWN", "undecided", message="nothing was judged")
 """The case of a run without results."""

@@ -12,8 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import ceil, cos, log, pi, sin
 from typing import NamedTuple
 
+from topo_verify.report.blocks import PALETTE
 from topo_verify.report.html import xml_text
-from topo_verify.report.style import PALETTE
 from topo_verify.studies.arena.league import LeagueEntry
 from topo_verify.studies.arena.suites import Suite
 

@@ -20,11 +20,9 @@ from typing import Any, cast
 from topo_verify.errors import plural
 from topo_verify.player.page import PageShell, json_in_page, page_shell, source_hash, squeezed
 from topo_verify.player.recording import recording
-from topo_verify.report.account import Account, Ending, Exhibit, JudgedCase, JudgedSuite
-from topo_verify.report.blocks import clean
+from topo_verify.report.account import UNFINISHED, Account, Ending, Exhibit, JudgedCase, JudgedSuite
+from topo_verify.report.blocks import PALETTE, TONES, clean
 from topo_verify.report.html import blocks_as_html, code, mark_up, picture, toned, xml_text
-from topo_verify.report.junit import UNFINISHED
-from topo_verify.report.style import PALETTE, TONES
 
 MOST_DRAWN = 200
 """The most edges of a world that is drawn and played: larger ones take seconds."""

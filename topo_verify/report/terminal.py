@@ -13,7 +13,7 @@ from typing import IO, TYPE_CHECKING
 
 from topo_verify.errors import LINE, shown
 from topo_verify.report import blocks as bl
-from topo_verify.report.style import ON_TERMINAL, TONES, VERDICTS
+from topo_verify.report.blocks import ON_TERMINAL, TONES, VERDICTS
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType

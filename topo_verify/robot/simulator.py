@@ -17,14 +17,13 @@ from typing import NoReturn, SupportsIndex, cast
 
 import msgspec
 
-from topo_verify.robot import trace_store
-from topo_verify.robot.events import Decision, Event, Move
+from topo_verify.robot import events as ev
 from topo_verify.robot.limits import BudgetExceeded, MapperStopped
 from topo_verify.robot.percept import PURPOSES, Door, Percept, Purpose
 from topo_verify.world.rooted_map import Dart, World
 
 _plain = msgspec.msgpack.Encoder(enc_hook=index)
-_decision: msgspec.msgpack.Decoder[Decision] = msgspec.msgpack.Decoder(Decision)
+_decision: msgspec.msgpack.Decoder[ev.Decision] = msgspec.msgpack.Decoder(ev.Decision)
 
 
 EXPECTED = "expected a decision (pose, reject, confirm, augment)"
@@ -75,13 +74,23 @@ def door_number(door: object, degree: int) -> Door:
     return number
 
 
+@lru_cache(maxsize=2**16)
+def shared_move(door: Door, percept: Percept, purpose: Purpose | None) -> ev.Move:
+    """The one `Move` with these fields, as long as it is remembered; else an equal one.
+
+    How many different moves there are depends on the degrees in a world, not on the length of the
+    run. So equal moves are one immutable object, and a trace takes eight bytes for each.
+    """
+    return ev.Move(door, percept, purpose)
+
+
 def require_purpose(purpose: Purpose | None) -> None:
     """Raise a Misuse unless this is what a move can be for."""
     if purpose is not None and purpose not in PURPOSES:
         raise Misuse(f"expected a purpose of {', '.join(PURPOSES)}, got {purpose!r}")
 
 
-def plain_decision(event: Decision | Mapping[str, object]) -> Decision:
+def plain_decision(event: ev.Decision | Mapping[str, object]) -> ev.Decision:
     """The decision that a mapper declares: a `Pose`, `Reject`, `Confirm` or `Augment`, or its JSON.
 
     Raises:
@@ -131,7 +140,7 @@ class SimulatedRobot:
         self._percepts = percepts(world)
         self._percept = first_percept(world)
         self._stopped: MapperStopped | None = None
-        self.events: list[Event] = []
+        self.events: list[ev.Event] = []
 
     @property
     def handle(self) -> RobotHandle:
@@ -174,10 +183,10 @@ class SimulatedRobot:
         self._at = self._world.alpha[exit_dart(self._world, self._at, number)]
         self._cost += 1
         self._percept = self._percepts[self._at]
-        self.events.append(trace_store.move(number, self._percept, purpose))
+        self.events.append(shared_move(number, self._percept, purpose))
         return self._percept
 
-    def declare(self, event: Decision | Mapping[str, object]) -> None:
+    def declare(self, event: ev.Decision | Mapping[str, object]) -> None:
         """Put a decision on record: a `Pose`, `Reject`, `Confirm` or `Augment`, or its JSON."""
         if self._stopped is not None:
             raise self._stopped
@@ -187,7 +196,7 @@ class SimulatedRobot:
             self._stop(why)
         self.record(decision)
 
-    def record(self, decision: Decision) -> None:
+    def record(self, decision: ev.Decision) -> None:
         """Put a decision on record that was read as one."""
         self.events.append(decision)
 
@@ -197,7 +206,7 @@ class SimulatedRobot:
         Such a limit strikes anywhere, also between the count and the record. The mapper has not
         seen what was behind that door; and the trace must not look as if somebody had changed it.
         """
-        recorded = sum(isinstance(event, Move) for event in self.events)
+        recorded = sum(isinstance(event, ev.Move) for event in self.events)
         if self._cost == recorded + 1:
             self._cost = recorded
 

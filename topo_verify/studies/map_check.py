@@ -38,8 +38,7 @@ from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InternalError
 from topo_verify.robot.events import Event, Move, Start, Trace
 from topo_verify.robot.percept import Door
-from topo_verify.robot.simulator import exit_dart, first_percept, percepts
-from topo_verify.robot.trace_store import move
+from topo_verify.robot.simulator import exit_dart, first_percept, percepts, shared_move
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.least_cost import BreadthFirstTree, covering_walk
 from topo_verify.world.rooted_map import Dart, World
@@ -104,7 +103,7 @@ def moves(world: World, at: Dart, doors: Sequence[Door]) -> Iterator[Move]:
     shown = percepts(world)
     for door in doors:
         at = world.alpha[exit_dart(world, at, door)]
-        yield move(door, shown[at], None)
+        yield shared_move(door, shown[at], None)
 
 
 def tour_log(world: World) -> Trace:

@@ -1,30 +1,12 @@
-"""docs/search.md: every command on the page prints what stands behind it."""
+"""How large the smallest worlds are that need the marker and its direction."""
 
 from __future__ import annotations
 
-import shlex
-
 import pytest
-from click.testing import CliRunner
 
-from tests.pages import ROOT, commands_on
-from topo_verify.cli import main
+from tests.pages import ROOT
 from topo_verify.studies.search.search import search
 from topo_verify.world.enumeration.classes import WorldClass
-
-SHOWN = commands_on("search.md")
-
-
-@pytest.mark.parametrize(("line", "text"), SHOWN, ids=[line for line, _ in SHOWN])
-def test_a_command_prints_what_the_page_shows(
-    line: str, text: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(ROOT)
-    assert CliRunner().invoke(main, shlex.split(line)).stdout == text
-
-
-def test_the_page_shows_five_commands() -> None:
-    assert len(SHOWN) == 5
 
 
 @pytest.mark.parametrize(

@@ -404,7 +404,7 @@ class Conform:
 
     @property
     def target(self) -> str:
-        """The implementation."""
+        """The implementation under test."""
         return self.campaign.mappers[0]
 
     def work(self, backend: c.Backend, tell: Progress | None = None) -> None:

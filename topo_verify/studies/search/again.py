@@ -24,7 +24,6 @@ from random import Random
 
 import msgspec
 
-from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.campaign.backend import calls_native, here
 from topo_verify.campaign.campaign import (
     Backend,
@@ -44,7 +43,6 @@ from topo_verify.campaign.tally import SAMPLE, sample_key
 from topo_verify.campaign.targets import target_arguments
 from topo_verify.checkers import Finding
 from topo_verify.programs.foreign import Foreign
-from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX, Program, split
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
@@ -106,11 +104,6 @@ class RunAgain(msgspec.Struct, frozen=True):
             )
             for one in self.failures
         )
-
-
-def can_run_again(mappers: Sequence[Target]) -> bool:
-    """Whether a fresh process can be had: for what a TARGET names, outside of the catalogue."""
-    return len(mappers) == 1 and not isinstance(mappers[0].mapper, Algorithm | Steered)
 
 
 def run_again(campaign: Campaign, rows: Sequence[Row], tell: Progress | None = None) -> RunAgain:

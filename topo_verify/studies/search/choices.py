@@ -61,10 +61,10 @@ def every(target: Target, world: World, once: Once) -> Iterator[Attempt]:
 
 
 def require_choices(targets: Iterable[Target], choices: Choices, edges: int) -> None:
-    """Raise an InputError unless each mapper has these choices and the worlds are small enough."""
+    """Raise an InputError unless each mapper has choices and the worlds are small enough."""
     if choices not in CHOICES:
         raise InputError(f"no policies {choices!r}: a search goes through {', '.join(CHOICES)}")
-    for target in () if choices == "reference" else targets:
+    for target in targets:
         if not isinstance(target.mapper, Algorithm):
             raise InputError(
                 f"{target.text} has no policies: --policies {choices} is for algorithms of the"

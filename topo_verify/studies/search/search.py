@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import msgspec
 from msgspec.structs import astuple
 
+from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.campaign.backend import calls_native, clustered, here, pooled
 from topo_verify.campaign.campaign import (
     ENGINE_SHARD,
@@ -37,7 +38,7 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits
-from topo_verify.studies.search.again import CLAIM, RunAgain, can_run_again, run_again
+from topo_verify.studies.search.again import CLAIM, RunAgain, run_again
 from topo_verify.studies.search.choices import SHARD, WAYS, Choices, require_choices
 from topo_verify.studies.search.states.every import Decider, decided_by, judged_by
 from topo_verify.world.enumeration.classes import WorldClass
@@ -215,7 +216,8 @@ def search_campaign(  # noqa: PLR0913  an argument an option
                 f"--engine compiled searches with the bound of claim 7 as its budget, got"
                 f" --budget {limits.budget}: leave out --budget, or --engine"
             )
-    require_choices(mappers, choices, edges)
+    if choices != "reference":
+        require_choices(mappers, choices, edges)
     return Campaign(
         worlds=Ranks(edges, kind, ENGINE_SHARD if engine == "compiled" else SHARD[choices]),
         mappers=tuple(mapper.text for mapper in mappers),
@@ -359,7 +361,8 @@ class Search:
 
     def run_again(self, tell: Progress | None = None) -> None:
         """Run some worlds again, each in a fresh process, if there is a TARGET to start it from."""
-        if can_run_again(self.mappers):
+        catalogue = isinstance(self.mappers[0].mapper, Algorithm | Steered)
+        if len(self.mappers) == 1 and not catalogue:
             self.again = run_again(self.campaign, self.rows, tell)
 
     # ------------------------------------------------------------ what was found

@@ -35,7 +35,7 @@ clock stopped the run."""
 
 @dataclass
 class ChoiceState:
-    """A state.
+    """A state of the search.
 
     Attributes:
         prefix: the choices that first led to it.
