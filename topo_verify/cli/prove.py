@@ -441,7 +441,7 @@ def _end(entries: Sequence[ProveEntry]) -> Iterator[Block]:
     if wrong:
         yield Text("Not as expected:")
         yield Bullets(tuple(wrong))
-    yield Text("What is argued, assumed and not shown: docs/proofs.md and docs/mechanised.md.")
+    yield Text("What is argued, assumed and not shown: docs/proofs.md.")
 
 
 def _show_list(entries: Sequence[ProveListEntry]) -> Iterator[Block]:

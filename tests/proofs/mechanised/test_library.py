@@ -76,8 +76,8 @@ def sourceless(text: str, theorem: str) -> bool:
     return not comment.endswith("*)") or not (stated or named)
 
 
-def readme() -> str:
-    return (toolchain.SOURCES / "README.md").read_text()
+PROOFS = (Path(__file__).parents[3] / "docs" / "proofs.md").read_text(encoding="utf-8")
+"""The page that maps each claim to its theorems."""
 
 
 # ---------------------------------------------------------------- without Coq
@@ -146,27 +146,20 @@ def test_no_file_is_too_long_and_no_line_too_wide() -> None:
         assert max(map(len, text.splitlines())) <= 105, name
 
 
-def test_no_lemma_is_unused_but_the_theorems_that_the_readme_names() -> None:
-    assert {name for name in unused(sources()) if f"`{name}`" not in readme()} == {
-        "torus_built",
-        "torus_world",
-    }
+def test_no_lemma_is_unused_but_the_theorems_that_the_page_names() -> None:
+    named = set(re.findall(r"`(?:\w+\.)?(\w+)`", PROOFS)) | {one.theorem for one in STATEMENTS}
+    assert unused(sources()) <= named
     assert unused({"A": "Lemma a : True.\n\nLemma b : True. apply a.\n\n"}) == {"b"}
 
 
-def test_the_readme_maps_every_claim_to_a_theorem_that_is_there() -> None:
-    rows = [line for line in readme().splitlines() if re.match(r"\| \d+ `", line)]
-    assert [row.split("`")[1] for row in rows] == list(CLAIMS)
-    stated = {item[1] for text in sources().values() for item in ITEM.finditer(text)}
-    for row in rows:
-        _, _, theorems, files, _ = row.split("|")
-        assert set(re.findall(r"`(\w+)`", theorems)) <= stated | {"replays", "run"}
-        assert {f.removesuffix(".v") for f in re.findall(r"`(\w+\.v)`", files)} <= sources().keys()
-
-
-def test_the_readme_lists_the_files_in_the_order_in_which_they_compile() -> None:
-    table = readme().partition("## The files, in reading order")[2].partition("`Checked.v`")[0]
-    assert tuple(re.findall(r"`(\w+)\.v`", table)) == toolchain.files()
+def test_the_page_maps_every_claim_to_theorems_that_are_there() -> None:
+    rows = re.findall(r"^\| \d+ `([\w-]+)` \| (.+) \|$", PROOFS, re.MULTILINE)
+    assert [claim for claim, _ in rows] == list(CLAIMS)
+    stated = {(name, item[1]) for name, text in sources().items() for item in ITEM.finditer(text)}
+    for _, theorems in rows:
+        named = set(re.findall(r"`(\w+)\.(\w+)`", theorems))
+        assert named
+        assert named <= stated
 
 
 def test_every_theorem_of_the_catalogue_is_in_its_file() -> None:

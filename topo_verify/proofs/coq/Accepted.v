@@ -1,5 +1,5 @@
 (** Evidence exists wherever it is needed: what follows from a log, the programs of Checker.v accept
-    with the evidence that [saturating] computes (claims 9 and 10; docs/mechanised.md).
+    with the evidence that [saturating] computes (claims 9 and 10; docs/proofs.md).
 
     L is a log, extra the list of assumed edges, rho gives each visit a rank, W is a world, v i the
     reference dart of visit i; the other letters are those of Checker.v.

@@ -1,5 +1,5 @@
 (** Certificates as data: what a list of numbers says, and the check that it is true (claims 9 and
-    10; docs/mechanised.md).
+    10; docs/proofs.md).
 
     A certificate is a list of natural numbers: a log with its decisions and the delivered map, a
     claim about the log, and evidence. It holds nothing else, so it can neither define nor prove

@@ -1,5 +1,5 @@
 (** Programs that check certificates: a log, and evidence from code that is not trusted (claims 9
-    and 10; docs/mechanised.md).
+    and 10; docs/proofs.md).
 
     L      a log                             T     the percept of each visit, as a binary map
     x, y   visits, counted from 1 in binary  D     the edge of each move, as a binary map

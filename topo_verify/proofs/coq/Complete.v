@@ -1,5 +1,5 @@
 (** A saturated union-find has merged all that is identified, and where it shows no conflict some
-    world exists (claims 9 and 10; docs/mechanised.md).
+    world exists (claims 9 and 10; docs/proofs.md).
 
     L is a log, extra the list of assumed edges, assumed the same list with places of the log, rho
     gives each visit a rank; the other letters are those of Checker.v.

@@ -1,5 +1,5 @@
 (** Merging until all is merged finds a conflict exactly where no world exists (claims 9 and 10;
-    docs/mechanised.md).
+    docs/proofs.md).
 
     L is a log, extra the list of assumed edges, rho gives each visit a rank; the other letters are
     those of Checker.v.

@@ -1,5 +1,5 @@
 (** The program that checks the decisions of a log: each must follow from the events before it (claim
-    10; docs/mechanised.md).
+    10; docs/proofs.md).
 
     m is a moment of the walk along the log, s the sketch of the map S, r a reason, rs the reasons
     of one decision, rss those of all; e, h, a, es are the letters of Events.v; the other letters

@@ -1,4 +1,4 @@
-(** All decisions of a log that follow are accepted together (claim 10; docs/mechanised.md).
+(** All decisions of a log that follow are accepted together (claim 10; docs/proofs.md).
 
     p is the percept at the start, past the events so far, es those to come, W0 a world that shows the
     whole log, rho gives each visit a rank, y0 is the visit of the last settled moment; the other

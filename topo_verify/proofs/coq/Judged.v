@@ -1,5 +1,5 @@
 (** Every decision that follows is accepted, with reasons that are computed (claim 10;
-    docs/mechanised.md).
+    docs/proofs.md).
 
     L is a log that the world W0 shows, m a moment after it, M the map S, rho gives each visit a rank;
     the other letters are those of Decisions.v.

@@ -1,5 +1,5 @@
 (** From one move of a log to the next no merge is left among old arcs (claim 10;
-    docs/mechanised.md).
+    docs/proofs.md).
 
     L is the log so far, L' the log one move later, W0 a world that shows both, y the last
     visit of L', rho gives each visit a rank; y0 is the visit at which the union-find was last merged

@@ -1,5 +1,5 @@
 (** Union by rank: the chains of parents stay within the fuel of the checker (claims 9 and 10;
-    docs/mechanised.md).
+    docs/proofs.md).
 
     L is a log, d a degree, r a root, z a place, rho gives each visit a rank; the other letters are
     those of Checker.v.

@@ -1,5 +1,5 @@
 (** Merging until nothing is left to merge: evidence, computed from a log alone (claims 9 and 10;
-    docs/mechanised.md).
+    docs/proofs.md).
 
     L is a log, extra the list of assumed edges, rho gives each visit a rank, n is a number of
     steps; the other letters are those of Checker.v.

@@ -7,7 +7,7 @@ numbers mean, and reads them; what is written here is not trusted. Only three th
 `parse`, which finds the numbers of a text; `data_file`, which writes them for Coq; and `log_lines`,
 which says of which numbers a log consists.
 
-Source: docs/mechanised.md; coq/Certificate.v.
+Source: docs/proofs.md; coq/Certificate.v.
 """
 
 from __future__ import annotations

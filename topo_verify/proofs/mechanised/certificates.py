@@ -22,7 +22,7 @@ row. A certificate in which some world shows the log speaks of all worlds, that 
 
 What this does not show: that the percepts are what happened.
 
-Source: docs/mechanised.md; docs/semantics.md, section 11.
+Source: docs/proofs.md; docs/semantics.md, section 11.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ Under the planar prior a decision may follow for planar worlds only. Planarity i
 Coq: such a decision has no evidence, and is left out. If it is an augmentation, S is not proved
 from there on, and so no later decision has evidence either.
 
-Source: docs/semantics.md, section 11; docs/mechanised.md.
+Source: docs/semantics.md, section 11; docs/proofs.md.
 """
 
 from __future__ import annotations

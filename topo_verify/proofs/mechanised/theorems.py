@@ -10,11 +10,11 @@ on, and must answer none; coqchk checks the compiled files again, and must find 
     UNKNOWN     Coq is not installed, a call took too long, or a step failed; the note says which.
                 Never REFUTED: a proof that fails is no counterexample.
 
-What this does not show: that the statements say what they should (coq/README.md names the lines
+What this does not show: that the statements say what they should (docs/proofs.md names the lines
 to read), nor anything about the Python code: its runs are certified one by one
 (`certificates.py`).
 
-Source: docs/mechanised.md.
+Source: docs/proofs.md.
 """
 
 from __future__ import annotations
