@@ -12,6 +12,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -44,13 +45,13 @@ ENTRIES = {
     "prove": "prove.ProveEntry prove.ProveListEntry",
     "faults": "faults.Caught",
     "conform": "conform.LevelResult",
-    "record": "record.RecordEntry",
-    "compare": "compare.CompareEntry",
+    "record": "record.study.RecordEntry",
+    "compare": "compare.Comparison",
     "replay": "replay.ReplayEntry",
     "play": "play.PlayEntry",
     "certify": "certify.CertifyEntry certify.CertificateEntry",
     "tour": "tour.TourEntry",
-    "arena": "arena.LeagueEntry arena_game.ValueEntry arena_game.MapperEntry",
+    "arena": "arena.LeagueEntry arena_game.GameValue arena_game.MapperCosts",
     "header": "header.HeaderEntry",
     "reproduce": "reproduce.FigurePoint",
 }
@@ -59,8 +60,8 @@ ENTRIES = {
 OCCASIONS = {
     "ProveListEntry": "with `--list`",
     "CertificateEntry": "with `--check`",
-    "ValueEntry": "with `--game`, of a game",
-    "MapperEntry": "with `--game`, of a mapper",
+    "GameValue": "with `--game`, of a game",
+    "MapperCosts": "with `--game`, of a mapper",
 }
 """When a command prints its second and third record."""
 
@@ -146,7 +147,9 @@ def records(path: str) -> list[Any]:
     found: list[Any] = []
     for name in ENTRIES[path].split():
         module, _, record = name.partition(".")
-        found.append(types.type_info(getattr(import_module(f"topo_verify.cli.{module}"), record)))
+        found.append(
+            types.type_info(attrgetter(record)(import_module(f"topo_verify.cli.{module}")))
+        )
     return found
 
 

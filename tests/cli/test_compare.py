@@ -42,7 +42,7 @@ def test_nothing_has_changed_for_the_same_mapper(results: Results) -> None:
     assert entry["examples"] == []
 
 
-def test_a_cheaper_mapper_passes_and_a_dearer_one_does_not(results: Results, call: Call) -> None:
+def test_a_lower_cost_passes_and_a_higher_one_does_not(results: Results, call: Call) -> None:
     (better,) = results("compare basic.gz enhancement-i")["results"]
     assert (better["cheaper"], better["other_decisions"], better["dearer"]) == (2, 1, 0)
     (worse,) = results("compare enhancement-i.gz basic", code=1)["results"]
@@ -51,7 +51,7 @@ def test_a_cheaper_mapper_passes_and_a_dearer_one_does_not(results: Results, cal
     for entry in (better, worse):
         assert sum(entry[number] for number in NUMBERS) == entry["worlds"]
     text = call("compare enhancement-i.gz basic").stdout
-    assert text.endswith("A regression: 2 worlds dearer by more than 0 %.\n")
+    assert text.endswith("A regression: 2 worlds exceed the tolerance of 0 %.\n")
 
 
 def test_what_is_dearer_within_the_tolerance_exits_0(results: Results) -> None:

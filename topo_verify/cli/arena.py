@@ -26,7 +26,7 @@ from topo_verify.cli.arena_files import (
 )
 from topo_verify.cli.arena_game import game_of_catalogue
 from topo_verify.cli.kept_runs import open_store, stored_rows
-from topo_verify.cli.output import Output, ReportFiles, Result
+from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import unjudged
 from topo_verify.errors import InputError, plural
 from topo_verify.programs.library import LIBRARY
@@ -118,7 +118,7 @@ def arena(  # noqa: PLR0913  an argument an option
     folder = None if out is None else options.make_folder(out, "--out")
     if folder is not None:
         watch()  # before a mapper is loaded
-        output.ask(ReportFiles(report=str(folder / REPORT)))
+        output.ask(report=str(folder / REPORT))
     mappers = _loaded(asked, in_process=in_process)
     league = League(mappers, suites, seed)
     _require_players(league)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import count
 from statistics import mean
 from typing import Literal
 
@@ -23,7 +24,7 @@ from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
 from topo_verify.cli.options import Mappers
-from topo_verify.cli.output import Output, Result, entry_of
+from topo_verify.cli.output import Output, Result, Rows, entry_of
 from topo_verify.cli.play import (
     player_option,
     require_one_world,
@@ -145,7 +146,7 @@ marker_option = click.option(
 
 @dataclass(frozen=True)
 class _ExploreOptions:
-    """The options of one call."""
+    """The options of one call; `everywhere`: with the marker at each dart."""
 
     limits: Limits
     trace: str | None
@@ -153,7 +154,8 @@ class _ExploreOptions:
     svg: str | None
     strict: bool
     gap: bool
-    choices: ListedChoices | None = None
+    everywhere: bool
+    choices: ListedChoices | None
 
 
 @options.command(
@@ -207,87 +209,152 @@ def explore(  # noqa: PLR0913  an argument an option
     WORLD is a file, a world id (m5/17), family:lattice(10,10,holes=0.2,seed=7), nyc (a real street
     network) or - (world JSON on standard input).
     """
+    everywhere = marker == "all"
 
     def runs() -> Iterator[Result[ExploreEntry]]:
-        found = on_engine(engine, mappers.load(), limits)
-        if marker == "all":
-            require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
-            starts = named_worlds(worlds)
-            return marker_results(output, starts, found, limits, strict=strict, svg=svg)
-        starts = named_worlds(worlds, marker)
-        for option, file in (("--trace", trace), ("--svg", svg)):
-            if file is not None:
-                _require_one_run(option, file, found, starts)
+        targets = on_engine(engine, mappers.load(), limits)
+        if everywhere:
+            _require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
+        starts = named_worlds(worlds, marker if isinstance(marker, int) else None)
+        for option, value in (("--trace", trace), ("--svg", svg), ("--choices", choices)):
+            if value is not None and not (everywhere and option == "--choices"):
+                _require_one_run(option, value, targets, starts)
         require_one_world(player, len(starts))
         listed = None
-        if choices is not None:
-            _require_one_run("--choices", choices, found, starts)
+        if choices is not None and not everywhere:
             if mappers.pick is not None or mappers.order is not None:
                 raise InputError(
                     f"--choices {choices}: the choices are the policies; leave out --pick and"
                     " --order"
                 )
-            listed = ListedChoices(found[0], choices)
-            found = (listed.target,)
-        asked = _ExploreOptions(limits, trace, player, svg, strict, gap, listed)
-        return _results(output, starts, found, asked)
+            listed = ListedChoices(targets[0], choices)
+            targets = (listed.target,)
+        asked = _ExploreOptions(limits, trace, player, svg, strict, gap, everywhere, listed)
+        return _results(output, starts, targets, asked)
 
-    table = show_markers if marker == "all" else show
     return output.run(
         "explore",
         runs,
-        table,
-        account=explore_account,
+        _show_markers if everywhere else _show,
+        account=_account,
         in_process=mappers.in_process,
     )
 
 
 def _require_one_run(
-    option: str, file: str, found: Sequence[Target], starts: Sequence[NamedWorld]
+    option: str, value: str, targets: Sequence[Target], starts: Sequence[NamedWorld]
 ) -> None:
-    if file == "-":
+    if value == "-":
         raise InputError(f"{option} -: standard output is for the results; name a file")
-    if len(found) * len(starts) != 1:
+    if len(targets) * len(starts) != 1:
         raise InputError(
-            f"{option} {file}: expected one run, got {len(found) * len(starts)}; name one"
+            f"{option} {value}: expected one run, got {len(targets) * len(starts)}; name one"
             " WORLD, and one mapper with --target"
         )
+
+
+def _require_one_marker(others: Mapping[str, object]) -> None:
+    """Raise InputError if one of the options that are for one run is given."""
+    for name, value in others.items():
+        if value:
+            raise InputError(
+                f"{name} is for one marker: leave it out, or name one with --marker DART"
+            )
 
 
 def _results(
     output: Output,
     starts: Sequence[NamedWorld],
-    found: Sequence[Target],
+    targets: Sequence[Target],
     asked: _ExploreOptions,
 ) -> Iterator[Result[ExploreEntry]]:
-    total = len(starts) * len(found)
+    """An entry for each world, mapper and, with --marker all, dart, in this order."""
+    for at in starts:
+        if asked.everywhere and not at.world.alpha:
+            raise InputError(f"--marker all: {at.name} has no edge that a marker could point at")
+    groups = [
+        (at, target, [*_placed(at)] if asked.everywhere else [at])
+        for at in starts
+        for target in targets
+    ]
+    total, number = sum(len(places) for _, _, places in groups), count()
     played: list[PlayedRun] = []
     try:
-        for number, (at, target) in enumerate((at, target) for at in starts for target in found):
-            output.progress(f"{target.text} in {at.name}", number, total)
-            run = run_mapper(at.world, target, limits=asked.limits)
-            # Before the judging, so that the trace is kept even if a checker fails.
-            if asked.trace is not None:
-                files.write(asked.trace, write_trace(run.kept_trace).decode())
-            if asked.choices is not None:
-                run = asked.choices.made(run)
-            report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
-            if asked.choices is not None:
-                report = asked.choices.named(report, asked.limits)
-            output.found.keep(report)
-            played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
-            if asked.svg is not None:
-                write_animation(asked.svg, at.world, played[0])
-            yield explore_result(run, at, report, incomplete=incomplete, gap=asked.gap)
+        for at, target, places in groups:
+            results: dict[Code, Result[ExploreEntry]] = {}
+            entries: list[ExploreEntry] = []
+            for place in places:
+                output.progress(f"{target.text} in {at.name}", next(number), total)
+                first = results.get(place.world.code) if asked.everywhere else None
+                if first is None:
+                    result = _explored(output, place, target, asked, played)
+                    results[place.world.code] = result
+                else:
+                    result = replace(first, entry=_as_at(place, first.entry))
+                entries.append(result.entry)
+                yield result
+            if asked.everywhere and asked.svg is not None:
+                _write_heat_map(output, asked.svg, at, target, entries)
     finally:  # an interrupt keeps the runs that are done
         if asked.player is not None and played:
             write_page(asked.player, starts[0].world, starts[0].name, played)
 
 
+def _explored(
+    output: Output,
+    at: NamedWorld,
+    target: Target,
+    asked: _ExploreOptions,
+    played: list[PlayedRun],
+) -> Result[ExploreEntry]:
+    """The result of one run, which joins those that are played."""
+    run = run_mapper(at.world, target, limits=asked.limits)
+    # Before the judging, so that the trace is kept even if a checker fails.
+    if asked.trace is not None:
+        files.write(asked.trace, write_trace(run.kept_trace).decode())
+    if asked.choices is not None:
+        run = asked.choices.made(run)
+    report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
+    if asked.choices is not None:
+        report = asked.choices.named(report, asked.limits)
+    output.found.keep(report)
+    played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
+    if asked.svg is not None and not asked.everywhere:
+        write_animation(asked.svg, at.world, played[0])
+    return _result(run, at, report, incomplete=incomplete, gap=asked.gap)
+
+
+def _placed(at: NamedWorld) -> Iterator[NamedWorld]:
+    """The world with its marker at each dart."""
+    for dart in range(len(at.world.alpha)):
+        yield NamedWorld(replace(at.world.with_marker(dart), name=at.name), at.text, dart)
+
+
+def _as_at(place: NamedWorld, entry: ExploreEntry) -> ExploreEntry:
+    """The entry of a run in a world that looks the same from another dart."""
+    root = place.world.root
+    assert root is not None, "a place is a dart"
+    return msgspec.structs.replace(
+        entry, marker=root, place=place.world.vertex_of[root], same_as=entry.marker
+    )
+
+
+def _write_heat_map(
+    output: Output, file: str, at: NamedWorld, target: Target, entries: Sequence[ExploreEntry]
+) -> None:
+    if not all(entry.ok for entry in entries):
+        output.note(f"--svg {file}: not written, since not every run delivered a true map")
+        return
+    from topo_verify.world.drawing.heat import heat_svg
+
+    costs = [entry.cost for entry in entries]
+    files.write(file, heat_svg(at.world, costs, title=f"{target.text} in {at.name}"))
+
+
 # ---------------------------------------------------------------- for people
 
 
-def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
+def _show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
     """One table a world; for a single algorithm in many worlds, one table in all."""
     if len(entries) > 1 and len({entry.algorithm for entry in entries}) == 1:
         rows = [(entry.world, str(entry.edges), *_row(entry)) for entry in entries]
@@ -298,12 +365,9 @@ def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
                 yield Text("")
             yield _world_table(group)
     for entry in entries:
-        run = f"{entry.algorithm} in {entry.world}"
         if entry.findings:
             yield Text("")
-        yield from finding_blocks(entry.findings, run)
-        if entry.stopped is not None and not entry.findings:
-            yield Text(f"{run} is not decided: {entry.stopped}")
+        yield from _wrong(entry, f"{entry.algorithm} in {entry.world}")
     # Once, not for each world, where the sentence is the same.
     sentences = dict.fromkeys(
         sentence
@@ -317,18 +381,27 @@ def show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
     yield from _gap_table(entries)
 
 
+def _wrong(entry: ExploreEntry, run: str) -> Iterator[Block]:
+    """The findings of a run, or why it is not decided."""
+    yield from finding_blocks(entry.findings, run)
+    if entry.stopped is not None and not entry.findings:
+        yield Text(f"{run} is not decided: {entry.stopped}")
+
+
 def _gap_table(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
     """The table of --gap: hypotheses that were walked although the history refuted them."""
-    measured = [(entry, entry.gap) for entry in entries if entry.gap is not None]
-    if not measured:
-        return
-    rows = [
-        (e.algorithm, e.world, str(g.false), str(g.walked), str(g.refutable), f"{g.share:.1%}")
-        for e, g in measured
-    ]
-    columns = ("algorithm", "world", ">false", ">walked", ">refutable", ">gap")
-    yield Text("")
-    yield TextTable(columns, rows, "false hypotheses: walked although the history refuted them")
+    gaps = [(entry, entry.gap) for entry in entries if entry.gap is not None]
+    if gaps:
+        yield Text("")
+        yield Rows(gaps).table(
+            ("algorithm", lambda row: row[0].algorithm),
+            ("world", lambda row: row[0].world),
+            (">false", lambda row: row[1].false),
+            (">walked", lambda row: row[1].walked),
+            (">refutable", lambda row: row[1].refutable),
+            (">gap", lambda row: f"{row[1].share:.1%}"),
+            title="false hypotheses: walked although the history refuted them",
+        )
 
 
 _COLUMNS = (">cost", ">of least", ">rejected free", ">moving", "claims")
@@ -362,24 +435,27 @@ def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
 
 def _world_table(group: Sequence[ExploreEntry]) -> TextTable:
     """The cost of each algorithm in one world, relative to `basic` if that was run."""
-    one = group[0]
-    size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
-    title = f"{one.world}: {size}, genus {one.genus}, least cost {one.least_cost}"
+    first = group[0]
+    title = f"{_size(first)}, genus {first.genus}, least cost {first.least_cost}"
     basic = next((e.cost for e in group if e.algorithm == "basic" and len(group) > 1), 0)
-    if not basic:
-        return TextTable(("algorithm", *_COLUMNS), [(e.algorithm, *_row(e)) for e in group], title)
-    rows: list[tuple[str, ...]] = []
-    for entry in group:
-        cost, *rest = _row(entry)
-        rows.append((entry.algorithm, cost, f"{entry.cost / basic:.2f}", *rest))
-    cost, *others = _COLUMNS
-    return TextTable(("algorithm", cost, ">of basic", *others), rows, title)
+    columns: tuple[str, ...] = ("algorithm", *_COLUMNS)
+    rows: list[tuple[str, ...]] = [(entry.algorithm, *_row(entry)) for entry in group]
+    if basic:
+        columns = (*columns[:2], ">of basic", *columns[2:])
+        ratios = [f"{entry.cost / basic:.2f}" for entry in group]
+        rows = [(*row[:2], of, *row[2:]) for row, of in zip(rows, ratios, strict=True)]
+    return TextTable(columns, rows, title)
+
+
+def _size(entry: ExploreEntry) -> str:
+    vertices = plural(entry.vertices, "vertex", "vertices")
+    return f"{entry.world}: {vertices}, {plural(entry.edges, 'edge')}"
 
 
 # ---------------------------------------------------------------- entry and account
 
 
-def explore_result(
+def _result(
     run: Exploration, at: NamedWorld, report: Report, *, incomplete: bool, gap: bool = False
 ) -> Result[ExploreEntry]:
     """The entry of a judged run, and what it means for the exit code.
@@ -391,8 +467,8 @@ def explore_result(
     # The gap is a share of all false hypotheses: a mapper that declares only some has none.
     measured = None
     if gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:
-        found = measure(run.trace)
-        measured = MeasuredGap(*found, share=found.share)
+        counts = measure(run.trace)
+        measured = MeasuredGap(*counts, share=counts.share)
     entry = entry_of(
         ExploreEntry,
         run,
@@ -413,7 +489,7 @@ def explore_result(
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
 
-def explore_account(entries: Sequence[ExploreEntry]) -> acc.Account:
+def _account(entries: Sequence[ExploreEntry]) -> acc.Account:
     """The account of `explore`: a suite a run; the run, and a case a claim."""
     verdicts = [_verdict(entry) for entry in entries]
     failing, decided = verdicts.count("REFUTED"), verdicts.count("SAMPLED")
@@ -453,78 +529,7 @@ def _run_cases(entry: ExploreEntry) -> Iterator[acc.JudgedCase]:
 # ---------------------------------------------------------------- --marker all
 
 
-def require_one_marker(others: Mapping[str, object]) -> None:
-    """Raise InputError if one of the options that are for one run is given."""
-    for name, value in others.items():
-        if value:
-            raise InputError(
-                f"{name} is for one marker: leave it out, or name one with --marker DART"
-            )
-
-
-def marker_results(
-    output: Output,
-    starts: Sequence[NamedWorld],
-    found: Sequence[Target],
-    limits: Limits,
-    *,
-    strict: bool,
-    svg: str | None,
-) -> Iterator[Result[ExploreEntry]]:
-    """An entry for each world, algorithm and dart, in this order.
-
-    Raises:
-        InputError: a world has no dart; or a heat map is asked for, of more than one algorithm.
-    """
-    for at in starts:
-        if not at.world.alpha:
-            raise InputError(f"--marker all: {at.name} has no edge that a marker could point at")
-    if svg is not None and (svg == "-" or len(starts) * len(found) != 1):
-        raise InputError(
-            f"--svg {svg}: expected the name of a file, one WORLD and one algorithm, with"
-            " --target, since a heat map shows one cost for each place"
-        )
-    total = len(found) * sum(len(at.world.alpha) for at in starts)
-    done = 0
-    for at in starts:
-        for target in found:
-            entries: list[ExploreEntry] = []
-            for result in _of_each_dart(output, at, target, limits, strict=strict):
-                done += 1
-                output.progress(f"{target.text} in {at.name}", done, total)
-                entries.append(result.entry)
-                yield result
-            if svg is not None and all(entry.ok for entry in entries):
-                from topo_verify.world.drawing.heat import heat_svg
-
-                costs = [entry.cost for entry in entries]
-                files.write(svg, heat_svg(at.world, costs, title=f"{target.text} in {at.name}"))
-            elif svg is not None:
-                output.note(f"--svg {svg}: not written, since not every run delivered a true map")
-
-
-def _of_each_dart(
-    output: Output, at: NamedWorld, target: Target, limits: Limits, *, strict: bool
-) -> Iterator[Result[ExploreEntry]]:
-    known: dict[Code, Result[ExploreEntry]] = {}
-    for dart in range(len(at.world.alpha)):
-        there = replace(at.world.with_marker(dart), name=at.name)
-        first = known.get(there.code)
-        if first is not None:
-            entry = msgspec.structs.replace(
-                first.entry, marker=dart, place=there.vertex_of[dart], same_as=first.entry.marker
-            )
-            yield replace(first, entry=entry)
-            continue
-        placed = NamedWorld(there, at.text, dart)
-        run = run_mapper(there, target, limits=limits)
-        report, incomplete = judged(run, placed, limits, strict=strict)
-        output.found.keep(report)
-        known[there.code] = explore_result(run, placed, report, incomplete=incomplete)
-        yield known[there.code]
-
-
-def show_markers(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
+def _show_markers(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
     """A table a world: the best and the worst place for each algorithm."""
     groups: dict[tuple[str, str], list[ExploreEntry]] = {}
     for entry in entries:
@@ -543,21 +548,16 @@ def show_markers(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
         " over all darts."
     )
     for entry in (one for group in groups.values() for one in group if one.same_as is None):
-        run = f"{entry.algorithm} in {entry.world}, marker at dart {entry.marker}"
-        yield from finding_blocks(entry.findings, run)
-        if entry.stopped is not None and not entry.findings:
-            yield Text(f"{run}, is not decided: {entry.stopped}")
+        yield from _wrong(entry, _run_name(entry))
 
 
 _MARKER_COLUMNS = ("algorithm", ">mean", ">best", ">at", ">worst", ">at", ">saved", "claims")
 
 
 def _marker_title(group: Sequence[ExploreEntry]) -> str:
-    one = group[0]
-    size = f"{plural(one.vertices, 'vertex', 'vertices')}, {plural(one.edges, 'edge')}"
     kinds = sum(entry.same_as is None for entry in group)
     return (
-        f"{one.world}: {size}, genus {one.genus}, the marker at each of"
+        f"{_size(group[0])}, genus {group[0].genus}, the marker at each of"
         f" {plural(len(group), 'dart')}, {kinds} of them different"
     )
 
@@ -567,7 +567,7 @@ def _marker_row(group: Sequence[ExploreEntry]) -> tuple[str, ...]:
     bad = next((entry for entry in group if not entry.ok), None)
     claims = claims_cell((bad or group[0]).claims, incomplete=bad is not None and not bad.findings)
     if not decided:
-        return (group[0].algorithm, "-", "-", "-", "-", "-", "-", claims)
+        return (group[0].algorithm, *"-" * 6, claims)
     average = mean(entry.cost for entry in decided)
     best, worst = (pick(decided, key=lambda entry: entry.cost) for pick in (min, max))
     saved = f"{1 - best.cost / average:.0%}" if average else "-"

@@ -21,7 +21,7 @@ from topo_verify.campaign.run import ENGINES, policies_of
 from topo_verify.campaign.targets import one_target, target_text, targets
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import epilog
-from topo_verify.cli.output import Output, ReportFiles
+from topo_verify.cli.output import Output
 from topo_verify.errors import InputError, shown
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Target
@@ -108,7 +108,7 @@ def command(
         ) -> int:
             output = Output(style, quiet=quiet)
             with redirect_stdout(sys.stderr):  # what a mapper prints is no result
-                output.ask(ReportFiles(report, junit, badge))
+                output.ask(report=report, junit=junit, badge=badge)
                 return run(output, **kwargs)
 
         made = make(name, cls=OnceCommand, epilog=epilog(*examples))(wrapper)

@@ -38,7 +38,7 @@ from topo_verify.cli.runs import FoundRuns
 from topo_verify.errors import InputError, plural, shown
 from topo_verify.report import account as acc
 from topo_verify.report.badge import badge
-from topo_verify.report.blocks import Block, Raw, Text, TextTable
+from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
 from topo_verify.report.junit import junit
 from topo_verify.report.markdown import markdown
 from topo_verify.report.page import report_page
@@ -50,6 +50,7 @@ if TYPE_CHECKING:
 
 
 E = TypeVar("E", bound=msgspec.Struct)
+T = TypeVar("T")
 
 VERSION = 1
 """The version of the envelope."""
@@ -68,6 +69,11 @@ class Result(Generic[E]):
     entry: E
     failed: bool = False
     incomplete: bool = False
+
+    @classmethod
+    def by_verdict(cls, entry: E, verdict: str) -> Result[E]:
+        """The result of an entry whose verdict decides: REFUTED fails, UNKNOWN is incomplete."""
+        return cls(entry, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
 
 
 @dataclass
@@ -118,6 +124,27 @@ def entry_of(kind: type[E], *sources: object, **more: object) -> E:
     return msgspec.convert(fields, kind, from_attributes=True)
 
 
+class Rows(Generic[T]):
+    """Things that become the rows of a table, one each."""
+
+    def __init__(self, things: Iterable[T]) -> None:
+        self._things = tuple(things)
+
+    def table(
+        self, *columns: tuple[str, Callable[[T], object]], title: str = "", headed: bool = True
+    ) -> TextTable:
+        """The table with these columns, each with its title and what it says of a thing.
+
+        None is shown as `-`, and a value that is no `Cell` as `str` has it.
+        """
+        rows = [tuple(_cell(value(thing)) for _, value in columns) for thing in self._things]
+        return TextTable(tuple(name for name, _ in columns), rows, title, headed=headed)
+
+
+def _cell(value: object) -> str | Cell:
+    return "-" if value is None else value if isinstance(value, Cell) else str(value)
+
+
 def written(text: str | None, **row: str | None) -> Block:
     """What was written to standard output, as it is; else a table that names the file."""
     return TextTable(tuple(row), [tuple(map(str, row.values()))]) if text is None else Raw(text)
@@ -139,22 +166,22 @@ class Output:
         self.style, self.quiet = style, quiet
         self.stdout: IO[str] = sys.stdout or _nowhere()
         self.progress = ProgressBar(quiet=quiet)
-        self._files: list[ReportFiles] = []
+        self._files: list[tuple[str, str]] = []
 
-    def ask(self, files: ReportFiles) -> None:
-        """Have these files written at the end, beside those that were asked for before.
+    def ask(self, **files: str | None) -> None:
+        """Have these files written at the end: an option of `FORMS` each, and its file.
 
         Raises:
             InputError: it can be seen now that one of them cannot be written.
         """
-        files.check()
-        if files.named:
-            self._files.append(files)
+        named = [(f"--{option}", name) for option, name in files.items() if name is not None]
+        _require_files(named)
+        self._files += named
 
     @property
     def exhibits(self) -> bool:
         """Whether a page is asked for, which shows the counterexamples."""
-        return any(files.report is not None for files in self._files)
+        return any(option == "--report" for option, _ in self._files)
 
     @cached_property
     def found(self) -> FoundRuns:
@@ -240,9 +267,9 @@ class Output:
                 timing=self.timing,
                 versions=versions(),
             )
-            made = accounted(account)
-            for files in self._files:
-                files.write(made, ending)
+            summary = accounted(account)
+            for option, name in self._files:
+                files.write(name, FORMS[option](summary, ending))
         return done.code
 
     def _collect(self, done: _Done[E], results: Iterator[Result[E]], live: Live[E] | None) -> None:
@@ -407,45 +434,24 @@ _PRINTING = {"--report": 1, "--junit": 1, "--badge": 1, "--format": 1, "--quiet"
 """Options that say how results are shown, and how many words follow each."""
 
 
-@dataclass(frozen=True)
-class ReportFiles:
-    """The files that one call asks for; None: not this one."""
+FORMS: dict[str, Callable[[acc.Account, acc.Ending], str]] = {
+    "--report": report_page,
+    "--junit": junit,
+    "--badge": lambda account, _: badge(account),
+}
+"""What each of these options writes."""
 
-    report: str | None = None
-    junit: str | None = None
-    badge: str | None = None
 
-    @property
-    def named(self) -> dict[str, str]:
-        """The file of each option that was given."""
-        pairs = (("--report", self.report), ("--junit", self.junit), ("--badge", self.badge))
-        return {option: name for option, name in pairs if name is not None}
-
-    def write(self, account: acc.Account, ending: acc.Ending) -> None:
-        """Write the files that were asked for.
-
-        Raises:
-            InputError: one of them cannot be written.
-        """
-        if self.report is not None:
-            files.write(self.report, report_page(account, ending))
-        if self.junit is not None:
-            files.write(self.junit, junit(account, ending))
-        if self.badge is not None:
-            files.write(self.badge, badge(account))
-
-    def check(self) -> None:
-        """Raise InputError if it can be seen now that one of the files cannot be written."""
-        for option, name in self.named.items():
-            if (objection := _objection(name)) is not None:
-                raise InputError(f"{option} {shown(name)}: {objection}; name a file to be written")
-        places = [os.path.realpath(name) for name in self.named.values()]
-        regular = [place for place in places if not Path(place).exists() or Path(place).is_file()]
-        if len(set(regular)) < len(regular):
-            raise InputError(
-                f"expected different files for {' and '.join(self.named)}: one would overwrite the"
-                " other"
-            )
+def _require_files(named: Sequence[tuple[str, str]]) -> None:
+    """Raise InputError if it can be seen now that one of the files cannot be written."""
+    for option, name in named:
+        if (objection := _objection(name)) is not None:
+            raise InputError(f"{option} {shown(name)}: {objection}; name a file to be written")
+    places = [os.path.realpath(name) for _, name in named]
+    regular = [place for place in places if not Path(place).exists() or Path(place).is_file()]
+    if len(set(regular)) < len(regular):
+        options = " and ".join(option for option, _ in named)
+        raise InputError(f"expected different files for {options}: one would overwrite the other")
 
 
 def _objection(name: str) -> str | None:

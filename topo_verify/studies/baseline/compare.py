@@ -15,7 +15,8 @@ judged. Each world then falls into one kind, the first of these that fits:
 A mapper that declares nothing, then or now, is compared by its moves alone.
 
 **Tolerance** is asked of each world by itself: P percent are exceeded where 100·after is more than
-(100 + P)·before, in exact arithmetic. No cheaper world makes up for a dearer one.
+(100 + P)·before, in exact arithmetic. A lower cost in one world does not make up
+for a higher one in another.
 
 What this does not show: anything about worlds that are not in the baseline.
 
@@ -36,6 +37,7 @@ import msgspec
 from topo_verify.campaign.corpus import NETWORKS
 from topo_verify.campaign.row import Row
 from topo_verify.programs.loader import Target
+from topo_verify.robot.events import Policies
 from topo_verify.studies.baseline.file import Baseline, BaselineEntry, world_of
 from topo_verify.studies.baseline.record import MAX_TIMEOUTS, entry_of, replay_command
 from topo_verify.world.rooted_map import World
@@ -54,7 +56,7 @@ HANDLES = 3
 """From this genus on worlds are one class."""
 
 EXAMPLES = 5
-"""How many worlds of each kind are kept."""
+"""The number of worlds that are kept of each kind."""
 
 
 class Change(msgspec.Struct, frozen=True):
@@ -64,7 +66,7 @@ class Change(msgspec.Struct, frozen=True):
         kind: what has changed.
         edges, genus: of the world.
         before, after: costs, in edge traversals; None where the run was not right.
-        percent: how much dearer (cheaper if below 0), to a tenth; None where a cost is missing.
+        percent: how much more it costs (less if below 0), to a tenth; None without both costs.
         beyond: it exceeds the tolerance.
         message: what is wrong or has changed; "" where the costs say it.
         replay: the command line that shows the run again.
@@ -104,25 +106,72 @@ class Group(msgspec.Struct, frozen=True):
         return self.kinds["equal"] < self.worlds
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
-    """What has changed since the baseline.
+class CostChange(msgspec.Struct, frozen=True):
+    """Total edge traversals over the worlds in which the mapper is right then and now.
 
     Attributes:
-        kinds: how many worlds are of each kind; together all of the baseline.
-        beyond: in how many the cost exceeds the tolerance.
-        before, after: the costs where the mapper is right then and now, summed up.
-        groups: the same by class of worlds.
-        examples: of each kind but `equal`: where a cost changed, the largest changes first; else
-            the smallest worlds.
+        before, after: in the baseline, and now.
     """
 
-    kinds: dict[ChangeKind, int]
-    beyond: int
     before: int
     after: int
+
+
+class BaselineSummary(msgspec.Struct, frozen=True):
+    """The baseline: its file, its mapper and its corpus.
+
+    Attributes:
+        tool: the version of topo-verify that recorded it.
+        policies: those of the recording; null: the mapper had none.
+        corpus, digest: the worlds, in words and as a digest.
+    """
+
+    file: str
+    target: str
+    tool: str
+    policies: Policies | None
+    corpus: str
+    digest: str
+
+
+class Comparison(msgspec.Struct, frozen=True, kw_only=True):
+    """One comparison: an entry of `results`.
+
+    Attributes:
+        worlds: those of the baseline; the sum of the seven numbers that follow.
+        tolerance: in percent, as given.
+        beyond: the number of worlds whose cost exceeds the tolerance.
+        groups: the same numbers by class of worlds.
+        examples: of each kind but `equal`; the largest changes of cost first, else the smallest
+            worlds.
+        wrong: where a claim fails.
+        dearer, cheaper: where the cost has changed.
+        other_decisions: where the cost is equal and a decision is not.
+        equal: where nothing has changed.
+        newly_right: where a claim failed in the baseline.
+        undecided: where the run was not decided.
+    """
+
+    target: str
+    worlds: int
+    equal: int
+    wrong: int
+    dearer: int
+    cheaper: int
+    other_decisions: int
+    newly_right: int
+    undecided: int
+    tolerance: str
+    beyond: int
+    cost: CostChange
+    baseline: BaselineSummary
     groups: tuple[Group, ...]
     examples: tuple[Change, ...]
+
+    @property
+    def kinds(self) -> dict[ChangeKind, int]:
+        """The number of worlds of each kind; together all of the baseline."""
+        return {kind: getattr(self, kind) for kind in KINDS}
 
 
 class BaselineWorlds:
@@ -145,21 +194,41 @@ class BaselineWorlds:
 
 
 def compare(
-    baseline: Baseline, target: Target, rows: Iterable[Row], *, tolerance: Fraction | int = 0
+    baseline: Baseline,
+    target: Target,
+    rows: Iterable[Row],
+    *,
+    tolerance: str | Fraction = "0",
+    name: str = "baseline",
 ) -> Comparison:
     """Say what has changed: the join of the baseline with rows.
 
     Args:
         rows: those of the mapper in the baseline's worlds, in their order; fewer, if they ended
             early.
-        tolerance: percent by which each world may be dearer.
+        tolerance: percent by which each world may cost more. It is exact: a float may put a world
+            on the wrong side.
+        name: the file of the baseline.
     """
     tally = _ComparisonTally()
     for entry, row in zip_longest(baseline.entries, rows):
         world = World.from_text(entry.world)
         replay = replay_command(target, _argument(entry), baseline.header.limits)
         tally.enter(_change(entry, world, row, Fraction(tolerance), replay), world)
-    return tally.comparison()
+    total, header = tally.total, baseline.header
+    return Comparison(
+        target=target.text,
+        worlds=total.kinds.total(),
+        **total.by_kind(),  # each kind is a field under its own name
+        tolerance=str(tolerance),
+        beyond=tally.beyond,
+        cost=CostChange(total.before, total.after),
+        baseline=BaselineSummary(
+            name, header.target, header.tool, header.policies, header.corpus, header.digest
+        ),
+        groups=tuple(tally.groups()),
+        examples=tuple(c for kind in KINDS if kind != "equal" for c in tally.changes.get(kind, ())),
+    )
 
 
 def _argument(entry: BaselineEntry) -> str:
@@ -190,7 +259,7 @@ class _ChangeCounts:
 
 @dataclass
 class _ComparisonTally:
-    """Tallies changes, in all worlds and by class. Life cycle: `enter` each, then `comparison`.
+    """Tallies changes, in all worlds and by class. Life cycle: `enter` each, then read.
 
     Not a `tally.Tally`: that counts runs by what claims say of them, this by what was before. And
     its examples are the largest changes, not the first.
@@ -213,24 +282,11 @@ class _ComparisonTally:
             kept.sort(key=_weight)
             del kept[EXAMPLES:]
 
-    def comparison(self) -> Comparison:
-        """The comparison over the worlds that were entered."""
-        groups = [
-            Group(
-                one.by,
-                one.value,
-                counts.kinds.total(),
-                counts.before,
-                counts.after,
-                counts.by_kind(),
-            )
-            for one, counts in sorted(self.classes.items())
-        ]
-        examples = [c for kind in KINDS if kind != "equal" for c in self.changes.get(kind, ())]
-        total = self.total
-        return Comparison(
-            total.by_kind(), self.beyond, total.before, total.after, tuple(groups), tuple(examples)
-        )
+    def groups(self) -> Iterator[Group]:
+        """The counts of each class of worlds that occurs."""
+        for one, counts in sorted(self.classes.items()):
+            worlds, kinds = counts.kinds.total(), counts.by_kind()
+            yield Group(one.by, one.value, worlds, counts.before, counts.after, kinds)
 
 
 # ---------------------------------------------------------------- one world
@@ -246,9 +302,9 @@ def _change(
     # The world without edges costs 0, of which nothing is a percentage.
     percent, beyond = None, False
     if before and after is not None:
-        dearer = Fraction(100 * (after - before), before)
+        increase = Fraction(100 * (after - before), before)
         # The exact fraction is compared, not the rounded number that is shown.
-        percent, beyond = float(round(dearer, 1)), dearer > tolerance
+        percent, beyond = float(round(increase, 1)), increase > tolerance
     return Change(
         world=then.called,
         kind=kind,

@@ -17,6 +17,8 @@ import shlex
 from collections.abc import Iterable, Sequence
 from importlib import metadata
 
+import msgspec
+
 from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.campaign import Campaign, ListedWorlds, NamedWorlds, Stop
 from topo_verify.campaign.corpus import Corpus
@@ -26,6 +28,7 @@ from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, policies_of
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import target_arguments
+from topo_verify.checkers import Finding
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX
 from topo_verify.robot.limits import Limits
@@ -101,6 +104,66 @@ def record(
     # The rows come first: there may be fewer of them.
     return Baseline(
         header, tuple(entry_of(row, at.world) for row, at in zip(rows, corpus, strict=False))
+    )
+
+
+class RecordEntry(msgspec.Struct, frozen=True, kw_only=True):
+    """One recording: an entry of `results`.
+
+    Attributes:
+        worlds: the number of worlds in the corpus.
+        equal, wrong, undecided: in how many no claim fails, a claim fails, and neither is known.
+        dearer, cheaper, other_decisions: always 0; `compare` has the same fields.
+        cost: total edge traversals in the worlds in which no claim fails.
+        corpus, digest: the corpus in words, and its hash.
+        file: the baseline; null if the mapper was stopped early, since then none is written.
+        findings: of the first failing worlds.
+    """
+
+    target: str
+    worlds: int
+    equal: int
+    wrong: int
+    dearer: int = 0
+    cheaper: int = 0
+    other_decisions: int = 0
+    undecided: int
+    cost: int
+    corpus: str
+    digest: str
+    file: str | None
+    findings: tuple[Finding, ...]
+
+
+def recorded(
+    baseline: Baseline, target: Target, failing: Iterable[Row], file: str | None
+) -> RecordEntry:
+    """The entry that reports on a recording.
+
+    Args:
+        failing: the rows whose findings are shown.
+        file: where the baseline was written, or None.
+    """
+    header = baseline.header
+    right = [entry for entry in baseline.entries if entry.right]
+    wrong = sum(bool(entry.failed) for entry in baseline.entries)
+    return RecordEntry(
+        target=header.target,
+        worlds=header.total,
+        equal=len(right),
+        wrong=wrong,
+        undecided=header.total - len(right) - wrong,
+        cost=sum(entry.cost for entry in right),
+        corpus=header.corpus,
+        digest=header.digest,
+        file=file,
+        findings=tuple(
+            msgspec.structs.replace(
+                finding, replay=replay_command(target, row.world, header.limits)
+            )
+            for row in failing
+            for finding in row.findings
+        ),
     )
 
 

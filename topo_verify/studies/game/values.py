@@ -16,14 +16,16 @@ worlds its cost counts. The robot that attains a value may be another one for ea
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import Literal, TypeVar
+
+import msgspec
 
 from topo_verify.algorithms import NAMED
 from topo_verify.campaign.judge import judge
 from topo_verify.campaign.run import explore
+from topo_verify.errors import InternalError
 from topo_verify.studies.game.drawn import DrawnWorld
 from topo_verify.studies.game.folds import is_closed, is_single_of_vertices, is_single_planar
 from topo_verify.studies.game.rules import ClassRules, GameEnding, ProofRules
@@ -58,37 +60,68 @@ ENDLESS: tuple[Knowledge, ...] = ("n", "planar")
 MOST_ENDLESS = 3
 
 MOST_STATES = 300_000
-"""After so many states a search is cut short: more than any game of four edges that ends needs."""
+"""Most states of a search: more than any game of four edges that ends needs."""
 
 MOST_FOLDS = 100_000
 """The same where the states are folds, which take longer."""
 
 
-@dataclass(frozen=True)
-class GameValue:
-    """What the best robot pays: one that minimises the worst case, and one that does the mean.
+class CostsOfRobot(msgspec.Struct, frozen=True):
+    """What a robot pays in the worlds of a game.
 
     Attributes:
-        edges: of each world.
-        knows: what the robot is told.
-        drawn: which of the worlds with so many edges count.
-        worlds: how many that are.
-        worst, total: the cost in the worst of them, and in all of them together.
-        states: how many states were searched.
+        worst, mean: over these worlds.
+        worst_is_value, mean_is_value: false where the search was cut short: it is a lower bound.
     """
 
-    edges: int
+    worst: int
+    mean: float
+    worst_is_value: bool = True
+    mean_is_value: bool = True
+
+
+class GameValue(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag="value"):
+    """The value of a game: an entry of `results`.
+
+    Attributes:
+        game: the edges of each world.
+        knows: what the robot is told: nothing, n, planar, m, m and n, m and planar.
+        drawn: which of these worlds count: any, planar.
+        worlds: the number of worlds that count.
+        value: what the best robots pay, one for the worst case and one for the mean.
+        least: the same with the map in hand: the least cost of a proof.
+        states: the number of states that were searched.
+    """
+
+    game: int
     knows: Knowledge
     drawn: DrawnClass
     worlds: int
-    worst: Least
-    total: Least
+    value: CostsOfRobot
+    least: CostsOfRobot
     states: int
 
-    @property
-    def mean(self) -> float:
-        """The cost in the mean over the worlds."""
-        return self.total.cost / self.worlds
+
+class MapperCosts(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag="mapper"):
+    """A mapper in a game: an entry of `results`.
+
+    Attributes:
+        game, knows, drawn, worlds: as of a value; `knows` is what the mapper assumes.
+        mapper: a name of the catalogue.
+        worst, mean: its costs; null if a claim fails.
+        value: what the best robots pay that know as much; null where it was not searched.
+        failing: the first world in which a claim fails, or null.
+    """
+
+    game: int
+    mapper: str
+    knows: Knowledge
+    drawn: DrawnClass
+    worlds: int
+    worst: int | None
+    mean: float | None
+    value: CostsOfRobot | None
+    failing: str | None
 
 
 def drawn_worlds(edges: int, drawn: DrawnClass) -> list[World]:
@@ -97,7 +130,7 @@ def drawn_worlds(edges: int, drawn: DrawnClass) -> list[World]:
 
 
 def game_values(edges: int, *, most_states: float = MOST_STATES) -> Iterator[GameValue]:
-    """The values of the games on the worlds with so many edges, in the order of `GAMES`."""
+    """The values of the games on the worlds with this number of edges, in the order of `GAMES`."""
     for drawn, knows in GAMES:
         if knows not in ENDLESS or edges <= MOST_ENDLESS:
             yield game_value(edges, knows, drawn, most_states=most_states)
@@ -109,14 +142,22 @@ def game_value(
     """The value of one game.
 
     Raises:
-        InputError: there are no worlds with so many edges.
+        InputError: no world has this number of edges.
     """
     games = list(_games(edges, knows, drawn))
     (worst, few), (total, many) = (
         _least(games, mean=mean, most_states=most_states) for mean in (False, True)
     )
-    count = len(drawn_worlds(edges, drawn))
-    return GameValue(edges, knows, drawn, count, worst, total, few + many)
+    least = [world.least_cost() for world in drawn_worlds(edges, drawn)]
+    return GameValue(
+        game=edges,
+        knows=knows,
+        drawn=drawn,
+        worlds=len(least),
+        value=CostsOfRobot(worst.cost, total.cost / len(least), worst.is_value, total.is_value),
+        least=CostsOfRobot(max(least), sum(least) / len(least)),
+        states=few + many,
+    )
 
 
 def _games(edges: int, knows: Knowledge, drawn: DrawnClass) -> Iterator[ProofRules | ClassRules]:
@@ -207,47 +248,36 @@ PLAYERS = tuple(NAMED)
 """The mappers whose costs are set beside the values: the catalogue."""
 
 
-@dataclass(frozen=True)
-class MapperCosts:
-    """The costs of a mapper in the worlds of a game.
+def mapper_costs(mapper: str, edges: int, values: Iterable[GameValue] = ()) -> MapperCosts:
+    """The costs of a mapper of the catalogue in the worlds with this number of edges.
 
-    Attributes:
-        mapper: a name of the catalogue.
-        edges: of each world.
-        knows: what the mapper assumes: nothing, or that the world is planar.
-        drawn: the worlds in which it promises to be right.
-        worlds: how many that are.
-        worst, total: its cost in the worst of them, and in all together.
-        failing: the id of the first world in which a claim fails, or None.
+    Args:
+        values: of the games with this number of edges.
+    Raises:
+        InternalError: the mapper is sound and costs less than the best robot.
     """
-
-    mapper: str
-    edges: int
-    knows: Knowledge
-    drawn: DrawnClass
-    worlds: int
-    worst: int
-    total: int
-    failing: str | None
-
-    @property
-    def mean(self) -> float:
-        """The cost in the mean over the worlds."""
-        return self.total / self.worlds
-
-
-def mapper_costs(mapper: str, edges: int) -> MapperCosts:
-    """The costs of a mapper of the catalogue in the worlds with so many edges."""
     known = NAMED.get(mapper)
     planar = known is not None and known.assumes == "planar"
     drawn: DrawnClass = "planar" if planar else "any"
-    runs = [explore(world, mapper) for world in drawn_worlds(edges, drawn)]
-    costs = [run.cost for run in runs]
-    failing = next((run.world.id for run in runs if not judge(run).ok), None)
     knows: Knowledge = "planar" if planar else "nothing"
-    return MapperCosts(mapper, edges, knows, drawn, len(runs), max(costs), sum(costs), failing)
-
-
-def least_costs(edges: int, drawn: DrawnClass) -> Sequence[int]:
-    """The least cost of a proof in each world of a game, with the map in hand."""
-    return [world.least_cost() for world in drawn_worlds(edges, drawn)]
+    best = next((v.value for v in values if (v.knows, v.drawn) == (knows, drawn)), None)
+    runs = [explore(world, mapper) for world in drawn_worlds(edges, drawn)]
+    failing = next((run.world.id for run in runs if not judge(run).ok), None)
+    costs = [run.cost for run in runs]
+    worst, mean = max(costs), sum(costs) / len(costs)
+    if failing is None and best and (worst < best.worst or mean < best.mean):
+        raise InternalError(
+            f"{mapper} costs less than the value of the game with {edges} edges, and every claim"
+            " holds"
+        )
+    return MapperCosts(
+        game=edges,
+        mapper=mapper,
+        knows=knows,
+        drawn=drawn,
+        worlds=len(runs),
+        worst=worst if failing is None else None,
+        mean=mean if failing is None else None,
+        value=best,
+        failing=failing,
+    )
