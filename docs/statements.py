@@ -48,7 +48,7 @@ def defined(names: str, file: str) -> dict[str, int]:
 
 def page(text: str) -> str:
     """The page with every number as it is counted now."""
-    counts = Counter(theorem.kind for theorem in catalogue())
+    counts = Counter[str](theorem.kind for theorem in catalogue())
     text = KIND.sub(lambda row: f"| {row['kind']} | {counts[row['kind']]} |", text)
     parts: list[str] = []
     end = 0

@@ -1,4 +1,4 @@
-"""The tables of prices in docs/findings.md: made of the runs in docs/data, and those still hold."""
+"""The tables of docs/findings.md and docs/data: printed by their commands, and the same twice."""
 
 from __future__ import annotations
 
@@ -15,22 +15,77 @@ from topo_verify import explore
 from topo_verify.world.resolve import resolve_world
 
 ROOT = Path(__file__).parent.parent.parent
+DATA = ROOT / "docs" / "data"
 PAGE = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
 
-COMMANDS = re.findall(r"    \.venv/bin/python (benchmarks/\S+ .*--runs docs/data/.*)", PAGE)
+MADE_BY = {
+    table: commands
+    for table, cell in re.findall(
+        r"^\| \[[\w-]+\]\(tables/([\w-]+)\.csv\) \| (.*) \|$",
+        (DATA / "README.md").read_text(encoding="utf-8"),
+        re.MULTILINE,
+    )
+    if (commands := re.findall(r"`(benchmarks/\S+ [^`]*--runs docs/data/[^`]*)`", cell))
+}
+"""The tables that are made of stored runs, each with its commands."""
+
+Table = tuple[tuple[str, ...], ...]
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_a_table_is_what_its_command_prints(command: str, tmp_path: Path) -> None:
-    script, *words = shlex.split(command)
-    place = words.index("--runs") + 1
-    runs, words[place] = ROOT / words[place], str(tmp_path / "runs.csv")
-    shutil.copy(runs, words[place])
-    done = python(ROOT / script, *words, check=True)
-    printed = done.stdout.splitlines()
-    assert len(printed) >= 3
-    assert [line for line in printed if line not in PAGE.splitlines()] == []
-    assert Path(words[place]).read_text() == runs.read_text(), "no run was missing"
+def printed(text: str) -> list[Table]:
+    """The tables in Markdown: the head, then the rows."""
+    tables = re.findall(r"((?:^\|.*\n)+)", text + "\n", re.MULTILINE)
+    cells = [
+        [[cell.strip().strip("`") for cell in line.split("|")[1:-1]] for line in table.splitlines()]
+        for table in tables
+    ]
+    return [tuple(tuple(row) for row in (rows[0], *rows[2:])) for rows in cells]
+
+
+def stored(table: str) -> list[Table]:
+    """The tables of a CSV file, which empty lines divide."""
+    text = (DATA / "tables" / f"{table}.csv").read_text(encoding="utf-8")
+    return [tuple(map(tuple, csv.reader(part.splitlines()))) for part in text.split("\n\n")]
+
+
+@pytest.mark.parametrize("table", MADE_BY)
+def test_a_table_is_what_its_commands_print(table: str, tmp_path: Path) -> None:
+    rows = set[tuple[str, ...]]()
+    for command in MADE_BY[table]:
+        script, *words = shlex.split(command)
+        place = words.index("--runs") + 1
+        runs, words[place] = ROOT / words[place], str(tmp_path / "runs.csv")
+        shutil.copy(runs, words[place])
+        done = python(ROOT / script, *words, check=True)
+        rows |= {row for part in printed(done.stdout) for row in part}
+        assert Path(words[place]).read_text() == runs.read_text(), "no run was missing"
+    assert rows == {row for part in stored(table) for row in part}
+
+
+SECTIONS = [part for part in PAGE.split("\n## ") if "data/tables/" in part and "\n| " in part]
+
+
+def absent(section: str) -> list[dict[str, str]]:
+    """The rows on the page that are in none of the tables to which their section links."""
+    parts = [p for name in re.findall(r"data/tables/([\w-]+)\.csv", section) for p in stored(name)]
+    rows = [dict(zip(part[0], row, strict=True)).items() for part in parts for row in part[1:]]
+    return [
+        shown
+        for head, *body in printed(section)
+        for shown in (dict(zip(head, row, strict=True)) for row in body)
+        if not any(shown.items() <= row for row in rows)
+    ]
+
+
+@pytest.mark.parametrize("section", SECTIONS, ids=lambda text: text.splitlines()[0][:2])
+def test_a_table_of_the_page_is_a_part_of_the_data(section: str) -> None:
+    if "explore nyc" not in section:  # that section shows a table of its own
+        assert absent(section) == []
+
+
+def test_a_changed_cell_is_seen() -> None:
+    (section,) = (part for part in SECTIONS if part.startswith("3."))
+    assert len(absent(section.replace("1.283 ± 0.021", "1.282 ± 0.021"))) == 1
 
 
 @pytest.mark.parametrize("name", ["folding", "homing", "planner", "homing+planar"])
@@ -71,4 +126,7 @@ def test_the_error_is_that_of_the_ratio_and_not_of_the_cost_alone(tmp_path: Path
 
 
 def test_there_are_tables() -> None:
-    assert len(COMMANDS) >= 2
+    assert len(MADE_BY) >= 6
+    assert len(SECTIONS) >= 4
+    links = {path.name for path in (DATA / "tables").iterdir()}
+    assert links == set(re.findall(r"tables/([\w-]+\.csv)", (DATA / "README.md").read_text()))
