@@ -38,7 +38,7 @@ TheoremProgress = Callable[[str, int, int], None]
 
 
 def no_progress(_theorem: str, _done: int, _total: int) -> None:
-    """Do nothing: the progress callback of whoever wants none."""
+    """Does nothing."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -153,7 +153,7 @@ class Theorem:
         words, symbols: the statement in words, and as it is given to the solver.
         solver_part: what the solver proves.
         argued: the steps that are argued in words, by their names in docs/proofs.md.
-        assumed: what nobody proves here.
+        assumed: statements that are not proved here.
         expected: the verdict if all is well.
         prove: tries to prove or to refute it. A time-out is a result, never an exception.
         queries: the questions behind it, for export and for a second solver.

@@ -8,7 +8,7 @@
     dense_worlds       every world with at least half as many     m1/0
                        edges as there are pairs of vertices:
                        2m >= n(n-1)/2
-    uniform_worlds     all worlds with so many edges, evenly      m<edges>/0: a path, the marker at
+    uniform_worlds     all worlds of one size, evenly             m<edges>/0: a path, the marker at
                                                                   its end
 
 Every world within the bounds can be drawn: `growth.py` says why. Dense worlds have many edges on

@@ -41,7 +41,7 @@ Grid = dict[Node, list[Node]]
 """The neighbours of each node, clockwise from the north."""
 
 _HOLES = 4
-"""There is at most one hole to so many edges."""
+"""Edges per hole, at least."""
 
 
 @shown_as_called

@@ -191,7 +191,7 @@ class _Sapling:
             for near in _from_place(free, place):
                 yield near, near
         else:
-            # `^` binds last: so many darts from the newest, and then the other end of that edge.
+            # `^` binds last: count back from the newest dart, then take the other end of its edge.
             near = darts - 1 - nth(place, darts) ^ 1
             yield near, near
 
@@ -299,7 +299,7 @@ def _from_place(corners: list[Dart], place: int) -> list[Dart]:
 
 
 def nth(place: int, corners: int) -> int:
-    """Which of so many corners the place means: as many of its low bits as fit.
+    """The index below `corners` that the place means: as many of its low bits as fit.
 
     The answer stays the same while later corners disappear, as they do when Hypothesis shrinks.
     """

@@ -22,7 +22,7 @@ uses counts alone:
     closings  each missing handle takes a cross, and a split before it if there is one face
     leaves    all edges to come that need not be closings are counted as leaves: that is best
     room      the free places at vertices: a leaf takes one and brings max_degree - 1, a closing two
-    capacity  the edges that so many vertices can carry, if loops or parallels are forbidden
+    capacity  the edges that the vertices can carry, if loops or parallels are forbidden
 
 What this does not show: that a world exists wherever the answer is yes. Without `max_degree` one
 does (one-faced graphs of diameter two: M. Škoviera, "The maximum genus of graphs of diameter two",
@@ -86,7 +86,7 @@ class Shape:
         return replace(self, max_vertices=(1 + isqrt(1 + 16 * edges)) // 2)
 
     def capacity(self, vertices: int) -> int:
-        """The most edges that so many vertices can carry."""
+        """The most edges that this number of vertices can carry."""
         # The leaf with the marker has one edge; all others lie between the other vertices.
         inner = vertices - 1 if self.leaf and vertices > 1 else vertices
         pairs = inner * (inner - 1) // 2
@@ -249,6 +249,6 @@ def require_marker(strategy: str, marker: str, known: tuple[str, ...]) -> None:
 
 def _in_order(strategy: str, what: str, least: int, most: int) -> None:
     if least > most:
-        # Nobody has to have written the default min_edges=1.
+        # min_edges=1 is the default, so the caller may not have written it.
         mend = "min_edges=0 draws m0/0, too" if (what, most) == ("edges", 0) else "swap them"
         raise InputError(f"{strategy}: min_{what}={least} is above max_{what}={most}: {mend}")

@@ -147,7 +147,7 @@ def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Mar
 
 
 def cover(small: Small, sheets: int, root: Dart) -> World:
-    """The world of so many sheets, joined by the shifts, with the marker on sheet 0."""
+    """The world of these sheets, joined by the shifts, with the marker on sheet 0."""
     darts = len(small.alpha)
     # Dart d of sheet i has the number i·darts + d.
     alpha = [
@@ -185,7 +185,7 @@ def _drawn(sheets: dict[int, list[int]]) -> _CoverSizes | None:
 
 
 def _is_rosette(shape: Shape, sheets: int, darts: int) -> bool:
-    """Is there a connected rosette with so many darts, 1 or more, within the bounds?"""
+    """Is there a connected rosette with this number of darts, 1 or more, within the bounds?"""
     if darts == 1:  # half an edge at each vertex: two sheets and one edge
         return sheets == 2
     if shape.leaf or sheets * darts % 2:
@@ -209,7 +209,7 @@ def _bead(shape: Shape, sheets: int) -> Shape:
 
 
 def rosette(shape: Shape, sheets: int, darts: int, drawn: Iterator[int]) -> Small:
-    """One vertex with so many darts: half edges, then whole ones, placed by the numbers drawn.
+    """One vertex with `darts` darts: half edges, then whole ones, placed by the numbers drawn.
 
     The first whole edge shifts by 1, which joins all sheets.
     """

@@ -149,7 +149,7 @@ def covering_walk(
     Args:
         trips: the darts to leave by; each trip ends at v0, and all but the first begin there.
         needed: the vertices whose tree edge must be walked; those on the trips are passed anyway.
-    Returns: the darts to leave by, from where the first trip begins (v0 if there is none). Tree
+    Returns: the darts to leave by, from where the first trip begins (v0 without a trip). Tree
     edges off the trips are walked there and back; the last way is not walked back.
     """
     core = {0, *(tree.vertex[dart] for trip in trips for dart in trip)}

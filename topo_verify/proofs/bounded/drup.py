@@ -34,7 +34,7 @@ PER_SECOND = 100_000
 
 _ROUNDS = 8
 _FEWEST_CLAUSES = 400
-"""Formulas with long proofs keep at least so many clauses: this limits the search for a proof."""
+"""The least number of clauses of a formula with a long proof: limits the search for a proof."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ def checker() -> str:
 
 
 def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate | str:
-    """A checked certificate that the formula is unsatisfiable, or the reason why there is none.
+    """A checked certificate that the formula is unsatisfiable, or the reason why it has none.
 
     A proof that the checker refuses gives a certificate with `checked` false: a bug, not a limit.
 
@@ -91,7 +91,7 @@ def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate
 
 
 def refute(formula: Formula, *, most_steps: int = 1_000_000) -> DrupRefutation | str:
-    """A short refutation, or the reason why there is none: satisfiable, or too many steps."""
+    """A short refutation, or the reason why it has none: satisfiable, or too many steps."""
     clauses = formula.clauses
     # Each round keeps the clauses that the last one used, until a round drops less than 3 %.
     for _ in range(_ROUNDS):
@@ -121,10 +121,10 @@ def together(certificates: list[RefutationCertificate]) -> RefutationCertificate
     return RefutationCertificate(
         format=FORMAT,
         checker=checker(),
-        checked=all(one.checked for one in certificates),
-        clauses=sum(one.clauses for one in certificates),
-        steps=sum(one.steps for one in certificates),
-        why=next((one.why for one in certificates if one.why), ""),
+        checked=all(part.checked for part in certificates),
+        clauses=sum(part.clauses for part in certificates),
+        steps=sum(part.steps for part in certificates),
+        why=next((part.why for part in certificates if part.why), ""),
     )
 
 

@@ -38,7 +38,7 @@ from topo_verify.robot.percept import Door, Percept
 from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.rooted_map import World
 
-# 12 is the least common multiple of 1, 2, 3, 4: every turn comes round after so many doors.
+# 12 is the least common multiple of 1, 2, 3, 4: every turn comes round after 12 doors.
 DOORS, MOST_DEGREE = 12, 4
 
 mfirst = terms.Symbol("mfirst", ("M",), "M")

@@ -33,7 +33,7 @@ MAX_LISTED_EDGES = 7
 """Some classes are counted by listing: 1,708,394 worlds with 7 edges."""
 
 MAX_TRIES = 100_000
-"""So many worlds are drawn, at most, in search of one in the class."""
+"""At most this many worlds are drawn in search of one in the class."""
 
 _TERM = re.compile(r"(any|planar|simple|loopless)|(genus:|genus<=|max-degree:)([0-9]{1,9})")
 
@@ -154,8 +154,8 @@ class WorldClass:
         """A world of the class with this many edges, exactly uniform over all of them.
 
         Raises:
-            InputError: there is none, or so few that `MAX_TRIES` draws are not likely to find one
-                or did not.
+            InputError: the class is empty, or so small that `MAX_TRIES` draws are unlikely to find
+                one, or found none.
         """
         if self._has_formula:
             inside, total = self._count_by_formula(edges), rank_order.count(edges)

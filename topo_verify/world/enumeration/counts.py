@@ -138,7 +138,7 @@ def _simple_wirings(degrees: Degrees) -> int:
 
 
 def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple[int, Degrees]]:
-    """Each choice of different vertices for so many darts: its number of ways, and what is left.
+    """Each choice of different vertices for the darts: its number of ways, and what is left.
 
     Args:
         groups: the other vertices, as (degree, how many have it).

@@ -66,7 +66,7 @@ def ranked_tables(
     stop = total if stop is None else min(stop, total)
     kind = WorldClass() if kind is None else kind
     if edges == 0 or kind == WorldClass():
-        # Nothing prunes here. The one world without edges never grows, so it is tested as it is.
+        # Nothing prunes here. The one world without edges never grows, so it is tested here.
         listed = enumerate(rank_order.tables(edges, start, stop), start)
         yield from (pair for pair in listed if edges or kind.admits(pair[1]))
     else:
@@ -187,7 +187,7 @@ class DegreePruner(NamedTuple):
 
 
 class GenusPruner(NamedTuple):
-    """Allows so many more handles.
+    """Allows a number of further handles.
 
     Attributes:
         words: the open darts along each boundary, in cyclic order.
@@ -299,7 +299,7 @@ class NeighbourPruner(NamedTuple):
 
 
 def worlds(*, edges: int, cls: str = "any") -> Iterator[World]:
-    """Every world with so many edges in a class, in the order of their ids.
+    """Every world of a class with this many edges, in the order of their ids.
 
     Lazy: each world is made when it is asked for, so `islice(tv.worlds(edges=30), 5)` is quick. A
     world's name is its id.

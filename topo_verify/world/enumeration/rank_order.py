@@ -226,7 +226,7 @@ def tables(edges: int, start: int = 0, stop: int | None = None) -> Iterator[Tabl
     """
     total = count(edges)
     stop = total if stop is None else min(stop, total)
-    # `islice` takes no longer number, and nobody lists so many.
+    # `islice` takes no larger number, and no list is that long.
     return islice(_tables_from(edges, start), min(max(0, stop - start), sys.maxsize))
 
 

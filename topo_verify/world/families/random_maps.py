@@ -41,7 +41,7 @@ MAX_EDGES = 10_000
 
 
 def random_tree(edges: int, *, seed: int = 0, marker: Dart | None = None) -> World:
-    """A tree with its rotations, uniform among all rooted plane trees with so many edges.
+    """A tree with its rotations, uniform among all rooted plane trees with this many edges.
 
     Args:
         edges: 0 or more.

@@ -78,7 +78,7 @@ class _Header(msgspec.Struct):
 
 
 def load(cls: type[W], path: str | PathLike[str]) -> W:
-    """The world in the file, called after the file if it has no name of its own.
+    """The world in the file, called after the file if it gives no name.
 
     Raises:
         InputError: as `decode`, or the file cannot be read.

@@ -101,7 +101,7 @@ def schema() -> dict[str, Any]:
 
 
 def load(cls: type[W], path: str | PathLike[str]) -> W:
-    """The world in the file, called after the file (its stem) if it has no name of its own.
+    """The world in the file, called after the file (its stem) if it gives no name.
 
     Raises:
         InputError: the file cannot be read, is larger than `files.LIMIT`, or holds no world.
