@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
 
 from topo_verify.proofs.mechanised import toolchain
+
+EXTRACTED = Path(__file__).parent / "extracted"
+"""Files that make programs of functions in Coq: of each an extraction, and a main program."""
 
 LIMIT = 300.0
 """Seconds for each call of a program, on a machine that has other things to do."""
@@ -35,3 +39,23 @@ def place(library: Path, tmp_path: Path) -> Path:
         if path.suffix in {".v", ".vo"}:
             (tmp_path / path.name).symlink_to(path)
     return tmp_path
+
+
+def extracted(library: Path, folder: Path, name: str, main: str) -> Path:
+    """The program of extracted/NAME.v and its main program, built in this folder.
+
+    Skips where there is no compiler for it.
+    """
+    if shutil.which("ocamlfind") is None:
+        pytest.skip("ocamlfind is not installed")
+    for path in library.glob("*.vo"):
+        (folder / path.name).symlink_to(path)
+    for path in EXTRACTED.iterdir():
+        shutil.copy(path, folder)
+    ran = toolchain.compile_one(folder, name, timeout=LIMIT)
+    assert ran.accepted, ran.output
+    sources = [f"{name.lower()}.mli", f"{name.lower()}.ml", f"{main}.ml"]
+    command = ["ocamlfind", "ocamlopt", "-w", "-a", *sources, "-o", "program"]
+    ran = toolchain.run(command, folder, timeout=LIMIT)
+    assert ran.accepted, ran.output
+    return folder / "program"

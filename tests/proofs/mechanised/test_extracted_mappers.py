@@ -13,7 +13,6 @@ not written in Coq.
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -23,7 +22,7 @@ from typing import Any, ClassVar, NamedTuple
 import pytest
 
 from tests.helpers import PAPER, doors, trace_of, worlds
-from tests.proofs.mechanised.conftest import LIMIT
+from tests.proofs.mechanised.conftest import LIMIT, extracted
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms import policies as choices
 from topo_verify.algorithms.chart import Chart
@@ -36,9 +35,6 @@ from topo_verify.world.resolve import resolve_world
 
 PROVED = (*PAPER, "folding")
 """The algorithms that are written in Coq."""
-
-EXTRACTED = Path(__file__).parent / "extracted"
-"""The files that make a program of the mappers in Coq."""
 
 FAMILIES = (
     "family:lattice(3,4)", "family:lattice(4,4,holes=0.2,seed=7)", "family:torus(2,3)",
@@ -68,24 +64,8 @@ class Job(NamedTuple):
 
 @pytest.fixture(scope="module")
 def mappers(library: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The extracted program; skips where there is no compiler for it."""
-    if shutil.which("ocamlfind") is None:
-        pytest.skip("ocamlfind is not installed")
-    return built(library, tmp_path_factory.mktemp("mappers"))
-
-
-def built(library: Path, folder: Path) -> Path:
-    """The program, made in this folder of the library's compiled sources."""
-    for path in library.glob("*.vo"):
-        (folder / path.name).symlink_to(path)
-    for path in EXTRACTED.iterdir():
-        shutil.copy(path, folder)
-    ran = toolchain.compile_one(folder, "Mappers", timeout=LIMIT)
-    assert ran.accepted, ran.output
-    command = ["ocamlfind", "ocamlopt", "-w", "-a", "mappers.mli", "mappers.ml", "main.ml"]
-    ran = toolchain.run([*command, "-o", "mappers"], folder, timeout=LIMIT)
-    assert ran.accepted, ran.output
-    return folder / "mappers"
+    """The extracted program."""
+    return extracted(library, tmp_path_factory.mktemp("mappers"), "Mappers", "main")
 
 
 def told(job: Job) -> str:

@@ -292,6 +292,33 @@ MUTANTS = (
         "with [[]], [] => true | _, _", "with [[]], _ => true | _, _", "Certificate"),
     Mutant("decisions-believed", "Certificate",
         "decided (sensed c) (events c) (merges c) (reasons c).", "true.", "Certificate"),
+    Mutant("dead-end-listed", "Listed",
+        "list (list growth) := match n, u with\n  | 0, 0 => if r =? 0 then [[]] else []",
+        "list (list growth) := match n, u with\n  | 0, 0 => [[]]", "Listed"),
+    Mutant("joined-with-itself", "Listed", "| Meet j => augment_loop M e (nth j rest e)",
+        "| Meet j => augment_loop M e (nth j (e :: rest) e)", "Listed"),
+    Mutant("a-partner-more-counted", "Listed",
+        "| S n, S u => u * completions n (u - 1) r +",
+        "| S n, S u => S u * completions n (u - 1) r +", "Listed"),
+    Mutant("largest-vertex-not-listed", "Listed",
+        "++ map Hang (seq 1 r).", "++ map Hang (seq 1 (r - 1)).", "Listed"),
+    Mutant("first-vertex-of-any-degree", "Listed",
+        "growths m d (2 * m - d))) (seq 1 (2 * m)).", "growths m d (2 * m - d))) (seq 0 (2 * m)).",
+        "Listed"),
+    Mutant("least-partner-twice", "Listed",
+        "map Meet (seq 0 u) ++ map Hang (seq 1 r).",
+        "map Meet (map (fun j => j - 1) (seq 0 u)) ++ map Hang (seq 1 r).", "Listed"),
+    Mutant("explored-from-the-next-dart", "ListedOnce",
+        "| S n, e :: rest => match alpha W (phi e) with",
+        "| S n, e :: rest => match alpha W (phi (S e)) with", "ListedOnce"),
+    Mutant("one-world-at-two-places", "ListedOnce",
+        "isomorphic V W -> i = j.", "isomorphic V W -> i < j.", "ListedOnce"),
+    Mutant("formula-one-partner-short", "Ranks",
+        "N.of_nat (2 * t + 1 - r) * nth r l 0", "N.of_nat (2 * t - r) * nth r l 0", "Ranks"),
+    Mutant("rank-not-reduced", "Ranks",
+        "let (i, k') := block l (k - x)%N in", "let (i, k') := block l k in", "Ranks"),
+    Mutant("rank-of-the-steps-only", "Ranks",
+        "N.add (sum_of (map (rooted m) (seq 1 (fst p - 1))))", "N.add 0", "Ranks"),
 )  # fmt: skip
 
 QUICK = {
@@ -299,7 +326,7 @@ QUICK = {
     "equal-degrees-contradict", "marker-not-turned", "a-door-for-free", "evidence-believed",
     "decided-without-looking", "numbered-one-late", "shared-doors-not-compared",
     "records-one-door-late", "ways-rooted-elsewhere", "fuel-for-fewer-rounds",
-    "arcs-not-taken-again", "concluded-if-allowed",
+    "arcs-not-taken-again", "concluded-if-allowed", "dead-end-listed",
 }  # fmt: skip
 """Those of the everyday suite: one for each way to be wrong."""
 

@@ -31,10 +31,10 @@ Proof.
 Qed.
 
 (** Two lists without repetition and without a common element, one after the other. *)
-Lemma nodup_append (l l' : list nat) : NoDup l -> NoDup l' -> (forall x, In x l -> ~ In x l') ->
+Lemma nodup_append {A} (l l' : list A) : NoDup l -> NoDup l' -> (forall x, In x l -> ~ In x l') ->
   NoDup (l ++ l').
 Proof.
-  intros A B. induction A as [|x l N A IH]; simpl; auto. intros D. constructor.
+  intros Nl B. induction Nl as [|x l N Nl IH]; simpl; auto. intros D. constructor.
   - intros I. apply in_app_or in I as [I|I]; [auto|]. apply (D x); auto.
   - apply IH. intros y I. apply D. auto.
 Qed.

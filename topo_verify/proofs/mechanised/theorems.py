@@ -221,6 +221,20 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
         "A delivered map that is right is accepted with some numbering of its darts."),
     _one("coq-certificate", "Certificate.check_numbers_correct", "map-entailed decisions-entailed",
         "What a certificate says is true if the checker accepts its numbers."),
+    _one("coq-listed-worlds", "Listed.listed_world", "",
+        "The list of worlds with m edges holds worlds with m edges only."),
+    _one("coq-listed-number", "Listed.listed_length", "",
+        "It is as long as the closed formula says."),
+    _one("coq-listed-every", "ListedOnce.listed_every", "",
+        "It holds every world with m edges, up to the numbering of its darts."),
+    _one("coq-listed-once", "ListedOnce.listed_once", "",
+        "No two worlds in it are isomorphic."),
+    _one("coq-unrank", "Ranks.unrank_listed", "",
+        "The world computed from a rank stands at that place of the list."),
+    _one("coq-rank-unrank", "Ranks.rank_unrank", "",
+        "The rank computed from the world of rank k is k."),
+    _one("coq-unrank-rank", "Ranks.unrank_rank", "",
+        "The world computed from the rank of a world is that world."),
 )  # fmt: skip
 
 
