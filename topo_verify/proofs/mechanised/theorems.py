@@ -235,6 +235,22 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
         "The rank computed from the world of rank k is k."),
     _one("coq-unrank-rank", "Ranks.unrank_rank", "",
         "The world computed from the rank of a world is that world."),
+    _one("coq-judge-percepts", "JudgeCorrect.judge_claim1", "percepts-true",
+        "The judge says failed exactly if a percept or a door is not the world's."),
+    _one("coq-judge-posed", "JudgeDecisions.judge_claim2", "true-hypothesis-posed",
+        "The judge says failed exactly if a pose is wrong, or S grows without one."),
+    _one("coq-judge-kept", "JudgeDecisions.judge_claim3", "true-hypothesis-kept",
+        "The judge says failed exactly if a true hypothesis is rejected, or one is dropped."),
+    _one("coq-judge-confirmed", "JudgeDecisions.judge_claim4", "no-false-confirm",
+        "The judge says failed exactly if a confirmed hypothesis is not the true one."),
+    _one("coq-judge-map", "JudgeDecisions.judge_claim5", "map-isomorphic",
+        "The judge says failed exactly if S or the delivered map is not the world's."),
+    _one("coq-judge-cost", "JudgeCorrect.judge_claim6", "cost-honest",
+        "The judge says failed exactly if the reported cost is not the number of moves."),
+    _one("coq-judge-bound", "JudgeCorrect.judge_claim7", "cost-within-bound",
+        "The judge says failed exactly if the cost is outside its bounds."),
+    _one("coq-judge-entailed", "JudgeCorrect.judge_claim9", "map-entailed",
+        "The judge says failed exactly if the delivered map is not every world with this log."),
 )  # fmt: skip
 
 

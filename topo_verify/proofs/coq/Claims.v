@@ -1,0 +1,173 @@
+(** The claims that a trace is judged by, over a world and a trace (docs/semantics.md, section 9).
+
+    SCEPTICS READ THIS FILE. It contains definitions only, no theorem. It says what claims 1 to 7 and
+    9 say, with the names of docs/semantics.md. Claims 8 and 10 are not written here yet.
+
+    w     any world: the point, or a world with edges          t    a trace
+    W     the world as a map: [ground w]                       S    the map that the mapper declares
+    past  the steps before a moment                            x    a dart of the world
+    e, h  darts of S, as the mapper numbers them               H    the hypotheses for e
+
+    Nothing that a mapper said is believed. Where the robot stood follows from the doors alone, and S
+    is drawn from the declared augmentations; each step is judged only while all doors before it exist
+    and all augmentations before it are true ([judged]). *)
+From Coq Require Import Arith List NArith Bool.
+Import ListNotations.
+From Topo Require Import World Log AnyWorld Augment Vertices Events.
+
+(** What happens in a run after its start: a pose of the edge of dart e with its hypotheses; or
+    another event, as Events.v has it. *)
+Inductive step := Pose (e : nat) (H : list nat) | Act (ev : event).
+
+(** What is handed over at the end: the cost, if one is reported; and the map, None where it is no map
+    at all, because an edge is not a pair, or no dart is marked though there are darts. *)
+Record ending := { reported_cost : option nat; reported_map : option Delivery }.
+
+(** A trace: the percept at the start, what happened then, and the end, None where the run ended
+    without delivering anything. *)
+Record trace := { percept_at_start : Percept; steps : list step; finish : option ending }.
+
+(** The steps that are events. *)
+Definition acts (past : list step) := flat_map (fun d => match d with Act ev => [ev] | Pose _ _ => []
+  end)
+  past.
+
+(** The log of a trace: its percepts and doors. *)
+Definition trace_log (t : trace) := log_after (percept_at_start t) (acts (steps t)).
+
+(** The doors that were taken. *)
+Definition doors_of past := map fst (moves (log_after (0, None) (acts past))).
+
+(** The cost: the number of moves in the trace. *)
+Definition trace_cost t := length (doors_of (steps t)).
+
+(** The world as a map. That of the point has no dart. *)
+Definition ground w := match w with
+  | Point => {| darts := 0; sigma := id; alpha := fun _ => None; root := 0 |}
+  | Edges W => W end.
+
+(** The number of edges. *)
+Definition edges_of w := Nat.div2 (darts (ground w)).
+
+(** w is a world. *)
+Definition a_world w := match w with Point => True | Edges W => world W end.
+
+(** After these steps the robot's reference dart is a. *)
+Definition stands W past a := walk W (root W) (doors_of past) = Some a.
+
+(** The map S after these steps; v0 has the degree that the world shows. *)
+Definition S_after W past := map_after (percept W (root W)) (acts past).
+
+(** phi says which dart of the world each dart of S is. There is no second one ([embedded_unique]). *)
+Definition drawn_by W past phi := embedded (S_after W past) W phi.
+
+(** The event declares what is so in the world. *)
+Definition is_so W past ev := exists phi, drawn_by W past phi /\ true_event W (S_after W past) phi ev.
+
+(** The event lets S grow. *)
+Definition grows ev := match ev with Loop _ _ _ | New _ _ _ => True | _ => False end.
+
+(** Every door of these steps exists, and every augmentation among them is true. *)
+Definition sane W past := (exists a, stands W past a) /\
+  forall before ev after, past = before ++ Act ev :: after -> grows ev -> is_so W before ev.
+
+(** The step d of the trace is judged, and past is what came before it. *)
+Definition judged W t past d := sane W past /\ exists after, steps t = past ++ d :: after.
+
+(** x and y are darts of one edge of the world. *)
+Definition one_edge W x y := x = y \/ alpha W x = Some y.
+
+(** The robot crossed the edge of dart x, in either direction. *)
+Definition crossed_edge W past x := exists before k p after a,
+  past = before ++ Act (Move k p) :: after /\
+  stands W before a /\ one_edge W (turn W k a) x.
+
+(** Dart e is an unexplored dart of S at that moment, and lies at the edge of dart x of the world. *)
+Definition means W past e x := exists phi, drawn_by W past phi /\ open_dart (S_after W past) e /\
+  one_edge W (phi e) x.
+
+(** Edge e was posed last, and S did not grow since. *)
+Definition posed_last past e := exists before H after, past = before ++ Pose e H :: after /\
+  forall d, In d after -> match d with Pose _ _ => False | Act ev => ~ grows ev end.
+
+(** Dart h is a hypothesis that was posed for the edge of x and was neither rejected nor confirmed for
+    this edge since. *)
+Definition in_question W past x h := exists before e H after, past = before ++ Pose e H :: after /\
+  means W before e x /\ In h H /\
+  forall some e' rest, after = some ++ Act (Reject e' h) :: rest \/
+    after = some ++ Act (Confirm e' h) :: rest -> ~ means W (before ++ Pose e H :: some) e' x.
+
+(** Is the step a pose? *)
+Definition is_pose d := match d with Pose _ _ => true | _ => false end.
+
+(** Is it a rejection? *)
+Definition is_reject d := match d with Act (Reject _ _) => true | _ => false end.
+
+(** Is it a confirmation? *)
+Definition is_confirm d := match d with Act (Confirm _ _) => true | _ => false end.
+
+(** The trace declares something that a claim speaks of. In a world without an edge nothing has to be
+    declared. *)
+Definition declares w t (kind : step -> bool) := (darts (ground w) =? 0) || existsb kind (steps t).
+
+(** Something is delivered, a map or another value. *)
+Definition has_finish t := match finish t with Some _ => true | None => false end.
+
+(** Claim 1. Every percept in the trace is what the world shows after these doors, and every door
+    exists. *)
+Definition percepts_true w t := shows_log w (trace_log t).
+
+(** Claim 2. At a pose the robot has crossed the edge; e and all hypotheses are unexplored darts of S;
+    and if e leads to a known vertex, its dart there is in H. Every augmentation is for the edge of
+    the last pose, one for each pose. *)
+Definition true_hypothesis_posed w t := let W := ground w in
+  (forall past e H, judged W t past (Pose e H) ->
+    (exists x, means W past e x /\ crossed_edge W past x) /\
+    (forall h, In h H -> open_dart (S_after W past) h) /\
+    forall h, is_so W past (Confirm e h) -> In h H) /\
+  forall past ev, judged W t past (Act ev) -> match ev with
+    | Loop e _ _ | New e _ _ => posed_last past e
+    | _ => True end.
+
+(** Claim 3. No true hypothesis is rejected. S does not grow by a new vertex where e leads to a known
+    vertex, nor where a hypothesis for e is still unexplored and in question. *)
+Definition true_hypothesis_kept w t := let W := ground w in
+  (forall past e h, judged W t past (Act (Reject e h)) -> ~ is_so W past (Confirm e h)) /\
+  forall past e a d, judged W t past (Act (New e a d)) ->
+    (forall h, ~ is_so W past (Confirm e h)) /\
+    (posed_last past e -> is_so W past (New e a d) -> forall x h, means W past e x ->
+      open_dart (S_after W past) h -> ~ in_question W past x h).
+
+(** Claim 4. A confirmed hypothesis is the true one. *)
+Definition no_false_confirm w t := let W := ground w in
+  forall past e h, judged W t past (Act (Confirm e h)) -> is_so W past (Confirm e h).
+
+(** Dart labels may be any numbers; a delivery is right in the point if it is one vertex without a
+    dart. Of a world with edges Events.v says when it is right. *)
+Definition right_map D w := match w with
+  | Point => rotations D = [[]] /\ pairs D = []
+  | Edges W => right_delivery D W end.
+
+(** The map that was delivered, if there is one. *)
+Definition delivered_in t D := exists r, finish t = Some r /\ reported_map r = Some D.
+
+(** Claim 5. Every augmentation is true, so that every declared S is a part of the world; a map is
+    delivered, and it is the world; and if S grew at all, nothing in it is left unexplored. *)
+Definition map_isomorphic w t := let W := ground w in
+  (forall past ev, judged W t past (Act ev) -> grows ev -> is_so W past ev) /\
+  (exists D, delivered_in t D /\ right_map D w) /\
+  ((exists a, stands W (steps t) a) -> (exists ev, In (Act ev) (steps t) /\ grows ev) ->
+    forall d, ~ open_dart (S_after W (steps t)) d).
+
+(** Claim 6. The reported cost, if one is reported, is the number of moves. *)
+Definition cost_honest t := forall r c, finish t = Some r -> reported_cost r = Some c ->
+  c = trace_cost t.
+
+(** Claim 7. m <= cost <= m (n + (2m - 1) 2 (n - 1)); the lower half only where something was
+    delivered. *)
+Definition cost_in_bound w t := let m := edges_of w in let n := vertices (ground w) in
+  (finish t <> None -> m <= trace_cost t) /\ trace_cost t <= m * (n + (2 * m - 1) * (2 * (n - 1))).
+
+(** Claim 9. The percepts are true, a map is delivered, and it is every world that shows the log. *)
+Definition map_entailed w t := percepts_true w t /\
+  exists D, delivered_in t D /\ forall w', shows_log w' (trace_log t) -> right_map D w'.
