@@ -269,7 +269,7 @@ def test_the_marker_may_be_elsewhere(call: Call) -> None:
 def test_the_part_that_is_shown_of_a_large_world_may_be_around_any_vertex(
     call: Call, results: Results, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(choice, "READABLE", 20)  # it counts as large here
+    monkeypatch.setattr(choice, "WHOLE", 20)  # it counts as large here
     monkeypatch.setattr(choice, "LIMIT", 30)
     line = "world draw family:random_planar(60,seed=1)"
     (entry,) = results(line)["results"]

@@ -491,8 +491,7 @@ class DrawEntry(msgspec.Struct, frozen=True):
 @options.number(
     "--around",
     metavar="VERTEX",
-    meaning="Of a world that is too large to be shown whole: show what is near this vertex."
-    "  [default: that of the marker]",
+    meaning="Show only what is near this vertex.  [default: up to 1,000 edges the whole world]",
 )
 @options.marker
 def draw(

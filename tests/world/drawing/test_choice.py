@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -120,10 +121,42 @@ def test_a_sketch_whose_vertices_coincide_is_given_up_after_one_look(
     assert looks == [0.0]
 
 
+@pytest.mark.parametrize(("name", "sides"), [("m4/629", 8), ("m6/108770", 12), ("m5/4000", 4)])
+def test_a_world_with_one_face_is_a_polygon_with_4g_sides(name: str, sides: int) -> None:
+    world = World.from_id(name)
+    layout = drawn(world)
+    assert layout.cell is not None
+    assert len(layout.cell.corners) == len(layout.cell.sides) == sides == 4 * world.genus
+    assert sum(len(parts) == 2 for parts in layout.paths) == sides / 2
+
+
+def test_sides_of_a_polygon_that_are_paired_wrongly_are_seen() -> None:
+    world = World.from_id("m4/629")
+    svg = to_svg(world, lay_out(world))
+    assert 'data-sides="abacdcdb"' in svg
+    wrong = read_back.read(svg.replace('"abacdcdb"', '"abacdcbd"'))
+    assert "does not come back where it left the cell" in read_back.untruths(wrong, world)[0]
+    with pytest.raises(ValueError, match="expected each side of the cell twice"):
+        read_back.read(svg.replace('"abacdcdb"', '"abacdcda"'))
+
+
+def test_a_map_of_loops_within_loops_is_shown_whole_with_marker_and_names() -> None:
+    world = families.random_planar(250, seed=1)
+    layout = drawn(world)
+    assert (layout.kind, layout.hidden) == ("planar", frozenset())
+    svg = to_svg(world, layout)
+    reach = layout.width / 110
+    (ring,) = re.findall(r'<circle class="tv-mark" .* r="([\d.]+)"', svg)
+    assert reach / 2 < float(ring) < 2 * reach
+    names = re.findall(r'<text class="tv-name"', svg)
+    assert len(names) > 0.6 * len(world.vertices)  # those that have room
+    assert f'font-size="{reach:.2f}"' in svg
+
+
 @pytest.fixture
 def large(monkeypatch: pytest.MonkeyPatch) -> World:
     """A world that counts as large here."""
-    monkeypatch.setattr(choice, "READABLE", 20)
+    monkeypatch.setattr(choice, "WHOLE", 20)
     monkeypatch.setattr(choice, "LIMIT", 30)
     return families.random_planar(60, seed=1)
 
@@ -137,10 +170,12 @@ def test_of_a_large_world_a_ball_around_the_marker_is_shown(large: World) -> Non
     assert f"{shown} of {len(large.vertices)} vertices are shown" in to_svg(large, layout)
 
 
-def test_a_ball_may_be_around_another_dart(large: World) -> None:
+def test_a_ball_may_be_around_another_dart_of_a_world_of_any_size(large: World) -> None:
     hidden = min(lay_out(large).hidden)
     layout = drawn(large, centre=large.vertices[hidden][0])
     assert hidden not in layout.hidden
+    small = families.random_planar(20, seed=1)
+    assert drawn(small, centre=0).kind == "ball"
 
 
 def test_the_same_bytes_in_every_process() -> None:

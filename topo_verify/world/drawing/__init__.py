@@ -12,7 +12,7 @@ from topo_verify.world.drawing.svg import to_svg
 # choice.py     chooses how a world is drawn, and tries again until the picture is true; balls
 # layout.py     Layout: where vertices, edges and bridges lie; sketches fitted to it
 # straight.py   straight edges: the positions of the world's file, trees; springs spread them evenly
-# torus_cell.py regular maps of the torus as a flat periodic cell
+# cells.py      surfaces cut open: regular maps of the torus, worlds with one face as a 4g-gon
 # planar.py     any world as a plane map with bridges: a mesh over it, packed and polished
 # plane_map.py  edges that do not fit cross others in dummies; the mesh over such a map
 # svg.py        a layout as SVG, in colours for light and dark, with the numbers of darts

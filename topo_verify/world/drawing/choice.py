@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 from topo_verify.errors import InternalError
 from topo_verify.world.drawing import curves, read_back
+from topo_verify.world.drawing.cells import polygon, torus_cell
 from topo_verify.world.drawing.layout import Bridge, Layout, Sketch, fitted
 from topo_verify.world.drawing.planar import planar
 from topo_verify.world.drawing.straight import given, is_crowded, spread, tree
 from topo_verify.world.drawing.svg import to_svg
-from topo_verify.world.drawing.torus_cell import cell
 from topo_verify.world.rooted_map import Dart, World
 
 ROUNDINGS = (0.5, 0.35, 0.2, 0.1, 0.0)
@@ -28,21 +28,20 @@ ROOMY = 0.025
 CRAMPED = 0.0003
 """The same, at which vertices have no room; `layout` makes no radius smaller than 0.0002."""
 
-READABLE = 250
-"""The vertices of a random map beyond which only a ball is shown."""
-
-SIMPLE_READABLE = 600
-"""The same for plane maps without loops and parallel edges."""
+WHOLE = 1000
+"""The most edges of a world that is shown whole, if it needs at most `MOST_CROSSINGS` bridges."""
 
 
 def lay_out(world: World, *, centre: Dart | None = None) -> Layout:
     """A layout of the world whose picture was read back and found true.
 
     Args:
-        centre: the dart around which a ball is shown if the world is too large to be shown whole;
-            default: the marker's.
+        centre: a dart around which a part is shown, unless that is the whole world; default: the
+            whole world or, of a world that is too large, the part around the marker.
     """
-    flat = cell(world)
+    if centre is not None and len(ball(world, centre, limit=LIMIT).vertices) < len(world.vertices):
+        return _ball(world, centre)
+    flat = torus_cell(world) or polygon(world)
     if flat is not None and not untrue(world, flat, 0):
         return flat
     for sketch in _sketches(world):
@@ -51,7 +50,7 @@ def lay_out(world: World, *, centre: Dart | None = None) -> Layout:
             return layout
     if world.root is None:
         raise InternalError(f"no true picture of {world!r} was found")
-    return _ball(world, world.root if centre is None else centre)
+    return _ball(world, world.root)
 
 
 def _sketches(world: World) -> Iterator[Sketch]:
@@ -64,8 +63,7 @@ def _sketches(world: World) -> Iterator[Sketch]:
     branches = tree(world)
     if branches is not None:
         yield branches
-    plain = world.genus == 0 and world.is_simple
-    if len(world.vertices) <= (SIMPLE_READABLE if plain else READABLE):
+    if len(world.edges) <= WHOLE:
         yield from planar(world)
     if positions is not None:
         yield positions
@@ -89,7 +87,7 @@ def _ball(world: World, centre: Dart) -> Layout:
 def _true(world: World, sketch: Sketch) -> Layout | None:
     """The layout of the sketch, with corners as round as they may be; None if none is true."""
     straight = fitted(sketch, 0.0)
-    if _share(straight) < CRAMPED and untrue(world, straight, sketch.bridges):
+    if _share(straight) < CRAMPED and untrue(world, straight, _meant(sketch, straight)):
         return None  # vertices coincide, and rounder corners give them no more room
     best: Layout | None = None
     for rounding in ROUNDINGS:
@@ -97,11 +95,18 @@ def _true(world: World, sketch: Sketch) -> Layout | None:
         # A corner that is cut may come near a vertex: then all circles get small.
         if best is not None and _share(layout) < 1.3 * _share(best):
             break
-        if not untrue(world, layout, sketch.bridges):
+        if not untrue(world, layout, _meant(sketch, layout)):
             best = layout
             if _share(layout) > ROOMY:
                 break
     return best
+
+
+def _meant(sketch: Sketch, layout: Layout) -> int | None:
+    """The crossings that the sketch means; of many, a twentieth may differ: each has its bridge."""
+    if sketch.bridges and abs(len(layout.bridges) - sketch.bridges) <= sketch.bridges // 20:
+        return len(layout.bridges)
+    return sketch.bridges
 
 
 def _share(layout: Layout) -> float:

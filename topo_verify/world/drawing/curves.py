@@ -96,26 +96,24 @@ def length(points: Floats) -> float:
     return float(np.hypot(*np.diff(points, axis=0).T).sum())
 
 
-def place(points: Floats, distance: float) -> Floats:
-    """The point at this distance along the polyline."""
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    return np.array([np.interp(distance, along, points[:, k]) for k in (0, 1)])
+def place(points: Floats, distance: float | Floats) -> Floats:
+    """The point at this distance along the polyline; for several distances, as many rows."""
+    along = _along(points)
+    return np.stack([np.interp(distance, along, points[:, k]) for k in (0, 1)], -1)
+
+
+def _along(points: Floats) -> Floats:
+    """How far along the polyline each of its points is."""
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
 
 
 def piece(points: Floats, middle: float, half: float) -> str:
     """Path data of the part of the polyline within `half` of the place `middle` along it."""
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
+    along = _along(points)
     low, high = max(0.0, middle - half), min(float(along[-1]), middle + half)
     inside = [place for place in along.tolist() if low < place < high]
-    places = [low, *inside, high]
-    xs, ys = (np.interp(places, along, points[:, k]) for k in (0, 1))
-    kept = [(float(xs[0]), float(ys[0]))]
-    for x, y in zip(xs.tolist()[1:], ys.tolist()[1:], strict=True):
-        if (x, y) != kept[-1]:
-            kept.append((x, y))
-    return straight(kept)
+    ends = place(points, np.array([low, *inside, high]))
+    return straight(dict.fromkeys((x, y) for x, y in ends.tolist()))
 
 
 # ---------------------------------------------------------------- crossings

@@ -16,7 +16,9 @@ Format = Literal["svg", "png", "pdf", "html"]
 FORMATS: tuple[Format, ...] = ("svg", "png", "pdf", "html")
 
 DENSITY = 144.0
-"""Pixels of a PNG per 72 units of the picture."""
+"""Pixels of a PNG per 72 units of the picture, up to `MOST_PIXELS` along the longer side."""
+
+MOST_PIXELS = 5000
 
 _TYPST = b"""#set document(date: none)
 #let size = json(bytes(sys.inputs.size))
@@ -65,7 +67,7 @@ def _rendered(layout: Layout, svg: str, kind: Literal["png", "pdf"]) -> bytes:
     made: bytes = typst.compile(
         _TYPST,
         format=kind,
-        ppi=DENSITY,
+        ppi=min(DENSITY, 72 * MOST_PIXELS / max(layout.width, layout.height)),
         sys_inputs={"svg": svg, "size": f"[{layout.width}, {layout.height}]"},
         ignore_system_fonts=True,  # the same bytes whatever fonts are installed
     )

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -36,13 +36,26 @@ class Bridge:
     path: str
 
 
+class Cell(NamedTuple):
+    """A surface cut open: a polygon whose sides are glued in pairs.
+
+    Attributes:
+        corners: in order around it.
+        sides: a letter for each side, from its corner to the next one. Two sides with one letter
+            are glued so that the surface is orientable: the end of one is the start of the other.
+    """
+
+    corners: tuple[Point, ...]
+    sides: str
+
+
 @dataclass(frozen=True)
 class Layout:
     """Where everything in a picture of a world lies.
 
     Attributes:
-        kind: `positions` of the file, `planar` without crossings, planar with `bridges`, a flat
-            periodic `cell` of a torus, or a `ball` around a vertex.
+        kind: `positions` of the file, `planar` without crossings, planar with `bridges`, a `cell`
+            of a surface that was cut open, or a `ball` around a vertex.
         width, height: the size of the picture; its top left corner is (0, 0).
         radius: of the circle of each vertex.
         centres: of the circles, in the order of `world.vertices`. A hidden vertex has the place
@@ -54,7 +67,7 @@ class Layout:
         bridges: what passes over what.
         stubs: in a ball, the beginnings of edges whose other vertex is hidden: dart and path data.
         hidden: in a ball, the vertices that are not shown.
-        cell: the corner and the two sides of a periodic cell.
+        cell: where the surface was cut open.
     """
 
     kind: Kind
@@ -66,7 +79,7 @@ class Layout:
     bridges: tuple[Bridge, ...] = ()
     stubs: tuple[tuple[Dart, str], ...] = ()
     hidden: frozenset[int] = frozenset()
-    cell: tuple[Point, Point, Point] | None = None
+    cell: Cell | None = None
 
 
 # ---------------------------------------------------------------- places in a plane as a layout
@@ -75,6 +88,9 @@ RADIUS = 11.0
 """Of a vertex' circle, unless the picture would get too large."""
 
 LONGEST_SIDE = 2400.0
+"""Of a picture with up to `MANY` edges; more edges have more room for their two decimals."""
+
+MANY = 250
 
 MARGIN = 2.4
 """Around the picture, in radii of a vertex."""
@@ -106,9 +122,10 @@ def fitted(sketch: Sketch, rounding: float) -> Layout:
         rounding: of the corners of the chains; `curves.smooth`.
     """
     centres, chains = _upright(sketch)
-    radius = _radius(centres, chains, rounding)
+    radius = clear_radius(centres, chains, rounding)
     corner, size = _box(centres, chains)
-    scale = min(RADIUS / radius, LONGEST_SIDE / max(float(size.max()), radius))
+    longest = LONGEST_SIDE * max(1.0, len(chains) / MANY)
+    scale = min(RADIUS / radius, longest / max(float(size.max()), radius))
     radius *= scale
     margin = MARGIN * radius
     centres = (centres - corner) * scale + margin
@@ -184,13 +201,13 @@ def _box(centres: Floats, chains: Sequence[Floats]) -> tuple[Floats, Floats]:
     return points.min(0), points.max(0) - points.min(0)
 
 
-def _radius(centres: Floats, chains: Sequence[Floats], rounding: float) -> float:
+def clear_radius(centres: Floats, chains: Sequence[Floats], rounding: float) -> float:
     """The radius of the vertices: a fraction of what is usual, and clear of all else."""
     usual = [curves.length(chain) for chain in chains]
     limits = [0.18 * float(np.median(usual)) if usual else 1.0]
     if len(centres) > 1:
         apart = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
-        limits.append(0.36 * float((apart + np.diag([np.inf] * len(centres))).min()))
+        limits.append(0.31 * float((apart + np.diag([np.inf] * len(centres))).min()))
     for chain in chains:
         ends = (chain[1] - chain[0], chain[-2] - chain[-1])
         share = 0.7 if len(chain) > 2 else 0.3

@@ -1,15 +1,14 @@
 """Sketches of any world as a plane map with bridges, one after the other until one is true.
 
-**A circle packing** of the mesh is a first injective map of it into the plane. Every point becomes
-a circle that touches the circles of its neighbours. The radii follow from the angles (2 pi around
-inner points, those of a regular polygon on the rim) by Newton's method on their logarithms, a
-convex problem (C. Collins and K. Stephenson, "A circle packing algorithm", 2003; Y. Colin de
-Verdière, "Un principe variationnel pour les empilements de cercles", 1991).
+**A drawing on a grid** is a first injective map of the mesh into the plane: n points on a grid of
+2n - 4 by n - 2, so no triangle is too small for floating-point numbers (M. Chrobak and T. Payne, "A
+linear-time algorithm for drawing a planar graph on a grid", 1995; NetworkX has it). Tried before: a
+circle packing, whose circles shrink exponentially where loops lie within loops.
 
 **Polishing** that map gives wished triangles and smooth edges, and no flip, ever. The energy of a
 triangle is the symmetric Dirichlet energy of the linear map J from its wished shape: |J|² + |J⁻¹|².
 It is infinite where a triangle would flip; so a map of a disc that begins injective on a fixed
-convex rim stays injective. Bends along edges of the world cost their squares.
+frame stays injective. Bends along edges of the world cost their squares.
 
 Newton's method with the Hessian of every triangle made positive by its eigenvalues in closed form
 (B. Smith, F. de Goes and T. Kim, "Analytic Eigensystems for Isotropic Distortion Energies", ACM TOG
@@ -19,11 +18,12 @@ Newton's method with the Hessian of every triangle made positive by its eigenval
 
 from __future__ import annotations
 
-import heapq
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import sqrt
+from typing import Any
 
+import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
@@ -69,10 +69,7 @@ def planar(world: World) -> Iterator[Sketch]:
         tried.add((attempt // 2, outer))
         points = 2 if len(plane.other) < 600 else 1
         mesh = over(plane, outer, points=points)
-        places = packed(mesh)
-        if places is None:
-            continue
-        places = polished(mesh, places, bend=BEND, steps=STEPS)
+        places = polished(mesh, gridded(mesh), bend=BEND, steps=STEPS)
         chains = [
             places[points_of(plane, mesh.between, number)] for number in range(len(world.edges))
         ]
@@ -120,102 +117,39 @@ def _depth(plane: PlaneMap, face: list[int]) -> tuple[int, float]:
     return depth, total / len(nodes)
 
 
-# ---------------------------------------------------------------- packing
+# ---------------------------------------------------------------- on a grid
 
 
-def packed(mesh: Mesh) -> Floats | None:
-    """The centres of the circles; None if rounding errors have spoilt a triangle."""
-    try:
-        places = _laid(mesh, _radii(mesh))
-    except ZeroDivisionError:  # two circles of no size
-        return None
-    corners = places[mesh.triangles]
-    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-    sound = np.isfinite(places).all() and bool(
-        (area > 1e-7 * np.hypot(*u.T) * np.hypot(*v.T)).all()
+def gridded(mesh: Mesh) -> Floats:
+    """The points of the mesh on a grid whose frame is equilateral."""
+    before: dict[int, dict[int, int]] = {}  # by point and neighbour: the next neighbour clockwise
+    for x, y, z in [*mesh.triangles.tolist(), mesh.frame[::-1].tolist()]:
+        for point, one, other in ((x, y, z), (y, z, x), (z, x, y)):
+            before.setdefault(point, {})[other] = one
+    corners: list[int] = mesh.frame.tolist()
+    # NetworkX takes for the outer face that of the first point and its first neighbour.
+    first = {corners[0]: corners[1]}
+    embedding: Any = nx.PlanarEmbedding()
+    embedding.set_data(
+        {
+            point: [*_cycle(before[point], first.get(point, next(iter(before[point]))))]
+            for point in dict.fromkeys([*corners, *range(mesh.size)])
+        }
     )
-    return places if sound else None
+    found: Any = nx.combinatorial_embedding_to_pos(embedding)
+    places = np.array([found[point] for point in range(mesh.size)], float)
+    a, b, c = places[mesh.frame]
+    upright = np.array([[1, 0], [0.5, sqrt(3) / 2]])
+    return np.asarray((places - a) @ np.linalg.inv(np.array([b - a, c - a])) @ upright, np.float64)
 
 
-def _radii(mesh: Mesh) -> Floats:
-    a, b, c = mesh.triangles.T
-    size = mesh.size
-    goal = np.full(size, 2 * pi)
-    goal[mesh.rim] = pi - 2 * pi / len(mesh.rim)
-    rows, columns = np.concatenate([a, b, b, c, c, a]), np.concatenate([b, a, c, b, a, c])
-    # One radius is free: that of the first point stays.
-    kept = (rows > 0) & (columns > 0)
-    diagonal = np.arange(1, size)
-
-    def angles(log_radii: Floats) -> tuple[Floats, Floats]:
-        """The angle sums less the goal, and half the heights over which angles change."""
-        ra, rb, rc = (np.exp(log_radii)[corner] for corner in (a, b, c))
-        h = np.sqrt(ra * rb * rc / (ra + rb + rc))
-        total = np.zeros(size)
-        for corner, r in ((a, ra), (b, rb), (c, rc)):
-            total += np.bincount(corner, 2 * np.arctan2(h, r), size)
-        weights = [h / (ra + rb), h / (rb + rc), h / (rc + ra)]
-        return goal - total, np.concatenate([w for w in weights for _ in (0, 1)])
-
-    log_radii = np.zeros(size)
-    residual, weights = angles(log_radii)
-    for _ in range(60):
-        if np.abs(residual).max() < 1e-9:
-            break
-        sums = np.asarray(np.bincount(rows, weights, size), np.float64)
-        change = np.zeros(size)
-        change[1:] = solve(
-            np.concatenate([rows[kept] - 1, diagonal - 1]),
-            np.concatenate([columns[kept] - 1, diagonal - 1]),
-            np.concatenate([-weights[kept], sums[1:]]),
-            -residual[1:],
-        )
-        step = min(1.0, 2 / float(np.abs(change).max()))
-        trial, trial_weights = angles(log_radii + step * change)
-        while not (trial**2).sum() < (residual**2).sum() and step > 1e-6:
-            step /= 2
-            trial, trial_weights = angles(log_radii + step * change)
-        if step <= 1e-6:
-            break
-        log_radii, residual, weights = log_radii + step * change, trial, trial_weights
-    radii: Floats = np.exp(log_radii - log_radii.max())
-    return radii
-
-
-def _laid(mesh: Mesh, radii: Floats) -> Floats:
-    """The centres, from the largest circles to the smallest, which keeps errors small."""
-    r = radii.tolist()
-    apex: dict[tuple[int, int], int] = {}
-    for x, y, z in mesh.triangles.tolist():
-        apex[x, y], apex[y, z], apex[z, x] = z, x, y
-    first = max(range(mesh.size), key=lambda p: r[p])
-    second = max((q for p, q in apex if p == first), key=lambda q: r[q])
-    at: dict[int, complex] = {first: 0j, second: complex(r[first] + r[second])}
-    heap: list[tuple[float, int, int]] = []
-
-    def push(x: int, y: int) -> None:
-        if (x, y) in apex:
-            heapq.heappush(heap, (-min(r[x], r[y]), x, y))
-
-    push(first, second)
-    push(second, first)
-    done: set[tuple[int, int]] = set()
-    while heap:
-        _, x, y = heapq.heappop(heap)
-        z = apex[x, y]
-        if (x, y) in done:
-            continue
-        done |= {(x, y), (y, z), (z, x)}
-        if z not in at:
-            near, far, third = r[x] + r[y], r[x] + r[z], r[y] + r[z]
-            cosine = (near * near + far * far - third * third) / (2 * near * far)
-            cosine = max(-1.0, min(1.0, cosine))
-            along = (at[y] - at[x]) / abs(at[y] - at[x])
-            at[z] = at[x] + far * along * complex(cosine, sqrt(1 - cosine * cosine))
-        push(z, y)
-        push(x, z)
-    return np.array([(at[p].real, at[p].imag) for p in range(mesh.size)])
+def _cycle(after: Mapping[int, int], start: int) -> Iterator[int]:
+    at = start
+    while True:
+        yield at
+        at = after[at]
+        if at == start:
+            return
 
 
 # ---------------------------------------------------------------- polishing
@@ -223,7 +157,7 @@ def _laid(mesh: Mesh, radii: Floats) -> Floats:
 NEAR = 60.0
 """The energy of a triangle beyond which its wish is brought nearer (at best it is 4)."""
 
-ENOUGH = 1e-3
+ENOUGH = 3e-4
 """The polish ends when a step gains no more than this share of the energy."""
 
 
@@ -373,7 +307,7 @@ def _nearer(s: Floats) -> Floats:
 def polished(mesh: Mesh, places: Floats, *, bend: float, steps: int) -> Floats:
     """The mesh's points after at most so many steps; injective if `places` are."""
     free = np.ones(2 * mesh.size, bool)
-    free[2 * mesh.rim] = free[2 * mesh.rim + 1] = False
+    free[2 * mesh.frame] = free[2 * mesh.frame + 1] = False
     energy = _Energy(mesh.triangles, mesh.weights, _wishes(mesh), mesh.lines, bend, mesh.size, free)
     places = _scaled(mesh, places)
     near, worsts = True, list[float]()
@@ -410,12 +344,12 @@ def _wishes(mesh: Mesh) -> Floats:
 
 
 def _scaled(mesh: Mesh, places: Floats) -> Floats:
-    """The points with the rim on a circle that has room for all wished triangles."""
+    """The points with a frame that has room for all wished triangles, four times."""
     areas = 0.5 / np.linalg.det(_wishes(mesh))
     room = float(areas[mesh.weights >= RING].sum())
-    centre = places[mesh.rim].mean(0)
-    reach = float(np.hypot(*(places[mesh.rim] - centre).T).max())
-    scaled: Floats = (places - centre) * (2.0 * np.sqrt(room / np.pi) / reach)
+    centre = places[mesh.frame].mean(0)
+    reach = float(np.hypot(*(places[mesh.frame] - centre).T).max())
+    scaled: Floats = (places - centre) * (4.0 * np.sqrt(room / np.pi) / reach)
     return scaled
 
 

@@ -11,7 +11,7 @@ A half-edge lies in the face on its left, which is the cycle of "cross, then tur
 **The mesh** is a triangulated disc over the map: what is drawn lies on its edges. Every half-edge
 pair gets points between its ends, every face a centre, and a face that touches itself a collar
 within its walk. So the mesh has no loops and no parallel edges, whatever the map has. The outer
-face becomes rings of triangles around the rest.
+face becomes a ring of triangles around the rest, and a large triangle around all of it.
 
 Each point has a wished radius. The wished length of an edge of the mesh is the sum of two radii,
 which makes the wished triangles: where many edges meet, they are longer.
@@ -30,8 +30,8 @@ import numpy as np
 from topo_verify.world.drawing.arrays import Floats, Ints
 from topo_verify.world.rooted_map import Dart, World
 
-MOST_CROSSINGS = 250
-"""Nobody could read a picture with more."""
+MOST_CROSSINGS = 1000
+"""A picture with more cannot be read, and takes minutes."""
 
 
 class PlaneMap:
@@ -261,8 +261,8 @@ def best_plane_map(world: World, seed: int = 0) -> PlaneMap | None:
 
 # ---------------------------------------------------------------- the mesh over it
 
-COLLAR, RING, OUTER = 0.6, 0.25, 0.04
-"""The weights of the triangles of collars and of the two rings around everything."""
+COLLAR, RING, OUTER = 0.6, 0.25, 0.002
+"""The weights of the triangles of collars, of the ring, and between the ring and the frame."""
 
 AROUND = 3.0
 """How much more a triangle weighs that has a vertex of the world for a corner."""
@@ -277,7 +277,7 @@ class Mesh:
         triangles: three points each, counter-clockwise with y upwards.
         weights: how much the shape of each triangle matters.
         radii: the wished radius of each point.
-        rim: the points on the boundary, counter-clockwise.
+        frame: the three points of the triangle around everything, counter-clockwise.
         between: the points between the ends of each half-edge, from its node on.
         lines: three points in a row each, along the edges of the world.
     """
@@ -286,7 +286,7 @@ class Mesh:
     triangles: Ints
     weights: Floats
     radii: Floats
-    rim: Ints
+    frame: Ints
     between: dict[int, tuple[int, ...]]
     lines: Ints
 
@@ -322,6 +322,16 @@ class _Builder:
             self.triangle(b, c, d, weight)
         return inner
 
+    def framed(self, cycle: tuple[int, ...]) -> tuple[int, ...]:
+        """The corners of a new triangle around a counter-clockwise cycle, each above a third."""
+        corners = self.new(3)
+        above = [corners[3 * j // len(cycle)] for j in range(len(cycle))]
+        for j, point in enumerate(cycle):
+            self.triangle(cycle[(j + 1) % len(cycle)], point, above[j], OUTER)
+            if above[j] != above[j - 1]:
+                self.triangle(point, above[j - 1], above[j], OUTER)
+        return corners
+
 
 def over(plane: PlaneMap, outer: int, *, points: int) -> Mesh:
     """The mesh over the plane map.
@@ -331,11 +341,12 @@ def over(plane: PlaneMap, outer: int, *, points: int) -> Mesh:
         points: how many points lie between the two ends of a half-edge pair (loops: 2 at least).
     """
     builder = _Builder(plane, points)
-    rim: tuple[int, ...] = ()
+    frame: tuple[int, ...] = ()
     for face in plane.faces():
         walk = tuple(p for half in face for p in (plane.node[half], *builder.between[half]))
         if outer in face:
-            rim = builder.strip(builder.strip(walk, RING), OUTER)
+            # The walk of the outer face has the disc on its right.
+            frame = builder.framed(builder.strip(walk, RING)[::-1])
             continue
         weight = 1.0
         if len(set(walk)) < len(walk):
@@ -349,8 +360,7 @@ def over(plane: PlaneMap, outer: int, *, points: int) -> Mesh:
         triangles=triangles,
         radii=_radii(plane, builder),
         weights=np.array(builder.weights),
-        # The walk of the outer face has the disc on its right.
-        rim=np.array(rim[::-1]),
+        frame=np.array(frame),
         between=builder.between,
         lines=_lines(plane, builder),
     )

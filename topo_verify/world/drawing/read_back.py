@@ -35,13 +35,13 @@ class Picture:
         circles: x, y and radius of each vertex.
         curves: the parts of each edge, by its two darts, as points.
         stubs: the beginnings of edges that are not shown whole, by their dart.
-        cell: corner and sides of a periodic cell: x, y, x and y of one side, of the other.
+        sides: of a surface that was cut open: by letter, its sides from corner to corner.
     """
 
     circles: dict[int, tuple[float, float, float]]
     curves: dict[tuple[Dart, Dart], tuple[Floats, ...]]
     stubs: dict[Dart, Floats]
-    cell: tuple[float, ...] | None
+    sides: dict[str, list[Floats]]
 
 
 def read(svg: str) -> Picture:
@@ -53,7 +53,7 @@ def read(svg: str) -> Picture:
     circles: dict[int, tuple[float, float, float]] = {}
     parts: dict[tuple[Dart, Dart], dict[int, Floats]] = {}
     stubs: dict[Dart, Floats] = {}
-    cell = None
+    sides: dict[str, list[Floats]] = {}
     for element in ET.fromstring(svg).iter():  # noqa: S314  a picture that we drew
         get = element.attrib.get
         if element.tag == f"{SVG}circle" and (vertex := get("data-vertex")) is not None:
@@ -68,10 +68,29 @@ def read(svg: str) -> Picture:
             parts[a, b][part] = flatten(get("d", ""))
         elif (stub := get("data-stub")) is not None:
             stubs[int(stub)] = flatten(get("d", ""))
-        elif (sides := get("data-cell")) is not None:
-            cell = tuple(map(float, sides.split()))
+        elif (cell := get("data-cell")) is not None:
+            corner, one, other = np.array([*map(float, cell.split())]).reshape(3, 2)
+            corners = np.array([corner, corner + one, corner + one + other, corner + other])
+            sides = _sides(corners, "abab")
+        elif (outline := get("data-polygon")) is not None:
+            corners = np.array([*map(float, outline.split())]).reshape(-1, 2)
+            sides = _sides(corners, get("data-sides", ""))
     curves = {edge: tuple(found[k] for k in sorted(found)) for edge, found in parts.items()}
-    return Picture(circles, curves, stubs, cell)
+    return Picture(circles, curves, stubs, sides)
+
+
+def _sides(corners: Floats, letters: str) -> dict[str, list[Floats]]:
+    """The sides of a polygon by their letters, two of each.
+
+    Raises:
+        ValueError: the letters do not name the sides in pairs.
+    """
+    sides: dict[str, list[Floats]] = {}
+    for letter, start, end in zip(letters, corners, np.roll(corners, -1, 0), strict=True):
+        sides.setdefault(letter, []).append(np.array([start, end]))
+    if any(len(pair) != 2 for pair in sides.values()):
+        raise ValueError(f"expected each side of the cell twice, got {letters!r}")
+    return sides
 
 
 def untruths(picture: Picture, world: World, *, bridges: int | None = None) -> list[str]:
@@ -92,7 +111,7 @@ def untruths(picture: Picture, world: World, *, bridges: int | None = None) -> l
     flat += picture.stubs.values()
     number = len(crossings(flat))
     if bridges is None:
-        bridges = number if world.genus and not picture.cell else 0
+        bridges = number if world.genus and not picture.sides else 0
     if number != bridges:
         found.append(f"{number} crossings are drawn, {bridges} are meant")
     return found
@@ -134,20 +153,25 @@ def _ends(picture: Picture, world: World) -> Iterator[str]:
 
 
 def _seams(picture: Picture, _world: World) -> Iterator[str]:
-    """Where an edge leaves the cell it comes back at the point that is the same on the torus."""
+    """Where an edge leaves the cell it comes back at the point that is the same on the surface."""
     for edge, parts in sorted(picture.curves.items()):
         for before, after in pairwise(parts):
-            if picture.cell is None:
+            if not picture.sides:
                 yield f"edge {edge} is torn, and there is no cell that it could leave"
-                continue
-            sides = np.array(picture.cell[2:]).reshape(2, 2)
-            inverse: Floats = np.asarray(np.linalg.inv(sides), np.float64)
-            jump: Floats = (after[0] - before[-1]) @ inverse
-            where: Floats = (before[-1] - np.array(picture.cell[:2])) @ inverse
-            slack = 3 * TOLERANCE / float(np.hypot(*sides.T).min())
-            whole = np.abs(jump - np.round(jump)).max() < slack and np.abs(np.round(jump)).sum() > 0
-            if not whole or min(np.abs(where).min(), np.abs(1 - where).min()) > slack:
+            elif not any(
+                _is_glued(one, other, before[-1], after[0])
+                for pair in picture.sides.values()
+                for one, other in (pair, pair[::-1])
+            ):
                 yield f"edge {edge} does not come back where it left the cell"
+
+
+def _is_glued(one: Floats, other: Floats, out: Floats, back: Floats) -> bool:
+    """Whether a point of one side is this point of the other, whose end lies at its start."""
+    (start, end), (last, first) = one, other
+    share = float((out - start) @ (end - start) / ((end - start) ** 2).sum())
+    off = (out - start - share * (end - start), back - first - share * (last - first))
+    return -1e-3 < share < 1 + 1e-3 and float(np.hypot(*np.array(off).T).max()) < 3 * TOLERANCE
 
 
 def gaps(picture: Picture, world: World) -> dict[int, list[float]]:

@@ -10,8 +10,9 @@ farthest from all of these.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
+from math import cos, pi, sin
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from topo_verify.errors import plural, shown
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats
 from topo_verify.world.drawing.curves import number
-from topo_verify.world.drawing.layout import Layout
+from topo_verify.world.drawing.layout import Cell, Layout
 from topo_verify.world.formats.embedding import Point
 from topo_verify.world.rooted_map import Dart, World
 
@@ -28,13 +29,18 @@ STYLE = (
     ".tv-halo{fill:none;stroke:#fdfcf9}.tv-vertex{stroke:#22282e}.tv-name{fill:#22282e}"
     ".tv-soft{fill:#626b74}.tv-mark{fill:none;stroke:#b3261e}.tv-tip{fill:#b3261e}"
     ".tv-side-a{fill:none;stroke:#1f6feb}.tv-side-b{fill:none;stroke:#c2510c}"
+    ".tv-side-c{fill:none;stroke:#1a7f4b}.tv-side-d{fill:none;stroke:#7a5cc4}"
     ".tv-back{fill:#fdfcf9;fill-opacity:.85}"
     "@media(prefers-color-scheme:dark){.tv-card,.tv-vertex,.tv-back{fill:#14181c}"
     ".tv-edge,.tv-over,.tv-stub{stroke:#717c87}.tv-halo{stroke:#14181c}.tv-vertex{stroke:#e8eaec}"
     ".tv-name{fill:#e8eaec}.tv-soft{fill:#9aa4ae}.tv-mark{stroke:#ff8078}.tv-tip{fill:#ff8078}"
-    ".tv-side-a{stroke:#6cb0ff}.tv-side-b{stroke:#ff9d5c}}"
+    ".tv-side-a{stroke:#6cb0ff}.tv-side-b{stroke:#ff9d5c}"
+    ".tv-side-c{stroke:#56d090}.tv-side-d{stroke:#b39ddb}}"
 )
 """Colours only. Sizes are attributes: two pictures in one page do not disturb each other."""
+
+SIDES = "abcd"
+"""The colours of sides; their letters tell more pairs apart."""
 
 FONT = "system-ui,-apple-system,'Segoe UI',Helvetica,Arial,sans-serif"
 
@@ -81,7 +87,7 @@ def _head(world: World, layout: Layout) -> Iterator[str]:
 def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
     radius = layout.radius
     # Thin circles in a large picture need lines that can be seen all the same.
-    line = number(min(max(0.15 * radius, max(layout.width, layout.height) / 1000), 0.35 * radius))
+    line = number(min(max(0.15 * radius, max(layout.width, layout.height) / 800), 0.45 * radius))
     if layout.cell:
         yield from _cell(layout.cell, radius)
     yield f'<g stroke-width="{line}" stroke-linecap="round" stroke-linejoin="round">'
@@ -113,17 +119,31 @@ def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[st
         yield from _dart_labels(world, layout, doors, darts)
 
 
-def _cell(cell: tuple[Point, Point, Point], radius: float) -> Iterator[str]:
-    """The border of a cell: opposite sides have one colour, because they are the same line."""
-    (x, y), (ux, uy), (vx, vy) = cell
-    sides = " ".join(number(value) for pair in cell for value in pair)
+def _cell(cell: Cell, radius: float) -> Iterator[str]:
+    """The border of a cell: sides that are the same line have one colour and one letter."""
+    (x, y), *others = cell.corners
     dash = f"{number(0.5 * radius)} {number(0.4 * radius)}"
-    width = number(0.12 * radius)
-    yield f'<g data-cell="{sides}" stroke-width="{width}" stroke-dasharray="{dash}">'
-    level, rising = [(x, y), (x + ux, y + uy)], [(x, y), (x + vx, y + vy)]
-    for name, line, (dx, dy) in (("a", level, (vx, vy)), ("b", rising, (ux, uy))):
-        other = [(px + dx, py + dy) for px, py in line]
-        yield f'<path class="tv-side-{name}" d="{curves.straight(line)}{curves.straight(other)}"/>'
+    if cell.sides == "abab":
+        numbers = [x, y, others[0][0] - x, others[0][1] - y, others[2][0] - x, others[2][1] - y]
+        names = f'data-cell="{" ".join(map(number, numbers))}"'
+    else:
+        outline = " ".join(f"{number(px)} {number(py)}" for px, py in cell.corners)
+        names = f'data-polygon="{outline}" data-sides="{cell.sides}"'
+    yield (
+        f'<g {names} stroke-width="{number(0.12 * radius)}" stroke-dasharray="{dash}"'
+        f' font-family="{FONT}" font-size="{number(1.1 * radius)}" text-anchor="middle">'
+    )
+    middle = np.mean(cell.corners, axis=0)
+    for k, letter in enumerate(cell.sides):
+        line = np.array([cell.corners[k], cell.corners[(k + 1) % len(cell.corners)]])
+        colour = SIDES[(ord(letter) - ord("a")) % len(SIDES)]
+        data = curves.straight([(px, py) for px, py in line.tolist()])
+        yield f'<path class="tv-side-{colour}" d="{data}"/>'
+        if cell.sides != "abab":
+            out = line.mean(0) - middle
+            px, py = line.mean(0) + 1.1 * radius * out / np.hypot(*out)
+            at = f'x="{number(px)}" y="{number(py + 0.35 * radius)}"'
+            yield f'<text class="tv-soft" {at}>{letter}</text>'
     yield "</g>"
 
 
@@ -132,43 +152,87 @@ def arrow(world: World, layout: Layout, dart: Dart) -> Iterator[str]:
     along = leaving(world, layout).get(dart)
     if along is None:
         return
-    radius = layout.radius
+    size = legible(layout)
+    if size > layout.radius:
+        x, y = layout.centres[world.vertex_of[dart]]
+        at = f'cx="{number(x)}" cy="{number(y)}" r="{number(layout.radius + 0.6 * size)}"'
+        yield f'<circle class="tv-mark" stroke-width="{number(0.2 * size)}" {at}/>'
     # Two thirds of a short edge at most; less of a loop, which turns round beneath it unless it
     # leaves the cell.
     loop = layout.cell is None and world.vertex_of[dart] == world.vertex_of[world.alpha[dart]]
-    reach = min(2.5 * radius, (0.3 if loop else 0.66) * curves.length(along))
+    reach = min(2.5 * size, (0.3 if loop else 0.66) * curves.length(along))
     tip = 0.5 * reach
     shaft = curves.piece(along, 0.0, reach - 0.8 * tip)
     base, end = curves.place(along, reach - tip), curves.place(along, reach)
     ahead = (end - base) / max(float(np.hypot(*(end - base))), 1e-9)
     side = np.array([-ahead[1], ahead[0]]) * 0.42 * tip
     head = "L".join(f"{number(x)} {number(y)}" for x, y in (base + side, end, base - side))
-    width = number(0.32 * min(radius, reach))
+    width = number(0.32 * min(size, reach))
     yield f'<path class="tv-mark" stroke-width="{width}" d="{shaft}"/>'
     yield f'<path class="tv-tip" d="M{head}Z"/>'
 
 
+def legible(layout: Layout) -> float:
+    """The radius of a vertex; more where circles are so small that signs need more."""
+    return max(layout.radius, max(layout.width, layout.height) / 110)
+
+
 def _vertices(world: World, layout: Layout) -> Iterator[str]:
-    radius = layout.radius
-    size = number(radius)
+    """Circles, with names inside or, where circles are small, beside those that have room."""
+    radius, size = layout.radius, legible(layout)
     yield (
         f'<g stroke-width="{number(0.13 * radius)}" font-family="{FONT}" text-anchor="middle"'
-        f' font-size="{size}">'
+        f' font-size="{number(size)}">'
     )
     names = world.vertex_names or tuple(map(str, range(len(world.vertices))))
+    # A long name is read by pointing at its vertex.
+    labels = [name if len(name) <= 3 else str(vertex) for vertex, name in enumerate(names)]
+    places = dict(enumerate(layout.centres)) if size == layout.radius else {}
+    if not places and len(world.vertices) <= MOST_NAMES:
+        places = _beside(layout, labels, size)
     for vertex, (x, y) in enumerate(layout.centres):
         if vertex in layout.hidden:
             continue
-        at = f'cx="{number(x)}" cy="{number(y)}"'
-        circle = f'<circle class="tv-vertex" data-vertex="{vertex}" {at} r="{size}">'
-        # A long name is read by pointing at its vertex.
-        label = names[vertex] if len(names[vertex]) <= 3 else str(vertex)
+        at = f'cx="{number(x)}" cy="{number(y)}" r="{number(radius)}"'
+        circle = f'<circle class="tv-vertex" data-vertex="{vertex}" {at}>'
         yield f"{circle}<title>{text(names[vertex])}</title></circle>"
-        yield (
-            f'<text class="tv-name" stroke="none" x="{number(x)}" y="{number(y + 0.36 * radius)}">'
-            f"{text(label)}</text>"
-        )
+        if vertex in places:
+            left, middle = places[vertex]
+            at = f'x="{number(left)}" y="{number(middle + 0.36 * size)}"'
+            yield f'<text class="tv-name" stroke="none" {at}>{text(labels[vertex])}</text>'
     yield "</g>"
+
+
+MOST_NAMES = 250
+"""The vertices beyond which small circles have no names beside them."""
+
+
+def _beside(layout: Layout, labels: Sequence[str], size: float) -> dict[int, Point]:
+    """Places for the names of small circles, clear of circles, edges and other names."""
+    page = layout.width, layout.height
+    circles = [c for vertex, c in enumerate(layout.centres) if vertex not in layout.hidden]
+    parts = [data for parts in layout.paths for data in parts]
+    lines = np.concatenate([_sampled(curves.flatten(data), 0.5 * size, np.inf) for data in parts])
+    taken = [(x, y, 0.0, 0.0) for x, y in circles]
+    places: dict[int, Point] = {}
+    for vertex, (x, y) in enumerate(layout.centres):
+        wide, high = 0.3 * size * len(labels[vertex]) + 0.2 * size, 0.55 * size
+        room = np.array([(px, py, w + wide, h + high) for px, py, w, h in taken])
+        near = lines[np.abs(lines - (x, y)).max(1) < 4 * size + wide]
+        for turn in range(0 if vertex in layout.hidden else 8):
+            place = np.array([x, y]) + (layout.radius + 0.3 * size) * UNITS[turn]
+            place = place + (wide, high) * UNITS[turn]
+            inside = ((wide, high) < place) & (place < np.array(page) - (wide, high))
+            clear = inside.all() and (np.abs(near - place) > (wide, high)).any(1).all()
+            if clear and (np.abs(room[:, :2] - place) > room[:, 2:]).any(1).all():
+                places[vertex] = (float(place[0]), float(place[1]))
+                taken.append((*places[vertex], wide, high))
+                break
+    return places
+
+
+UNITS = np.array([(cos(turn * pi / 4), sin(turn * pi / 4)) for turn in range(8)])
+"""Eight directions, that to the right first."""
 
 
 def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
@@ -219,7 +283,8 @@ def places(world: World, layout: Layout, words: Mapping[Dart, str]) -> dict[Dart
     for vertex, rotation in enumerate(world.vertices):
         if vertex in layout.hidden:
             continue
-        near = {dart: _sampled(lines[dart], radius) for dart in rotation if dart in lines}
+        far = (FIRST + STEP * MOST + 2) * radius
+        near = {d: _sampled(lines[d], 0.25 * radius, far) for d in rotation if d in lines}
         for dart in near:
             others = [near[other] for other in near if other != dart]
             across = len(words[dart]) * DIGIT * radius
@@ -233,10 +298,9 @@ def places(world: World, layout: Layout, words: Mapping[Dart, str]) -> dict[Dart
     return found
 
 
-def _sampled(line: Floats, radius: float) -> Floats:
-    """Points along the part of a line on which numbers may stand, close together."""
-    length = min(curves.length(line), (FIRST + STEP * MOST + 2) * radius)
-    return np.array([curves.place(line, d) for d in np.arange(0.0, length, 0.25 * radius)])
+def _sampled(line: Floats, step: float, most: float) -> Floats:
+    """Points along a line, this far apart, up to a distance from its start."""
+    return curves.place(line, np.arange(0.0, min(curves.length(line), most), step))
 
 
 def _along(line: Floats, radius: float, *, marked: bool) -> Iterator[Point]:

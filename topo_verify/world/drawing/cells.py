@@ -1,23 +1,33 @@
-"""A regular map of the torus as a flat periodic cell, without crossings.
+"""Surfaces cut open, without crossings: what leaves on one side comes back on its partner.
 
+**A regular map of the torus** is a flat periodic cell.
 The torus is the plane divided by a lattice: each dart gets a whole translation, so that the sum
 around every face is zero, and each vertex comes to lie in the middle of its neighbours (Tutte's
 drawing, on a torus: S. Gortler, C. Gotsman and D. Thurston, "Discrete one-forms on meshes", CAGD
 23 (2006)). For maps whose vertices have one degree and whose faces have one length this is the
 regular drawing, up to an affine map that makes edges equally long.
+
+**A world with one face**, of any genus g above 0, is a polygon with 4g sides. A spanning tree lies
+in the middle. The 2g other edges leave it as spokes, one through each side in the order of the
+tree's contour, and come back through the side with the same letter: the dual picture of the 4g-gon
+of textbooks, whose sides are the edges. The boundary is a circle, and each vertex lies in the
+middle of its neighbours (W. Tutte, "How to draw a graph", 1963); a dead end is held by a point of
+the boundary that is not drawn.
 """
 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise, product
+from math import cos, pi, sin
 
 import numpy as np
 
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats, Ints, solve
-from topo_verify.world.drawing.layout import MARGIN, RADIUS, Layout
+from topo_verify.world.drawing.layout import MARGIN, RADIUS, Cell, Layout, clear_radius
 from topo_verify.world.formats.embedding import Point
 from topo_verify.world.rooted_map import Dart, World
 
@@ -39,7 +49,7 @@ class _Torus:
     vertex_of: Ints
 
 
-def cell(world: World) -> Layout | None:
+def torus_cell(world: World) -> Layout | None:
     """The layout of a regular map of the torus; None of any other world."""
     if world.genus != 1 or len(set(world.degrees)) > 1 or len(set(map(len, world.faces))) > 1:
         return None
@@ -56,28 +66,28 @@ def cell(world: World) -> Layout | None:
         return np.stack([(x - low[0]) * scale + margin, (high[1] - y) * scale + margin], 1)
 
     size = (high - low) * scale + 2 * margin
-    corner, right, up = on_page(np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])).round(2)
+    outline = on_page(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]))
     return Layout(
         kind="cell",
         width=round(float(size[0]), 2),
         height=round(float(size[1]), 2),
         radius=RADIUS,
-        centres=tuple((x, y) for x, y in on_page(torus.places).round(2).tolist()),
+        centres=_points(on_page(torus.places)),
         paths=tuple(
             tuple(
-                curves.straight([(x, y) for x, y in on_page(part).tolist()])
+                curves.straight(_points(on_page(part)))
                 for part in _parts(
                     torus.places[world.vertex_of[a]], torus.steps[a], radius / float(lengths[a])
                 )
             )
             for a, _ in world.edges
         ),
-        cell=(_pair(corner), _pair(right - corner), _pair(up - corner)),
+        cell=Cell(_points(outline), "abab"),
     )
 
 
-def _pair(point: Floats) -> Point:
-    return round(float(point[0]), 2), round(float(point[1]), 2)
+def _points(points: Floats) -> tuple[Point, ...]:
+    return tuple((x, y) for x, y in points.round(2).tolist())
 
 
 def _translations(world: World) -> dict[Dart, list[int]]:
@@ -87,14 +97,7 @@ def _translations(world: World) -> dict[Dart, list[int]]:
     a dart's translation counts how often these two cycles cross it.
     """
     face_of = {dart: k for k, face in enumerate(world.faces) for dart in face}
-    seen, queue, tree = {0}, deque([0]), set[Dart]()
-    while queue:
-        for dart in world.vertices[queue.popleft()]:
-            end = world.vertex_of[world.alpha[dart]]
-            if end not in seen:
-                seen.add(end)
-                queue.append(end)
-                tree |= {dart, world.alpha[dart]}
+    tree = _tree(world, 0)
     entered: dict[int, Dart] = {}
     reached, queue = {0}, deque([0])
     while queue:
@@ -120,6 +123,19 @@ def _translations(world: World) -> dict[Dart, list[int]]:
             found[dart][k] += 1
             found[world.alpha[dart]][k] -= 1
     return found
+
+
+def _tree(world: World, root: int) -> set[Dart]:
+    """The darts of a breadth-first spanning tree, two of each edge."""
+    seen, queue, tree = {root}, deque([root]), set[Dart]()
+    while queue:
+        for dart in world.vertices[queue.popleft()]:
+            end = world.vertex_of[world.alpha[dart]]
+            if end not in seen:
+                seen.add(end)
+                queue.append(end)
+                tree |= {dart, world.alpha[dart]}
+    return tree
 
 
 def _flat(world: World) -> _Torus:
@@ -230,3 +246,100 @@ def _parts(place: Floats, step: Floats, trim: float) -> list[Floats]:
         home = np.floor(place + (begin + end) / 2 * step)
         pieces.append(np.array([place + begin * step - home, place + end * step - home]))
     return pieces
+
+
+# ---------------------------------------------------------------- one face: a polygon
+
+LETTERS = "abcdefghijklmnopqrstuvwxyz"
+"""The names of the pairs of sides."""
+
+SMALL = 0.04
+"""The radius of vertices in a polygon of width 2 below which bridges are easier to read."""
+
+
+def polygon(world: World) -> Layout | None:
+    """The layout of a small world with one face and a genus; None of any other world."""
+    if not 0 < 2 * world.genus <= len(LETTERS) or len(world.faces) > 1:
+        return None
+    tree = _tree(world, max(range(len(world.vertices)), key=lambda v: len(world.vertices[v])))
+    stops = [*_contour(world, tree)]
+    spokes = [dart for dart in stops if dart not in tree]
+    angle = _angles(stops, tree)
+    rim = {dart: np.array([cos(a), sin(a)]) for dart, a in angle.items()}
+    centres = _held(world, tree, rim)
+    tails = [centres[world.vertex_of[dart]] for dart in range(len(world.alpha))]
+    chains = [
+        np.array([tails[dart], tails[world.alpha[dart]] if dart in tree else rim[dart]])
+        for dart in range(len(world.alpha))
+    ]
+    radius = clear_radius(centres, chains, 0.0)
+    if radius < SMALL:
+        return None
+    scale, half = RADIUS / radius, pi / len(spokes)
+    corners = np.array([[cos(angle[d] - half), sin(angle[d] - half)] for d in spokes]) / cos(half)
+    low, high = corners.min(0), corners.max(0)
+    margin = (MARGIN + 1) * RADIUS  # there are letters outside
+
+    def on_page(points: Floats) -> tuple[Point, ...]:
+        return _points((points - low) * scale + margin)
+
+    def part(dart: Dart) -> tuple[Point, ...]:
+        """From the circle of the dart's vertex on, to a side or to another circle."""
+        start, end = chains[dart]
+        trim = (end - start) * radius / float(np.hypot(*(end - start)))
+        return on_page(np.array([start + trim, end - trim if dart in tree else end]))
+
+    width, height = ((high - low) * scale + 2 * margin).round(2).tolist()
+    names: dict[Dart, str] = {}
+    for dart in spokes:
+        names[dart] = names.get(world.alpha[dart]) or LETTERS[len({*names.values()})]
+    return Layout(
+        kind="cell",
+        width=width,
+        height=height,
+        radius=RADIUS,
+        centres=on_page(centres),
+        paths=tuple(
+            tuple(map(curves.straight, [part(a)] if a in tree else [part(a), part(b)[::-1]]))
+            for a, b in world.edges
+        ),
+        cell=Cell(on_page(corners), "".join(names[dart] for dart in spokes)),
+    )
+
+
+def _contour(world: World, tree: set[Dart]) -> Iterator[Dart]:
+    """Clockwise around the tree, from the marker on: all darts of other edges, and dead ends."""
+    start = dart = world.root or 0
+    while True:
+        if dart not in tree or world.sigma[dart] == dart:
+            yield dart
+        dart = world.sigma[world.alpha[dart] if dart in tree else dart]
+        if dart == start:
+            return
+
+
+def _angles(stops: Iterable[Dart], tree: set[Dart]) -> dict[Dart, float]:
+    """By stop, its angle: spokes are spread evenly, the first one up; dead ends lie between."""
+    groups: list[list[Dart]] = [[]]
+    for dart in stops:
+        groups += [] if dart in tree else [[]]
+        groups[-1].append(dart)
+    groups[-1] += groups.pop(0)  # before the first spoke is behind the last one
+    step = 2 * pi / len(groups)
+    return {
+        dart: step * (k + place / len(group)) - pi / 2
+        for k, group in enumerate(groups)
+        for place, dart in enumerate(group)
+    }
+
+
+def _held(world: World, tree: set[Dart], rim: Mapping[Dart, Floats]) -> Floats:
+    """Each vertex in the middle of its neighbours in the tree and of its points on the rim."""
+    size = len(world.vertices)
+    matrix, right = np.zeros((size, size)), np.zeros((size, 2))
+    for dart, vertex in enumerate(world.vertex_of):
+        ends = [world.vertex_of[world.alpha[dart]]] if dart in tree else []
+        matrix[vertex, vertex] += len(ends) + (dart in rim)
+        matrix[vertex, ends] -= 1
+        right[vertex] += rim.get(dart, np.zeros(2))
+    return np.asarray(np.linalg.solve(matrix, right), np.float64)
