@@ -27,7 +27,7 @@ import numpy as np
 
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats, Ints, solve
-from topo_verify.world.drawing.layout import MARGIN, RADIUS, Cell, Layout, clear_radius
+from topo_verify.world.drawing.layout import MARGIN, RADIUS, CutSurface, Layout, clear_radius
 from topo_verify.world.formats.embedding import Point
 from topo_verify.world.rooted_map import Dart, World
 
@@ -82,7 +82,7 @@ def torus_cell(world: World) -> Layout | None:
             )
             for a, _ in world.edges
         ),
-        cell=Cell(_points(outline), "abab"),
+        cell=CutSurface(_points(outline), "abab"),
     )
 
 
@@ -303,7 +303,7 @@ def polygon(world: World) -> Layout | None:
             tuple(map(curves.straight, [part(a)] if a in tree else [part(a), part(b)[::-1]]))
             for a, b in world.edges
         ),
-        cell=Cell(on_page(corners), "".join(names[dart] for dart in spokes)),
+        cell=CutSurface(on_page(corners), "".join(names[dart] for dart in spokes)),
     )
 
 

@@ -36,7 +36,7 @@ class Bridge:
     path: str
 
 
-class Cell(NamedTuple):
+class CutSurface(NamedTuple):
     """A surface cut open: a polygon whose sides are glued in pairs.
 
     Attributes:
@@ -79,7 +79,7 @@ class Layout:
     bridges: tuple[Bridge, ...] = ()
     stubs: tuple[tuple[Dart, str], ...] = ()
     hidden: frozenset[int] = frozenset()
-    cell: Cell | None = None
+    cell: CutSurface | None = None
 
 
 # ---------------------------------------------------------------- places in a plane as a layout

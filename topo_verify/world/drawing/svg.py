@@ -20,7 +20,7 @@ from topo_verify.errors import plural, shown
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats
 from topo_verify.world.drawing.curves import number
-from topo_verify.world.drawing.layout import Cell, Layout
+from topo_verify.world.drawing.layout import CutSurface, Layout
 from topo_verify.world.formats.embedding import Point
 from topo_verify.world.rooted_map import Dart, World
 
@@ -119,7 +119,7 @@ def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[st
         yield from _dart_labels(world, layout, doors, darts)
 
 
-def _cell(cell: Cell, radius: float) -> Iterator[str]:
+def _cell(cell: CutSurface, radius: float) -> Iterator[str]:
     """The border of a cell: sides that are the same line have one colour and one letter."""
     (x, y), *others = cell.corners
     dash = f"{number(0.5 * radius)} {number(0.4 * radius)}"
