@@ -55,6 +55,45 @@ def test_standard_input_is_a_log(results: Results) -> None:
     assert entry["verdict"] == "PROVED"
 
 
+@pytest.mark.parametrize(
+    "table",
+    [
+        "door,degree,marker\n,2,0\n0,2,\n1,2,1\n",
+        "\ufeffTime; Marker;Degree;Door\r\n;0;2;\r\n\r\n7;;2; 0\r\n8;1;2;1\r\n",
+        'marker\tdoor\tdegree\n0\t\t2\n\t0\t"2"\n1\t1\t2',
+    ],
+)
+def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
+    Path("ring.csv").write_text(table, encoding="utf-8", newline="")
+    (entry,) = results("certify ring.csv")["results"]
+    assert (entry["verdict"], entry["edges"], entry["advice"]) == ("PROVED", 2, None)
+
+
+@pytest.mark.parametrize(
+    ("table", "why"),
+    [
+        ("door,degree\n,2\n", "t.csv, row 1: expected the columns door, degree, marker"),
+        ("door,degree,marker\n", "t.csv: expected a row with the percept at the start"),
+        ("door,degree,marker\n0,2,0\n", "row 2: expected no door: the robot starts, got '0'"),
+        ("door,degree,marker\n,2,0\n,2,\n", "row 3: expected a door, as in every row but"),
+        ("door,degree,marker\n\n,2,0\n1,two,\n", "row 4: expected a number as degree, got 'two'"),
+        ("door,degree,marker\n,2,0\n1,,\n", "row 3: expected a number as degree, got ''"),
+        ("door,degree,marker\n,2,0\n1,9000000,\n", "row 3: Expected `int` <= 1000000"),
+    ],
+)
+def test_an_error_in_a_table_names_the_row(refused: Refused, table: str, why: str) -> None:
+    Path("t.csv").write_text(table)
+    refused("certify t.csv", why)
+
+
+def test_an_incomplete_log_gets_advice(call: Call, results: Results) -> None:
+    (entry,) = results("certify short.jsonl", code=3)["results"]
+    assert entry["advice"] == {"walk": [1], "home": [0]}
+    text = " ".join(call("certify short.jsonl").stdout.split())
+    assert "Next, from where the log ends: take door 1, and certify the longer log." in text
+    assert "Back to the marker, from where the log ends: take door 0." in text
+
+
 def test_a_log_that_no_world_shows_is_refuted_and_exits_1(call: Call, results: Results) -> None:
     Path("false.jsonl").write_text(RING.replace('"marker": 1', '"marker": 7'))
     (entry,) = results("certify false.jsonl", code=1)["results"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -21,8 +20,10 @@ from topo_verify.errors import InputError, InternalError, plural
 from topo_verify.proofs.mechanised import certificate_format, certificates, evidence
 from topo_verify.proofs.mechanised.certificates import CertificateCheck
 from topo_verify.report.blocks import Block, Bullets, Text, TextTable
-from topo_verify.robot.events import Trace, read_events
+from topo_verify.robot.events import Trace
 from topo_verify.robot.limits import MOST_SECONDS
+from topo_verify.studies.advice import Advice, advice
+from topo_verify.studies.log_file import read_log
 from topo_verify.studies.log_report import Certificate, OpenDoor, open_doors
 from topo_verify.studies.log_report import certify as judge
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
@@ -121,6 +122,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
             shows it, or a map or decision in it does not follow.
         vertices, edges: of the proved map; of the smaller witness if there is none.
         open_doors: those of an incomplete log, nearest to its end first; at most 100.
+        advice: how to go on so that the map is proved in the end; null: nothing is left to walk.
         witnesses: two worlds that show this log and differ: the files if written, else the ids.
         kernel: the certificate for Coq; null without --kernel.
         trace: the file of the log.
@@ -133,6 +135,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     edges: int
     open_darts: int
     open_doors: tuple[OpenDoor, ...]
+    advice: Advice | None
     decisions: DecisionCount
     witnesses: tuple[str, ...]
     findings: tuple[Finding, ...]
@@ -175,14 +178,15 @@ def certify(  # noqa: PLR0913  an argument an option
 ) -> int:
     """Judge logs of percepts and doors, with no world at all.
 
-    TRACE is a file in JSON Lines, or - for standard input: a `start` with the first percept, then a
-    `move` with door and percept for each edge that was crossed. PROVED: one world alone shows this
-    log, and it is the map. UNKNOWN (exit code 3): the log is incomplete, several worlds show it;
-    the doors that it left open are named, each with a way there. REFUTED (1): no world shows it, or
-    a map or decision that it delivers does not follow. With --kernel the same is stated in Coq for
-    that very log, in a file certificate_LOG.cert, and proved by computation. So are the delivered
-    map, and each declared decision that follows from the log before it. Where something cannot be
-    checked the exit code is 3.
+    TRACE is a file, or - for standard input: in JSON Lines a `start` with the first percept, then a
+    `move` with door and percept for each edge that was crossed; or a CSV table with the columns
+    door, degree, marker, whose first row has no door. PROVED: one world alone shows this log, and
+    it is the map. UNKNOWN (exit code 3): the log is incomplete, several worlds show it; the doors
+    that it left open are named, each with a way there, and where to go next to prove the map.
+    REFUTED (1): no world shows it, or a map or decision that it delivers does not follow. With
+    --kernel the same is stated in Coq for that very log, in a file certificate_LOG.cert, and proved
+    by computation. So are the delivered map, and each declared decision that follows from the log
+    before it. Where something cannot be checked the exit code is 3.
 
     With --check a certificate that you received is checked by Coq: accepted (0), refused (1), not
     readable as a certificate (2), or not checked, for want of Coq, time or memory (3). Exit code 3
@@ -194,7 +198,7 @@ def certify(  # noqa: PLR0913  an argument an option
 
         def checked() -> Iterator[Result[CertificateEntry]]:
             with certificates.checking(timeout=timeout, progress=doing) as check:
-                log = None if about is None else _read(about)
+                log = None if about is None else read_log(about)
                 yield _checked(received, log, check)
 
         return output.run("certify", checked, _show_received)
@@ -205,7 +209,7 @@ def certify(  # noqa: PLR0913  an argument an option
         with certificates.checking(timeout=timeout, progress=doing) as check:
             for number, trace in enumerate(traces):
                 output.progress(f"folding {trace}", number, len(traces))
-                log = _read(trace)
+                log = read_log(trace)
                 try:
                     certificate = judge(log)
                 except InputError as error:
@@ -233,12 +237,6 @@ def _require_one_task(
         )
 
 
-def _read(trace: str) -> Trace:
-    name = _name(trace)
-    with nullcontext(files.standard_input()) if trace == "-" else files.opened(trace) as stream:
-        return tuple(read_events(files.lines(stream, name=name), name=name))
-
-
 def _name(trace: str) -> str:
     return "standard input" if trace == "-" else trace
 
@@ -255,6 +253,7 @@ def _result(
         certificate,
         trace=trace,
         open_doors=tuple(open_doors(certificate, MOST_OPEN_DOORS)),
+        advice=advice(certificate),
         decisions=DecisionCount(certificate.entailed, certificate.decisions),
         witnesses=_witnesses(trace, certificate, folder),
         findings=findings,
@@ -296,14 +295,8 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Text("")
             yield Text(f"{entry.trace}:")
             yield Bullets(tuple(map(finding_line, entry.findings[:5])))
-        if entry.open_doors:
-            yield Text("")
-            nearest = ", the nearest five" if entry.open_darts > 5 else ""
-            yield Text(
-                f"{entry.trace}: incomplete, true of several worlds, with"
-                f" {plural(entry.open_darts, 'door')} never crossed{nearest}:"
-            )
-            yield Bullets(tuple(map(_door_line, entry.open_doors[:5])))
+        if entry.advice is not None:
+            yield from _show_open(entry, entry.advice)
         if entry.witnesses:
             yield Text(f"{plural(len(entry.witnesses), 'world')} that show this log and differ:")
             yield Bullets(entry.witnesses)
@@ -311,14 +304,34 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield from _show_proof(entry.kernel)
 
 
-def _door_line(door: OpenDoor) -> str:
-    """Where to find an open door, and how to get there."""
-    way = ", ".join(map(str, door.walk))
-    doors = "door" if len(door.walk) == 1 else "doors"
-    return (
-        f"door {door.door} of the place reached at event {door.event}: from where the log ends,"
-        f" take {doors} {way}"
+def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
+    """What is missing in an incomplete log, and how to go on."""
+    yield Text("")
+    nearest = ", the nearest five" if entry.open_darts > 5 else ""
+    yield Text(
+        f"{entry.trace}: incomplete, true of several worlds, with"
+        f" {plural(entry.open_darts, 'door')} never crossed{nearest}:"
     )
+    yield Bullets(
+        tuple(
+            f"door {door.door} of the place reached at event {door.event}: from where the log ends,"
+            f" take {_doors(door.walk)}"
+            for door in entry.open_doors[:5]
+        )
+    )
+    home = f"take {_doors(advice.home)}" if advice.home else "it is here"
+    if advice.walk:
+        yield Text(
+            f"Next, from where the log ends: take {_doors(advice.walk)}, and certify the longer"
+            " log. A robot that goes on in this way proves the map in the end."
+        )
+    else:
+        yield Text("Next: go back to the marker, and certify the longer log from there.")
+    yield Text(f"Back to the marker, from where the log ends: {home}.")
+
+
+def _doors(walk: Sequence[int]) -> str:
+    return f"door{'s'[: len(walk) > 1]} {', '.join(map(str, walk))}"
 
 
 def _decisions(entry: CertifyEntry) -> str:

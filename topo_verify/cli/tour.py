@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import nullcontext
 
 import click
 import msgspec
@@ -16,8 +15,9 @@ from topo_verify.cli.runs import named_world
 from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text, TextTable
-from topo_verify.robot.events import Event, Move, Start, Trace, read_events, write_trace
+from topo_verify.robot.events import Event, Move, Start, Trace, write_trace
 from topo_verify.robot.percept import Door, Percept
+from topo_verify.studies.log_file import read_log
 from topo_verify.studies.map_check import check_map, tour_log
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import Dart, World
@@ -90,10 +90,10 @@ def tour(
     A robot that starts at the marker and sees all this has proved the map: no other world shows it.
     It need not come back, and no walk proves the map with fewer moves.
 
-    With --against, WORLD is a map and LOG is what a robot has seen so far, `start` and `move`
-    events. If the map is refuted, the event is named (exit code 1). If it is proved, that is said
-    (0). Otherwise the edges that are not proved yet are named, with a way to go on from where the
-    log ends (3). That way is the cheapest of several plans; in some cases there is a cheaper one.
+    With --against, WORLD is a map and LOG is what a robot has seen so far, as for certify. If the
+    map is refuted, the event is named (exit code 1). If it is proved, that is said (0). Otherwise
+    the edges that are not proved yet are named, with a way to go on from where the log ends (3).
+    That way is the cheapest of several plans; in some cases there is a cheaper one.
     """
 
     def toured() -> Iterator[Result[TourEntry]]:
@@ -138,8 +138,7 @@ def _against(world: World, log: str) -> tuple[Trace, Sequence[Event], LogAgainst
     Of a log that refutes the map nothing is left out; else what a mapper declared is.
     """
     name = "standard input" if log == "-" else log
-    with files.opened(log) if log != "-" else nullcontext(files.standard_input()) as stream:
-        seen = tuple(read_events(files.lines(stream, name=name), name=name))
+    seen = read_log(log)
     try:
         found = check_map(world, seen)
     except InputError as error:

@@ -129,7 +129,7 @@ def open_doors(certificate: Certificate, most: int | None = None) -> list[OpenDo
     """The open doors of an incomplete log, breadth-first from where it ends; of others none.
 
     Args:
-        most: name so many, the nearest; None: all.
+        most: the number of doors to name, the nearest; None: all.
     """
     fold = certificate.fold
     if fold is None or not certificate.open_darts:
@@ -145,29 +145,44 @@ def open_doors(certificate: Certificate, most: int | None = None) -> list[OpenDo
 
 def _nearest(fold: Fold) -> Iterator[tuple[int, int, tuple[Door, ...]]]:
     """Each open dart, nearest to the robot first: a node, its dart, and the doors to take."""
-    start, reference = fold.find(fold.at)
-    entries = {start: reference}  # of each place found: the dart by which the search came in
-    taken: dict[int, tuple[int, Door]] = {}  # from where, and by which door
-    queue = [start]
-    for node in queue:  # grows as it goes
+    for node, entry, walk in _places(fold):
         degree = fold.degree(node)
         for door in range(degree):
-            dart = (entries[node] + door) % degree
-            end = fold.partner((node, dart))
-            if end is None:
-                yield node, dart, (*_walk(taken, node), door)
-            elif end[0] not in entries:
-                entries[end[0]], taken[end[0]] = end[1], (node, door)
-                queue.append(end[0])
+            dart = (entry + door) % degree
+            if fold.partner((node, dart)) is None:
+                yield node, dart, (*_doors(walk), door)
 
 
-def _walk(taken: dict[int, tuple[int, Door]], node: int) -> list[Door]:
-    """The doors that lead to a place that was found."""
+def way_to(fold: Fold, place: int) -> tuple[tuple[Door, ...], int]:
+    """The doors of a shortest way from where the log ends to a node, and the dart of arrival."""
+    return next((_doors(walk), entry) for node, entry, walk in _places(fold) if node == place)
+
+
+_Walk = tuple["_Walk", Door] | None
+"""The doors of a walk, the last one first; None: no door."""
+
+
+def _places(fold: Fold) -> Iterator[tuple[int, int, _Walk]]:
+    """The places of a fold, nearest to the robot first: a node, its dart of arrival, the walk."""
+    start, reference = fold.find(fold.at)
+    found = {start}
+    queue: list[tuple[int, int, _Walk]] = [(start, reference, None)]
+    for node, entry, walk in queue:  # grows as it goes
+        yield node, entry, walk
+        degree = fold.degree(node)
+        for door in range(degree):
+            end = fold.partner((node, (entry + door) % degree))
+            if end is not None and end[0] not in found:
+                found.add(end[0])
+                queue.append((*end, (walk, door)))
+
+
+def _doors(walk: _Walk) -> tuple[Door, ...]:
     doors: list[Door] = []
-    while node in taken:
-        node, door = taken[node]
+    while walk is not None:
+        walk, door = walk
         doors.append(door)
-    return doors[::-1]
+    return tuple(reversed(doors))
 
 
 def _reached(

@@ -1,0 +1,68 @@
+"""What the advice of `certify` costs: followed from the start, beside `homing` and the least cost.
+
+    .venv/bin/python benchmarks/advice.py
+
+100 random worlds each. In the second half the robot has strolled at random before it asks; its cost
+is all that it walks after that.
+"""
+
+from __future__ import annotations
+
+from random import Random
+from statistics import mean
+
+import topo_verify as tv
+from topo_verify.robot.events import Event, Start
+from topo_verify.robot.simulator import exit_dart, first_percept
+from topo_verify.studies.advice import advice
+from topo_verify.studies.log_report import certify
+from topo_verify.studies.map_check import moves
+
+STROLL = 50
+"""Random moves before the robot asks."""
+
+
+def followed(world: tv.World, stroll: int, random: Random) -> tuple[int, int]:
+    """The moves after the stroll until the map is proved, and how often the robot asked."""
+    at = world.root or 0
+    log: list[Event] = [Start(percept=first_percept(world))]
+
+    def go(doors: tuple[int, ...]) -> None:
+        nonlocal at
+        log.extend(moves(world, at, doors))
+        for door in doors:
+            at = world.alpha[exit_dart(world, at, door)]
+
+    for _ in range(stroll):
+        go((random.randrange(world.degrees[world.vertex_of[at]]),))
+    rounds = 0
+    while (way := advice(certify(log))) is not None:
+        go(way.walk)
+        rounds += 1
+    return len(log) - 1 - stroll, rounds
+
+
+def main() -> None:
+    """Print the table."""
+    kinds = {
+        "random_tree(20)": lambda seed: tv.families.random_tree(20, seed=seed),
+        "random_planar(26)": lambda seed: tv.families.random_planar(26, seed=seed),
+        "lattice(5,5,holes=0.2)": lambda seed: tv.families.lattice(5, 5, holes=0.2, seed=seed),
+        "random_genus(26,1)": lambda seed: tv.families.random_genus(26, 1, seed=seed),
+    }
+    print("| worlds, 25 each | edges | least cost | homing | advice | after a stroll | rounds |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
+    for name, make in kinds.items():
+        rows: list[tuple[int, ...]] = []
+        for seed in range(25):
+            world, random = make(seed), Random(seed)
+            cost, rounds = followed(world, 0, random)
+            later, _ = followed(world, STROLL, random)
+            homing = tv.explore(world, "homing").cost
+            rows.append((len(world.edges), world.least_cost(), homing, cost, later, rounds))
+        columns = " | ".join(f"{mean(column):.1f}" for column in zip(*rows, strict=True))
+        print(f"| `{name}` | {columns} |")
+
+
+if __name__ == "__main__":
+    main()
