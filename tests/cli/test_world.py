@@ -27,7 +27,7 @@ def test_show_has_the_promised_fields(results: Results) -> None:
         "name": "m3/14", "id": "m3/14", "vertices": 3, "edges": 3, "faces": 2, "genus": 0,
         "degrees": [2, 3, 1], "simple": False, "loopless": True, "planar": True, "marker": 0,
         "least_cost": 4, "rotation": [[0, 1], [2, 3, 4], [5]],
-        "edge_darts": [[0, 2], [1, 3], [4, 5]], "vertex_names": [],
+        "edge_darts": [[0, 2], [1, 3], [4, 5]], "vertex_names": [], "twin": None,
     }  # fmt: skip
 
 
@@ -287,3 +287,20 @@ def test_a_vertex_that_is_not_there_is_refused(call: Call, refused: Refused) -> 
 @pytest.mark.parametrize("name", ["w.gif", "svg", ""])
 def test_a_name_with_another_ending_is_refused(refused: Refused, name: str) -> None:
     refused(f"world draw m2/0 -o '{name}'", "expected a name that ends in .svg, .png, .pdf, .html")
+
+
+def test_a_twin_is_shown_and_drawn_beside_the_world(call: Call, results: Results) -> None:
+    text = call("world show m2/7 --twin undirected -o both.svg").stdout
+    assert "m2/7 has a twin without the marker's direction, m2/8, of genus 1" in text
+    assert Path("both.svg").read_text().count("<svg ") == 3
+    (entry,) = results("world show m6/18704 --twin undirected")["results"]
+    twin = entry["twin"]
+    assert (twin["id"], twin["genus"], twin["why"], twin["file"]) == ("m6/18705", 0, "", None)
+    assert results("world show m2/7")["results"][0]["twin"] is None
+
+
+def test_a_world_without_a_twin_says_why(call: Call) -> None:
+    text = call("world show m3/28 m1/0 --twin undirected").stdout
+    assert "m3/28 has no twin without the marker's direction: no two darts look alike." in text
+    assert "m1/0 has no twin without the marker's direction: a tree" in text
+    assert "m2/3 has a twin without a marker" in call("world show m2/3 --twin none").stdout

@@ -1,6 +1,6 @@
 """The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
 
-verify.py, explore.py, world.py, search.py, prove.py, faults.py,
+verify.py, explore.py, world.py (twins.py), search.py, prove.py, faults.py,
 conform.py, record.py, compare.py, replay.py, play.py, certify.py, tour.py,
 arena.py (arena_files.py, arena_game.py), header.py, reproduce.py  the commands
 runs.py       worlds as the user names them; judged runs, findings and walks as shown

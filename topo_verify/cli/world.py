@@ -17,6 +17,7 @@ from topo_verify.cli import options
 from topo_verify.cli.failures import epilog
 from topo_verify.cli.output import Live, Output, Result, entry_of, written
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
+from topo_verify.cli.twins import TwinEntry, rotation_table, twin_blocks, twin_entry
 from topo_verify.errors import InputError, plural
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
 from topo_verify.world.enumeration.classes import WorldClass
@@ -25,6 +26,7 @@ from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, Table
 from topo_verify.world.formats import files, graphml, node_link, planar_code
 from topo_verify.world.io import format_of_name
 from topo_verify.world.rooted_map import Dart, World
+from topo_verify.world.twins import MODELS, MarkerModel
 
 FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
     "json": (World.to_json, ".json"),
@@ -55,6 +57,7 @@ class ShowEntry(msgspec.Struct, frozen=True):
         simple, loopless, planar: whether the world is in this class.
         source, licence: of the world's file; empty: it names none.
         vertex_names: of the world's file; empty: it names none.
+        twin: with --twin.
     """
 
     name: str
@@ -74,22 +77,49 @@ class ShowEntry(msgspec.Struct, frozen=True):
     rotation: tuple[tuple[int, ...], ...]
     edge_darts: tuple[tuple[int, int], ...]
     vertex_names: tuple[str, ...]
+    twin: TwinEntry | None
 
 
-@options.command("world show nyc", "world show m5/17 --format json", group=world)
+@options.command(
+    "world show nyc",
+    "world show m5/17 --format json",
+    "world show m2/7 --twin undirected -o twins.svg",
+    group=world,
+)
 @click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
 @options.marker
-def show(output: Output, *, worlds: tuple[str, ...], marker: int | None) -> int:
+@click.option(
+    "--twin",
+    "model",
+    type=click.Choice(MODELS),
+    help="Show another world that no robot can tell from this one if the marker shows no direction"
+    " (undirected) or if there is no marker (none).",
+)
+@click.option(
+    "-o", "file", metavar="FILE.svg", help="With --twin: draw both worlds side by side to FILE."
+)
+def show(
+    output: Output,
+    *,
+    worlds: tuple[str, ...],
+    marker: int | None,
+    model: MarkerModel | None,
+    file: str | None,
+) -> int:
     """Show a world: its size, genus, degrees and id, and its rotation as the world file has it."""
+    if file is not None and (model is None or len(worlds) > 1 or not file.endswith(".svg")):
+        raise InputError(
+            f"-o {file}: expected --twin MODEL, one WORLD, and a name that ends in .svg"
+        )
 
     def shown() -> Iterator[Result[ShowEntry]]:
         for at in named_worlds(worlds, marker):
-            yield Result(_shown(at))
+            yield Result(_shown(at, None if model is None else twin_entry(at.world, model, file)))
 
     return output.run("world-show", shown, _show)
 
 
-def _shown(at: NamedWorld) -> ShowEntry:
+def _shown(at: NamedWorld, twin: TwinEntry | None) -> ShowEntry:
     world = at.world
     return entry_of(
         ShowEntry,
@@ -105,6 +135,7 @@ def _shown(at: NamedWorld) -> ShowEntry:
         least_cost=world.least_cost(),
         rotation=world.vertices,
         edge_darts=world.edges,
+        twin=twin,
     )
 
 
@@ -119,7 +150,7 @@ def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
         facts["degrees"] = ", ".join(f"{number} of degree {d}" for d, number in degrees)
         facts["marker"] = "none" if entry.marker is None else f"at dart {entry.marker}"
         facts["least cost"] = plural(facts.pop("least_cost"), "edge traversal")
-        for listed in ("rotation", "edge_darts", "vertex_names"):
+        for listed in ("rotation", "edge_darts", "vertex_names", "twin"):
             del facts[listed]
         rows = [
             (name, Cell(_word(fact), whole=True))  # here one comes for the whole id
@@ -129,26 +160,9 @@ def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
         yield TextTable(("property", "value"), rows, headed=False)
         if entry.edges:
             yield Text("")
-            yield _rotation(entry)
-
-
-def _rotation(entry: ShowEntry) -> TextTable:
-    """Each vertex with its darts clockwise, and in the same order where their edges lead."""
-    other = {dart: end for a, b in entry.edge_darts for dart, end in ((a, b), (b, a))}
-    vertex = {dart: v for v, darts in enumerate(entry.rotation) for dart in darts}
-    named = bool(entry.vertex_names)
-    rows = [
-        (
-            str(v),
-            *(entry.vertex_names[v : v + 1]),
-            " ".join(map(str, darts)),
-            " ".join(str(other[dart]) for dart in darts),
-            " ".join(str(vertex[other[dart]]) for dart in darts),
-        )
-        for v, darts in enumerate(entry.rotation)
-    ]
-    columns = (">vertex", *["name"] * named, "darts clockwise", "to darts", "at vertices")
-    return TextTable(columns, rows)
+            yield rotation_table(entry.rotation, entry.edge_darts, entry.vertex_names)
+        if entry.twin is not None:
+            yield from twin_blocks(entry.name, entry.twin)
 
 
 def _word(fact: object) -> str:

@@ -56,6 +56,7 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[Event]:
         InputError: a column is missing, or a row is no move.
     """
     titles: list[str] = []
+    separator = ","
     begun = False
     for number, line in enumerate(lines, 1):
         text = line.decode("utf-8-sig", errors="replace").strip("\r\n")

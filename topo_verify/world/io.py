@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import os
 from os import PathLike
-from typing import TypeVar
+from typing import Literal, TypeVar
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.rooted_map import World
@@ -114,3 +114,10 @@ def draw(world: World, path: str | PathLike[str] | None = None) -> str:
     if kind is not None and path is not None:
         files.write(path, document(world, layout, kind))
     return to_svg(world, layout)
+
+
+def twin(world: World, model: Literal["undirected", "none"]) -> World | None:
+    """A twin of the world, or None."""
+    from topo_verify.world.twins import find_twin
+
+    return find_twin(world, model)[0]

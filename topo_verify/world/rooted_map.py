@@ -21,7 +21,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
-from typing import Any, ClassVar, Protocol, Self, TypeVar
+from typing import Any, ClassVar, Literal, Protocol, Self, TypeVar
 
 from topo_verify.errors import InputError
 from topo_verify.world import validation
@@ -46,6 +46,7 @@ class _Formats(Protocol):
     def encode(self, world: World) -> str: ...
     def save(self, world: World, path: str | PathLike[str]) -> None: ...
     def draw(self, world: World, path: str | PathLike[str] | None = None) -> str: ...
+    def twin(self, world: World, model: Literal["undirected", "none"]) -> World | None: ...
 
 
 @dataclass(frozen=True, eq=False, repr=False)  # no slots: cached_property needs `__dict__`
@@ -173,11 +174,7 @@ class World:
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Self:
-        """The world in this world JSON; the inverse of `to_json`.
-
-        Raises:
-            InputError: as `load`.
-        """
+        """The world in this world JSON; the inverse of `to_json`. Raises InputError as `load`."""
         return cls.formats.decode(cls, text)
 
     def to_json(self) -> str:
@@ -387,10 +384,13 @@ class World:
         Args:
             path: also write it to this file: .svg, .png, .pdf or .html.
         Raises:
-            InputError: the file cannot be written, its name has another ending, or a PNG or a PDF
-                is asked for and the extra `draw` is not installed.
+            InputError: as `io.draw`.
         """
         return self.formats.draw(self, path)
+
+    def twin(self, model: Literal["undirected", "none"] = "undirected") -> World | None:
+        """Another world that looks the same without the marker's direction, or None: twins.py."""
+        return self.formats.twin(self, model)
 
     def _repr_svg_(self) -> str:
         return self.draw()

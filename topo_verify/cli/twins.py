@@ -1,0 +1,104 @@
+"""What `world show` prints of rotations, and of twins: worlds that look the same."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+import msgspec
+
+from topo_verify.report.blocks import Block, Text, TextTable
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import Dart, World
+from topo_verify.world.twins import MarkerModel, find_twin
+
+
+class TwinEntry(msgspec.Struct, frozen=True):
+    """Another world that looks the same without the marker's direction, or why there is none.
+
+    Attributes:
+        model: what a robot senses of the marker: where it lies (undirected), or nothing (none).
+        id: of the twin; null: there is none, or it has over 200 edges.
+        why: the reason why there is none; "no exchange ..." is none that excludes a twin.
+        rotation, edge_darts: of the twin, as for the world; empty without one.
+        file: the picture of both; null without -o.
+    """
+
+    model: str
+    id: str | None
+    genus: int | None
+    why: str
+    rotation: tuple[tuple[int, ...], ...]
+    edge_darts: tuple[tuple[int, int], ...]
+    file: str | None
+
+
+def twin_entry(world: World, model: MarkerModel, file: str | None) -> TwinEntry:
+    """The twin of a world; both are drawn to the file, if one is named."""
+    other, why = find_twin(world, model)
+    if other is None:
+        return TwinEntry(model, None, None, why, (), (), None)
+    if file is not None:
+        files.write(file, _side_by_side(world.draw(), other.draw()))
+    return TwinEntry(
+        model,
+        other.id if len(other.edges) <= MAX_ID_EDGES else None,
+        other.genus,
+        "",
+        other.vertices,
+        other.edges,
+        file,
+    )
+
+
+def _side_by_side(*pictures: str) -> str:
+    """One SVG with these, from left to right."""
+    parts: list[str] = []
+    x = height = 0.0
+    for picture in pictures:
+        size = re.search(r'width="([0-9.]+)" height="([0-9.]+)"', picture)
+        assert size is not None, "a drawing states its size"
+        parts.append(picture.replace("<svg ", f'<svg x="{x:g}" ', 1))
+        x, height = x + float(size[1]), max(height, float(size[2]))
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {x:g} {height:g}">'
+    return "\n".join([head, *parts, "</svg>\n"])
+
+
+def twin_blocks(name: str, twin: TwinEntry) -> Iterator[Block]:
+    """The twin of the world of this name, or why there is none."""
+    sensed = "without a marker" if twin.model == "none" else "without the marker's direction"
+    yield Text("")
+    if twin.why:
+        yield Text(f"{name} has no twin {sensed}: {twin.why}.")
+        return
+    other = twin.id or "of over 200 edges"
+    yield Text(
+        f"{name} has a twin {sensed}, {other}, of genus {twin.genus}: on every walk a robot"
+        " senses the same in both."
+    )
+    yield rotation_table(twin.rotation, twin.edge_darts)
+    if twin.file is not None:
+        yield Text(f"Both are drawn in {twin.file}.")
+
+
+def rotation_table(
+    rotation: Sequence[Sequence[Dart]],
+    edges: Iterable[tuple[Dart, Dart]],
+    names: Sequence[str] = (),
+) -> TextTable:
+    """Each vertex with its darts clockwise, and in the same order where their edges lead."""
+    other = {dart: end for a, b in edges for dart, end in ((a, b), (b, a))}
+    vertex = {dart: v for v, darts in enumerate(rotation) for dart in darts}
+    rows = [
+        (
+            str(v),
+            *names[v : v + 1],
+            " ".join(map(str, darts)),
+            " ".join(str(other[dart]) for dart in darts),
+            " ".join(str(vertex[other[dart]]) for dart in darts),
+        )
+        for v, darts in enumerate(rotation)
+    ]
+    columns = (">vertex", *["name"] * bool(names), "darts clockwise", "to darts", "at vertices")
+    return TextTable(columns, rows)

@@ -1,0 +1,159 @@
+"""Twins: two different worlds that look the same to every robot without the marker's direction.
+
+A robot whose marker shows no direction senses at a dart the degree, and whether the marker is here
+(`undirected`); without a marker the degree alone (`none`). Two darts are **alike** if no walk from
+them senses a difference. The alike darts of a world are found by refining a partition: split by
+what is sensed, then by the classes of the next dart and of the other end, until nothing changes.
+
+**Making a twin.** Exchange the far ends of two edges whose darts are alike. Each dart is still
+alike to itself, so nothing that a robot senses has changed. If the world stays connected and is not
+isomorphic to what it was, it is a twin. One of another genus is preferred, for two worlds may also
+differ by their marked darts alone. Without a marker, two copies of the world, joined crosswise at
+an edge on a cycle, are a twin with twice the edges.
+
+**When there is none.** With the mark, worlds that look like W are coverings of its quotient by
+alike darts, with as many sheets N as W has, because the mark lies on one vertex. There is one of
+them alone if N = 1 (no two darts alike), if W has at most one cycle, or if N = 2 and the quotient
+has no cycle. In every world with up to 6 edges these are all cases, and one exchange makes a twin
+wherever none of them holds (`benchmarks/twins.py`). Neither is proved for larger worlds, where the
+answer may be that no exchange makes one. Without a marker a world is determined iff it is a tree.
+
+With the direction seen no world has a twin: no two darts are alike, since one alone is marked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Iterator, Sequence
+from itertools import combinations, islice
+from typing import Literal, get_args
+
+from topo_verify.errors import InputError, InternalError
+from topo_verify.world.permutations import cycles
+from topo_verify.world.rooted_map import Dart, World
+
+MarkerModel = Literal["undirected", "none"]
+"""What of the marker is sensed: where it lies but not its direction, or nothing."""
+
+MODELS: tuple[MarkerModel, ...] = get_args(MarkerModel)
+
+MOST_TRIED = 500
+"""Most twins among which one of another genus is looked for."""
+
+
+def find_twin(world: World, model: MarkerModel) -> tuple[World | None, str]:
+    """A twin; or None, and why there is none.
+
+    Raises:
+        InputError: there is no such model.
+    """
+    if model not in MODELS:
+        raise InputError(f"expected one of {', '.join(MODELS)}, got {model!r}")
+    if why := no_twin(world, model):
+        return None, why
+    made = _exchanged(world) if model == "undirected" else _doubled(world)
+    others = (other for other in made if not world.is_isomorphic(other))
+    twin = next(others, None)
+    if twin is None:
+        return None, "no exchange of two edges makes one"
+    if twin.genus == world.genus and model == "undirected":
+        later = islice(others, MOST_TRIED)
+        twin = next((other for other in later if other.genus != world.genus), twin)
+    if not look_alike(world, twin, model):
+        raise InternalError(f"{world!r} and its twin {twin!r} do not look the same")
+    return twin, ""
+
+
+def no_twin(world: World, model: MarkerModel) -> str:
+    """Why no other world looks the same; "" if that is not known."""
+    n, m = len(world.vertices), len(world.edges)
+    if m < n:
+        return "a tree is determined by its degrees and their order"
+    if model == "none":
+        return ""
+    classes = alike_darts(world, model)
+    sheets = len(classes) // len(set(classes))
+    if sheets == 1:
+        return "no two darts look alike"
+    if m == n:
+        return "it has only one cycle"
+    if sheets == 2 and not _has_cycle(world, classes):
+        return "its darts look alike in pairs, and folded along them it is a tree"
+    return ""
+
+
+def alike_darts(world: World, model: MarkerModel) -> list[int]:
+    """The class of each dart: equal for darts from which no walk senses a difference."""
+    classes, count = _numbered(sensed(world, model)), 0
+    while count != (count := len(set(classes))):
+        pairs = zip(classes, world.sigma, world.alpha, strict=True)
+        classes = _numbered((own, classes[after], classes[end]) for own, after, end in pairs)
+    return classes
+
+
+def sensed(world: World, model: MarkerModel) -> list[tuple[int, bool]]:
+    """What is sensed at each dart: the degree, and whether the marker is here."""
+    marked = world.marker_vertex if model == "undirected" else None
+    return [(world.degrees[v], v == marked) for v in world.vertex_of]
+
+
+def look_alike(world: World, other: World, model: MarkerModel) -> bool:
+    """Whether every walk senses the same in both worlds: they are walked side by side."""
+    here, there = sensed(world, model), sensed(other, model)
+    pairs = [(world.root or 0, other.root or 0)]
+    known = set(pairs)
+    for a, b in pairs:  # grows as it goes
+        if here[a] != there[b]:
+            return False
+        for end in (
+            (world.sigma[a], other.sigma[b]),
+            (world.alpha[a], other.alpha[b]),
+        ):
+            if end not in known:
+                known.add(end)
+                pairs.append(end)
+    return True
+
+
+def _numbered(keys: Iterable[Hashable]) -> list[int]:
+    number: dict[Hashable, int] = {}
+    return [number.setdefault(key, len(number)) for key in keys]
+
+
+def _has_cycle(world: World, classes: Sequence[int]) -> bool:
+    """Whether the quotient by alike darts has a cycle; half an edge is none."""
+    representative = {own: dart for dart, own in enumerate(classes)}
+    sigma = [classes[world.sigma[representative[own]]] for own in range(len(representative))]
+    edges = {frozenset((classes[a], classes[b])) for a, b in world.edges}
+    return sum(len(edge) == 2 for edge in edges) >= len(cycles(sigma))
+
+
+def _joined(alpha: list[Dart], pairs: Iterable[tuple[Dart, Dart]], world: World) -> World | None:
+    """The world with these pairs of darts as edges; None if it is not connected any more."""
+    for a, b in pairs:
+        alpha[a], alpha[b] = b, a
+    copies = len(alpha) // len(world.alpha)
+    sigma = [s + k * len(world.alpha) for k in range(copies) for s in world.sigma]
+    try:
+        return World(tuple(alpha), tuple(sigma), world.root)
+    except InputError:
+        return None
+
+
+def _exchanged(world: World) -> Iterator[World]:
+    """The worlds in which the far ends of two edges that look alike are exchanged."""
+    alpha, classes = world.alpha, alike_darts(world, "undirected")
+    for d, e in combinations(range(len(alpha)), 2):
+        if classes[d] == classes[e] and e != alpha[d]:
+            other = _joined([*alpha], [(d, alpha[e]), (e, alpha[d])], world)
+            if other is not None:
+                yield other
+
+
+def _doubled(world: World) -> Iterator[World]:
+    """Two copies of the world, joined crosswise at an edge on a cycle."""
+    size = len(world.alpha)
+    for d, e in world.edges:
+        copies = [end + k * size for k in range(2) for end in world.alpha]
+        other = _joined(copies, [(d, e + size), (e, d + size)], world)
+        if other is not None:
+            yield other
