@@ -1,15 +1,17 @@
-"""How large the house is: files, lines of code, words of docstrings and comments, imports, by room.
+"""How large the house is: lines of code and words by room, and words of documentation by page.
 
     .venv/bin/python benchmarks/size.py
 
 A line of code is one that holds a token and no docstring, comment or blank. A chain of imports is
-counted at load time, circles excluded; the longest one is printed with its modules.
+counted at load time, circles excluded; the longest one is printed with its modules. A word holds a
+letter or a digit: bars of tables and rules are none. The generated page is counted apart.
 """
 
 from __future__ import annotations
 
 import ast
 import io
+import re
 import tokenize
 from collections import defaultdict
 from pathlib import Path
@@ -87,6 +89,40 @@ def longest_chain() -> list[str]:
     return [min(whole.nodes[node]["members"]) for node in path]
 
 
+GENERATED = "docs/reference/commands.md"
+"""The page that docs/reference.py writes."""
+
+BLOCKS = re.compile(r"^```.*?^```$|^    [^\n]*$", re.MULTILINE | re.DOTALL)
+"""What a page shows of code, commands and output."""
+
+
+def pages() -> dict[str, tuple[int, int]]:
+    """The words of each page of the documentation: all, and those outside of blocks."""
+    paths = [*(ROOT / "docs").rglob("*.md"), *ROOT.glob("*.md")]
+    texts = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in paths}
+    return {
+        name: (page_words(text), page_words(BLOCKS.sub("", text))) for name, text in texts.items()
+    }
+
+
+def page_words(text: str) -> int:
+    """The number of words on a page."""
+    return sum(any(map(str.isalnum, word)) for word in text.split())
+
+
+def print_pages() -> None:
+    """Print the words of each page, the longest page first."""
+    print(f"{'page':<42}{'words':>9}{'prose':>9}")
+    counts = pages()
+    written = [name for name in counts if name != GENERATED]
+    for name in sorted(written, key=lambda name: (-counts[name][0], name)):
+        print(f"{name:<42}{counts[name][0]:>9,}{counts[name][1]:>9,}")
+    total, prose = (sum(counts[name][part] for name in written) for part in (0, 1))
+    print(f"{'all pages, but the generated one':<42}{total:>9,}{prose:>9,}")
+    print(f"{GENERATED:<42}{counts[GENERATED][0]:>9,}{counts[GENERATED][1]:>9,}")
+    print()
+
+
 def main() -> None:
     """Print the tables."""
     print(f"{'room':<30}{'files':>7}{'code':>9}{'imports':>9}{'words':>9}")
@@ -104,6 +140,7 @@ def main() -> None:
                 + "".join(f"{number:>9,}"[2 * (not k) :] for k, number in enumerate(rooms[room]))
             )
         print()
+    print_pages()
     chain = longest_chain()
     print(f"longest chain of imports: {len(chain)} modules")
     print("  " + " > ".join(module.removeprefix("topo_verify.") for module in chain))
