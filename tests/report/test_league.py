@@ -51,6 +51,7 @@ def test_it_has_a_sign_for_each_family_and_one_in_the_legend(league: League) -> 
     texts = [element.text for element in root.findall(".//{*}text")]
     assert {"small: a test", "lattice(3,3,holes=0.2)", "cost / LB", "edges", "b,c"} <= {*texts}
     assert any((text or "").startswith("</text>") for text in texts)
+    assert '[fill="#fdfcf9"],' in picture(league)  # the card of a dark page
 
 
 @pytest.mark.parametrize(

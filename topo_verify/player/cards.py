@@ -1,13 +1,11 @@
 """Reports and findings as HTML for notebooks: a table of claims, a picture, the walk's text.
 
-Whatever a mapper, a file or a name brings is escaped. A picture is an image of its own (`<img>`),
-so neither its names nor its styles meet those of the page. No script, no request; colours are the
-page's own, light or dark, and no statement rests on colour.
+Whatever a mapper, a file or a name brings is escaped. No script, no request; colours are those of
+the notebook, light or dark, and no statement rests on colour.
 """
 
 from __future__ import annotations
 
-from base64 import b64encode
 from collections.abc import Iterator, Sequence
 from html import escape
 
@@ -72,7 +70,9 @@ _LEFT = 'style="text-align:left"'
 
 
 def _card(parts: Sequence[str]) -> str:
-    return f'<div style="max-width:60em">{"".join(parts)}</div>'
+    from topo_verify.world.drawing import IN_NOTEBOOKS
+
+    return f'{IN_NOTEBOOKS}<div style="max-width:60em">{"".join(parts)}</div>'
 
 
 def _text(text: str) -> str:
@@ -109,19 +109,20 @@ def _picture(world: World, what: str) -> str:
     caption = _text(f"{what}{name}: {size}")
     if len(world.edges) > MOST_DRAWN:
         return f"<p>{caption}</p>"
-    drawn = b64encode(world.draw().encode()).decode()
+    from topo_verify.world.drawing import image
+
+    drawn = image(world.draw(), f"{what}{name}: {size}", "max-width:100%;max-height:16em")
     return (
         '<figure style="display:inline-block;margin:0 1em 1em 0;vertical-align:top">'
-        f'<img alt="{caption}" style="max-width:100%;max-height:16em"'
-        f' src="data:image/svg+xml;base64,{drawn}">'
-        f"<figcaption>{caption}</figcaption></figure>"
+        f"{drawn}<figcaption>{caption}</figcaption></figure>"
     )
 
 
 def _walk(playback: Playback) -> str:
     """The last moves before the first finding, as `replay` prints them."""
     lines = (escape(shown(line, limit=LINE)) for line in walk.lines(playback))
-    return f'<pre style="overflow-x:auto">{chr(10).join(lines)}</pre>'
+    font = "font-family:ui-monospace,Menlo,Consolas,monospace;white-space:pre;overflow-x:auto"
+    return f'<pre style="{font}">{chr(10).join(lines)}</pre>'
 
 
 def _again(command: str) -> Iterator[str]:

@@ -96,11 +96,19 @@ def player_page(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> s
 
 
 def framed(world: World, run: PlayedRun) -> str:
-    """The page of a run in a frame of its own, for notebooks: scripts run, nothing else may."""
-    page = html.escape(player_page(world, [run]))
+    """The page of a run in a frame, for notebooks: scripts run, nothing else may.
+
+    A sandboxed frame cannot ask what theme the notebook has, so its height says it: page.css takes
+    641 pixels for a dark one.
+    """
+    from topo_verify.world.drawing import IN_NOTEBOOKS
+
+    page = html.escape(player_page(world, [run]).replace("<html ", '<html class="framed" ', 1))
+    dark = IN_NOTEBOOKS.replace("color-scheme:light", "height:640px")
     return (
-        f'<iframe sandbox="allow-scripts" srcdoc="{page}" title="A run, step by step"'
-        ' width="100%" height="640" style="border: 0"></iframe>'
+        f"{dark.replace('color-scheme:dark', 'height:641px').replace('tv-themed', 'tv-frame')}"
+        f'<iframe class="tv-frame" sandbox="allow-scripts" srcdoc="{page}"'
+        ' title="A run, step by step" width="100%" height="640" style="border:0"></iframe>'
     )
 
 

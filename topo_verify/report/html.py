@@ -51,6 +51,31 @@ def picture(svg: str, alt: str) -> str:
     return f'<img alt="{xml_text(alt)}" src="data:image/svg+xml;base64,{data}">'
 
 
+IN_THE_DARK = {
+    **{colour.light: colour.dark for colour in bl.PALETTE.values()},
+    "#0072b2": "#56b4e9",
+    "#00805f": "#2fc79b",
+    "#9e4a86": "#e08bc4",
+    "#946b00": "#e6b422",
+    "#5b6b00": "#b5cc3f",
+    "#6d7780": "#9aa4ae",
+}
+"""The colours of charts on a light card, and on a dark one."""
+
+
+def with_dark_colours(svg: str) -> str:
+    """The picture with a style for dark pages; its colours are attributes, or in styles."""
+    rules = "".join(
+        f'[{place}="{light}"],[style*="{place}: {light}"]{{{place}:{dark}!important}}'
+        for light, dark in IN_THE_DARK.items()
+        if light in svg
+        for place in ("fill", "stroke")
+    )
+    head, end, body = svg.partition(">" if svg.startswith("<svg") else "<defs>")
+    style = f"<style>@media(prefers-color-scheme:dark){{{rules}}}</style>"
+    return f"{head}{end}{style}{body}"
+
+
 def toned(word: str, tone: Tone | None) -> str:
     """A cell of a table that holds a verdict or a status."""
     text = xml_text(marked(word, tone))

@@ -2,8 +2,7 @@
 
 A small dot a world; a large sign a family, at its mean size and mean ratio, with its confidence
 interval as a bar. Both axes are logarithmic. Colours are after M. Okabe and K. Ito; the signs
-differ in shape as well, and the legend names them in the order of the table. The light card can be
-read on a dark page. Coordinates are rounded, so the same runs give the same bytes.
+differ in shape as well, and the legend names them in the order of the table. Coordinates are rounded, so the same runs give the same bytes.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from math import ceil, cos, log, pi, sin
 from typing import NamedTuple
 
 from topo_verify.report.blocks import PALETTE
-from topo_verify.report.html import xml_text
+from topo_verify.report.html import with_dark_colours, xml_text
 from topo_verify.studies.arena.league import LeagueEntry
 from topo_verify.studies.arena.suites import Suite
 
@@ -89,7 +88,7 @@ def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], points: Mapping[str,
     for number, entry in enumerate(ranked):
         parts += _means(entry, number, step * (number - middle), x, y)
         parts += _legend(entry, number)
-    return (
+    return with_dark_colours(
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}"'
         f' width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif" font-size="12">\n'
         + "\n".join(parts)

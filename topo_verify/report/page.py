@@ -69,14 +69,10 @@ def _part(name: str) -> str:
 
 @cache
 def _style() -> str:
-    light, dark = (
-        "".join(f"--{name}:{colour[place]};" for name, colour in PALETTE.items())
-        for place in (0, 1)
+    colours = "".join(
+        f"--{name}:light-dark({colour.light},{colour.dark});" for name, colour in PALETTE.items()
     )
-    return (
-        f":root{{color-scheme:light dark;{light}}}\n"
-        f"@media (prefers-color-scheme:dark){{:root{{{dark}}}}}\n{_part('report.css')}"
-    )
+    return f":root{{color-scheme:light dark;{colours}}}\n{_part('report.css')}"
 
 
 # ---------------------------------------------------------------- the parts

@@ -98,6 +98,13 @@ def save(world: World, path: str | PathLike[str]) -> None:
     world_json.save(world, path)
 
 
+def notebook(world: World) -> str:
+    """The picture of the world as HTML, light or dark as the notebook is."""
+    from topo_verify.world.drawing import IN_NOTEBOOKS, image
+
+    return IN_NOTEBOOKS + image(draw(world), world.name or "a world")
+
+
 def draw(world: World, path: str | PathLike[str] | None = None) -> str:
     """The picture of the world as SVG; written to the file, too, in the format that it asks for.
 

@@ -44,6 +44,7 @@ def test_the_same_points_give_the_same_bytes_with_no_date() -> None:
     first, second = (picture(FIGURE, points(), "svg") for _ in range(2))
     assert first == second
     assert b"dc:date" not in first
+    assert b'[style*="fill: #fdfcf9"]{fill:#14181c!important}' in first  # the card of a dark page
     assert picture(FIGURE, points(), "png").startswith(b"\x89PNG")
 
 

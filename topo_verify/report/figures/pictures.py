@@ -1,7 +1,6 @@
 """A figure of the paper as SVG and PNG: costs on a log scale, means with standard errors.
 
-Colours are after M. Okabe and K. Ito, so that colour-blind readers tell them apart; the light card
-can be read on a dark page as well. Each line carries its name at its right end. The same points
+Colours are after M. Okabe and K. Ito, so that colour-blind readers tell them apart. Each line carries its name at its right end. The same points
 give the same bytes with one version of matplotlib: no date, a fixed salt for ids, glyphs as paths.
 """
 
@@ -13,6 +12,7 @@ from math import exp, log
 from typing import Any, Literal, NamedTuple
 
 from topo_verify.report.figures.words import SHORT
+from topo_verify.report.html import with_dark_colours
 from topo_verify.studies.reproduce.figures import YARDSTICKS, Figure
 from topo_verify.studies.reproduce.points import FigurePoint
 
@@ -78,7 +78,8 @@ def picture(figure: Figure, points: Sequence[FigurePoint], kind: Literal["svg", 
         out = BytesIO()
         none = {"Date": None, "Creator": None} if kind == "svg" else {"Software": None}
         canvas.savefig(out, format=kind, dpi=150, metadata=none)
-    return out.getvalue()
+    content = out.getvalue()
+    return content if kind == "png" else with_dark_colours(content.decode()).encode()
 
 
 def _draw(axes: Any, figure: Figure, points: Sequence[FigurePoint]) -> None:

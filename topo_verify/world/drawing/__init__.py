@@ -5,7 +5,7 @@ and compares it with the world. This room is imported late: it loads numpy.
 """
 
 from topo_verify.world.drawing.choice import lay_out
-from topo_verify.world.drawing.export import FORMATS, document, format_of
+from topo_verify.world.drawing.export import FORMATS, IN_NOTEBOOKS, document, format_of, image
 from topo_verify.world.drawing.layout import Bridge, Layout
 from topo_verify.world.drawing.svg import to_svg
 
@@ -22,4 +22,14 @@ from topo_verify.world.drawing.svg import to_svg
 # arrays.py     names for arrays, sparse linear equations
 # read_back.py  reads a finished SVG and says what in it is untrue
 
-__all__ = ["FORMATS", "Bridge", "Layout", "document", "format_of", "lay_out", "to_svg"]
+__all__ = [
+    "FORMATS",
+    "IN_NOTEBOOKS",
+    "Bridge",
+    "Layout",
+    "document",
+    "format_of",
+    "image",
+    "lay_out",
+    "to_svg",
+]

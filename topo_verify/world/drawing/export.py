@@ -57,6 +57,24 @@ def document(
             return _rendered(layout, svg, kind)
 
 
+IN_NOTEBOOKS = (
+    "<style>.tv-themed{color-scheme:light}"
+    ":is([data-jp-theme-light=false],.vscode-dark,[theme=dark],[data-theme=dark]) .tv-themed"
+    "{color-scheme:dark}"
+    "@media(prefers-color-scheme:dark){[data-theme=auto] .tv-themed{color-scheme:dark}}</style>"
+)
+"""Pictures with the class are light or dark as the notebook is, whatever the system prefers."""
+
+
+def image(svg: str, alt: str, style: str = "max-width:100%") -> str:
+    """The picture as an image for notebooks: its names and styles do not meet those of the page."""
+    data = b64encode(svg.encode()).decode()
+    return (
+        f'<img class="tv-themed" alt="{text(alt)}" style="{style}"'
+        f' src="data:image/svg+xml;base64,{data}">'
+    )
+
+
 def _rendered(layout: Layout, svg: str, kind: Literal["png", "pdf"]) -> bytes:
     try:
         import typst
