@@ -6,6 +6,7 @@ makes a site of them is done by the extensions in docs/site/, one file each:
     contents.py    the table of contents, read from the lists of index.md
     glossary.py    links from the words on every page to glossary.md
     players.py     commands whose page is made by the build and shown below them
+    notebook.py   a notebook, with what its cells show
     codelines.py   the line numbers of the code that explanation/paper.md names
     breaks.py      where long names in tables may be broken
     finding.py     the site's search, beside the page of docs/search.md
@@ -31,6 +32,7 @@ extensions = [
     "contents",
     "glossary",
     "players",
+    "notebook",
     "codelines",
     "breaks",
     "finding",

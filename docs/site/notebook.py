@@ -48,6 +48,7 @@ def page(path: Path) -> str:
                 parts.append(f"```python\n{text}\n```")
                 parts.append(f"``````{{raw}} html\n{shown(text, names)}\n``````")
             else:
+                text = re.sub(r"\A# .*\n", "", text)  # the page has a title
                 text = re.sub(r"\]\(\.\./docs/", "](../", text)
                 parts.append(re.sub(r"\[([^]]*\.py)\]\([^)/]*\.py\)", r"`\1`", text))
     sys.path.remove(str(path.parent))

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -43,6 +44,24 @@ def test_the_contents_are_the_lists_of_the_page() -> None:
     assert part("site/contents.py").toctrees(index) == (
         "\n```{toctree}\n:hidden:\n:caption: One\n\nA <a>\nB <b/c>\n```\n"
     )
+
+
+def test_a_notebook_becomes_its_cells_and_what_they_show(tmp_path: Path) -> None:
+    cells = [
+        {"cell_type": "markdown", "source": ["# Title\n", "[a](../docs/a.md), [b.py](b.py)"]},
+        {"cell_type": "code", "source": ["print('<b>')\n", "x = 1\n", "x"]},
+    ]
+    path = tmp_path / "book.ipynb"
+    path.write_text(json.dumps({"cells": cells}), encoding="utf-8")
+    text = part("site/notebook.py").page(path)
+    assert text == (
+        "[a](../a.md), `b.py`\n\n```python\nprint('<b>')\nx = 1\nx\n```\n\n"
+        "``````{raw} html\n<pre>&lt;b&gt;\n</pre><pre>1</pre>\n``````"
+    )
+    cells[1]["source"] = ["1 / 0"]
+    path.write_text(json.dumps({"cells": cells}), encoding="utf-8")
+    with pytest.raises(ZeroDivisionError):
+        part("site/notebook.py").page(path)
 
 
 def test_words_are_found_whole_in_the_singular_and_the_plural() -> None:

@@ -19,7 +19,7 @@ HOSTILE = "<img src=x onerror=alert(1)>\"'&\x1b[2J</pre>"
 
 
 TAGS = set(
-    "div p strong table thead tbody tr th td ul li figure img figcaption pre code".split()  # noqa: SIM905
+    "style div p strong table thead tbody tr th td ul li figure img figcaption pre code".split()  # noqa: SIM905
 )
 """The elements that cards are made of."""
 

@@ -87,10 +87,11 @@ def test_a_network_of_216_edges_takes_less_than_300_kilobytes() -> None:
 
 def test_a_notebook_shows_a_run_in_a_frame_that_may_run_scripts_and_nothing_else() -> None:
     run = explore(families.lattice(2, 2), "basic")
-    ((tag, attributes),) = Parts(run._repr_html_()).tags  # pyright: ignore[reportPrivateUsage]
-    assert (tag, attributes["sandbox"]) == ("iframe", "allow-scripts")
-    page = attributes["srcdoc"]
-    assert page == page_of(run.world, "basic")
+    tags = Parts(run._repr_html_()).tags  # pyright: ignore[reportPrivateUsage]
+    assert [tag for tag, _ in tags] == ["style", "iframe"]
+    assert tags[1][1]["sandbox"] == "allow-scripts"
+    page = page_of(run.world, "basic")
+    assert tags[1][1]["srcdoc"] == page.replace("<html ", '<html class="framed" ', 1)
 
 
 @pytest.mark.parametrize("shown", GALLERY, ids=lambda shown: shown.text)

@@ -348,11 +348,17 @@ def test_in_a_frame_that_is_hidden_at_first_it_waits_for_its_room(show: Open) ->
     assert 0 < layers.evaluate("e => parseFloat(e.style.getPropertyValue('--u'))") < 5
 
 
-def test_a_notebook_s_frame_plays_on_its_own(show: Open) -> None:
+@pytest.mark.parametrize(("is_light", "system"), [("true", "dark"), ("false", "light")])
+def test_a_notebook_s_frame_plays_on_its_own_in_the_notebook_s_theme(
+    show: Open, is_light: str, system: str
+) -> None:
     run = explore(families.lattice(2, 2), "basic")
     frame = run._repr_html_()  # pyright: ignore[reportPrivateUsage]
-    page = show(f"<!doctype html><title>notebook</title>{frame}")
+    theme = f'<body data-jp-theme-light="{is_light}">'
+    page = show(f"<!doctype html><title>notebook</title>{theme}{frame}", color_scheme=system)
     inside = page.frame_locator("iframe")
+    ground = inside.locator("body").evaluate("body => getComputedStyle(body).backgroundColor")
+    assert ground == ("rgb(241, 240, 236)" if is_light == "true" else "rgb(12, 15, 18)")
     inside.locator("#on").click()
     inside.locator("#after").click()
     assert int(inside.locator("#slider").input_value()) > 1

@@ -215,10 +215,10 @@ def test_markdown_joins_blocks_with_blank_lines() -> None:
 
 
 def test_the_palette_is_that_of_the_player() -> None:
-    light, dark = re.findall(r":root\{(.*?)\}", part("page.css"))[:2]
-    for place, rules in enumerate((light, dark)):
-        theirs = dict(re.findall(r"--([a-z]+):\s*(#[0-9a-f]{6})", rules))
-        assert theirs == {name: colour[place] for name, colour in PALETTE.items()}
+    colour = r"--([a-z]+): light-dark\((#[0-9a-f]{6}),(#[0-9a-f]{6})\)"
+    assert {name: pair for name, *pair in re.findall(colour, part("page.css"))} == {
+        name: [*pair] for name, pair in PALETTE.items()
+    }
 
 
 def test_the_verdicts_begin_with_different_letters() -> None:

@@ -2,7 +2,8 @@
 
 A small dot a world; a large sign a family, at its mean size and mean ratio, with its confidence
 interval as a bar. Both axes are logarithmic. Colours are after M. Okabe and K. Ito; the signs
-differ in shape as well, and the legend names them in the order of the table. Coordinates are rounded, so the same runs give the same bytes.
+differ in shape as well, and the legend names them in the order of the table. Coordinates are
+rounded, so the same runs give the same bytes.
 """
 
 from __future__ import annotations

@@ -22,5 +22,6 @@ from topo_verify.world.rooted_map import World
 # data/                 the street network that comes with the package
 
 World.formats = io
+setattr(World, "_repr_html_", io.notebook)  # noqa: B010  the class knows no picture
 
 __all__ = ["World", "families", "rank_order"]

@@ -1,7 +1,8 @@
 """A figure of the paper as SVG and PNG: costs on a log scale, means with standard errors.
 
-Colours are after M. Okabe and K. Ito, so that colour-blind readers tell them apart. Each line carries its name at its right end. The same points
-give the same bytes with one version of matplotlib: no date, a fixed salt for ids, glyphs as paths.
+Colours are after M. Okabe and K. Ito, so that colour-blind readers tell them apart. Each line
+carries its name at its right end. The same points give the same bytes with one version of
+matplotlib: no date, a fixed salt for ids, glyphs as paths.
 """
 
 from __future__ import annotations
