@@ -30,11 +30,6 @@ Definition perform_in {A} w (p : Percept -> program A) := match w with
 (** What a delivered map describes: without a dart it is the point. *)
 Definition described M := if darts M =? 0 then Point else Edges M.
 
-(** The doors that the robot takes in w. The tests compare them with those of the Python code. *)
-Definition doors_taken (A : algorithm) pick path order w :=
-  match perform_in w (run_of A pick path order (darts_in w)) with
-  | Some (_, ms) => Some (map fst ms) | None => None end.
-
 (** In every world and with all policies the algorithm ends with a map that is the world. It makes at
     least m moves and at most m (n + (2m - 1) 2(n - 1)): none in the point. *)
 Definition maps_any (A : algorithm) := forall pick path order w, good_pick pick -> good_path path ->

@@ -7,8 +7,8 @@
     with the stalks that this walk does not cross there and back on the way (Growing.v). Its log is
     closed (Walks.v). The loops cost their weights, a stalk 2, and the stalks on the last way 1.
 
-    [tour] is a function: Coq computes it. SCEPTICS READ [least_cost_exact] and
-    [least_cost_attained]. *)
+    [tour] is a function: Coq computes it. SCEPTICS READ [least_cost_exact]; that some
+    mapper pays LB is shown in Attained.v. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World Rotation Log Determined Sound Distance Tree Pendant LeastCost
@@ -176,32 +176,4 @@ Proof.
   destruct (tour_exact W depth up HW B) as (R & C & E). exists (least_cost W depth up).
   split; [|split; eauto]. intros dp u B'. destruct (tour_exact W dp u HW B') as (R' & C' & E').
   apply Nat.le_antisymm; [rewrite <- E|rewrite <- E']; auto.
-Qed.
-
-(** The mapper that holds the map M0 and walks the log L0: it delivers M0 if it has seen L0, and else
-    takes the doors of L0. *)
-Definition script L0 (M0 : Map) : Strategy := fun L =>
-  if list_eq_dec (fun x y : nat * Percept => ltac:(repeat decide equality)) (moves L) (moves L0)
-  then if percept_eqb (start L) (start L0) then inr M0 else inl 0
-  else inl (nth (length (moves L)) (map fst (moves L0)) 0).
-
-(** Section 11: some mapper that is right in every world makes exactly LB moves in W.
-    Not in the paper. *)
-Theorem least_cost_attained W depth up : world W -> breadth_first W depth up ->
-  exists f L, sound f /\ replays W L /\ ends f L W /\ length (moves L) = least_cost W depth up.
-Proof.
-  intros HW B. destruct (tour_exact W depth up HW B) as (R & C & E).
-  set (L0 := tour_log W depth up) in *. clearbody L0. exists (script L0 W), L0.
-  split; [|split; auto; split; auto; split].
-  - intros W' L M HW' R' [_ D]. unfold script in D.
-    destruct (list_eq_dec _ _ _) as [Em|_]; [|discriminate].
-    destruct (percept_eqb_spec (start L) (start L0)) as [Es|_]; [|discriminate].
-    injection D as <-. apply (closed_determines L0); auto. destruct L, L0; simpl in *; congruence.
-  - intros i k D. unfold script. unfold door in D.
-    assert (Hi : i < length (map fst (moves L0))) by (apply nth_error_Some; congruence).
-    rewrite map_length in Hi. destruct (list_eq_dec _ _ _) as [Em|_].
-    + apply (f_equal (@length (nat * Percept))) in Em. simpl in Em. rewrite firstn_length in Em. lia.
-    + f_equal. simpl. rewrite firstn_length, Nat.min_l by lia. apply nth_error_nth. auto.
-  - unfold script. destruct (list_eq_dec _ _ _) as [_|N]; [|destruct N; auto].
-    destruct (percept_eqb_spec (start L0) (start L0)) as [_|N]; [auto|destruct N; auto].
 Qed.

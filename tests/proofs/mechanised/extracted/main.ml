@@ -8,7 +8,13 @@
      n, then n times: other         the other dart of its edge
 
    separated by white space; the root is dart 0, and without a dart it is the world without an edge. For
-   each run it prints "doors" and the doors that the robot takes, or "stuck", on one line. *)
+   each run it prints on one line all that is told, then the delivered map, or "stuck":
+
+     move k degree marker    the marker is -1 where it is not
+     pose e h h ...          reject e h, or reject e h step        confirm e h, or confirm e h motion
+     loop e h degree         new e dart degree
+     map n next ... edges ... root cost    each edge by its two darts, the lower one first; the root is
+                                           -1 where there is no dart; the cost is the number of moves *)
 open Mappers
 
 let algorithm = function
@@ -52,12 +58,32 @@ let world () =
   if next = [||] then Point
   else Edges { darts = Array.length next; sigma = Array.get next; alpha; root = 0 }
 
+let line name numbers = String.concat " " (name :: List.map string_of_int numbers)
+
+let told = function
+  | Moved (k, (degree, marker)) -> line "move" [k; degree; Option.value marker ~default:(-1)]
+  | Posed (e, hypotheses) -> line "pose" (e :: hypotheses)
+  | Ruled_out (e, h) -> line "reject" [e; h]
+  | Walked_out (e, h, steps) -> line "reject" [e; h; steps]
+  | Ruled_in (e, h) -> line "confirm" [e; h]
+  | Walked_in (e, h) -> line "confirm" [e; h] ^ " motion"
+  | Looped (e, h, degree) -> line "loop" [e; h; degree]
+  | Hung (e, dart, degree) -> line "new" [e; dart; degree]
+
+let delivered m events =
+  let darts = List.init m.darts Fun.id in
+  let other d = Option.get (m.alpha d) in
+  let edges = List.concat_map (fun d -> if d < other d then [d; other d] else []) darts in
+  let cost = List.length (List.filter (function Moved _ -> true | _ -> false) events) in
+  let root = if darts = [] then -1 else m.root in
+  line "map" ((m.darts :: List.map m.sigma darts) @ edges @ [root; cost])
+
 let run () =
   let algorithm = algorithm (word ()) in
   let pick = pick (word ()) in
   let order = order (word ()) in
-  match doors_taken algorithm pick way_to order (world ()) with
-  | Some doors -> print_endline (String.concat " " ("doors" :: List.map string_of_int doors))
+  match trace_in algorithm pick way_to order (world ()) with
+  | Some (map, events) -> print_endline (String.concat ";" (List.map told events @ [delivered map events]))
   | None -> print_endline "stuck"
 
 let () = for _ = 1 to number () do run () done
