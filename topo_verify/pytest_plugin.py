@@ -196,10 +196,10 @@ def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Itera
     Raises:
         CollectError: there is no such mapper, or too many edges are asked for.
     """
-    from topo_verify.campaign.corpus import MOST_ENUMERATED
     from topo_verify.campaign.targets import one_target, targets
     from topo_verify.checkers import CLAIMS
     from topo_verify.errors import InputError
+    from topo_verify.studies.corpus import MOST_ENUMERATED
 
     if edges > MOST_ENUMERATED:
         raise pytest.Collector.CollectError(

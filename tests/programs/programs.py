@@ -12,9 +12,9 @@ from typing import Any
 import pytest
 
 from topo_verify.campaign.backend import here
-from topo_verify.campaign.campaign import Campaign, CorpusWorlds, ListedWorlds, results
-from topo_verify.campaign.corpus import Corpus, corpus_from
+from topo_verify.campaign.campaign import Campaign, ListedWorlds, results
 from topo_verify.studies.conform.conform import Asked, Conform, WorldOutcome, outcome_of
+from topo_verify.studies.corpus import Corpus, CorpusWorlds, corpus_from
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]

@@ -12,8 +12,8 @@ SCRIPT = """
 import resource, sys
 from tests.programs.programs import conforming
 from topo_verify.campaign.backend import here
-from topo_verify.campaign.campaign import CorpusWorlds, results
-from topo_verify.campaign.corpus import corpus_from
+from topo_verify.campaign.campaign import results
+from topo_verify.studies.corpus import CorpusWorlds, corpus_from
 
 def size():
     with open("/proc/self/statm") as file:

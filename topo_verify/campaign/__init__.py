@@ -10,7 +10,6 @@ compiled.py        a shard by the compiled engine, a part of it judged again by 
 run.py             the one way to run a mapper in a world, and the engines
 judge.py           the judgement of a run by every claim
 targets.py         what a TARGET means, and the text of a callable
-corpus.py          what WORLDS means
 identity.py        what a mapper rests on: its files, distributions, values
 work.py            what workers do, what a lost task means, the pieces of tasks
 pool.py            worker processes that may die or hang; worker.py is one of them

@@ -27,23 +27,8 @@ from itertools import pairwise
 
 import msgspec
 
+from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import OUTSIDE, Look, lost_row
-from topo_verify.campaign.campaign import (
-    Backend,
-    Campaign,
-    EngineSeconds,
-    InFlight,
-    NamedWorlds,
-    Ranks,
-    Shard,
-    ShardMemory,
-    ShardResult,
-    ShardResults,
-    close,
-    examine,
-    listed_shards,
-    results,
-)
 from topo_verify.campaign.cluster import Cluster, ClusterPool
 from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
 from topo_verify.campaign.pool import Pool
@@ -92,14 +77,14 @@ class CampaignJob(msgspec.Struct, frozen=True):
         depends: see `Depends`.
     """
 
-    campaign: Campaign
+    campaign: c.Campaign
     sources: str
     depends: tuple[str, ...] | None = None
 
 
 def here(
     mappers: Sequence[Target] | None = None, *, depends: Depends = None, look: Look | None = None
-) -> Backend:
+) -> c.Backend:
     """The backend that works in this process.
 
     Args:
@@ -107,7 +92,9 @@ def here(
         look: notes more about each run, in the place of the campaign's `look`.
     """
 
-    def run(campaign: Campaign, shards: Iterator[Shard], in_flight: InFlight) -> ShardResults:
+    def run(
+        campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight
+    ) -> c.ShardResults:
         targets = campaign.load() if mappers is None else mappers
         try:
             identity = None if depends is None else Identity(targets, depends)
@@ -115,18 +102,20 @@ def here(
                 yield shard, _examined(campaign, targets, identity, shard, in_flight, look)
         finally:
             if mappers is None:
-                close(targets)
+                c.close(targets)
 
     return run
 
 
-def pooled(workers: int, depends: Depends = None) -> Backend:
+def pooled(workers: int, depends: Depends = None) -> c.Backend:
     """Processes of this machine, `workers` of them; 0: this process alone.
 
     The compiled engine calls native mappers in a worker process in any case.
     """
 
-    def run(campaign: Campaign, shards: Iterator[Shard], in_flight: InFlight) -> ShardResults:
+    def run(
+        campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight
+    ) -> c.ShardResults:
         native = calls_native(campaign)
         if not (workers or native):
             yield from here(depends=depends)(campaign, shards, in_flight)
@@ -140,10 +129,12 @@ def pooled(workers: int, depends: Depends = None) -> Backend:
     return run
 
 
-def clustered(cluster: Cluster, depends: Depends = None) -> Backend:
+def clustered(cluster: Cluster, depends: Depends = None) -> c.Backend:
     """The workers of a Dask cluster."""
 
-    def run(campaign: Campaign, shards: Iterator[Shard], in_flight: InFlight) -> ShardResults:
+    def run(
+        campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight
+    ) -> c.ShardResults:
         del in_flight  # a cluster says no more than which shards are finished
         # What mappers load is asked for in any case: other machines may have other files.
         depends_on = tuple(depends or ())
@@ -151,7 +142,7 @@ def clustered(cluster: Cluster, depends: Depends = None) -> Backend:
         try:
             ours = Identity(mappers, depends_on).loaded()
         finally:
-            close(mappers)
+            c.close(mappers)
         work = _work(_job(campaign, depends_on), ours)
         if cluster.is_local:
             _prepare(campaign)
@@ -163,20 +154,20 @@ def clustered(cluster: Cluster, depends: Depends = None) -> Backend:
 
 
 def _examined(
-    campaign: Campaign,
+    campaign: c.Campaign,
     mappers: Sequence[Target],
     identity: Identity | None,
-    shard: Shard,
+    shard: c.Shard,
     beat: Callable[[int], None],
     look: Look | None = None,
-) -> ShardResult:
+) -> c.ShardResult:
     """The result of a shard, with what the mappers have loaded, if that is asked for."""
-    if campaign.engine == "compiled" and isinstance(campaign.worlds, Ranks):
+    if campaign.engine == "compiled" and isinstance(campaign.worlds, c.Ranks):
         from topo_verify.campaign.compiled import examine_compiled
 
         result = examine_compiled(campaign, mappers, shard, beat)
     else:
-        result = examine(campaign, mappers, shard, beat, look)
+        result = c.examine(campaign, mappers, shard, beat, look)
     if identity is None:
         return result
     try:
@@ -191,35 +182,35 @@ def _examined(
         return _with_loss(result, msgspec.structs.replace(row, findings=told))
 
 
-def calls_native(campaign: Campaign) -> bool:
+def calls_native(campaign: c.Campaign) -> bool:
     """Whether the compiled engine calls a native mapper."""
     is_library = any(text.startswith(LIBRARY) for text in campaign.mappers)
-    return is_library and campaign.engine == "compiled" and isinstance(campaign.worlds, Ranks)
+    return is_library and campaign.engine == "compiled" and isinstance(campaign.worlds, c.Ranks)
 
 
-def _prepare(campaign: Campaign) -> None:
+def _prepare(campaign: c.Campaign) -> None:
     """Have compiled what the campaign needs."""
-    if campaign.engine == "compiled" and isinstance(campaign.worlds, Ranks):
+    if campaign.engine == "compiled" and isinstance(campaign.worlds, c.Ranks):
         from topo_verify.campaign.compiled import warm
 
         warm(campaign)
 
 
-def _job(campaign: Campaign, depends: Depends) -> CampaignJob:
+def _job(campaign: c.Campaign, depends: Depends) -> CampaignJob:
     mappers = campaign.load()  # before any worker is started: the message is then the first
     try:
         sources = source_hash(mappers)
     finally:
-        close(mappers)
+        c.close(mappers)
     return CampaignJob(campaign, sources, None if depends is None else tuple(depends))
 
 
-def remade(job: bytes) -> Work[Shard, ShardResult]:
+def remade(job: bytes) -> Work[c.Shard, c.ShardResult]:
     """The same work on another machine, made of its job as JSON."""
     return _work(msgspec.json.decode(job, type=CampaignJob))
 
 
-def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[Shard, ShardResult]:
+def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[c.Shard, c.ShardResult]:
     """What workers are to do.
 
     Args:
@@ -227,7 +218,7 @@ def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[Shard, ShardResu
     """
     campaign = job.campaign
 
-    def require_ours(result: ShardResult, worker: str) -> None:
+    def require_ours(result: c.ShardResult, worker: str) -> None:
         if ours is not None and result.loaded is not None:
             require_equal(ours, result.loaded, worker)
 
@@ -236,7 +227,7 @@ def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[Shard, ShardResu
     return Work(
         serve=f"{__name__}:{serve.__name__}",
         job=job,
-        result=ShardResult,
+        result=c.ShardResult,
         lost=partial(_lost, campaign),
         survived=partial(_survived, campaign),
         silence=silence,
@@ -249,7 +240,7 @@ def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[Shard, ShardResu
         ),
         remote=Remote(
             remade=f"{__name__}:{remade.__name__}",
-            task=Shard,
+            task=c.Shard,
             parts=_parts,
             lost=partial(_open, campaign),
             require_ours=require_ours,
@@ -258,8 +249,8 @@ def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[Shard, ShardResu
 
 
 def _with_our_memory(
-    work: Work[Shard, ShardResult], shard: Shard, result: ShardResult
-) -> ShardResult:
+    work: Work[c.Shard, c.ShardResult], shard: c.Shard, result: c.ShardResult
+) -> c.ShardResult:
     """The result of a worker; if a mapper lacked memory there, what a process of ours finds.
 
     A worker may have less memory than this process, by a limit or because others take it. So a
@@ -309,31 +300,31 @@ def serve(job: bytes) -> Generator[Handler]:
         _prepare(asked.campaign)
         identity = None if asked.depends is None else Identity(mappers, asked.depends)
 
-        def handle(task: bytes, beat: Beat) -> ShardResult:
-            shard = msgspec.json.decode(task, type=Shard)
+        def handle(task: bytes, beat: Beat) -> c.ShardResult:
+            shard = msgspec.json.decode(task, type=c.Shard)
             return _examined(asked.campaign, mappers, identity, shard, beat)
 
         yield handle
     finally:
-        close(mappers)
+        c.close(mappers)
 
 
 # ---------------------------------------------------------------- pieces of shards
 
 
-def _joined(campaign: Campaign, results: list[ShardResult]) -> ShardResult:
+def _joined(campaign: c.Campaign, parts: list[c.ShardResult]) -> c.ShardResult:
     """The result of all parts of a shard, in their order."""
-    known = [result.loaded for result in results if result.loaded is not None]
-    rows = [row for result in results for row in result.rows]
-    return ShardResult(
-        sum((result.tally for result in results), Tally()),
+    known = [part.loaded for part in parts if part.loaded is not None]
+    rows = [row for part in parts for row in part.rows]
+    return c.ShardResult(
+        sum((part.tally for part in parts), Tally()),
         _kept(campaign, rows),
         reduce(_merged, known) if known else None,
-        sum((result.seconds for result in results), EngineSeconds()),
+        sum((part.seconds for part in parts), c.EngineSeconds()),
     )
 
 
-def _kept(campaign: Campaign, rows: Sequence[Row]) -> tuple[Row, ...]:
+def _kept(campaign: c.Campaign, rows: Sequence[Row]) -> tuple[Row, ...]:
     """Those of the rows that the campaign keeps."""
     return tuple(rows) if campaign.keep == "all" else notable(rows, campaign.seed)
 
@@ -342,7 +333,7 @@ def _merged(loaded: Loaded, other: Loaded) -> Loaded:
     return merged(loaded, other, "the campaign")
 
 
-def _cut(campaign: Campaign, shard: Shard, runs: int) -> list[Shard]:
+def _cut(campaign: c.Campaign, shard: c.Shard, runs: int) -> list[c.Shard]:
     """Cut a shard around the world where its worker was last seen, after some runs."""
     if calls_native(campaign):
         return _cut_at_rank(shard, runs)
@@ -353,7 +344,7 @@ def _cut(campaign: Campaign, shard: Shard, runs: int) -> list[Shard]:
     return _split(shard, [shard.start, *places[max(at, 1) : at + 2], shard.stop])
 
 
-def _cut_at_rank(shard: Shard, ranks: int) -> list[Shard]:
+def _cut_at_rank(shard: c.Shard, ranks: int) -> list[c.Shard]:
     """Cut a shard around the rank at which native code was lost.
 
     If it was lost behind the last, it may have been in any world that its process came to harm.
@@ -366,17 +357,17 @@ def _cut_at_rank(shard: Shard, ranks: int) -> list[Shard]:
     return _split(shard, sorted({shard.start, *cuts, shard.stop}))
 
 
-def _parts(shard: Shard) -> list[Shard]:
+def _parts(shard: c.Shard) -> list[c.Shard]:
     """Parts of a shard, about equal."""
     width = -(-(shard.stop - shard.start) // PARTS)
     return _split(shard, [*range(shard.start, shard.stop, width), shard.stop])
 
 
-def _split(shard: Shard, cuts: Sequence[int]) -> list[Shard]:
+def _split(shard: c.Shard, cuts: Sequence[int]) -> list[c.Shard]:
     """The parts of a shard between these places."""
     begin = shard.start
     return [
-        Shard(shard.edges, start, stop, shard.listed[start - begin : stop - begin])
+        c.Shard(shard.edges, start, stop, shard.listed[start - begin : stop - begin])
         for start, stop in pairwise(cuts)
     ]
 
@@ -384,7 +375,7 @@ def _split(shard: Shard, cuts: Sequence[int]) -> list[Shard]:
 # ---------------------------------------------------------------- lost workers
 
 
-def _lost(campaign: Campaign, shard: Shard, loss: Loss) -> ShardResult:
+def _lost(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.ShardResult:
     """The result of a shard of one world, or of none, that was lost with its last worker."""
     if loss.loading:
         raise InputError(
@@ -400,23 +391,23 @@ def _lost(campaign: Campaign, shard: Shard, loss: Loss) -> ShardResult:
     return counted([] if row is None else [[row]])
 
 
-def _lost_in_native_code(campaign: Campaign, shard: Shard, loss: Loss) -> ShardResult:
+def _lost_in_native_code(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.ShardResult:
     """The result of one world in which native code was lost: by the mapper in a fresh process.
 
     If it delivers a map there, the world is undecided.
     """
     mappers = campaign.load()
     try:
-        result = examine(campaign, mappers, shard)
+        result = c.examine(campaign, mappers, shard)
     finally:
-        close(mappers)
+        c.close(mappers)
     row = _row_at(campaign, shard, 0, str(loss), external=True)
     if row is None or result.tally.failing or result.tally.undecided:
         return result
     return _with_loss(result, row)
 
 
-def _open(campaign: Campaign, shard: Shard) -> ShardResult:
+def _open(campaign: c.Campaign, shard: c.Shard) -> c.ShardResult:
     """The result of a shard with which whole machines were lost: its worlds are undecided."""
     worlds = campaign.worlds.worlds(shard)
     mapper, limits = campaign.mappers[0], campaign.limits
@@ -426,17 +417,17 @@ def _open(campaign: Campaign, shard: Shard) -> ShardResult:
     )
 
 
-def counted(worlds: Iterable[Sequence[Row]]) -> ShardResult:
+def counted(worlds: Iterable[Sequence[Row]]) -> c.ShardResult:
     """The result of a shard, given the rows of each of its worlds; all of them are kept."""
     counts, rows = Counts(), list[Row]()
     for met in worlds:
         counts.enter(met)
         rows += met
-    return ShardResult(counts.tally(), tuple(rows))
+    return c.ShardResult(counts.tally(), tuple(rows))
 
 
 def _row_at(
-    campaign: Campaign, shard: Shard, runs: int, cause: str, *, external: bool
+    campaign: c.Campaign, shard: c.Shard, runs: int, cause: str, *, external: bool
 ) -> Row | None:
     """The row of the run in which a worker was lost, after some runs of the shard."""
     worlds = list(campaign.worlds.worlds(shard))
@@ -449,11 +440,11 @@ def _row_at(
 
 
 def _survived(
-    campaign: Campaign,
-    result: ShardResult,
-    losses: Sequence[tuple[Shard, Loss]],
-    given_up: Sequence[Shard],
-) -> ShardResult:
+    campaign: c.Campaign,
+    result: c.ShardResult,
+    losses: Sequence[tuple[c.Shard, Loss]],
+    given_up: Sequence[c.Shard],
+) -> c.ShardResult:
     """The result of a shard, with the losses in runs that were done when tried again."""
     for shard, loss in losses:
         cause = loss.cause if loss.stranger else f"{loss}{SECOND_TRY}"
@@ -461,7 +452,7 @@ def _survived(
         if calls_native(campaign):
             external, items = True, 0
             rank = shard.start + max(0, min(loss.items, shard.stop - shard.start - 1))
-            at = Shard(shard.edges, rank, rank + 1)
+            at = c.Shard(shard.edges, rank, rank + 1)
             if any(shard.start <= part.start < shard.stop for part in given_up):
                 continue
         row = _row_at(campaign, at, items, cause, external=external)
@@ -480,7 +471,7 @@ def _survived(
     return result
 
 
-def _with_loss(result: ShardResult, row: Row) -> ShardResult:
+def _with_loss(result: c.ShardResult, row: Row) -> c.ShardResult:
     """The result with a lost worker's row in the place of the run that passed, or beside it."""
     rows: list[Row] = []
     for known in result.rows:
@@ -518,9 +509,9 @@ class MapperCampaign:
         mapper: the mapper, if it is loaded already.
     """
 
-    campaign: Campaign
-    worlds: NamedWorlds
-    store: ShardMemory | None = None
+    campaign: c.Campaign
+    worlds: c.NamedWorlds
+    store: c.ShardMemory | None = None
     mapper: Target | None = None
 
     @property
@@ -533,7 +524,7 @@ class MapperCampaign:
         """The number of these worlds that the store knows."""
         if self.store is None:
             return 0
-        return sum(self.store.get(shard) is not None for shard in listed_shards(self.worlds))
+        return sum(self.store.get(shard) is not None for shard in c.listed_shards(self.worlds))
 
     def rows(self, workers: int, tell: Progress | None = None) -> Iterator[Row]:
         """The rows, in the order of the worlds; those that the store lacks are made.
@@ -546,5 +537,7 @@ class MapperCampaign:
         if self.mapper is not None and not workers:
             mappers = on_engine(self.campaign.engine, (self.mapper,), self.campaign.limits)
             backend = here(mappers, depends=depends)
-        for _, result in results(self.campaign, backend, self.worlds, store=self.store, tell=tell):
+        for _, result in c.results(
+            self.campaign, backend, self.worlds, store=self.store, tell=tell
+        ):
             yield from result.rows

@@ -31,7 +31,6 @@ from typing import Any, Literal, Protocol
 import msgspec
 
 from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
-from topo_verify.campaign.corpus import Corpus, Named
 from topo_verify.campaign.judge import CheckedTraces
 from topo_verify.campaign.progress import Progress, ProgressRate
 from topo_verify.campaign.row import Row
@@ -163,24 +162,6 @@ def listed_shards(worlds: NamedWorlds) -> Iterator[Shard]:
     """One shard for each world of a list."""
     for place, (name, world) in enumerate(worlds):
         yield Shard(0, place, place + 1, ((name, world.code),))
-
-
-class CorpusWorlds:
-    """The worlds of a corpus with their names, to be iterated any number of times."""
-
-    def __init__(self, corpus: Corpus) -> None:
-        self._corpus = corpus
-        self._placed = enumerate(corpus)
-        self._last: tuple[int, Named] | None = None
-
-    def __iter__(self) -> Iterator[tuple[str, World]]:
-        return ((at.name, at.world) for at in self._corpus)
-
-    def at(self, place: int) -> Named:
-        """The world at a place. No later call asks for an earlier place."""
-        while self._last is None or self._last[0] < place:
-            self._last = next(self._placed)
-        return self._last[1]
 
 
 class Stop(msgspec.Struct, frozen=True):

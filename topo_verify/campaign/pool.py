@@ -84,9 +84,17 @@ class Pool(Generic[TaskT, ResultT]):
     def run(
         self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = lambda: True
     ) -> Generator[tuple[TaskT, ResultT]]:
-        """Each task and its result, in the order in which tasks are finished; see `TaskBackend`."""
+        """Each task and its result, in the order in which tasks are finished; see `TaskBackend`.
+
+        The first tasks are handed out at once, not only when the first result is asked for.
+        """
         todo = iter(tasks)
         self._hand_out(todo, room)
+        return self._results(todo, room)
+
+    def _results(
+        self, todo: Iterator[TaskT], room: Callable[[], bool]
+    ) -> Generator[tuple[TaskT, ResultT]]:
         while self._at:
             self._listen()
             self._hand_out(todo, room)  # first: workers are busy while a result is looked at

@@ -12,7 +12,6 @@ import click
 
 from topo_verify.campaign.backend import pooled
 from topo_verify.campaign.campaign import Backend, Campaign, ListedWorlds
-from topo_verify.campaign.corpus import corpus_from
 from topo_verify.campaign.judge import Report, judge
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.targets import each_text, one_target, target_arguments
@@ -38,6 +37,7 @@ from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, 
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.conform.batch import batched
 from topo_verify.studies.conform.conform import Asked, Conform, LevelResult, WorldFinding
+from topo_verify.studies.corpus import corpus_from
 from topo_verify.world.rooted_map import World
 
 SHOWN = 3

@@ -6,8 +6,6 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import click
 
-from topo_verify.campaign.campaign import CorpusWorlds
-from topo_verify.campaign.corpus import DEFAULT, corpus_from
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.cli import options
@@ -20,6 +18,7 @@ from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline import record as study
 from topo_verify.studies.baseline.file import encode
+from topo_verify.studies.corpus import DEFAULT, CorpusWorlds, corpus_from
 from topo_verify.world.formats import files
 
 SHOWN = 3

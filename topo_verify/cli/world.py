@@ -12,7 +12,6 @@ from typing import Any
 import click
 import msgspec
 
-from topo_verify.campaign.corpus import drawn as worlds_drawn
 from topo_verify.cli import options
 from topo_verify.cli.failures import epilog
 from topo_verify.cli.output import Live, Output, Result, entry_of, written
@@ -20,6 +19,7 @@ from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.cli.twins import TwinEntry, rotation_table, twin_blocks, twin_entry
 from topo_verify.errors import InputError, plural
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
+from topo_verify.studies.corpus import drawn as worlds_drawn
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, Table

@@ -11,6 +11,7 @@ verify/        the main job
 gap.py         how far a rule is from the best possible
 log_file.py    the log of a robot, in JSON Lines or as a CSV table
 advice.py      where a robot goes next, so that its log proves the map in the end
+corpus.py      what WORLDS means
 log_report.py  a log judged with no world; what is left to walk
 map_check.py   a map judged by a log, and the cheapest way to prove it
 """

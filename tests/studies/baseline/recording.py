@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from topo_verify.campaign.campaign import CorpusWorlds
-from topo_verify.campaign.corpus import corpus_from
 from topo_verify.campaign.run import Engine
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline.file import Baseline
 from topo_verify.studies.baseline.record import baseline_runs, record
+from topo_verify.studies.corpus import CorpusWorlds, corpus_from
 
 
 def recording(

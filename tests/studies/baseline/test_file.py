@@ -13,12 +13,12 @@ import pytest
 
 from tests.studies.baseline.recording import recording
 from tests.versions import older
-from topo_verify.campaign.corpus import corpus_from
 from topo_verify.campaign.targets import one_target
 from topo_verify.errors import InputError
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline import file
 from topo_verify.studies.baseline.file import Baseline, BaselineEntry
+from topo_verify.studies.corpus import corpus_from
 from topo_verify.world.rooted_map import World
 
 WORLDS = ("edges<=2", "family:lattice(11,11)")

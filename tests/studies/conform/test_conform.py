@@ -10,12 +10,12 @@ import pytest
 
 from tests.programs.programs import compiled, conforming, javascript, misbehaving, served
 from topo_verify.campaign.backend import pooled
-from topo_verify.campaign.corpus import corpus_from
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Start, read_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.conform.batch import batched
 from topo_verify.studies.conform.conform import MAX_TIMEOUTS, LevelResult
+from topo_verify.studies.corpus import corpus_from
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 

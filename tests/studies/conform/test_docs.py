@@ -9,13 +9,13 @@ import msgspec
 
 from tests.programs.programs import ROOT, served
 from topo_verify import World, explore
-from topo_verify.campaign.corpus import corpus_from
 from topo_verify.checkers import CLAIMS
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.misbehaviour import MISBEHAVIOURS
 from topo_verify.programs.program import IN_A_ROW, Program
 from topo_verify.robot.limits import Limit
 from topo_verify.studies.conform.conform import MAX_TIMEOUTS
+from topo_verify.studies.corpus import corpus_from
 from topo_verify.world.formats import world_json
 
 PAGE = (ROOT / "docs" / "oracle.md").read_text()

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from topo_verify.campaign.corpus import STRATEGIES
 from topo_verify.strategies.sample import WORLDS
+from topo_verify.studies.corpus import STRATEGIES
 from topo_verify.studies.verify.verify import generated_worlds
 
 

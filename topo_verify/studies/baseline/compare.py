@@ -25,21 +25,20 @@ Source: docs/baselines.md.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import zip_longest
 from typing import Literal, NamedTuple, get_args
 
 import msgspec
 
-from topo_verify.campaign.corpus import NETWORKS
 from topo_verify.campaign.row import Row
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Policies
 from topo_verify.studies.baseline.file import Baseline, BaselineEntry, world_of
 from topo_verify.studies.baseline.record import MAX_TIMEOUTS, entry_of, replay_command
+from topo_verify.studies.corpus import NETWORKS
 from topo_verify.world.rooted_map import World
 
 ChangeKind = Literal[
@@ -210,83 +209,54 @@ def compare(
             on the wrong side.
         name: the file of the baseline.
     """
-    tally = _ComparisonTally()
+    changes: list[Change] = []
+    classes: dict[_Class, list[Change]] = defaultdict(list)
     for entry, row in zip_longest(baseline.entries, rows):
         world = World.from_text(entry.world)
         replay = replay_command(target, _argument(entry), baseline.header.limits)
-        tally.enter(_change(entry, world, row, Fraction(tolerance), replay), world)
-    total, header = tally.total, baseline.header
+        changes.append(_change(entry, world, row, Fraction(tolerance), replay))
+        for world_class in _classes(world):
+            classes[world_class].append(changes[-1])
+    before, after, kinds = _summed(changes)
+    header = baseline.header
     return Comparison(
         target=target.text,
-        worlds=total.kinds.total(),
-        **total.by_kind(),  # each kind is a field under its own name
+        worlds=len(changes),
+        **kinds,  # each kind is a field under its own name
         tolerance=str(tolerance),
-        beyond=tally.beyond,
-        cost=CostChange(total.before, total.after),
+        beyond=sum(change.beyond for change in changes),
+        cost=CostChange(before, after),
         baseline=BaselineSummary(
             name, header.target, header.tool, header.policies, header.corpus, header.digest
         ),
-        groups=tuple(tally.groups()),
-        examples=tuple(c for kind in KINDS if kind != "equal" for c in tally.changes.get(kind, ())),
+        groups=tuple(
+            Group(one.by, one.value, len(members), *_summed(members))
+            for one, members in sorted(classes.items())
+        ),
+        examples=tuple(_examples(changes)),
     )
+
+
+def _summed(changes: Sequence[Change]) -> tuple[int, int, dict[ChangeKind, int]]:
+    """Costs before and after where the mapper is right then and now; the worlds of each kind."""
+    right = [(c.before, c.after) for c in changes if c.before is not None and c.after is not None]
+    kinds = Counter(change.kind for change in changes)
+    before, after = sum(cost for cost, _ in right), sum(cost for _, cost in right)
+    return before, after, {kind: kinds[kind] for kind in KINDS}
+
+
+def _examples(changes: Sequence[Change]) -> Iterator[Change]:
+    """The largest changes of each kind but `equal`; a world that comes twice counts once."""
+    for kind in KINDS:
+        if kind != "equal":
+            alike = dict.fromkeys(change for change in changes if change.kind == kind)
+            yield from sorted(alike, key=_weight)[:EXAMPLES]
 
 
 def _argument(entry: BaselineEntry) -> str:
     """How a command line names the world, in whatever folder it is called."""
     known = entry.name in NETWORKS or entry.name.startswith("family:")
     return entry.name if known or entry.world.startswith("{") else entry.world
-
-
-@dataclass
-class _ChangeCounts:
-    """Counts changes by kind, and sums up the costs where the mapper is right then and now."""
-
-    kinds: Counter[ChangeKind] = field(default_factory=Counter[ChangeKind])
-    before: int = 0
-    after: int = 0
-
-    def enter(self, change: Change) -> None:
-        """Count the change in one world."""
-        self.kinds[change.kind] += 1
-        if change.before is not None and change.after is not None:
-            self.before += change.before
-            self.after += change.after
-
-    def by_kind(self) -> dict[ChangeKind, int]:
-        """How many worlds are of each kind, those without any included."""
-        return {kind: self.kinds[kind] for kind in KINDS}
-
-
-@dataclass
-class _ComparisonTally:
-    """Tallies changes, in all worlds and by class. Life cycle: `enter` each, then read.
-
-    Not a `tally.Tally`: that counts runs by what claims say of them, this by what was before. And
-    its examples are the largest changes, not the first.
-    """
-
-    beyond: int = 0
-    total: _ChangeCounts = field(default_factory=_ChangeCounts)
-    classes: dict[_Class, _ChangeCounts] = field(default_factory=dict["_Class", _ChangeCounts])
-    changes: dict[ChangeKind, list[Change]] = field(default_factory=dict[ChangeKind, list[Change]])
-
-    def enter(self, change: Change, world: World) -> None:
-        """Count one world, and keep it if its change is among the largest of its kind."""
-        self.beyond += change.beyond
-        self.total.enter(change)
-        for one in _classes(world):
-            self.classes.setdefault(one, _ChangeCounts()).enter(change)
-        kept = self.changes.setdefault(change.kind, [])
-        if change not in kept:  # a corpus may name a world twice
-            kept.append(change)
-            kept.sort(key=_weight)
-            del kept[EXAMPLES:]
-
-    def groups(self) -> Iterator[Group]:
-        """The counts of each class of worlds that occurs."""
-        for one, counts in sorted(self.classes.items()):
-            worlds, kinds = counts.kinds.total(), counts.by_kind()
-            yield Group(one.by, one.value, worlds, counts.before, counts.after, kinds)
 
 
 # ---------------------------------------------------------------- one world

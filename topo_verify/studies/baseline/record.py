@@ -19,9 +19,8 @@ from importlib import metadata
 
 import msgspec
 
+from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import MapperCampaign
-from topo_verify.campaign.campaign import Campaign, ListedWorlds, NamedWorlds, Stop
-from topo_verify.campaign.corpus import Corpus
 from topo_verify.campaign.identity import Identity, runs_here, source_hash
 from topo_verify.campaign.judge import replay_line
 from topo_verify.campaign.row import Row
@@ -33,6 +32,7 @@ from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline.file import Baseline, BaselineEntry, Header
+from topo_verify.studies.corpus import Corpus
 from topo_verify.world.rooted_map import World
 
 MAX_TIMEOUTS = 3
@@ -41,7 +41,7 @@ MAX_TIMEOUTS = 3
 
 def baseline_runs(
     target: Target,
-    worlds: NamedWorlds,
+    worlds: c.NamedWorlds,
     total: int,
     *,
     limits: Limits | None = None,
@@ -57,15 +57,15 @@ def baseline_runs(
         InputError: the store holds the runs of another mapper, or under other limits.
     """
     policies = policies_of(target)
-    campaign = Campaign(
-        worlds=ListedWorlds(total),
+    campaign = c.Campaign(
+        worlds=c.ListedWorlds(total),
         mappers=(target.text,),
         pick=None if policies is None else policies.pick,
         order=None if policies is None else policies.order,
         engine=engine,
         limits=limits or Limits(),
         in_process=runs_here(target),
-        stop=Stop(timeouts=MAX_TIMEOUTS),
+        stop=c.Stop(timeouts=MAX_TIMEOUTS),
     )
     kept = None
     if store is not None:

@@ -33,7 +33,6 @@ from msgspec.structs import asdict, replace
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Attempt, Look, row_of
-from topo_verify.campaign.corpus import Corpus
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import explore
@@ -44,6 +43,7 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import write_trace
 from topo_verify.studies.conform.likeness import Difference, Likeness, declares, first_difference
+from topo_verify.studies.corpus import Corpus, CorpusWorlds
 from topo_verify.world.formats import files
 
 Level = Literal["result", "claims", "decisions", "cost"]
@@ -400,7 +400,7 @@ class Conform:
         self._counts = Counts()
         self.priced: list[WorldCost] = []
         self.tried = 0
-        self._worlds = c.CorpusWorlds(corpus)
+        self._worlds = CorpusWorlds(corpus)
 
     @property
     def target(self) -> str:
@@ -414,7 +414,7 @@ class Conform:
             KeyboardInterrupt: Ctrl-C; `level_results` has what was found before.
             InputError: there is no such mapper or program.
         """
-        for _, result in c.results(self.campaign, backend, c.CorpusWorlds(self.corpus), tell=tell):
+        for _, result in c.results(self.campaign, backend, CorpusWorlds(self.corpus), tell=tell):
             for row in result.rows:
                 self.enter(row)
 

@@ -24,19 +24,8 @@ from random import Random
 
 import msgspec
 
+from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, here
-from topo_verify.campaign.campaign import (
-    Backend,
-    Campaign,
-    InFlight,
-    ListedWorlds,
-    Ranks,
-    Shard,
-    ShardResults,
-    Stop,
-    examine,
-    results,
-)
 from topo_verify.campaign.progress import Progress, no_progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import SAMPLE, sample_key
@@ -106,7 +95,7 @@ class RunAgain(msgspec.Struct, frozen=True):
         )
 
 
-def run_again(campaign: Campaign, rows: Sequence[Row], tell: Progress | None = None) -> RunAgain:
+def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None = None) -> RunAgain:
     """Run some of the worlds of a search again, each in a fresh process, and then in a row.
 
     Args:
@@ -135,7 +124,7 @@ def run_again(campaign: Campaign, rows: Sequence[Row], tell: Progress | None = N
     known = {row.world: row for row in rows}
     lost = {row.world for row in rows if row.lost}
     names = [name for name in row_of(campaign) if name not in lost]
-    in_row = _rows(campaign, names, _one_process, told, stop=Stop(failing=1))
+    in_row = _rows(campaign, names, _one_process, told, stop=c.Stop(failing=1))
     for number, now in enumerate(in_row, 1):
         if now.failed:
             failures.append(_failure_in_row(campaign, names[:number], now))
@@ -144,7 +133,7 @@ def run_again(campaign: Campaign, rows: Sequence[Row], tell: Progress | None = N
     return RunAgain(len(before), len(in_row), tuple(failures), tuple(others))
 
 
-def _drawn(rows: Sequence[Row], campaign: Campaign) -> list[Row]:
+def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:
     """The counterexample, then the sample, without worlds known to come out otherwise at times.
 
     Of a native mapper the first and the last world, too.
@@ -164,12 +153,12 @@ def _drawn(rows: Sequence[Row], campaign: Campaign) -> list[Row]:
     return first
 
 
-def row_of(campaign: Campaign) -> list[str]:
+def row_of(campaign: c.Campaign) -> list[str]:
     """Worlds of the class, in an order of their own; the same ones for either engine."""
-    assert isinstance(campaign.worlds, Ranks)
+    assert isinstance(campaign.worlds, c.Ranks)
     lots = Random(f"{campaign.seed} row")
     # The shards of the reference: to list half a million worlds of the engine's takes seconds.
-    shards = list(Ranks(campaign.worlds.edges, campaign.worlds.kind).shards())
+    shards = list(c.Ranks(campaign.worlds.edges, campaign.worlds.kind).shards())
     row: list[str] = []
     for shard in lots.sample(shards, len(shards)):
         if len(row) >= ROW:
@@ -183,35 +172,39 @@ def row_of(campaign: Campaign) -> list[str]:
 
 
 def _rows(
-    campaign: Campaign,
+    campaign: c.Campaign,
     worlds: Sequence[str],
-    backend: Backend,
+    backend: c.Backend,
     tell: Progress = no_progress,
-    stop: Stop | None = None,
+    stop: c.Stop | None = None,
 ) -> list[Row]:
     """The rows of the mapper in these worlds, in this order."""
-    listed = ListedWorlds(len(worlds))
-    once = msgspec.structs.replace(campaign, worlds=listed, keep="all", stop=stop or Stop())
+    listed = c.ListedWorlds(len(worlds))
+    once = msgspec.structs.replace(campaign, worlds=listed, keep="all", stop=stop or c.Stop())
     named = [(name, World.from_id(name)) for name in worlds]
-    return [row for _, result in results(once, backend, named, tell=tell) for row in result.rows]
+    return [row for _, result in c.results(once, backend, named, tell=tell) for row in result.rows]
 
 
-def _alone(campaign: Campaign, shards: Iterator[Shard], _in_flight: InFlight) -> ShardResults:
+def _alone(
+    campaign: c.Campaign, shards: Iterator[c.Shard], _in_flight: c.InFlight
+) -> c.ShardResults:
     """Each shard in a process of the mapper's that has played no world."""
     text = campaign.mappers[0]
     if text.startswith(PREFIX):
         for shard in shards:
             with _program(text) as program:
                 program.start()  # here, where no time limit counts it
-                yield shard, examine(campaign, (program.target,), shard)
+                yield shard, c.examine(campaign, (program.target,), shard)
         return
     with Foreign(text, fresh=True) as program:
         for shard in shards:
             program.start()
-            yield shard, examine(campaign, (program.target,), shard)
+            yield shard, c.examine(campaign, (program.target,), shard)
 
 
-def _one_process(campaign: Campaign, shards: Iterator[Shard], in_flight: InFlight) -> ShardResults:
+def _one_process(
+    campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight
+) -> c.ShardResults:
     """All shards in one process of the mapper's."""
     with _program(campaign.mappers[0]) as program:
         program.start()
@@ -225,7 +218,7 @@ def _program(text: str) -> Program:
 # ---------------------------------------------------------------- findings
 
 
-def _failure(campaign: Campaign, row: Row, now: Row, *, search: bool) -> Unlike:
+def _failure(campaign: c.Campaign, row: Row, now: Row, *, search: bool) -> Unlike:
     """The finding in a world that came out otherwise when it was run again.
 
     Args:
@@ -249,7 +242,7 @@ def _failure(campaign: Campaign, row: Row, now: Row, *, search: bool) -> Unlike:
     return _unlike(campaign, row, message, replay or _searching(campaign))
 
 
-def _failure_in_row(campaign: Campaign, names: Sequence[str], now: Row) -> Unlike:
+def _failure_in_row(campaign: c.Campaign, names: Sequence[str], now: Row) -> Unlike:
     """The finding in the last world of a row."""
     finding = now.findings[0]
     message = (
@@ -262,13 +255,13 @@ def _failure_in_row(campaign: Campaign, names: Sequence[str], now: Row) -> Unlik
     return _unlike(campaign, now, message, replay or _searching(campaign))
 
 
-def _unlike(campaign: Campaign, row: Row, message: str, replay: str) -> Unlike:
+def _unlike(campaign: c.Campaign, row: Row, message: str, replay: str) -> Unlike:
     finding = Finding(CLAIM, None, "the same each time", None, message, None, row.world, replay)
     rank = int(row.world.partition("/")[2])
     return Unlike(row.edges, rank, campaign.mappers[0], (finding,))
 
 
-def _reproduced(campaign: Campaign, world: str, before: Sequence[str]) -> str | None:
+def _reproduced(campaign: c.Campaign, world: str, before: Sequence[str]) -> str | None:
     """A command that makes a world fail behind others in one process; None if none was found."""
     number = 1
     while before and number <= LONGEST:
@@ -284,21 +277,21 @@ def _reproduced(campaign: Campaign, world: str, before: Sequence[str]) -> str | 
     return None
 
 
-def _before(campaign: Campaign, row: Row) -> list[str]:
+def _before(campaign: c.Campaign, row: Row) -> list[str]:
     """The last worlds of the class before one, in their order."""
-    assert isinstance(campaign.worlds, Ranks)
+    assert isinstance(campaign.worlds, c.Ranks)
     worlds: list[str] = []
     for edges in range(row.edges, 0, -1):
         stop = row.place if edges == row.edges else rank_order.count(edges)
-        near = Shard(edges, max(0, stop - NEAR), stop)
+        near = c.Shard(edges, max(0, stop - NEAR), stop)
         worlds = [name for _, name, _ in campaign.worlds.worlds(near)] + worlds
         if len(worlds) >= LONGEST:
             break
     return worlds[-LONGEST:]
 
 
-def _searching(campaign: Campaign) -> str:
-    assert isinstance(campaign.worlds, Ranks)
+def _searching(campaign: c.Campaign) -> str:
+    assert isinstance(campaign.worlds, c.Ranks)
     words = ["topo-verify", "search", *target_arguments(campaign.mappers[0])]
     words += ["--edges", str(campaign.worlds.edges), "--class", campaign.worlds.kind]
     return shlex.join([*words, "--workers", "0", *campaign.limits.options])

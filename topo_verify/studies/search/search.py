@@ -15,17 +15,8 @@ import msgspec
 from msgspec.structs import astuple
 
 from topo_verify.algorithms import Algorithm, Steered
+from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, clustered, here, pooled
-from topo_verify.campaign.campaign import (
-    ENGINE_SHARD,
-    Backend,
-    Campaign,
-    EngineSeconds,
-    Ranks,
-    ShardMemory,
-    Stop,
-    results,
-)
 from topo_verify.campaign.cluster import both_given, connected
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import PolicyCosts, Row
@@ -193,7 +184,7 @@ def search_campaign(  # noqa: PLR0913  an argument an option
     seed: int = 0,
     in_process: bool = True,
     engine: Engine | None = None,
-) -> Campaign:
+) -> c.Campaign:
     """The campaign of a search.
 
     Args:
@@ -218,13 +209,13 @@ def search_campaign(  # noqa: PLR0913  an argument an option
             )
     if choices != "reference":
         require_choices(mappers, choices, edges)
-    return Campaign(
-        worlds=Ranks(edges, kind, ENGINE_SHARD if engine == "compiled" else SHARD[choices]),
+    return c.Campaign(
+        worlds=c.Ranks(edges, kind, c.ENGINE_SHARD if engine == "compiled" else SHARD[choices]),
         mappers=tuple(mapper.text for mapper in mappers),
         limits=limits,
         in_process=in_process,
         engine=engine,
-        stop=Stop(failing=None if keep_going else 1),
+        stop=c.Stop(failing=None if keep_going else 1),
         keep="notable",
         ways=WAYS[choices],
         seed=seed,
@@ -322,12 +313,12 @@ class Search:
 
     def __init__(
         self,
-        campaign: Campaign,
+        campaign: c.Campaign,
         mappers: Sequence[Target],
-        backend: Backend,
-        store: ShardMemory | None = None,
+        backend: c.Backend,
+        store: c.ShardMemory | None = None,
     ) -> None:
-        assert isinstance(campaign.worlds, Ranks)
+        assert isinstance(campaign.worlds, c.Ranks)
         self.campaign, self.mappers, self._backend, self._store = campaign, mappers, backend, store
         self.worlds = campaign.worlds
         self.totals = self.worlds.totals()
@@ -335,7 +326,7 @@ class Search:
         self.rows: tuple[Row, ...] = ()
         self.from_store = 0
         self.again: RunAgain | None = None
-        self.seconds = EngineSeconds()
+        self.seconds = c.EngineSeconds()
 
     def work(self, tell: Progress | None = None) -> None:
         """Examine the shards until the end, or as far as the campaign says.
@@ -345,7 +336,7 @@ class Search:
             InternalError: mappers ran in another number of worlds than there are.
         """
         known = set[str]() if self._store is None else {s.key for s in self._store.known()}
-        for shard, result in results(self.campaign, self._backend, store=self._store, tell=tell):
+        for shard, result in c.results(self.campaign, self._backend, store=self._store, tell=tell):
             self.tallies[shard.edges] += result.tally
             self.rows = notable((*self.rows, *result.rows), self.campaign.seed)
             self.seconds += result.seconds

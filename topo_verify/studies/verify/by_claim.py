@@ -19,14 +19,13 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from topo_verify.campaign.attempt import Attempt
-from topo_verify.campaign.campaign import CorpusWorlds
-from topo_verify.campaign.corpus import corpus_from
 from topo_verify.campaign.judge import Report, undecided
 from topo_verify.campaign.progress import no_progress
 from topo_verify.checkers import Finding
 from topo_verify.errors import LINE, shown
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.corpus import CorpusWorlds, corpus_from
 from topo_verify.studies.verify.parts import Part
 from topo_verify.studies.verify.trials import Trials
 

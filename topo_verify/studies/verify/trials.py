@@ -8,28 +8,24 @@ few failing worlds.
 Where the compiled engine is installed, the part `small-worlds` goes one size further for algorithms
 of the catalogue. The engine also does the sizes that the checkers judged, and must count there what
 they counted. A difference is a bug of ours.
+
+Algorithms of the catalogue run in worker processes: the small worlds in one campaign, the worlds of
+all later parts in another (`Together`), so that no processor waits for the end of a part.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import get_args
+from itertools import chain, repeat
+from typing import Self, get_args
 
 import msgspec
 
 from topo_verify.algorithms import CATALOGUE, Algorithm
+from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import KEPT_FINDINGS, Look
 from topo_verify.campaign.backend import here, pooled
-from topo_verify.campaign.campaign import (
-    ENGINE_SHARD,
-    Campaign,
-    ListedWorlds,
-    NamedWorlds,
-    Ranks,
-    Stop,
-    results,
-)
 from topo_verify.campaign.judge import in_words, world_argument
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
@@ -38,7 +34,6 @@ from topo_verify.campaign.tally import KEPT_FAILING, Tally, joint_status, notabl
 from topo_verify.campaign.work import processors
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.checkers.findings import Status, Verdict
-from topo_verify.compiled import available
 from topo_verify.errors import InternalError, plural
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
@@ -47,9 +42,6 @@ from topo_verify.world.rooted_map import World
 
 MAX_TIMEOUTS = 3
 """Number of time-outs after which a part stops; of failing worlds, too, where that is asked."""
-
-WORTH = 4
-"""From this many edges on workers are used: smaller worlds take less time than to start one."""
 
 
 @dataclass
@@ -64,33 +56,38 @@ class Trials:
         finite: the worlds are all of a finite class.
         max_failing: stop after this many failing worlds; None: never.
         look: called for every run.
+        together: runs the mappers, in the worlds of other parts as well; None: they run here.
     """
 
     name: str
     about: str
     total: int
-    worlds: NamedWorlds
+    worlds: c.NamedWorlds
     targets: Sequence[Target]
     limits: Limits
     finite: bool = False
     max_failing: int | None = None
     look: Look | None = None
+    together: Together | None = None
 
     tally: Tally = field(default_factory=Tally)
     failing: list[Row] = field(default_factory=list[Row])
     rows: list[Row] = field(default_factory=list[Row])
 
+    @property
+    def stop(self) -> c.Stop:
+        """When the part ends before its last world."""
+        return c.Stop(self.max_failing, MAX_TIMEOUTS)
+
     def work(self, tell: Progress) -> None:
         """Run the mappers in one world after the other, until too many time out or fail."""
-        campaign = Campaign(
-            worlds=ListedWorlds(self.total),
-            mappers=tuple(target.text for target in self.targets),
-            limits=self.limits,
-            stop=Stop(self.max_failing, MAX_TIMEOUTS),
-        )
+        if self.together is not None:
+            self.together.work(self, tell)
+            return
+        campaign = _campaign(c.ListedWorlds(self.total), self.targets, self.limits, self.stop)
         backend = here(self.targets, look=self.look)
         told = _naming(self.name, tell)
-        for _, result in results(campaign, backend, self.worlds, tell=told):
+        for _, result in c.results(campaign, backend, self.worlds, tell=told):
             self.enter(result.tally, result.rows)
 
     def enter(self, tally: Tally, rows: Sequence[Row]) -> None:
@@ -164,6 +161,45 @@ class Trials:
         return words + (f" ({mappers})" if len(self.targets) > 1 else "")
 
 
+class Together:
+    """Runs algorithms of the catalogue in the worlds of several parts, in worker processes.
+
+    Life cycle: `with` it, which ends the workers; `work` of each part, in any order.
+    """
+
+    def __init__(self, parts: Sequence[Trials]) -> None:
+        first, total = parts[0], sum(part.total for part in parts)
+        campaign = _campaign(c.ListedWorlds(total), first.targets, first.limits)
+        named = [world for part in parts for world in part.worlds]
+        owners = chain.from_iterable(repeat(part, part.total) for part in parts)
+        self._results = c.results(campaign, pooled(processors()), named)
+        self._finished = zip(owners, self._results, strict=True)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self._results.close()
+
+    def work(self, part: Trials, tell: Progress) -> None:
+        """Count the worlds of a part, and those of the parts before it."""
+        while part.tally.worlds < part.total and not part.stop.reached(part.tally):
+            owner, (_, result) = next(self._finished)
+            if not owner.stop.reached(owner.tally):
+                owner.enter(result.tally, result.rows)
+            tell(part.name, part.tally.worlds, part.total)
+
+
+def _campaign(
+    worlds: c.Ranks | c.ListedWorlds,
+    targets: Sequence[Target],
+    limits: Limits,
+    stop: c.Stop | None = None,
+) -> c.Campaign:
+    texts = tuple(target.text for target in targets)
+    return c.Campaign(worlds=worlds, mappers=texts, limits=limits, stop=stop or c.Stop())
+
+
 def _naming(name: str, tell: Progress) -> Progress:
     return lambda _what, done, total: tell(name, done, total)
 
@@ -192,29 +228,56 @@ def claims_in_words(claims: dict[str, dict[str, int]]) -> str:
 # ---------------------------------------------------------------- all small worlds
 
 
+class EngineCounts(msgspec.Struct, frozen=True):
+    """What the compiled engine counts in small worlds: the tally of each size, and notable rows."""
+
+    tallies: dict[int, Tally]
+    rows: tuple[Row, ...]
+
+
+def engine_counts(edges: int, targets: Sequence[Target]) -> EngineCounts:
+    """Counts of algorithms of the catalogue in every world of 1 to `edges` edges, in this process.
+
+    Raises:
+        InternalError: the engine and the checkers disagree in a world that both judge.
+    """
+    campaign = _campaign(c.Ranks(edges, shard=c.ENGINE_SHARD), targets, Limits())
+    campaign = msgspec.structs.replace(campaign, engine="compiled", keep="notable")
+    tallies: dict[int, Tally] = {}
+    rows: tuple[Row, ...] = ()
+    for shard, result in c.results(campaign, here(targets)):
+        tallies[shard.edges] = tallies.get(shard.edges, Tally()) + result.tally
+        rows = notable((*rows, *result.rows))
+    return EngineCounts(tallies, rows)
+
+
 class SmallWorlds(Trials):
     """Runs every mapper in every world of 1 to `edges` edges. A `PartJob`.
 
-    Only algorithms of the catalogue run in workers. A user's mapper runs in this process, so that
-    Ctrl-C reaches it; its few thousand runs take seconds.
+    A user's mapper runs in this process, so that Ctrl-C reaches it; its few thousand runs take
+    seconds.
 
     Args:
-        further: one size more by the compiled engine, where it is installed.
+        further: counts one size more by the compiled engine; None: it does not go further.
+        workers: number of worker processes; 0: this one.
     """
 
     def __init__(
-        self, edges: int, targets: Sequence[Target], limits: Limits, *, further: bool = False
+        self,
+        edges: int,
+        targets: Sequence[Target],
+        limits: Limits,
+        *,
+        further: Callable[[], EngineCounts] | None = None,
+        workers: int = 0,
     ) -> None:
-        ours = all(CATALOGUE.get(target.text) == target.mapper for target in targets)
         super().__init__("small-worlds", "", 0, (), targets, limits, finite=True)
-        self._workers = processors() if ours and edges >= WORTH else 0
-        self._further = ours and further and available() and limits == Limits()
-        self._tallies: dict[int, Tally] = {}
+        self._workers, self._further = workers, further
         self._extend(edges)
 
     def _extend(self, edges: int) -> None:
         self._edges, self.about = edges, f" of 1 to {plural(edges, 'edge')}"
-        self.total = sum(Ranks(edges).totals().values())
+        self.total = sum(c.Ranks(edges).totals().values())
 
     def work(self, tell: Progress) -> None:
         """Search every world of each size.
@@ -222,36 +285,25 @@ class SmallWorlds(Trials):
         Raises:
             InternalError: the compiled engine counts something else than the checkers.
         """
-        campaign = Campaign(
-            worlds=Ranks(self._edges),
-            mappers=tuple(target.text for target in self.targets),
-            limits=self.limits,
-            stop=Stop(timeouts=MAX_TIMEOUTS),
-            keep="notable",
-        )
-        self._tallies = self._searched(campaign, tell)
-        if self._further and self.part().verdict == "EXHAUSTED":
-            before = self._tallies
-            self._extend(self._edges + 1)
-            self.tally, self.failing, self.rows = Tally(), [], []
-            campaign = msgspec.structs.replace(
-                campaign,
-                worlds=Ranks(self._edges, shard=ENGINE_SHARD),
-                engine="compiled",
-                stop=Stop(),
-            )
-            self._require_same(before, self._searched(campaign, tell))
-
-    def _searched(self, campaign: Campaign, tell: Progress) -> dict[int, Tally]:
-        """The tallies by size."""
-        tallies: dict[int, Tally] = {}
+        stop = c.Stop(timeouts=MAX_TIMEOUTS)
+        campaign = _campaign(c.Ranks(self._edges), self.targets, self.limits, stop)
+        campaign = msgspec.structs.replace(campaign, keep="notable")
         backend = pooled(self._workers) if self._workers else here(self.targets)
-        for shard, result in results(campaign, backend, tell=_naming(self.name, tell)):
+        tallies: dict[int, Tally] = {}
+        for shard, result in c.results(campaign, backend, tell=_naming(self.name, tell)):
             tallies[shard.edges] = tallies.get(shard.edges, Tally()) + result.tally
             self.tally += result.tally
-            self.rows = [*notable((*self.rows, *result.rows))]
-            self.failing = [row for row in self.rows if row.failed]
-        return tallies
+            self._keep((*self.rows, *result.rows))
+        if self._further is not None and self.part().verdict == "EXHAUSTED":
+            counts = self._further()
+            self._require_same(tallies, counts.tallies)
+            self._extend(self._edges + 1)
+            self.tally = sum(counts.tallies.values(), Tally())
+            self._keep(counts.rows)
+
+    def _keep(self, rows: Iterable[Row]) -> None:
+        self.rows = [*notable(rows)]
+        self.failing = [row for row in self.rows if row.failed]
 
     def _require_same(self, before: dict[int, Tally], after: dict[int, Tally]) -> None:
         for edges, tally in before.items():
@@ -299,8 +351,9 @@ class CostTrial(Trials):
 
     def work(self, tell: Progress) -> None:
         """Run the mappers, then the algorithms that they are compared with."""
-        self.basic = explore(self.world, "basic").cost
         super().work(tell)
+        ours = (row.cost for row in self.rows if row.mapper == "basic" and not row.findings)
+        self.basic = next(ours, 0) or explore(self.world, "basic").cost
         for row in self.rows:
             rejected = row.free, row.moving, row.confirmed
             self._enter(row.mapper, row.cost, rejected, right=not row.findings)

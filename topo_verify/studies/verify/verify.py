@@ -11,7 +11,9 @@ For a mapper of the user's four parts are done: `counts` and `proofs` do not dep
 | `generated-worlds` | 160 worlds as property tests draw them, 20 of each strategy | 40 |
 | `street-network` | a real street network, and the cost of each mapper there | the same |
 
-Each part is yielded as soon as it is done; the command line prints it.
+Each part is yielded as soon as it is done; the command line prints it. For algorithms of the
+catalogue all processors work from the start: theorems, the compiled engine and the drawing of
+worlds in processes of their own (`Beside`), the runs in worker processes.
 
 Uniformly drawn worlds have few vertices and many handles. Lattices, trees and worlds in which many
 places look alike are rare among them; the strategies draw these on purpose.
@@ -22,29 +24,49 @@ worlds as it is asked to and shrinks a failing one; here the smaller worlds mere
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from functools import cache
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from functools import cache, partial
+from math import inf
 from random import Random
+from typing import Self
+
+import msgspec
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.campaign.corpus import STRATEGIES, drawn
+from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.progress import Progress, no_progress
+from topo_verify.campaign.targets import targets as targets_of
+from topo_verify.campaign.work import Loss, Work, processors
+from topo_verify.campaign.worker import Handler
+from topo_verify.compiled import available
+from topo_verify.errors import InternalError
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.corpus import STRATEGIES, drawn
 from topo_verify.studies.verify.parts import Part, PartJob, Proofs, WorldCounts
 from topo_verify.studies.verify.trials import (
     MAX_TIMEOUTS,
     CostTrial,
+    EngineCounts,
     SmallWorlds,
+    Together,
     Trials,
+    engine_counts,
     with_ids,
 )
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.resolve import resolve_world
-from topo_verify.world.rooted_map import World
+from topo_verify.world.rooted_map import Code, World
 
 SEED = 0
 """The default seed of the sampled worlds."""
+
+LARGEST = 5
+"""The most edges of the small worlds, without the size that the compiled engine adds."""
+
+EACH = 20
+"""Number of worlds that are drawn from each strategy."""
 
 
 def verify(
@@ -65,13 +87,17 @@ def verify(
         seed: of the sampled worlds.
         limits: of each run of a mapper.
     """
-    for job in _jobs(targets, seed, limits or Limits(), quick=quick):
-        try:
-            job.work(tell or no_progress)
-        except KeyboardInterrupt:
-            yield job.part(interrupted=True)
-            raise
-        yield job.part()
+    with ExitStack() as stack:
+        beside = None
+        if not quick and _are_ours(targets):
+            beside = stack.enter_context(Beside(targets, seed))
+        for job in _jobs(targets, seed, limits or Limits(), beside, quick=quick):
+            try:
+                job.work(tell or no_progress)
+            except KeyboardInterrupt:
+                yield job.part(interrupted=True)
+                raise
+            yield job.part()
 
 
 def left_out(targets: Sequence[Target]) -> tuple[str, ...]:
@@ -80,37 +106,42 @@ def left_out(targets: Sequence[Target]) -> tuple[str, ...]:
     return () if ours else ("counts", "proofs")
 
 
+def _are_ours(targets: Sequence[Target]) -> bool:
+    return all(CATALOGUE.get(target.text) == target.mapper for target in targets)
+
+
 def _jobs(
-    targets: Sequence[Target], seed: int, limits: Limits, *, quick: bool
+    targets: Sequence[Target], seed: int, limits: Limits, beside: Beside | None, *, quick: bool
 ) -> Iterable[PartJob]:
-    largest, sampled, each = (3, 40, 5) if quick else (5, 200, 20)
     others = left_out(targets)
     if "counts" not in others:
-        yield WorldCounts(5 if quick else 6)
-    yield SmallWorlds(largest, targets, limits, further=not quick)
+        yield WorldCounts(5 if quick else LARGEST + 1)
+    if beside is None:
+        yield SmallWorlds(3 if quick else LARGEST, targets, limits)
+    else:
+        further = beside.counts if available() and limits == Limits() else None
+        yield SmallWorlds(LARGEST, targets, limits, further=further, workers=processors())
     if "proofs" not in others:
-        yield Proofs(quick=quick)
-    yield Trials(
-        name="sampled-worlds",
-        about=" drawn with 6 to 30 edges",
-        total=sampled,
-        worlds=with_ids(sampled_worlds(sampled, seed)),
-        targets=targets,
-        limits=limits,
-        max_failing=MAX_TIMEOUTS,
-    )
+        yield Proofs(quick=quick) if beside is None else ProofsBeside(beside)
+    trials = partial(Trials, targets=targets, limits=limits, max_failing=MAX_TIMEOUTS)
+    number = 40 if quick else 200
+    drawn = with_ids(sampled_worlds(number, seed))
+    sampled = trials("sampled-worlds", " drawn with 6 to 30 edges", number, drawn)
+    street = CostTrial("street-network", "nyc", resolve_world("nyc"), targets, limits)
+    if beside is None:
+        yield sampled
     # Drawing takes seconds: this generator gets here only when the parts above are done.
-    generated = generated_worlds(each, seed)
-    yield Trials(
-        name="generated-worlds",
-        about=" generated by the strategies of property tests",
-        total=len(generated),
-        worlds=with_ids(generated),
-        targets=targets,
-        limits=limits,
-        max_failing=MAX_TIMEOUTS,
-    )
-    yield CostTrial("street-network", "nyc", resolve_world("nyc"), targets, limits)
+    worlds = generated_worlds(5 if quick else EACH, seed) if beside is None else beside.worlds()
+    about = " generated by the strategies of property tests"
+    generated = trials("generated-worlds", about, len(worlds), with_ids(worlds))
+    if beside is None:
+        yield from (generated, street)
+        return
+    # The longest task first: it must not be the last to end.
+    with Together((street, sampled, generated)) as together:
+        for part in (sampled, generated, street):
+            part.together = together
+            yield part
 
 
 def sampled_worlds(number: int, seed: int) -> Iterator[World]:
@@ -126,3 +157,114 @@ def generated_worlds(each: int, seed: int) -> tuple[World, ...]:
     """`each` worlds of every strategy, smallest first."""
     worlds = [world for text in STRATEGIES for world in drawn("verify", text, each, seed)]
     return tuple(sorted(worlds, key=lambda world: (len(world.edges), world.code)))
+
+
+# ---------------------------------------------------------------- beside the main process
+
+
+class BesideJob(msgspec.Struct, frozen=True):
+    """What a worker is handed before its task: the algorithms, and the seed of drawn worlds."""
+
+    targets: str
+    seed: int
+
+
+class BesideResult(msgspec.Struct, frozen=True):
+    """The result of a task: one of the three fields."""
+
+    part: Part | None = None
+    counts: EngineCounts | None = None
+    codes: tuple[Code, ...] = ()
+
+
+BESIDE: dict[str, Callable[[BesideJob], BesideResult]] = {
+    "engine": lambda job: BesideResult(
+        counts=engine_counts(LARGEST + 1, targets_of(job.targets)) if available() else None
+    ),
+    "proofs": lambda _job: BesideResult(part=proved()),
+    "drawing": lambda job: BesideResult(
+        codes=tuple(world.code for world in generated_worlds(EACH, job.seed))
+    ),
+}
+"""The tasks that no other part needs to be done first, by name; each is done in its own process."""
+
+
+@contextmanager
+def serve_beside(job: bytes) -> Generator[Handler]:
+    """Do tasks of `BESIDE`, in a worker."""
+    asked = msgspec.json.decode(job, type=BesideJob)
+    yield lambda task, _beat: BESIDE[msgspec.json.decode(task, type=str)](asked)
+
+
+class Beside:
+    """Worker processes that do the tasks of `BESIDE` while the main process does the parts.
+
+    Life cycle: `with` it, which starts them; then each method waits for its result.
+    """
+
+    def __init__(self, targets: Sequence[Target], seed: int) -> None:
+        work = Work(
+            serve=f"{__name__}:{serve_beside.__name__}",
+            job=BesideJob(",".join(target.text for target in targets), seed),
+            result=BesideResult,
+            lost=_lost,
+            silence=inf,
+        )
+        self._pool = Pool(work, len(BESIDE))
+        self._finished = self._pool.run(BESIDE)
+        self._results: dict[str, BesideResult] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self._pool.__exit__()
+
+    def _result(self, task: str) -> BesideResult:
+        while task not in self._results:
+            name, result = next(self._finished)
+            self._results[name] = result
+        return self._results[task]
+
+    def counts(self) -> EngineCounts:
+        """The counts of the compiled engine, which must be installed."""
+        counts = self._result("engine").counts
+        assert counts is not None, "the engine is installed"
+        return counts
+
+    def proofs(self) -> Part:
+        """The part `proofs`."""
+        part = self._result("proofs").part
+        assert part is not None
+        return part
+
+    def worlds(self) -> tuple[World, ...]:
+        """The worlds that the strategies of property tests draw."""
+        return tuple(map(World.from_code, self._result("drawing").codes))
+
+
+def proved() -> Part:
+    """The part `proofs`, proved in this process."""
+    job = Proofs()
+    job.work(no_progress)
+    return job.part()
+
+
+class ProofsBeside:
+    """The part `proofs`, proved in another process. A `PartJob`."""
+
+    def __init__(self, beside: Beside) -> None:
+        self._beside = beside
+
+    def work(self, tell: Progress) -> None:
+        """Wait for its end."""
+        tell("proofs", 0, 1)
+        self._beside.proofs()
+
+    def part(self, *, interrupted: bool = False) -> Part:
+        """The result; nothing, if it was interrupted."""
+        return Proofs().part(interrupted=True) if interrupted else self._beside.proofs()
+
+
+def _lost(task: str, loss: Loss) -> BesideResult:
+    raise InternalError(f"in a worker, which was to do the task {task}: {loss}")

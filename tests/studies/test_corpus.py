@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from topo_verify import World
-from topo_verify.campaign.corpus import DEFAULT, GENERATED, STRATEGIES, corpus_from
 from topo_verify.errors import InputError
 from topo_verify.strategies.sample import WORLDS
+from topo_verify.studies.corpus import DEFAULT, GENERATED, STRATEGIES, corpus_from
 from topo_verify.world.enumeration import rank_order
 
 SHELF = Path(__file__).parents[1] / "data" / "worlds"

@@ -140,6 +140,24 @@ class Corpus:
         return made.hexdigest()
 
 
+class CorpusWorlds:
+    """The worlds of a corpus with their names, to be iterated any number of times."""
+
+    def __init__(self, corpus: Corpus) -> None:
+        self._corpus = corpus
+        self._placed = enumerate(corpus)
+        self._last: tuple[int, Named] | None = None
+
+    def __iter__(self) -> Iterator[tuple[str, World]]:
+        return ((at.name, at.world) for at in self._corpus)
+
+    def at(self, place: int) -> Named:
+        """The world at a place. No later call asks for an earlier place."""
+        while self._last is None or self._last[0] < place:
+            self._last = next(self._placed)
+        return self._last[1]
+
+
 def corpus_from(texts: Sequence[str] = DEFAULT, *, seed: int = 0) -> Corpus:
     """The worlds that these texts name, in their order; the default corpus if there are none.
 
