@@ -177,6 +177,21 @@ def test_what_is_not_decided_has_no_place_and_exits_3(call: Call) -> None:
     assert "mappers.py:strolls has no place in triangle: 1 world of 1 not decided" in done.stdout
 
 
+def test_the_standings_come_first_then_where_each_lost(call: Call) -> None:
+    text = call(LINE.replace("small", "small,triangle")).stdout
+    words = [
+        "small: a test", "triangle: a test", "depend on the machine",
+        "small: where each loses most against folding", "side by side: topo-verify play 'family:",
+        "small: cost/LB by family",
+    ]  # fmt: skip
+    places = list(map(text.find, words))
+    assert -1 not in places
+    assert places == sorted(places)
+    (command,) = (line for line in text.splitlines() if "side by side: topo-verify" in line)
+    done = call(f"{command.partition(' topo-verify ')[2]} -o two.html")
+    assert (done.exit_code, done.stdout[:25]) == (0, "two.html: folding, basic ")
+
+
 def test_another_seed_draws_other_worlds(results: Results) -> None:
     one, other = (
         results(f"arena basic --suite small --workers 0 --seed {n}")["results"] for n in (0, 8)
@@ -226,6 +241,11 @@ def test_an_entrant_that_fails_between_two_messages_ends_no_league(
     assert done.exit_code == 1
     assert "1  folding  " in done.stdout
     assert words in done.stdout.replace("\n ", "")
+
+
+@pytest.mark.usefixtures("cut_off")
+def test_an_interrupted_league_says_how_many_runs_are_done(call: Call) -> None:
+    assert "interrupted after 3 of 8 runs" in call(f"{LINE} --out here").stderr
 
 
 @pytest.mark.usefixtures("cut_off")

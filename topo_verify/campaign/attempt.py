@@ -13,7 +13,10 @@ world undecided.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from pathlib import Path
+from time import process_time
 from typing import Any
 
 import msgspec
@@ -27,7 +30,7 @@ from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program, TranscriptLine
 from topo_verify.robot import events as ev
 from topo_verify.robot.limits import Limits
-from topo_verify.robot.stopwatch import Stopwatch
+from topo_verify.robot.stopwatch import tasks_of
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
@@ -43,7 +46,7 @@ class Attempt:
     """A run of a mapper in a world, and its judgement.
 
     Attributes:
-        seconds: processor time of mapper and robot.
+        seconds: processor time of mapper and robot, see `_processor_seconds`.
         lines: the transcript of a program that records one.
         lost: the signal that ended an earlier try, perhaps by nothing that the mapper did.
         choices: as in a `Row`.
@@ -86,9 +89,9 @@ def attempt(  # noqa: PLR0913  an argument an option
         beat()
         if program is not None:
             program.start()  # the seconds of a run are not those of a start
-        clock = Stopwatch()
+        begin = _processor_seconds(program)
         run = explore(world, target, limits=limits)
-        seconds = clock.seconds()
+        seconds = max(0.0, _processor_seconds(program) - begin)
         lines = tuple(program.lines) if program is not None and program.record else None
         beat()
         asked = run if witness else replace(run, mapper=None)
@@ -109,6 +112,21 @@ def attempt(  # noqa: PLR0913  an argument an option
         return replace(second, lost=signal)
     run = replace(first.run, stopped=f"{first.run.stopped}{SECOND_TRY}")
     return replace(first, run=run, report=judge(run, where=where, options=limits.options))
+
+
+def _processor_seconds(program: Program | None) -> float:
+    """Seconds of processor time that this process and that of a program have used so far.
+
+    Of a program they are those of its threads and processes that run now; 0 where the system does
+    not tell.
+    """
+    seconds = process_time()
+    if program is not None and program.process is not None:
+        for task in tasks_of(program.process):
+            with suppress(OSError):
+                account = Path(f"/proc/{task}/schedstat").read_text(encoding="ascii")
+                seconds += int(account.split()[0]) / 1e9
+    return seconds
 
 
 def row_of(made: Attempt, where: str, place: int, turn: int = 0, look: Look | None = None) -> Row:

@@ -17,10 +17,12 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
 from topo_verify.cli.arena_files import (
     REPORT,
+    VARYING,
     Memory,
     broken_blocks,
     dearest_exhibits,
     plot_of,
+    standings,
     suite_blocks,
     write_folder,
 )
@@ -120,20 +122,20 @@ def arena(  # noqa: PLR0913  an argument an option
         watch()  # before a mapper is loaded
         output.ask(report=str(folder / REPORT))
     mappers = _loaded(asked, in_process=in_process)
-    league = League(mappers, suites, seed)
+    league = League(mappers, suites, seed, limits)
     _require_players(league)
     dearest: list[acc.Exhibit] = []
 
     def entries() -> Iterator[Result[LeagueEntry]]:
         try:
-            _play(output, league, limits, folder, processors() if workers is None else workers)
+            _play(output, league, folder, processors() if workers is None else workers)
         except KeyboardInterrupt:
             yield from map(_result, league.entries())  # what is done is printed
             raise
         table = league.entries()
-        _run_again(output, league, table, limits)
+        _run_again(output, league, table)
         if output.exhibits:
-            dearest.extend(dearest_exhibits(league, limits))
+            dearest.extend(dearest_exhibits(league))
         if folder is not None:
             write_folder(folder, league, table, dearest, output.found.exhibits)
         _add_timing(output, league, table)
@@ -148,7 +150,14 @@ def arena(  # noqa: PLR0913  an argument an option
     show = partial(_show, league, memory=league.memory)
     words = [one.name for one in suites]
     return output.run(
-        "arena", entries, show, account=account, suite=words, seed=seed, in_process=in_process
+        "arena",
+        entries,
+        show,
+        account=account,
+        extent=lambda: acc.counted(len(league.made), league.planned, "runs"),
+        suite=words,
+        seed=seed,
+        in_process=in_process,
     )
 
 
@@ -197,29 +206,25 @@ def _result(entry: LeagueEntry) -> Result[LeagueEntry]:
 # ---------------------------------------------------------------- the work
 
 
-def _play(
-    output: Output, league: League, limits: Limits, folder: Path | None, workers: int
-) -> None:
+def _play(output: Output, league: League, folder: Path | None, workers: int) -> None:
     """Make the runs, and keep them in the folder if there is one."""
     for mapper in league.mappers:
         for suite in league.suites:
             if not league.plays(mapper, suite):
                 output.note(f"{mapper.text} assumes planar worlds: left out of {suite.name}")
     with open_store(output, folder) as store:
-        campaigns = matches(league, limits, store)
+        campaigns = matches(league, store)
         for row in stored_rows(output, campaigns, workers, store):
             league.made[row.mapper, row.world] = row
-        measure(league, limits, store, output.progress)
+        measure(league, store, output.progress)
 
 
-def _run_again(
-    output: Output, league: League, table: Sequence[LeagueEntry], limits: Limits
-) -> None:
+def _run_again(output: Output, league: League, table: Sequence[LeagueEntry]) -> None:
     """Run each mapper that broke a claim once more, to show where."""
     broken = {e.mapper: e.counterexample for e in table if e.counterexample is not None}
     for mapper in league.mappers:
         if (first := broken.get(mapper.text)) is not None:
-            output.found.run_again([mapper], first.world, first.claim, limits, first.message)
+            output.found.run_again([mapper], first.world, first.claim, league.limits, first.message)
 
 
 def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) -> None:
@@ -238,12 +243,16 @@ def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) ->
 def _show(
     league: League, table: Sequence[LeagueEntry], *, memory: Memory | None, pictures: bool = False
 ) -> Iterator[Block]:
-    """A table a suite, what was judged in part, and the mappers without a place."""
+    """The standings, then each suite in detail, what was judged in part, who has no place."""
     for number, suite in enumerate(league.suites):
-        mine = [entry for entry in table if entry.suite == suite.name]
         if number:
             yield Text("")
-        yield from suite_blocks(suite, mine, league.seed, memory)
+        yield standings(suite, table, league.seed, memory)
+    if memory is not None and any(entry.place is not None for entry in table):
+        yield Text("")
+        yield Text(VARYING)
+    for suite in league.suites:
+        yield from suite_blocks(suite, table)
         if pictures and (plot := plot_of(league, suite, table)):
             alt = f"cost / LB against the number of edges in suite {suite.name}"
             yield PictureBlock(plot, alt)
@@ -285,6 +294,7 @@ def _account(
         acc.suites((f"{entry.mapper} in {entry.suite}", _cases(entry)) for entry in table),
         tuple(blocks),
         others=tuple(dearest),
+        results_first=True,
     )
 
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from io import StringIO
 from pathlib import Path
@@ -35,7 +36,6 @@ from topo_verify.report.account import Exhibit
 from topo_verify.report.blocks import Block, Bullets, Cell, Command, Text, TextTable
 from topo_verify.report.league import ratio_plot
 from topo_verify.report.markdown import markdown
-from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import (
     DearestWorld,
     League,
@@ -61,45 +61,32 @@ Memory = Callable[[LeagueEntry], float | None]
 """The mebibytes that a mapper took in its dearest world of a suite, if they are known."""
 
 
-def suite_blocks(
-    suite: Suite, entries: Sequence[LeagueEntry], seed: int, memory: Memory | None
-) -> Iterator[Block]:
-    """The table of a suite, the families in it, and what kept mappers from a place.
+VARYING = (
+    "ms/move and MiB depend on the machine: processor time a move of mapper and robot, and the most"
+    " memory in the mapper's most expensive world."
+)
+"""What is said below the standings."""
+
+
+def standings(
+    suite: Suite, table: Sequence[LeagueEntry], seed: int, memory: Memory | None
+) -> Block:
+    """The ranked mappers of a suite; mappers that share a place have `=` behind it.
 
     Args:
-        entries: of this suite.
         memory: for the columns of time and memory; None: without them.
     """
-    ranked = [entry for entry in entries if entry.place is not None]
-    if ranked:
-        yield _league(suite, ranked, seed, memory)
-        if len(suite.families) > 1:
-            yield Text("")
-            yield _families(ranked)
-    else:
-        yield Text(f"{suite.name}: no mapper has a place")
-    late = [entry for entry in entries if entry.place is None and entry.counterexample is None]
-    for entry in late:
-        gone = entry.total - entry.worlds
-        yield Text("")
-        yield Text(
-            f"{entry.mapper} has no place in {suite.name}: {plural(gone, 'world')} of {entry.total}"
-            " not decided"
-        )
-        if entry.why:
-            yield Bullets(entry.why)
-
-
-def _league(
-    suite: Suite, ranked: Sequence[LeagueEntry], seed: int, memory: Memory | None
-) -> TextTable:
+    ranked = ranked_in(suite, table)
+    if not ranked:
+        return Text(f"{suite.name}: no mapper has a place")
     varying = (">ms/move", ">MiB") if memory is not None else ()
     columns = (">#", "mapper", ">cost/LB", ">behind", ">free", *varying, "claims")
     drawn = "" if suite.exact else f", seed {seed}"
     title = f"{suite.name}: {suite.about}, {plural(ranked[0].total, 'world')}{drawn}"
+    places = Counter(entry.place for entry in ranked)
     rows = [
         (
-            str(entry.place),
+            f"{entry.place}{'=' * (places[entry.place] > 1)}",
             entry.mapper,
             _figure(entry.ratio),
             _figure(entry.behind, sign="+"),
@@ -112,13 +99,51 @@ def _league(
     return TextTable(columns, rows, title)
 
 
-def _families(ranked: Sequence[LeagueEntry]) -> TextTable:
+def suite_blocks(suite: Suite, table: Sequence[LeagueEntry]) -> Iterator[Block]:
+    """Why mappers lost in a suite, its families, and what kept mappers from a place."""
+    ranked = ranked_in(suite, table)
+    yield from _loss_blocks(suite, ranked)
+    if ranked and len(suite.families) > 1:
+        yield Text("")
+        yield _families(suite, ranked)
+    for entry in table:
+        if entry.suite == suite.name and entry.place is None and entry.counterexample is None:
+            missing = entry.total - entry.worlds
+            yield Text("")
+            yield Text(
+                f"{entry.mapper} has no place in {suite.name}: {plural(missing, 'world')} of"
+                f" {entry.total} not decided"
+            )
+            if entry.why:
+                yield Bullets(entry.why)
+
+
+def _loss_blocks(suite: Suite, ranked: Sequence[LeagueEntry]) -> Iterator[Block]:
+    """Where each mapper loses most against the first, and commands that show both runs."""
+    rows = [
+        (entry.mapper, lost.world, str(lost.edges), str(lost.cost), str(lost.other))
+        for entry in ranked
+        for lost in entry.losses
+    ]
+    if rows:
+        best = ranked[0].mapper
+        columns = ("mapper", "world", ">edges", ">cost", f">{best}")
+        title = f"{suite.name}: where each loses most against {best}, in edge traversals"
+        yield Text("")
+        yield TextTable(columns, rows, title)
+        for entry in ranked:
+            if entry.losses:
+                yield Command(entry.losses[0].show, "side by side: ")
+
+
+def _families(suite: Suite, ranked: Sequence[LeagueEntry]) -> TextTable:
     """cost / LB of each mapper, a row a family."""
     rows = [
         (of_family[0].family, f"{of_family[0].edges:.0f}", *(_figure(f.ratio) for f in of_family))
         for of_family in zip(*(entry.families for entry in ranked), strict=True)
     ]
-    return TextTable(("family", ">edges", *(f">{entry.mapper}" for entry in ranked)), rows)
+    columns = ("family", ">edges", *(f">{entry.mapper}" for entry in ranked))
+    return TextTable(columns, rows, f"{suite.name}: cost/LB by family")
 
 
 def claims_in_words(entry: LeagueEntry) -> str:
@@ -187,7 +212,7 @@ def broken_blocks(entries: Sequence[LeagueEntry]) -> Iterator[Block]:
 # ---------------------------------------------------------------- the files
 
 
-def dearest_exhibits(league: League, limits: Limits) -> Iterator[Exhibit]:
+def dearest_exhibits(league: League) -> Iterator[Exhibit]:
     """Each ranked mapper in its dearest world of all suites, run once more."""
     dearest: dict[str, DearestWorld] = {}
     for entry in league.entries():
@@ -198,7 +223,7 @@ def dearest_exhibits(league: League, limits: Limits) -> Iterator[Exhibit]:
         if (one := dearest.get(mapper.text)) is None:
             continue
         world = resolve_world(one.world)
-        run = explore(world, mapper, limits=limits)
+        run = explore(world, mapper, limits=league.limits)
         judgements = check(world, run.trace, run.stopped)
         yield Exhibit(
             title=target_title(mapper.text, one.world),
@@ -282,11 +307,11 @@ def _table(
 ) -> str:
     """All tables as Markdown, with the plots and the worlds."""
     parts = ["# The arena\n"]
+    parts.append(markdown(standings(suite, table, league.seed, None) for suite in league.suites))
     for suite in league.suites:
-        mine = [entry for entry in table if entry.suite == suite.name]
         parts.append(f"## {suite.name}\n")
-        parts.append(markdown(suite_blocks(suite, mine, league.seed, None)))
-        if any(entry.place is not None for entry in mine):
+        parts.append(markdown(suite_blocks(suite, table)))
+        if ranked_in(suite, table):
             parts.append(f"![cost / LB in {suite.name}](ratio-{suite.name}.svg)\n")
     if dearest:
         parts.append("## The dearest worlds\n")

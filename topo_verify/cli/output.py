@@ -203,6 +203,7 @@ class Output:
         live: Live[E] | None = None,
         account: Callable[[Sequence[E]], acc.Account] | None = None,
         walk: bool = True,
+        extent: Callable[[], str] | None = None,
         **more: Any,
     ) -> int:
         """Do the command's work, print its results and return the exit code.
@@ -213,6 +214,7 @@ class Output:
             live: prints the entries one by one in `pretty` form, in place of `show`.
             account: sums up the entries, if the command can be asked for a report.
             walk: show the walk of the first counterexample behind the entries.
+            extent: how much was done, in words, if Ctrl-C ended it; default: how many results.
             more: further fields of the JSON envelope.
         """
         done: _Done[E] = _Done()
@@ -252,7 +254,8 @@ class Output:
             self._collect(done, results(), live)
             self._print(command, done, last(), perf_counter() - begin, more)
             if not done.finished:
-                say(f"topo-verify: interrupted after {plural(len(done.results), 'result')}")
+                words = plural(len(done.results), "result") if extent is None else extent()
+                say(f"topo-verify: interrupted after {words}")
         except _ReaderGone:
             pass  # what was asked for in files is written all the same
         if account is not None and self._files:

@@ -117,6 +117,7 @@ class Account:
         exhibits: the counterexamples that are shown.
         left_out: how many more there are.
         others: worlds in which nothing is wrong, to be looked at.
+        results_first: a page shows the results before what was judged.
     """
 
     about: str
@@ -126,6 +127,7 @@ class Account:
     exhibits: tuple[Exhibit, ...] = ()
     left_out: int = 0
     others: tuple[Exhibit, ...] = ()
+    results_first: bool = False
 
 
 @dataclass(frozen=True)

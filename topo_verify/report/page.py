@@ -83,7 +83,8 @@ def _header(account: Account, run: Ending) -> str:
     tone = TONES[extent.verdict]
     unfinished = "" if run.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
     links = {"counterexamples": "Counterexamples"} if account.exhibits else {}
-    links |= {"judged": "What was judged", "results": "Results"}
+    middle = [("judged", "What was judged"), ("results", "Results")]
+    links |= dict(reversed(middle) if account.results_first else middle)
     links |= {"worlds": "Worlds"} if account.others else {}
     links |= {"versions": "Versions", "timing": "Timing"}
     menu = " ".join(f'<a href="#{name}">{title}</a>' for name, title in links.items())
@@ -108,8 +109,11 @@ def _sections(account: Account, run: Ending) -> Iterator[str]:
     wrong = account.extent.verdict == "REFUTED"
     if found and wrong:
         yield _section("counterexamples", "Counterexamples", found)
-    yield _section("judged", "What was judged", map(_suite, account.suites))
-    yield _section("results", "Results", blocks_as_html(account.blocks))
+    sections = [
+        _section("judged", "What was judged", map(_suite, account.suites)),
+        _section("results", "Results", blocks_as_html(account.blocks)),
+    ]
+    yield from reversed(sections) if account.results_first else sections
     if found and not wrong:
         yield _section("counterexamples", "Counterexamples, as expected", found)
     if account.others:

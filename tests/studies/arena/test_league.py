@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from random import Random
 
 import pytest
@@ -10,6 +11,7 @@ from msgspec.structs import replace
 from topo_verify.campaign.row import Judged, Row
 from topo_verify.campaign.targets import targets
 from topo_verify.checkers import CLAIMS, Finding
+from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import League
 from topo_verify.studies.arena.suites import Suite, drawn, every
 
@@ -53,6 +55,37 @@ def test_places_follow_the_means_and_equal_ones_are_shared() -> None:
     assert (behind.mapper, behind.mean, behind.low, behind.high) == ("folding", 1.0, 1.0, 1.0)
     assert ratio.high is not None
     assert ratio.high > ratio.mean
+
+
+def test_mappers_that_cannot_be_told_apart_share_a_place() -> None:
+    names = ("folding", "basic", "enhancement-i", "enhancement-ii")
+    table = league(",".join(names), GRIDS)
+    costs = [(20, 20, 20), (19, 24, 20), (30, 30, 30), (31, 35, 30)]
+    for mapper, row in zip(names, costs, strict=True):
+        for world, cost in zip(GRIDS.worlds(0), row, strict=True):
+            enter(table, mapper, world, cost)
+    entries = table.entries()
+    assert [(e.mapper, e.place) for e in entries] == list(zip(names, (1, 1, 3, 3), strict=True))
+    # The last one is compared with the first of its place, and clearly worse than the table's.
+    assert entries[-1].behind is not None
+    assert entries[-1].behind.low is not None
+    assert entries[-1].behind.low > 0
+
+
+def test_the_worlds_in_which_a_mapper_lost_most_come_with_a_command() -> None:
+    table = dataclasses.replace(league("basic,folding", SMALL), limits=Limits(budget=90))
+    worlds = SMALL.worlds(0)
+    for number, world in enumerate(worlds):
+        enter(table, "folding", world, 20)
+        enter(table, "basic", world, 20 + {2: 5, 4: 30, 6: 5, 7: 5}.get(number, -1))
+    first, second = table.entries()
+    assert (first.mapper, first.losses) == ("folding", ())
+    assert [(lost.world, lost.cost, lost.other, lost.excess) for lost in second.losses] == [
+        (worlds[4], 50, 20, 3.0), (worlds[2], 25, 20, 0.5), (worlds[6], 25, 20, 0.5),
+    ]  # fmt: skip
+    assert second.losses[0].show == (
+        f"topo-verify play {worlds[4]} --target folding --target basic --budget 90"
+    )
 
 
 @pytest.mark.parametrize("seed", range(3))

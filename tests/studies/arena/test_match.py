@@ -10,7 +10,6 @@ from topo_verify.campaign.campaign import Campaign
 from topo_verify.campaign.progress import no_progress
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
-from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import League
 from topo_verify.studies.arena.match import matches, measure
 from topo_verify.studies.arena.suites import Suite, drawn, every
@@ -22,7 +21,7 @@ WRONG = "topo_verify.faults:FAULTS.forgets-its-orientation"
 
 def play(table: League, store: Store | None = None) -> None:
     """Make all runs, here."""
-    for campaign in matches(table, Limits(), store):
+    for campaign in matches(table, store):
         for row in campaign.rows(0):
             table.made[row.mapper, row.world] = row
 
@@ -44,7 +43,7 @@ def test_what_is_stored_is_not_made_again_and_mappers_and_suites_join_later(
         play(first, store)
     later = League(targets("folding,basic"), (Suite("more", "a test", (every(3),)), SMALL), 7)
     with Store(tmp_path / "runs.db") as store:
-        folding, basic = matches(later, Limits(), store)
+        folding, basic = matches(later, store)
         assert (folding.stored, basic.stored, basic.total) == (0, SMALL.size, 86 + 3)
         play(later, store)
         monkeypatch.setattr(Campaign, "load", None)  # no mapper is loaded, so none runs
@@ -79,6 +78,6 @@ def test_the_store_does_not_tell_the_drawn_worlds(tmp_path: Path, mapper: str) -
 def test_the_memory_of_a_named_mapper_is_measured(name: str) -> None:
     table = League(targets(name), (Suite("small", "a test", (every(1),)),), 0)
     play(table)
-    measure(table, Limits(), None, no_progress)
+    measure(table, None, no_progress)
     ((_, peak),) = table.peaks.items()
     assert peak is None or peak > 1000  # a Python process takes more than a mebibyte

@@ -15,12 +15,16 @@ those of B. L. Welch (Biometrika 34, 1947): (Σ a)² / Σ (a² / (n-1)) with a =
 they are n - 1. Of two mappers the differences in the same worlds are taken first (**paired**): what
 makes a world expensive for both drops out.
 
+**Ties.** A mapper shares the place of the one above it unless the interval of its paired difference
+from the first mapper with that place lies above 0.
+
 What this does not show: where a family's ratios are far from normal and its worlds are few, 95 % is
-an approximation. A family of one drawn world has no interval.
+an approximation. A family of one drawn world has no interval, so it leaves all mappers tied.
 """
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import sqrt
@@ -34,6 +38,7 @@ from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Counts
 from topo_verify.checkers import Judgement, Status
 from topo_verify.programs.loader import Target
+from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.suites import Suite, SuiteFamily
 
 T = TypeVar("T")
@@ -51,6 +56,26 @@ class LeagueBehind(msgspec.Struct, frozen=True):
     mean: float
     low: float | None
     high: float | None
+
+
+class LostWorld(msgspec.Struct, frozen=True):
+    """A world in which a mapper pays more than the first of the table.
+
+    Attributes:
+        least: the least cost of a proof, in edge traversals.
+        cost: what the mapper pays.
+        other: what the first of the table pays.
+        excess: by how much more it pays, as a multiple of the least cost.
+        show: the command line that writes a page with both runs side by side.
+    """
+
+    world: str
+    edges: int
+    least: int
+    cost: int
+    other: int
+    excess: float
+    show: str
 
 
 class FamilyCosts(msgspec.Struct, frozen=True):
@@ -96,10 +121,12 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         worlds, total: worlds judged, of how many.
         undecided: worlds that were out of time or declined; `why`: the first reasons.
-        place: 1 is the best; null: no place.
+        place: 1 is the best; null: no place. Mappers that cannot be told apart share one.
         ratio: cost / LB, the mean over families.
+        losses: where it loses most against the first of the table, at most `KEPT_LOSSES` worlds.
         rejected_free, rejected_moving: hypotheses, over all worlds.
-        ms_per_move: milliseconds a move; the one figure here that differs from run to run.
+        ms_per_move: milliseconds of processor time a move; it depends on the machine, and is the
+            one figure here that differs from run to run.
     """
 
     mapper: str
@@ -111,6 +138,7 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
     place: int | None
     ratio: MeanInterval | None
     behind: LeagueBehind | None
+    losses: tuple[LostWorld, ...] = ()
     families: tuple[FamilyCosts, ...]
     rejected_free: int
     rejected_moving: int
@@ -124,6 +152,9 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
 KEPT_REASONS = 3
 """How many worlds that are not decided have their reasons kept."""
 
+KEPT_LOSSES = 3
+"""The most worlds that are named in which a mapper loses against the first of the table."""
+
 
 @dataclass(frozen=True)
 class League:
@@ -132,6 +163,7 @@ class League:
     Attributes:
         mappers: by their TARGETs, in the order of the command line.
         seed: of the drawn worlds.
+        limits: of each run.
         made: the rows that are done, by mapper and world; grows while they are made.
         peaks: the kibibytes that a mapper took at most in a world; None: the system does not tell.
     """
@@ -139,6 +171,7 @@ class League:
     mappers: tuple[Target, ...]
     suites: tuple[Suite, ...]
     seed: int
+    limits: Limits = field(default_factory=Limits)
     made: dict[tuple[str, str], Row] = field(default_factory=dict[tuple[str, str], Row], repr=False)
     peaks: dict[tuple[str, str], int | None] = field(
         default_factory=dict[tuple[str, str], int | None], repr=False
@@ -195,7 +228,12 @@ class League:
         ranked = sorted(
             (one for one in entries if one.ratio is not None), key=lambda one: means[one.mapper]
         )
-        placed = [self._placed(one, ranked[0], means, suite) for one in ranked]
+        placed: list[LeagueEntry] = []
+        place = 1
+        for number, entry in enumerate(ranked, 1):
+            if not self._tied(entry, ranked[place - 1], suite):
+                place = number
+            placed.append(self._placed(entry, place, ranked[0], suite))
         others = [one for one in entries if one.ratio is None]
         return placed + sorted(others, key=lambda one: one.counterexample is not None)
 
@@ -230,18 +268,37 @@ class League:
             counterexample=None if failure is None else self._counterexample(failure),
         )
 
+    def _tied(self, entry: LeagueEntry, top: LeagueEntry, suite: Suite) -> bool:
+        """Whether a mapper cannot be told from one above it at `LEVEL`."""
+        difference = self._difference(entry, top, suite)
+        return difference.low is None or difference.low <= 0
+
+    def _difference(self, entry: LeagueEntry, other: LeagueEntry, suite: Suite) -> MeanInterval:
+        pairs = zip(self.runs(entry.mapper, suite), self.runs(other.mapper, suite), strict=True)
+        return _interval(suite, [ours.ratio - theirs.ratio for ours, theirs in pairs])
+
     def _placed(
-        self, entry: LeagueEntry, best: LeagueEntry, means: Mapping[str, float], suite: Suite
+        self, entry: LeagueEntry, place: int, best: LeagueEntry, suite: Suite
     ) -> LeagueEntry:
-        """The entry with its place: equal means share one."""
-        place = 1 + sum(mean < means[entry.mapper] for mean in means.values())
-        behind = None
+        """The entry with its place, and how it stands against the first of the table."""
+        behind, losses = None, tuple[LostWorld, ...]()
         if entry is not best:
-            ours, theirs = self.runs(entry.mapper, suite), self.runs(best.mapper, suite)
-            pairs = [a.ratio - b.ratio for a, b in zip(ours, theirs, strict=True)]
-            found = _interval(suite, pairs)
+            found = self._difference(entry, best, suite)
             behind = LeagueBehind(best.mapper, found.mean, found.low, found.high)
-        return msgspec.structs.replace(entry, place=place, behind=behind)
+            losses = tuple(self._losses(entry.mapper, best.mapper, suite))
+        return msgspec.structs.replace(entry, place=place, behind=behind, losses=losses)
+
+    def _losses(self, mapper: str, best: str, suite: Suite) -> Iterator[LostWorld]:
+        """The worlds in which a mapper loses most against the first of the table."""
+        pairs = zip(self.runs(mapper, suite), self.runs(best, suite), strict=True)
+        lost = [(ours.ratio - theirs.ratio, ours, theirs) for ours, theirs in pairs]
+        lost.sort(key=lambda one: -one[0])  # equal ones stay in the order of the worlds
+        for excess, ours, theirs in lost[:KEPT_LOSSES]:
+            if excess > 0:
+                words = ["topo-verify", "play", ours.world, "--target", best, "--target", mapper]
+                show = shlex.join([*words, *self.limits.options])
+                costs = ours.least, ours.cost, theirs.cost
+                yield LostWorld(ours.world, ours.edges, *costs, round(excess, 6), show)
 
     def _counterexample(self, failure: Row) -> LeagueCounterexample:
         found = failure.findings[0]

@@ -21,17 +21,9 @@ from pathlib import Path
 import msgspec
 
 from topo_verify.algorithms import NAMED
+from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.backend import MapperCampaign, here
-from topo_verify.campaign.campaign import (
-    Campaign,
-    ListedWorlds,
-    Shard,
-    ShardMemory,
-    ShardResult,
-    Stop,
-    results,
-)
 from topo_verify.campaign.identity import Identity, runs_here, source_hash
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.store import Store
@@ -39,12 +31,11 @@ from topo_verify.errors import InputError
 from topo_verify.programs import serve
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
-from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import League
 from topo_verify.world.resolve import resolve_world
 
 
-def matches(league: League, limits: Limits, store: Store | None) -> list[MapperCampaign]:
+def matches(league: League, store: Store | None) -> list[MapperCampaign]:
     """The campaign of each mapper of the league.
 
     Raises:
@@ -55,12 +46,12 @@ def matches(league: League, limits: Limits, store: Store | None) -> list[MapperC
     found: list[MapperCampaign] = []
     for mapper in league.mappers:
         names = league.worlds_of(mapper)
-        campaign = Campaign(
-            worlds=ListedWorlds(len(names)),
+        campaign = c.Campaign(
+            worlds=c.ListedWorlds(len(names)),
             mappers=(mapper.text,),
-            limits=limits,
+            limits=league.limits,
             in_process=runs_here(mapper),
-            stop=Stop(failing=1),
+            stop=c.Stop(failing=1),
         )
         kept = _kept(league, store, campaign, mapper)
         found.append(MapperCampaign(campaign, [(name, worlds[name]) for name in names], kept))
@@ -68,8 +59,8 @@ def matches(league: League, limits: Limits, store: Store | None) -> list[MapperC
 
 
 def _kept(
-    league: League, store: Store | None, campaign: Campaign, mapper: Target, what: str = ""
-) -> ShardMemory | None:
+    league: League, store: Store | None, campaign: c.Campaign, mapper: Target, what: str = ""
+) -> c.ShardMemory | None:
     """Where the rows of a campaign are kept; see `Store.campaign`."""
     if store is None:
         return None
@@ -86,24 +77,24 @@ def _kept(
 class _Hidden:
     """Keeps results under names from which no mapper can tell the drawn worlds."""
 
-    memory: ShardMemory
+    memory: c.ShardMemory
     seed: int
 
     @property
     def path(self) -> str:
         return self.memory.path
 
-    def known(self) -> list[Shard]:
+    def known(self) -> list[c.Shard]:
         return self.memory.known()
 
-    def get(self, shard: Shard) -> ShardResult | None:
+    def get(self, shard: c.Shard) -> c.ShardResult | None:
         result = self.memory.get(self._hidden(shard))
         if result is None:
             return None
         name = shard.listed[0][0]
         return _renamed(result, self._mark(name), name)
 
-    def put(self, shard: Shard, result: ShardResult) -> None:
+    def put(self, shard: c.Shard, result: c.ShardResult) -> None:
         name = shard.listed[0][0]
         mark = self._mark(name)
         if mark != name:
@@ -113,7 +104,7 @@ class _Hidden:
             result = _renamed(bare, name, mark)
         self.memory.put(self._hidden(shard), result)
 
-    def _hidden(self, shard: Shard) -> Shard:
+    def _hidden(self, shard: c.Shard) -> c.Shard:
         ((name, code),) = shard.listed
         mark = self._mark(name)
         listed = ((mark, code if mark == name else ((), ())),)
@@ -126,16 +117,16 @@ class _Hidden:
         return f"hidden-{sha256(f'{self.seed} {name}'.encode()).hexdigest()[:32]}"
 
 
-def _renamed(result: ShardResult, name: str, other: str) -> ShardResult:
+def _renamed(result: c.ShardResult, name: str, other: str) -> c.ShardResult:
     """The result of a world under another name, also where a finding repeats it."""
     text = msgspec.json.encode(result).decode().replace(name, other)
-    return msgspec.json.decode(text, type=ShardResult)
+    return msgspec.json.decode(text, type=c.ShardResult)
 
 
 # ---------------------------------------------------------------- memory
 
 
-def measure(league: League, limits: Limits, store: Store | None, tell: Progress) -> None:
+def measure(league: League, store: Store | None, tell: Progress) -> None:
     """Note the memory that each ranked mapper takes in its most expensive world of each suite."""
     ranked = [entry for entry in league.entries() if entry.place is not None]
     for done, entry in enumerate(ranked):
@@ -143,13 +134,13 @@ def measure(league: League, limits: Limits, store: Store | None, tell: Progress)
         name, text = entry.dearest.world, entry.mapper
         (mapper,) = (one for one in league.mappers if one.text == text)
         alone = serve.CATALOGUE.format(text) if text in NAMED else text
-        campaign = Campaign(
-            worlds=ListedWorlds(1), mappers=(alone,), limits=limits, in_process=False
+        campaign = c.Campaign(
+            worlds=c.ListedWorlds(1), mappers=(alone,), limits=league.limits, in_process=False
         )
         kept = _kept(league, store, campaign, mapper, "memory of ")
         worlds = [(name, resolve_world(name))]
         with suppress(InputError):  # it cannot be started once more
-            for _, result in results(campaign, here(look=_peak), worlds, store=kept):
+            for _, result in c.results(campaign, here(look=_peak), worlds, store=kept):
                 league.peaks[text, name] = result.rows[0].note
         tell("memory", done + 1, len(ranked))
 
