@@ -364,6 +364,45 @@ def test_the_first_example_of_a_property_test_imports_nothing(
 # ---------------------------------------------------------------- tracebacks
 
 
+@pytest.mark.parametrize(
+    ("of_the_user", "ours", "others"),
+    [("", "None", "0:00:00.200000"), ('settings.load_profile("mine")', "0:00:03", "0:00:03")],
+)
+def test_a_property_of_a_mapper_has_no_deadline_unless_the_user_has_set_one(
+    session: Session, pytester: pytest.Pytester, of_the_user: str, ours: str, others: str
+) -> None:
+    pytester.makeconftest(
+        f"""
+        from hypothesis import settings
+        settings.register_profile("mine", deadline=3000)
+        {of_the_user}
+        """
+    )
+    test = """
+        from hypothesis import given, settings, strategies as st
+        import {module}
+
+        @given(st.just(0))
+        def test_deadline(_number):
+            pass
+
+        @settings(max_examples=1)
+        @given(st.just(0))
+        def test_own(_number):
+            pass
+
+        def test_both():
+            for test in (test_deadline, test_own):
+                own = test._hypothesis_internal_use_settings
+                assert str(own.deadline) == "{deadline}"
+        """
+    pytester.makepyfile(
+        test_a=test.format(module="topo_verify", deadline=ours),
+        test_b=test.format(module="json", deadline=others),
+    )
+    session().assert_outcomes(passed=6)
+
+
 def test_tracebacks_show_the_users_code_and_none_of_ours(session: Session) -> None:
     result = session(
         "--tb=short",

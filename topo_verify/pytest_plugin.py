@@ -26,7 +26,9 @@ import inspect
 import itertools
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from datetime import timedelta
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, cast
 
@@ -157,8 +159,8 @@ def _import_for(metafunc: pytest.Metafunc) -> None:
     """
     if getattr(metafunc.function, "is_hypothesis_test", False):
         module = cast("object", metafunc.module)  # pyright: ignore[reportUnknownMemberType]  pytest leaves it untyped
-        for one in vars(module).values():
-            home = getattr(one, "__name__" if inspect.ismodule(one) else "__module__", None)
+        for value in vars(module).values():
+            home = getattr(value, "__name__" if inspect.ismodule(value) else "__module__", None)
             if str(home).startswith("topo_verify"):
                 import_module("topo_verify.campaign.judge")
                 break
@@ -225,13 +227,40 @@ def pytest_make_collect_report(
     collector: pytest.Collector,
 ) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
     """Let the session collect the tests of --topo-target, besides those of files."""
-    report = yield
+    with _profile(collector):
+        report = yield
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
         name = shown(text)
         made = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
         report.result.append(made)
     return report
+
+
+@contextmanager
+def _profile(collector: pytest.Collector) -> Generator[None]:
+    """Let property tests of mappers have no deadline, unless the user has loaded a profile.
+
+    Hypothesis's deadline is 200 ms an example. A busy machine exceeds it, and a flaky failure then
+    stands beside the finding, or alone. A test takes its settings when its module is imported, so
+    the profile `topo` is loaded while a module is that mentions both libraries.
+    """
+    text = collector.path.read_bytes() if isinstance(collector, pytest.Module) else b""
+    if b"hypothesis" not in text or b"topo_verify" not in text:
+        yield
+        return
+    from hypothesis import settings
+
+    usual = settings.get_profile("default")
+    if settings.default != usual or usual.deadline != timedelta(milliseconds=200):
+        yield
+        return
+    settings.load_profile("topo")
+    try:
+        yield
+    finally:
+        if settings.default == settings.get_profile("topo"):  # the module may have loaded another
+            settings.load_profile("default")
 
 
 class MapperCollector(pytest.Collector):

@@ -94,3 +94,19 @@ def test_registering_twice_does_no_harm() -> None:
     registration.register()
     assert find(st.from_type(World), lambda world: world.genus == 1).id == "m2/8"
     assert settings.get_profile("topo-ci").print_blob
+
+
+def test_an_explanation_names_the_users_lines_and_none_of_ours() -> None:
+    code = """
+from hypothesis.internal.scrutineer import get_explaining_locations
+from topo_verify import errors
+from topo_verify.strategies import registration
+registration.register()
+for file in (errors.__file__, registration.__file__, "/home/me/topo_verify/test_mine.py"):
+    print(get_explaining_locations({"a failure": {frozenset({(None, (file, 1))})}})["a failure"])
+"""
+    assert printed(code).splitlines() == [
+        "set()",
+        "set()",
+        "{('/home/me/topo_verify/test_mine.py', 1)}",
+    ]
