@@ -1,6 +1,6 @@
 # Every target does all the set-up that it needs; a second call finds it done.
 #
-#   make verify                     the main job: one report, in two minutes
+#   make verify                     the main job: one report
 #   make test                       the suite and the branch coverage of the trusted rooms
 #   make long                       the tests that make test leaves out because they take long
 #   make nightly                    every test, the slow ones too, with new examples each time

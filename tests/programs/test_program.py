@@ -187,7 +187,8 @@ def test_limits_hold_in_other_threads_too() -> None:
     thread = threading.Thread(target=play)
     thread.start()
     thread.join(30)
-    assert stopped == ["the mapper did not move for 0.5 s"]
+    flush = "a program must flush its output after each line"
+    assert stopped == [f"the mapper did not move for 0.5 s; {flush}"]
 
 
 KILLED = """

@@ -440,12 +440,11 @@ def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:
     wrong = "map-isomorphic" in failed
     result = "the mapper is wrong" if wrong else "the mapper was lucky again"
     result = str(there.stopped) if there.limit is not None else result
-    message = f"{finding.message}; witness {_short(finding.witness)}: run there, {result}"
+    name = finding.witness
+    if len(name) >= 200:
+        name = f"of {len(witness.edges)} edges (the field `witness` of the JSON has it)"
+    message = f"{finding.message}; witness {name}: run there, {result}"
     return msgspec.structs.replace(finding, message=message)
-
-
-def _short(witness: str) -> str:
-    return witness if len(witness) < 200 else "as given"
 
 
 def world_argument(world: World) -> str:

@@ -35,7 +35,7 @@ from topo_verify.programs.delivery import Undelivered, deliver
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.misbehaviour import Misbehaved
-from topo_verify.programs.program import Program
+from topo_verify.programs.program import PREFIX, Program
 from topo_verify.robot.events import (
     Confirm,
     Finish,
@@ -165,6 +165,8 @@ def explore(
     finish, stopped, error, limit = _run(target.mapper, robot, limits)
     if limit in ("move-timeout", "world-timeout"):
         robot.settle()
+    if limit == "move-timeout" and target.text.startswith(PREFIX):
+        stopped = f"{stopped}; a program must flush its output after each line"
     misbehaved = None
     if isinstance(target.mapper, Program):
         misbehaved = target.mapper.misbehaved

@@ -1,4 +1,4 @@
-"""`topo-verify verify`: the main job, one report in under a minute."""
+"""`topo-verify verify`: the main job, one report."""
 
 from __future__ import annotations
 

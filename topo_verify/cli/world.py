@@ -14,7 +14,7 @@ import msgspec
 
 from topo_verify.cli import options
 from topo_verify.cli.failures import epilog
-from topo_verify.cli.output import Live, Output, Result, entry_of, written
+from topo_verify.cli.output import Live, Output, Result, Rows, entry_of, written
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.cli.twins import TwinEntry, rotation_table, twin_blocks, twin_entry
 from topo_verify.errors import InputError, plural
@@ -27,6 +27,7 @@ from topo_verify.world.formats import files, graphml, node_link, planar_code
 from topo_verify.world.io import format_of_name
 from topo_verify.world.rooted_map import Dart, World
 from topo_verify.world.twins import MODELS, MarkerModel
+from topo_verify.world.unrooted import unrooted_count
 
 FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
     "json": (World.to_json, ".json"),
@@ -239,12 +240,17 @@ def _show_converted(entries: Sequence[ConvertEntry]) -> Iterator[Block]:
 
 
 class CountEntry(msgspec.Struct, frozen=True):
-    """The number of worlds of one size: an entry of `results`."""
+    """The number of worlds of one size: an entry of `results`.
+
+    Attributes:
+        unrooted: the same without the marker; null where it would take too long.
+    """
 
     edges: int
     # `class` cannot be a name in Python.
     kind: str = msgspec.field(name="class")
     total: int
+    unrooted: int | None
 
 
 def _range(_context: click.Context, _option: click.Parameter, value: str) -> range:
@@ -268,20 +274,25 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
 )
 @options.world_class
 def count(output: Output, *, edges: range, kind: str) -> int:
-    """Count the worlds with N edges, up to isomorphism (rooted maps)."""
+    """Count the worlds with N edges: rooted maps, and beside them unrooted ones (no marker)."""
 
     def counted() -> Iterator[Result[CountEntry]]:
         worlds = WorldClass.parse(kind)
         for number, m in enumerate(edges):
             output.progress(f"{m} edges, class {worlds}", number, len(edges))
-            yield Result(CountEntry(edges=m, kind=str(worlds), total=worlds.count(m)))
+            total, unrooted = worlds.count(m), unrooted_count(m, worlds)
+            yield Result(CountEntry(m, str(worlds), total, unrooted))
 
     return output.run("world-count", counted, _show_counted)
 
 
 def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
-    rows = [(str(e.edges), e.kind, str(e.total)) for e in entries]
-    yield TextTable((">edges", "class", ">worlds"), rows)
+    yield Rows(entries).table(
+        (">edges", lambda e: e.edges),
+        ("class", lambda e: e.kind),
+        (">worlds", lambda e: e.total),
+        (">unrooted", lambda e: e.unrooted),
+    )
 
 
 MOST_LISTED = 250_000

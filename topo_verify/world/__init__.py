@@ -12,6 +12,7 @@ from topo_verify.world.rooted_map import World
 # permutations.py       the cycles of a permutation
 # validation.py         refuses rotations, edges and markers that do not make a world
 # least_cost.py         the least cost of proving a world's map, and a walk of that cost
+# unrooted.py           how many worlds there are without their marker
 # twins.py              another world that looks the same without the marker's direction
 # enumeration/          every world of a size or a class: counted, listed in order, ranked, sampled
 # families/             lattices, tori, solids, shapes, random graphs and maps

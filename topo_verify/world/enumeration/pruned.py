@@ -298,10 +298,10 @@ class NeighbourPruner(NamedTuple):
 # ---------------------------------------------------------------- every world of a class
 
 
-def worlds(*, edges: int, cls: str = "any") -> Iterator[World]:
+def worlds(edges: int, *, cls: str = "any") -> Iterator[World]:
     """Every world of a class with this many edges, in the order of their ids.
 
-    Lazy: each world is made when it is asked for, so `islice(tv.worlds(edges=30), 5)` is quick. A
+    Lazy: each world is made when it is asked for, so `islice(tv.worlds(30), 5)` is quick. A
     world's name is its id.
 
     Args:

@@ -1,0 +1,37 @@
+"""Worlds without their marker: counted by a formula, by hand, and as published."""
+
+from __future__ import annotations
+
+import pytest
+
+import topo_verify as tv
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.unrooted import unrooted_count
+
+
+def test_the_formula_gives_the_published_numbers() -> None:
+    """Unrooted maps on orientable surfaces of any genus, by edges: OEIS A170946."""
+    counts = [unrooted_count(m, WorldClass()) for m in range(8)]
+    assert counts == [1, 2, 5, 20, 107, 870, 9436, 122840]
+
+
+@pytest.mark.parametrize("edges", [1, 2, 3, 4])
+def test_the_formula_counts_the_worlds_that_differ_wherever_the_marker_lies(edges: int) -> None:
+    groups = {
+        frozenset(world.with_marker(dart).code for dart in range(2 * edges))
+        for world in tv.worlds(edges)
+    }
+    assert unrooted_count(edges, WorldClass()) == len(groups)
+    by_genus = [unrooted_count(edges, WorldClass.parse(f"genus:{g}")) for g in range(3)]
+    assert sum(number or 0 for number in by_genus) == len(groups)
+
+
+def test_planar_worlds_are_listed() -> None:
+    """Unrooted planar maps: OEIS A006384."""
+    counts = [unrooted_count(m, WorldClass.parse("planar")) for m in range(5)]
+    assert counts == [1, 2, 4, 14, 57]
+
+
+@pytest.mark.parametrize(("edges", "kind"), [(6, "planar"), (201, "any"), (60, "genus:1")])
+def test_what_would_take_too_long_is_not_counted(edges: int, kind: str) -> None:
+    assert unrooted_count(edges, WorldClass.parse(kind)) is None

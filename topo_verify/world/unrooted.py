@@ -1,0 +1,80 @@
+"""The number of worlds without their marker: maps up to isomorphism that keeps the orientation.
+
+A rooted map is counted once for each dart that looks different, so there are fewer unrooted ones.
+They are the pairs (alpha, sigma) on 2m darts, connected, up to renumbering. By Burnside's lemma all
+pairs, connected or not, are counted by the sum over the permutations g of the darts, one of each
+cycle type, of the fixed-point-free involutions that commute with g (times the sigma that commute
+with g, divided by the order of its centraliser, which are equal). On j cycles of length k such an
+involution pairs some cycles, k ways each, and turns each of the others by half, if k is even:
+
+    c(k, j) = sum over i of  j! / (i! 2^i (j - 2i)!) * k^i * [k is even or j = 2i]
+
+The generating function is a product over k; the inverse Euler transform leaves the connected pairs.
+
+Other classes than `any` have no such formula here: their worlds are listed, each with its markers.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from math import factorial
+
+from topo_verify.errors import InputError
+from topo_verify.world.enumeration.classes import WorldClass
+from topo_verify.world.enumeration.pruned import worlds
+
+SIZES = (20, 60, 200)
+"""The formula is evaluated for all sizes up to one of these at once."""
+
+MOST_LISTED = 1000
+"""Most worlds of another class that are listed."""
+
+
+def unrooted_count(edges: int, kind: WorldClass) -> int | None:
+    """The number of unrooted maps in a class; None where it would take too long."""
+    if edges == 0:
+        return kind.count(0)
+    if kind == WorldClass():
+        most = next((size for size in SIZES if edges <= size), None)
+        return None if most is None else _connected(most)[edges]
+    try:
+        if kind.count(edges) > MOST_LISTED:
+            return None
+    except InputError:  # too many to be counted
+        return None
+    listed = worlds(edges, cls=str(kind))
+    return len({min(w.with_marker(d).code for d in range(2 * edges)) for w in listed})
+
+
+@cache
+def _connected(most: int) -> list[int]:
+    """The connected pairs with 0 … `most` edges: the inverse Euler transform of all pairs."""
+    pairs = _pairs(most)
+    sums = [0] * (most + 1)  # of each n: the sum over its divisors d of d times the connected
+    connected = [0] * (most + 1)
+    for n in range(1, most + 1):
+        sums[n] = n * pairs[n] - sum(sums[k] * pairs[n - k] for k in range(1, n))
+        divisors = (d for d in range(1, n) if n % d == 0)
+        connected[n] = (sums[n] - sum(d * connected[d] for d in divisors)) // n
+    return connected
+
+
+def _pairs(edges: int) -> list[int]:
+    """The pairs with 0 … `edges` edges, connected or not."""
+    size = 2 * edges
+    total = [1] + [0] * size  # by the number of darts
+    for k in range(1, size + 1):
+        ways = [_involutions(k, j) for j in range(size // k + 1)]
+        total = [
+            sum(ways[j] * total[n - k * j] for j in range(n // k + 1)) for n in range(size + 1)
+        ]
+    return total[::2]
+
+
+def _involutions(k: int, j: int) -> int:
+    """The involutions without fixed point that commute with j cycles of length k."""
+    return sum(
+        factorial(j) // (factorial(i) * 2**i * factorial(j - 2 * i)) * k**i
+        for i in range(j // 2 + 1)
+        if k % 2 == 0 or j == 2 * i
+    )
