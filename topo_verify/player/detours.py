@@ -12,7 +12,7 @@ from topo_verify.checkers.darts import KnownDart, WorldDart
 from topo_verify.checkers.excursions import Excursion
 from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
-from topo_verify.robot.percept import Door, Percept
+from topo_verify.robot.percept import Door
 
 
 class Turn(NamedTuple):
@@ -132,8 +132,8 @@ class SupposedWalk:
         self._trail: list[KnownDart | None] = []  # on S, behind each door of the word
         self._last: tuple[KnownDart | None, int] = None, 0  # the guess and moment of the trail
 
-    def percept(self, moment: Moment, guess: int | None) -> Percept | None:
-        """What would be seen now; None where S does not say, or no guess is tested."""
+    def place(self, moment: Moment, guess: int | None) -> KnownDart | None:
+        """The reference dart on S; None where S does not say, or no guess is tested."""
         number, position, seen_at = moment.number, moment.position, self._map.seen_at
         if isinstance(moment.event, ev.Pose):
             edge = moment.event.edge
@@ -147,7 +147,7 @@ class SupposedWalk:
             return None
         return self._traced(guess, number)
 
-    def _traced(self, guess: KnownDart, number: int) -> Percept | None:
+    def _traced(self, guess: KnownDart, number: int) -> KnownDart | None:
         word = self._behind.word
         if self._last != (guess, number - 1):
             self._trail = [guess]
@@ -159,8 +159,7 @@ class SupposedWalk:
             if out is not None:
                 out = None if self._map.is_open(out, number) else self._map.alpha[out]
             self._trail.append(out)
-        at = self._trail[-1]
-        return None if at is None else self._map.seen_at(self._map.phi[at])
+        return self._trail[-1]
 
 
 def tested_guesses(moments: Sequence[Moment]) -> dict[int, int]:

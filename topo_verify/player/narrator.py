@@ -105,7 +105,8 @@ class Narrator:
                 guesses = {h: number for number, h in enumerate(event.hypotheses, 1)}
             elif isinstance(event, ev.Start | ev.Move):
                 seen = event.percept
-            expected = ghost.percept(moment, goal)
+            at = ghost.place(moment, goal)
+            expected = None if at is None else self.map.seen_at(self.map.phi[at])
             if goal is not None and goal in guesses and moment.position is not None:
                 said = _testing(guesses[goal], seen, expected)
             else:

@@ -25,10 +25,9 @@ import json
 import string
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
-from math import hypot, inf
-from typing import TYPE_CHECKING, Any, NamedTuple, assert_never, get_args
+from typing import Any, NamedTuple, assert_never, get_args
 
 from topo_verify.checkers import Finding, Judgement
 from topo_verify.errors import LINE, shown
@@ -40,9 +39,6 @@ from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
-
-if TYPE_CHECKING:
-    from topo_verify.world.drawing import Layout
 
 MOST_WITNESSES = 4
 """The witness worlds of so many findings are drawn."""
@@ -122,7 +118,9 @@ def recording(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> dic
 
 def pictured(world: World) -> dict[str, Any]:
     """A world and its picture, as data for JSON."""
-    layout = _roomy_layout(world)
+    from topo_verify.world.drawing import lay_out
+
+    layout = lay_out(world)
     data: dict[str, Any] = {
         "vertices": world.vertices,
         "edges": world.edges,
@@ -144,31 +142,6 @@ def _gallery() -> list[dict[str, Any]]:
     """The worlds of the gallery with their pictures, as data for JSON."""
     worlds = [(f"{one.name} ({one.text})", resolve_world(one.text)) for one in GALLERY]
     return [{**pictured(world), "name": name} for name, world in worlds]
-
-
-def _roomy_layout(world: World) -> Layout:
-    """A layout in which vertices stand apart, in half a page: the positions, where they do."""
-    from topo_verify.world.drawing import lay_out
-
-    layout = lay_out(world)
-    if layout.kind != "positions" or _room(layout) >= ENOUGH:
-        return layout
-    other = lay_out(replace(world, positions=()))
-    return max(layout, other, key=_room)
-
-
-ENOUGH = 24
-"""Pixels between a vertex and the next one at which a robot, badges and rings have room."""
-
-
-def _room(layout: Layout) -> float:
-    """How far a vertex is from the next one, in pixels of a pane; a tenth may be nearer."""
-    centres = layout.centres
-    near = sorted(
-        min((hypot(u - x, v - y) for j, (u, v) in enumerate(centres) if j != i), default=inf)
-        for i, (x, y) in enumerate(centres)
-    )
-    return near[len(near) // 10] * min(640 / layout.width, 440 / layout.height)
 
 
 def _run(

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
-from topo_verify.checkers.excursions import Excursion, Word
+from topo_verify.player.detours import SupposedWalk, tested_guesses
 from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.world.drawing import Layout, curves
@@ -93,7 +93,6 @@ class Tracks:
         self.playback, self.layout = playback, layout
         self.world, self.moments = playback.world, playback.moments
         self.edge_of = {dart: k for k, edge in enumerate(self.world.edges) for dart in edge}
-        self.words = tuple(self._words())
 
     def centre(self, dart: Dart) -> Point:
         """The centre of the vertex of a dart."""
@@ -229,51 +228,25 @@ class Tracks:
         return math.degrees(math.atan2(to_y - y, to_x - x))
 
     def ghosts(self) -> Iterator[Ghost]:
-        """Where the robot would be on S, while it validates a hypothesis by motion."""
+        """Where the robot would be on S, while it tests a hypothesis by motion, to its decision."""
+        walk, tested = SupposedWalk(self.playback), tested_guesses(self.moments)
+        steps = list[Leg]()
         for moment in self.moments:
-            event = moment.event
-            if not isinstance(event, ev.Reject | ev.Confirm) or event.rule != "motion":
-                continue
-            first = moment.number
-            while first and self._validates(self.moments[first - 1].event):
-                first -= 1
-            if self._image(event.hypothesis, moment.number) is None:
-                continue
-            steps = tuple(self._traced(KnownDart(event.hypothesis), first, moment.number))
-            if steps:
-                yield Ghost((first, moment.number + 1), steps)
-
-    @staticmethod
-    def _validates(event: ev.Event) -> bool:
-        return isinstance(event, ev.Move) and event.purpose == "validate"
-
-    def _traced(self, start: KnownDart, first: int, last: int) -> Iterator[Leg]:
-        """The steps of a robot that goes the same doors from another dart of S on."""
-        phi, trace = self.playback.map.phi, self.playback.replayed.records.trace
-        at, rest = trace(start, self.words[first - 1], last)
-        if rest:
-            return
-        yield Leg(first, ((self.centre(phi[at]),),))
-        for when in range(first, last):
-            end, rest = trace(start, self.words[when], last)
-            if rest:
-                return
-            came = phi[end]  # it is entered by this dart, so the other end was left
-            yield Leg(when, reverse(self.way(came)))
-
-    def _words(self) -> Iterator[Word]:
-        """After each moment, the doors from vu to where the robot is."""
-        behind, seen_at = Excursion(), self.playback.map.seen_at
-        for moment in self.moments:
-            event = moment.event
-            if isinstance(event, ev.Pose):
-                behind = Excursion()
-            elif isinstance(event, ev.Move) and moment.position is not None:
-                before = self.moments[moment.number - 1].position
-                assert before is not None, "a robot that is somewhere was somewhere"
-                degree = seen_at(before).degree
-                behind.move(event.door, degree, seen_at(moment.position))
-            yield tuple(behind.word)
+            event, number = moment.event, moment.number
+            goal = tested.get(number)
+            if decides := isinstance(event, ev.Reject | ev.Confirm) and event.rule == "motion":
+                goal = event.hypothesis
+            at = walk.place(moment, goal)
+            if at is not None:
+                # It was entered by this dart, so the other end was left.
+                way = reverse(self.way(self.playback.map.phi[at]))
+                if not steps:
+                    steps.append(Leg(number, ((way[-1][-1] if decides else way[0][0],),)))
+                steps += [] if decides else [Leg(number, way)]
+            if decides and steps:
+                yield Ghost((steps[0].moment, number + 1), tuple(steps))
+            if decides or isinstance(event, ev.Pose | ev.Augment):
+                steps = []
 
 
 def reverse(way: Way) -> Way:

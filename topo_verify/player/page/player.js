@@ -10,7 +10,7 @@ class Player {
     this.recording = recording;
     this.runs = recording.runs.map((run) => new Run(this.pictures[0], run));
     this.chosen = this.runs.length === 2 ? [0, 1] : [0];
-    this.view = this.chosen.length > 1 ? 'map' : 'best';
+    this.view = this.chosen.length > 1 ? 'world' : 'best';
     this.kind = this.chosen.length > 1 ? 'cost' : 'event';
     this.speed = 1;
     this.tick = 0;
@@ -346,7 +346,7 @@ class Player {
   views() {
     const run = this.runs[this.chosen[0]];
     const two = this.chosen.length > 1;
-    const kinds = two ? ['map', 'world'] : this.witnessed(run, Infinity) ? ['map', 'witness'] : ['map'];
+    const kinds = two ? ['world', 'map'] : this.witnessed(run, Infinity) ? ['map', 'witness'] : ['map'];
     if (this.view === 'best') this.view = this.lucky(run) ? 'witness' : 'map';
     if (!kinds.includes(this.view)) this.view = 'map';
     this.select('view', kinds.map((kind) => [kind, VIEWS[kind]]), this.view, (value) => {
