@@ -40,7 +40,7 @@ class _WatchedFold(Fold):
         super().__init__(percept)
 
     def _visit(self, percept: Percept) -> int:
-        # A percept of its own for each visit, so that `_require_alike` can tell whose it is.
+        # A copy of the percept for each visit, so that `_require_alike` can identify the visit.
         node = super()._visit(Percept(percept.degree, percept.marker))
         self._whose[id(self._seen[node])] = node
         return node
@@ -56,7 +56,7 @@ class _WatchedFold(Fold):
         return len(self._seen)
 
     def identified(self, mark: int) -> list[int]:
-        """The nodes that were found to be another one since so many were, but for those of v0."""
+        """Nodes merged since merge number `mark`, except those merged into v0."""
         v0, _ = self.find((0, 0))
         return [node for node in self.merged[mark:] if self.find((node, 0))[0] != v0]
 

@@ -41,10 +41,10 @@ from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 MOST_WITNESSES = 4
-"""The witness worlds of so many findings are drawn."""
+"""Maximal number of witness worlds that a page draws."""
 
 WIDEST_WITNESS = 200
-"""The most edges of a witness world that is drawn: larger ones take seconds."""
+"""Maximal edges of a witness world that is drawn; larger ones take seconds."""
 
 
 class GalleryWorld(NamedTuple):

@@ -138,7 +138,7 @@ class Ending:
         command: of topo-verify, as `verify`.
         again: the command line that repeats the run.
         code: the exit code.
-        finished: whether the work came to its end.
+        finished: whether the work was completed.
         date: when the work ended, in UTC.
         seconds: how long it took.
         by_suite: how long each suite took, if that is known.

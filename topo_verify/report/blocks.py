@@ -80,13 +80,13 @@ OF_TONE: dict[Tone, str] = {"held": "home", "sampled": "e", "open": "guess", "fa
 
 
 def marked(word: str, tone: Tone | None) -> str:
-    """A verdict with its mark, if its tone has one; any other word as it is."""
+    """A verdict with its mark, if its tone has one; any other word unchanged."""
     mark = MARKS.get(tone, "") if tone is not None and word in VERDICTS else ""
     return f"{mark} {word}".lstrip()
 
 
 WIDTH = 80
-"""The columns of a view in a form that has none of its own."""
+"""Columns of a view where the output has no width, as in pages."""
 
 
 @dataclass(frozen=True)
@@ -167,7 +167,7 @@ class PictureBlock:
     """A picture; a page shows it, and forms made of letters leave it out.
 
     Attributes:
-        svg: the picture, as a file of its own.
+        svg: the picture, as a whole file.
         alt: what it shows, for those who do not see it.
     """
 

@@ -52,7 +52,7 @@ _OPENING = re.compile(r"(\d*)([-+#>=.)])")
 
 
 def _paragraph(text: str) -> str:
-    """The text as a paragraph of its own that begins nothing else."""
+    """The text as a paragraph; it opens no list, title or quotation."""
     line = _inline(text.lstrip())
     return _OPENING.sub(r"\1\\\2", line, count=1) if _OPENING.match(line) else line
 
@@ -63,7 +63,7 @@ def _cell(cell: str | bl.Cell) -> str:
 
 
 def _inline(text: str) -> str:
-    """The text so that it appears as it is; a word that would be a link is set as code."""
+    """The text, so that Markdown shows it literally; a word that would be a link is code."""
     return _escaped(bl.clean(text))
 
 

@@ -34,7 +34,7 @@ from topo_verify.world.drawing.svg import FONT, arrow, text
 T = TypeVar("T")
 
 MOST_EVENTS = 500
-"""A longer run is for the player: nobody watches ten minutes of an animation."""
+"""Maximal number of events; ten minutes of an animation are too long to watch."""
 
 MOST_SPOKES = 12
 """A glyph of more exits is their number."""

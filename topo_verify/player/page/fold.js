@@ -120,7 +120,7 @@ class Fold {
   /** The darts that were never crossed, neither way. None: the history proves the map. */
   openDarts() { return this.darts().flat().filter(([v, k]) => !this.nodes[v].partner.has(k)); }
 
-  /** The fold as a world, with a path of so many vertices hung on every open dart. */
+  /** The fold as a world, with a path of `pendant` vertices at every open dart. */
   world(pendant = 1) {
     const vertices = [], edges = [], numbers = new Map();
     let count = 0;

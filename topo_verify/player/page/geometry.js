@@ -177,7 +177,7 @@ class Picture {
     return all.sort((a, b) => a - b)[Math.floor(all.length / 10)];
   }
 
-  /** Choose sizes for a pane of so many screen pixels; `radius` and `unit` are in user space. */
+  /** Choose sizes for a pane of this size in screen pixels; `radius` and `unit` are in user space. */
   fit(width, height) {
     const pixel = 1 / Math.max(1e-6, Math.min(width / this.width, height / this.height));
     this.radius = Math.max(3.2 * pixel, Math.min(15 * pixel, 0.29 * this.near));

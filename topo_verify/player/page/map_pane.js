@@ -128,7 +128,7 @@ class MapPane extends Pane {
     }
   }
 
-  /** Show a round's question. It stays as long as the round does: to make it anew is dear. */
+  /** Show a round's question. It is kept during the round, since making it is slow. */
   ask(round, when) {
     const { run } = this;
     const same = round && this.asked?.round.edge === round.edge && this.asked.round.from === round.from;

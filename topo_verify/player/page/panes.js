@@ -33,7 +33,7 @@ class Pane {
     this.u = picture.unit;
     layers.replaceChildren();
     layers.style.setProperty('--u', this.u);
-    // What moves has pictures of its own: to lay one out again is dear where it is large.
+    // Moving parts have separate layers, because repainting a large picture is slow.
     for (const names of [['roads', 'stubs'], ['under', 'now'], ['vertices', 'marks'], ['over', 'robot']]) {
       const svg = draw('svg', { preserveAspectRatio: 'xMidYMid meet', 'aria-hidden': 'true' }, layers);
       for (const name of names) this[name] = draw('g', { class: name }, svg);

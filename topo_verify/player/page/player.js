@@ -198,7 +198,7 @@ class Player {
       try {
         history.replaceState(null, '', `#step=${this.tick}`);
       } catch {
-        /* a page inside a frame has no address of its own */
+        /* a page inside a frame cannot change its address */
       }
     }, 120);
   }
@@ -333,7 +333,7 @@ class Player {
     const names = this.runs.map((run, k) => [String(k), run.name]);
     const chosen = this.chosen;
     this.select('first', names, String(chosen[0]), (value) => this.choose([+value, ...this.chosen.slice(1)]));
-    const beside = [['', 'nobody'], ...names];
+    const beside = [['', 'none'], ...names];
     this.select('second', beside, String(chosen[1] ?? ''), (value) => this.choose(value === '' ? [this.chosen[0]] : [this.chosen[0], +value]));
     this.select('clock', [['cost', 'moves'], ['edge', 'edges of the map']], this.kind === 'edge' ? 'edge' : 'cost', (value) => {
       this.kind = value;

@@ -301,7 +301,7 @@ class WalkMode {
     return truth === null ? `${said}: wrong, the place behind it was new.` : event.kind === 'new' ? `${said}: wrong, you had been there.` : `${said}: wrong, it ends elsewhere.`;
   }
 
-  /** The world as it is, or the other one; what was declared, in colours. */
+  /** Show the world or its witness, with the declarations in colours. */
   reveal() {
     const { walk, ended } = this, { svg, title, note } = this.left, { phi } = ended;
     const kinds = new Map(ended.found.map(({ event, fate }) => [phi.get(event.edge), fate]));

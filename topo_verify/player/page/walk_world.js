@@ -107,7 +107,7 @@ function lots(seed) {
   };
 }
 
-/** A world with so many edges, drawn by lot: any rotation system may come. */
+/** A random world with this number of edges; any rotation system is possible. */
 function randomWorld(seed, edges) {
   const draw = lots(seed);
   const pick = (list) => list[Math.floor(draw() * list.length)];

@@ -58,7 +58,7 @@ def paragraph(
         name: {p.size: p for p in points if p.algorithm == name and p.is_reference}
         for name in (*figure.lines, "edges", "least-cost")
     }
-    before = {
+    earlier = {
         p.algorithm: {q.size: q for q in others if q.algorithm == p.algorithm and q.is_reference}
         for p in others
         if FIGURES[p.figure].setting is figure.setting
@@ -66,7 +66,7 @@ def paragraph(
     sentences = [
         *_stated(figure, lines),
         *_first_beyond(figure, lines["basic"]),
-        *_order(figure, before | lines),
+        *_order(figure, earlier | lines),
         *_reduction(figure, lines),
         *_growths(lines),
         *_yardsticks(lines),
@@ -103,14 +103,14 @@ def _first_beyond(figure: Figure, basic: _Line) -> Iterator[str]:
 
 def _order(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
     """Whether each enhancement of the figure costs less than the one before it."""
-    for dearer, cheaper in pairwise(LADDER):
-        if cheaper not in figure.lines or not lines.get(dearer):
+    for before, after in pairwise(LADDER):
+        if after not in figure.lines or not lines.get(before):
             continue
-        both = [size for size in lines[dearer] if size in lines[cheaper]]
-        differ = {s: lines[dearer][s].mean - lines[cheaper][s].mean for s in both}
+        both = [size for size in lines[before] if size in lines[after]]
+        differ = {s: lines[before][s].mean - lines[after][s].mean for s in both}
         equal = [s for s in both if differ[s] == 0]
         wrong = [s for s in both if differ[s] < 0]
-        claim = f"{SHORT[cheaper]} costs less than {SHORT[dearer]}"
+        claim = f"{SHORT[after]} costs less than {SHORT[before]}"
         ties = f" (the same at {_sizes(equal)})" if equal else ""
         if wrong:
             yield (

@@ -23,7 +23,7 @@ Flags = NDArray[np.bool_]
 
 
 FEW = 100
-"""So many equations are solved faster by NumPy, whose library takes one thread for them."""
+"""Up to this number NumPy solves equations faster, on one thread."""
 
 
 def solve(rows: Ints, columns: Ints, values: Floats, right: Floats) -> Floats:

@@ -23,10 +23,10 @@ ROUNDINGS = (0.5, 0.35, 0.2, 0.1, 0.0)
 """How round the corners of edges are, the roundest first."""
 
 ROOMY = 0.025
-"""The radius, as a share of the picture's longer side, with which anybody is content."""
+"""Vertex radius, as a share of the longer side, that needs no further improvement."""
 
 CRAMPED = 0.0003
-"""The same, at which vertices have no room; `layout` makes no radius smaller than 0.0002."""
+"""The share below which vertices have no room; `layout` makes no radius below 0.0002."""
 
 WHOLE = 1000
 """The most edges of a world that is shown whole, if it needs at most `MOST_CROSSINGS` bridges."""
@@ -115,10 +115,10 @@ def _share(layout: Layout) -> float:
 
 
 def untrue(world: World, layout: Layout, bridges: int | None) -> list[str]:
-    """What the finished picture of the layout shows and is not so.
+    """A sentence on each mistake in the finished picture of the layout.
 
     Args:
-        bridges: the crossings that are meant; None: as many as there happen to be.
+        bridges: the number of crossings that are meant; None: any.
     """
     return read_back.untruths(read_back.read(to_svg(world, layout)), world, bridges=bridges)
 
@@ -126,7 +126,7 @@ def untrue(world: World, layout: Layout, bridges: int | None) -> list[str]:
 # ---------------------------------------------------------------- balls
 
 LIMIT = 220
-"""The darts that a ball has at most, unless its middle alone has more."""
+"""Maximal darts of a ball, unless its central vertex alone has more."""
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ class Ball:
 
 
 def ball(world: World, centre: Dart, *, limit: int = LIMIT) -> Ball:
-    """The vertices nearest to the dart's vertex, breadth-first, as many as the limit lets in."""
+    """The part nearest to the dart's vertex, breadth-first, with at most `limit` darts."""
     first = world.vertex_of[centre]
     inside, queue, darts = {first}, deque([first]), len(world.vertices[first])
     while queue:
@@ -194,8 +194,7 @@ def put_back(around: Ball, layout: Layout) -> Layout:
         for bridge in layout.bridges
         if not {darts[part.edges[k][0]] for k in (bridge.over, bridge.under)} & around.cut.keys()
     )
-    shown = dict(zip(around.vertices, layout.centres, strict=False))
-    places = dict(shown)
+    places = dict(zip(around.vertices, layout.centres, strict=False))
     # A hidden vertex lies where the shortest way to it leaves the ball.
     queue: deque[int] = deque()
     for dart, leaf in around.cut.items():
@@ -219,5 +218,5 @@ def put_back(around: Ball, layout: Layout) -> Layout:
         paths=tuple(paths),
         bridges=bridges,
         stubs=tuple(sorted(stubs)),
-        hidden=frozenset(range(len(world.vertices))) - shown.keys(),
+        hidden=frozenset(range(len(world.vertices))) - {*around.vertices},
     )

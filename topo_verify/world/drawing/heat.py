@@ -6,8 +6,8 @@ The picture is that of svg.py, so a script reads it as any drawing of a world. O
 - along the beginning of each dart a stroke in the colour of that dart, `data-dart` and `data-cost`,
 
 and beneath it a legend. The arrow stands on the best dart, a dashed ring around the vertex of the
-worst. Colours go from dark (cheap) to light (dear) along a scale that is even for the eye and for
-colour-blind eyes (J. R. Nuñez, C. R. Anderton, R. S. Renslow: "Optimizing colormaps with
+worst. Colours go from dark (low cost) to light (high cost) along a scale that is even for the eye
+and for colour-blind eyes (J. R. Nuñez, C. R. Anderton, R. S. Renslow: "Optimizing colormaps with
 consideration for color vision deficiency", PLOS ONE 13(7), 2018); both ends stand out from light
 and dark cards by an outline.
 """

@@ -104,7 +104,7 @@ class Sketch:
         centres: of the vertices, an (n, 2) array.
         chains: the control points of each edge, from the centre of the lesser dart's vertex to the
             centre of the other's.
-        bridges: how many crossings there are; None: as many as there happen to be.
+        bridges: the number of crossings; None: any.
         turn: whether the picture may be turned so that it lies wide.
     """
 

@@ -45,7 +45,7 @@ BEND = 0.4
 STEPS = 60
 
 ATTEMPTS, LARGE_ATTEMPTS = 6, 2
-"""How many plane maps and outer faces are tried; less of worlds with more than 100 edges."""
+"""How many plane maps and outer faces are tried; fewer for worlds with more than 100 edges."""
 
 
 def planar(world: World) -> Iterator[Sketch]:
@@ -305,7 +305,7 @@ def _nearer(s: Floats) -> Floats:
 
 
 def polished(mesh: Mesh, places: Floats, *, bend: float, steps: int) -> Floats:
-    """The mesh's points after at most so many steps; injective if `places` are."""
+    """The mesh's points after at most `steps` steps; injective if `places` are."""
     free = np.ones(2 * mesh.size, bool)
     free[2 * mesh.frame] = free[2 * mesh.frame + 1] = False
     energy = _Energy(mesh.triangles, mesh.weights, _wishes(mesh), mesh.lines, bend, mesh.size, free)

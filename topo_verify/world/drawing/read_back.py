@@ -22,7 +22,7 @@ from topo_verify.world.drawing.curves import crossings, flatten
 from topo_verify.world.rooted_map import Dart, World
 
 TOLERANCE = 0.03
-"""Coordinates have two decimals: a point may be that far off its circle."""
+"""Distance of a point from its circle that rounding to two decimals may cause."""
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -94,10 +94,10 @@ def _sides(corners: Floats, letters: str) -> dict[str, list[Floats]]:
 
 
 def untruths(picture: Picture, world: World, *, bridges: int | None = None) -> list[str]:
-    """A sentence on everything in the picture that is not so in the world.
+    """A sentence on each difference between the picture and the world.
 
     Args:
-        bridges: how many crossings are meant; None: any number in worlds that are not planar.
+        bridges: the number of crossings meant; None: any in worlds that are not planar.
     """
     missing = sorted(set(range(len(world.vertices))) - picture.circles.keys())
     if missing and not picture.stubs:

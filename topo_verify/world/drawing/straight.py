@@ -33,7 +33,7 @@ def tree(world: World) -> Sketch | None:
     ends = ends_of(world)
     wound = max(world.degrees) <= 2 and len(world.vertices) > LONG
     centres = _spiral(world) if wound else _fan(world)
-    if not wound and max(world.degrees) < len(world.edges):  # a star is fine as it is
+    if not wound and max(world.degrees) < len(world.edges):  # a star needs no springs
         centres = relaxed(centres, ends, steps=max(60, min(300, 30_000 // len(centres))))
     chains = tuple(centres[pair] for pair in ends)
     return Sketch("planar", centres, chains, bridges=0, turn=not wound)
@@ -120,7 +120,7 @@ STIFF = 0.15
 
 
 def relaxed(centres: Floats, ends: Ints, *, steps: int) -> Floats:
-    """The vertices after so many steps.
+    """The vertices after this number of steps.
 
     Args:
         centres: of a drawing in which straight edges show every order.

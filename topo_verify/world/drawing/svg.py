@@ -255,10 +255,10 @@ def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iter
 # ---------------------------------------------------------------- the numbers of darts
 
 FIRST, STEP, MOST = 0.75, 0.3, 24
-"""In radii: the first place along an edge, and the step to the next; so many are tried at most."""
+"""In radii: the first place along an edge, the step to the next, and how many are tried."""
 
 CLEAR = 0.55
-"""In radii: so far a number of one digit stays from the lines of other darts."""
+"""In radii: the distance of a number with one digit from the lines of other darts."""
 
 DIGIT = 0.2
 """In radii: half the width of a digit."""
