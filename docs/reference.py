@@ -41,9 +41,9 @@ ENTRIES = {
     "world convert": "world.ConvertEntry",
     "world sample": "world.SampleEntry",
     "world draw": "world.DrawEntry",
-    "search": "search.SearchEntry",
+    "search": "search.study.SearchEntry",
     "prove": "prove.ProveEntry prove.ProveListEntry",
-    "faults": "faults.Caught",
+    "faults": "faults.study.Caught",
     "conform": "conform.LevelResult",
     "record": "record.study.RecordEntry",
     "compare": "compare.Comparison",
@@ -53,7 +53,7 @@ ENTRIES = {
     "tour": "tour.TourEntry",
     "arena": "arena.LeagueEntry arena_game.GameValue arena_game.MapperCosts",
     "header": "header.HeaderEntry",
-    "reproduce": "reproduce.FigurePoint",
+    "reproduce": "reproduce.pts.FigurePoint",
 }
 """The records that each command prints, by their modules in topo_verify/cli/."""
 

@@ -277,7 +277,7 @@ def _account(
     """The account of `arena`: a suite of worlds and a mapper a suite, a case a claim.
 
     Args:
-        dearest: the ranked mappers in their dearest worlds.
+        dearest: the ranked mappers in their most expensive worlds.
         exact: the worlds are all those of finite classes.
     """
     mappers = list(dict.fromkeys(entry.mapper for entry in table))

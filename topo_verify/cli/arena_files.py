@@ -7,7 +7,7 @@ What differs from run to run (time, memory) stands in columns of its own, which 
     results.json             the entries, without what differs from run to run
     timing.json              that: milliseconds a move, memory
     ratio-SUITE.svg          cost / LB against the number of edges
-    players/MAPPER.html      a ranked mapper in its dearest world
+    players/MAPPER.html      a ranked mapper in its most expensive world
     counterexamples/         of a mapper without a place: the world, drawn, and its run
 
 All but `timing.json` and the page are the same, byte for byte, whenever the same runs are made.
@@ -58,7 +58,7 @@ VARIES = ("ms_per_move",)
 # ---------------------------------------------------------------- for people
 
 Memory = Callable[[LeagueEntry], float | None]
-"""The mebibytes that a mapper took in its dearest world of a suite, if they are known."""
+"""The mebibytes that a mapper took in its most expensive world of a suite, if they are known."""
 
 
 VARYING = (
@@ -213,7 +213,7 @@ def broken_blocks(entries: Sequence[LeagueEntry]) -> Iterator[Block]:
 
 
 def dearest_exhibits(league: League) -> Iterator[Exhibit]:
-    """Each ranked mapper in its dearest world of all suites, run once more."""
+    """Each ranked mapper in its most expensive world of all suites, run once more."""
     dearest: dict[str, DearestWorld] = {}
     for entry in league.entries():
         one, other = entry.dearest, dearest.get(entry.mapper)
@@ -229,7 +229,9 @@ def dearest_exhibits(league: League) -> Iterator[Exhibit]:
             title=target_title(mapper.text, one.world),
             world=world,
             name=one.world,
-            notes=(f"dearest: {one.cost} edge traversals, {one.ratio:.2f} × LB = {one.least}",),
+            notes=(
+                f"most expensive: {one.cost} edge traversals, {one.ratio:.2f} × LB = {one.least}",
+            ),
             runs=(PlayedRun(mapper.text, run.trace, tuple(judgements), run.stopped),),
             whole=True,
         )
@@ -314,7 +316,7 @@ def _table(
         if ranked_in(suite, table):
             parts.append(f"![cost / LB in {suite.name}](ratio-{suite.name}.svg)\n")
     if dearest:
-        parts.append("## The dearest worlds\n")
+        parts.append("## The most expensive worlds\n")
         for one in dearest:
             parts.append(markdown([Text(f"{one.title}, {one.notes[0]}")]))
             parts.append(f"[The run, step by step](<players/{_stem(one)}.html>)\n")

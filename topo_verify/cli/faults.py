@@ -14,21 +14,7 @@ from topo_verify.cli.output import Live, Output, Result
 from topo_verify.errors import InputError, plural
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
-from topo_verify.studies.faults import (
-    A_SECOND,
-    CHECKS,
-    EXAMPLES,
-    LARGEST,
-    LARGEST_HARMLESS,
-    LARGEST_THOROUGH,
-    STRATEGIES,
-    Caught,
-    Check,
-    mapper_of,
-    named_faults,
-    try_faults,
-    warm,
-)
+from topo_verify.studies import faults as study
 
 COLUMNS = ("fault", "claim", "m: worlds", ">tests", "ok")
 WIDTHS = (29, 21, 13, 5, 3)
@@ -45,7 +31,7 @@ WIDTHS = (29, 21, 13, 5, 3)
 @click.option(
     "--by",
     "checks",
-    default=",".join(CHECKS),
+    default=",".join(study.CHECKS),
     show_default=True,
     metavar="CHECKS",
     help="The checks to run, with commas.",
@@ -56,7 +42,7 @@ WIDTHS = (29, 21, 13, 5, 3)
     "--thorough",
     is_flag=True,
     help="Count the failing worlds of 6 and 7 edges, too, and try the harmless differences in all"
-    f" worlds of {LARGEST_THOROUGH} edges: an hour.",
+    f" worlds of {study.LARGEST_THOROUGH} edges: an hour.",
 )
 def faults(
     output: Output,
@@ -75,14 +61,14 @@ def faults(
     default all are tried.
     """
 
-    def tried() -> Iterator[Result[Caught]]:
+    def tried() -> Iterator[Result[study.Caught]]:
         processes = processors() if workers is None else workers
-        chosen = named_faults(names)
+        chosen = study.named_faults(names)
         if engine == "compiled":
-            warm(chosen)
+            study.warm(chosen)
         # The first fault may take a minute, and progress is otherwise shown after each.
         output.progress(chosen[0].name, 0, len(chosen))
-        entries = try_faults(
+        entries = study.try_faults(
             chosen,
             by=_checks(checks),
             workers=processes,
@@ -98,7 +84,7 @@ def faults(
 
     seen: set[str] = set()
 
-    def live(entry: Caught) -> Iterator[Block]:
+    def live(entry: study.Caught) -> Iterator[Block]:
         """The row of one fault; above the first of a part stands the part's name."""
         part = _part(entry)
         if part not in seen:
@@ -119,31 +105,33 @@ def faults(
     )
 
 
-def _run_again(output: Output, entry: Caught, world: str) -> None:
+def _run_again(output: Output, entry: study.Caught, world: str) -> None:
     """Keep the run of a fault in the smallest world in which it fails."""
     assert entry.search is not None
     if claim := next(iter(entry.search.claims), None):
-        output.found.run_again((mapper_of(entry),), world, claim, A_SECOND, entry.search.message)
+        output.found.run_again(
+            (study.mapper_of(entry),), world, claim, study.A_SECOND, entry.search.message
+        )
 
 
-def _part(entry: Caught) -> str:
+def _part(entry: study.Caught) -> str:
     return "harmless" if entry.harmless else entry.part
 
 
-def _checks(text: str) -> list[Check]:
+def _checks(text: str) -> list[study.Check]:
     asked = [word.strip() for word in text.split(",")]
-    unknown = [word for word in asked if word not in CHECKS]
+    unknown = [word for word in asked if word not in study.CHECKS]
     if unknown:
         raise InputError(
-            f"--by {text}: expected checks out of {', '.join(CHECKS)}, got {unknown[0]!r}"
+            f"--by {text}: expected checks out of {', '.join(study.CHECKS)}, got {unknown[0]!r}"
         )
-    return [check for check in CHECKS if check in asked]
+    return [check for check in study.CHECKS if check in asked]
 
 
 # ---------------------------------------------------------------- the account
 
 
-def _account(entries: Sequence[Caught], checks: str) -> acc.Account:
+def _account(entries: Sequence[study.Caught], checks: str) -> acc.Account:
     """The account of `faults`: a suite a part of the mapper, a case a fault."""
     suites: dict[str, list[acc.JudgedCase]] = {}
     for entry in entries:
@@ -158,7 +146,7 @@ def _account(entries: Sequence[Caught], checks: str) -> acc.Account:
     )
 
 
-def _case(entry: Caught, checks: str) -> acc.JudgedCase:
+def _case(entry: study.Caught, checks: str) -> acc.JudgedCase:
     outcome: acc.Outcome = "passed" if entry.ok else "undecided" if entry.undecided else "failed"
     words = {"passed": "caught", "failed": "missed", "undecided": "undecided"}
     if entry.harmless:
@@ -180,15 +168,15 @@ def _case(entry: Caught, checks: str) -> acc.JudgedCase:
 
 
 def _head(names: Sequence[str], *, thorough: bool) -> str:
-    harmless = LARGEST_THOROUGH if thorough else LARGEST_HARMLESS
+    harmless = study.LARGEST_THOROUGH if thorough else study.LARGEST_HARMLESS
     return (
-        f"topo-verify {version()}: {plural(len(named_faults(names)), 'mapper')};"
-        f" every world up to {LARGEST} edges ({harmless} for the harmless ones),"
-        f" {EXAMPLES} examples of {' and of '.join(STRATEGIES)}"
+        f"topo-verify {version()}: {plural(len(study.named_faults(names)), 'mapper')};"
+        f" every world up to {study.LARGEST} edges ({harmless} for the harmless ones),"
+        f" {study.EXAMPLES} examples of {' and of '.join(study.STRATEGIES)}"
     )
 
 
-def _show(entries: Sequence[Caught]) -> Iterator[Block]:
+def _show(entries: Sequence[study.Caught]) -> Iterator[Block]:
     """All faults in one table, and the summary."""
     rows = [
         (entry.name, entry.part, *_row(entry)[1:-1], _theorem(entry), _ok(entry))
@@ -198,11 +186,11 @@ def _show(entries: Sequence[Caught]) -> Iterator[Block]:
     yield from _end(entries)
 
 
-def _row(entry: Caught) -> tuple[str, ...]:
+def _row(entry: study.Caught) -> tuple[str, ...]:
     return entry.name, entry.claim or "-", _worlds(entry), _examples(entry), _ok(entry)
 
 
-def _ok(entry: Caught) -> str:
+def _ok(entry: study.Caught) -> str:
     if not entry.asked:
         return "-"
     if entry.ok:
@@ -210,7 +198,7 @@ def _ok(entry: Caught) -> str:
     return "?" if entry.undecided else "no"
 
 
-def _worlds(entry: Caught) -> str:
+def _worlds(entry: study.Caught) -> str:
     """`3: 4 of 74`: of 74 worlds with 3 edges 4 fail. `6: rank 8990`: the search stopped there."""
     found = entry.search
     if found is None:
@@ -222,21 +210,21 @@ def _worlds(entry: Caught) -> str:
     return f"{found.edges}: {found.failing} of {found.total}"
 
 
-def _examples(entry: Caught) -> str:
+def _examples(entry: study.Caught) -> str:
     """The median; an asterisk if only the second strategy finds it with every seed."""
     drawn = entry.properties
     if drawn is None:
         return "-"
     if drawn.median_examples is None:
         return "none"
-    return f"{drawn.median_examples}{'*' * (drawn.strategy != STRATEGIES[0])}"
+    return f"{drawn.median_examples}{'*' * (drawn.strategy != study.STRATEGIES[0])}"
 
 
-def _theorem(entry: Caught) -> str:
+def _theorem(entry: study.Caught) -> str:
     return f"{entry.proofs.theorem}: {entry.proofs.verdict}" if entry.proofs else "-"
 
 
-def _end(entries: Sequence[Caught]) -> Iterator[Block]:
+def _end(entries: Sequence[study.Caught]) -> Iterator[Block]:
     """The summary: what was missed and how to see it, then the counts."""
     yield Text("")
     wrong = [entry for entry in entries if not entry.ok]

@@ -19,27 +19,8 @@ from topo_verify.errors import InputError
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.report.figures.words import PAGE, SHORT, judged_sentence, page, paragraph, stem
 from topo_verify.robot.limits import Limits
-from topo_verify.studies.reproduce.figures import (
-    FIGURES,
-    GRAPHS,
-    PAIRS,
-    QUICK_GRAPHS,
-    REFERENCE,
-    SEEDS,
-    YARDSTICKS,
-    Figure,
-    FigureExtent,
-    chosen_figures,
-)
-from topo_verify.studies.reproduce.points import (
-    FigurePoint,
-    PlannedRun,
-    figure_points,
-    growth_csv,
-    line_campaigns,
-    points_csv,
-    runs_of,
-)
+from topo_verify.studies.reproduce import figures as fig
+from topo_verify.studies.reproduce import points as pts
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
@@ -48,7 +29,7 @@ MATPLOTLIB = (
     " files are written all the same"
 )
 
-_Found = list[tuple[Figure, list[FigurePoint]]]
+_Found = list[tuple[fig.Figure, list[pts.FigurePoint]]]
 
 
 @options.command(
@@ -61,21 +42,21 @@ _Found = list[tuple[Figure, list[FigurePoint]]]
     default="all",
     show_default=True,
     metavar="F",
-    help=f"all, 6, or some of {', '.join(FIGURES)} with commas.",
+    help=f"all, 6, or some of {', '.join(fig.FIGURES)} with commas.",
 )
 @click.option(
-    "--quick", is_flag=True, help=f"Small sizes, {QUICK_GRAPHS} graphs a point: under a minute."
+    "--quick", is_flag=True, help=f"Small sizes, {fig.QUICK_GRAPHS} graphs a point: under a minute."
 )
 @click.option(
     "--policies",
     is_flag=True,
-    help=f"Run {len(PAIRS)} pairs of pick and order policies, and show the spread of the means.",
+    help=f"Run {len(fig.PAIRS)} pairs of pick and order policies; show the spread of the means.",
 )
 @options.number(
     "--graphs",
     least=1,
-    most=SEEDS,
-    meaning=f"Graphs a point.  [default: {GRAPHS}, as in the paper]",
+    most=fig.SEEDS,
+    meaning=f"Graphs a point.  [default: {fig.GRAPHS}, as in the paper]",
 )
 @click.option(
     "--out",
@@ -106,17 +87,17 @@ def reproduce(  # noqa: PLR0913  an argument an option
     byte, however many processes there are and however often it was interrupted. With
     --engine compiled lattices grow to 100x100.
     """
-    usual = QUICK_GRAPHS if quick else GRAPHS
-    pairs, large = PAIRS if policies else (REFERENCE,), engine == "compiled" and not quick
-    extent = FigureExtent(graphs or usual, quick, pairs, seed, large)
+    usual = fig.QUICK_GRAPHS if quick else fig.GRAPHS
+    pairs, large = fig.PAIRS if policies else (fig.REFERENCE,), engine == "compiled" and not quick
+    extent = fig.FigureExtent(graphs or usual, quick, pairs, seed, large)
     words = ["topo-verify", "reproduce", *(["--figure", figure] if figure != "all" else [])]
     words += ["--quick"] * quick + ["--policies"] * policies
     words += ["--graphs", str(graphs)] if graphs else []
     words += ["--seed", str(seed)] if seed else []
     words += ["--engine", engine] if engine != "reference" else []
 
-    def points() -> Iterator[Result[FigurePoint]]:
-        figures = chosen_figures(figure)
+    def points() -> Iterator[Result[pts.FigurePoint]]:
+        figures = fig.chosen_figures(figure)
         if engine == "compiled":
             require_compiled((), Limits())
             if policies:
@@ -126,7 +107,7 @@ def reproduce(  # noqa: PLR0913  an argument an option
                 )
         folder = options.make_folder(out, "--out")
         made = _runs(output, figures, extent, engine, folder, workers or processors())
-        found = [(one, figure_points(one, extent, made)) for one in figures]
+        found = [(one, pts.figure_points(one, extent, made)) for one in figures]
         _write(output, folder, found, shlex.join([*words, "--out", out]))
         for _, line in found:
             for point in line:
@@ -145,40 +126,40 @@ def reproduce(  # noqa: PLR0913  an argument an option
 
 def _runs(
     output: Output,
-    figures: Sequence[Figure],
-    extent: FigureExtent,
+    figures: Sequence[fig.Figure],
+    extent: fig.FigureExtent,
     engine: Engine,
     folder: Path,
     workers: int,
-) -> dict[PlannedRun, Row]:
+) -> dict[pts.PlannedRun, Row]:
     """Every run of the figures; each is kept in the folder as soon as it is judged."""
     if engine == "compiled":
         # Here, before the workers start: they find the kernels in the cache.
         explore(World.from_id("m1/0"), engine=engine)
     with open_store(output, folder) as store:
         assert store is not None, "there is a folder"
-        campaigns = line_campaigns(figures, extent, engine, store)
+        campaigns = pts.line_campaigns(figures, extent, engine, store)
         here = 0 if workers == 1 else workers
         rows = stored_rows(output, campaigns, here, store)
-        return {run: row for row in rows for run in runs_of(row)}
+        return {run: row for row in rows for run in pts.runs_of(row)}
 
 
 def _write(output: Output, folder: Path, found: _Found, command: str) -> None:
     """Write CSV, pictures and the page that shows them."""
     drawn = True
     for figure, points in found:
-        files.write(folder / f"{stem(figure)}.csv", points_csv(points))
+        files.write(folder / f"{stem(figure)}.csv", pts.points_csv(points))
         drawn = drawn and _draw(folder, figure, points)
     if not drawn:
         output.note(MATPLOTLIB)
     every = [point for _, points in found for point in points]
     settings = {figure.name: figure.setting.name for figure, _ in found}
-    files.write(folder / "growth.csv", growth_csv(every, settings))
+    files.write(folder / "growth.csv", pts.growth_csv(every, settings))
     judged = judged_sentence(every)
     files.write(folder / PAGE, page(found, command=command, judged=judged, pictures=drawn))
 
 
-def _draw(folder: Path, figure: Figure, points: Sequence[FigurePoint]) -> bool:
+def _draw(folder: Path, figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> bool:
     """Write the pictures of a figure; False if matplotlib is not installed."""
     from topo_verify.report.figures.pictures import picture
 
@@ -193,10 +174,10 @@ def _draw(folder: Path, figure: Figure, points: Sequence[FigurePoint]) -> bool:
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[FigurePoint], out: str, seed: int) -> Iterator[Block]:
+def _show(entries: Sequence[pts.FigurePoint], out: str, seed: int) -> Iterator[Block]:
     """A table and a paragraph a figure, the growth of every line, and what was judged."""
     for name in dict.fromkeys(point.figure for point in entries):
-        figure = FIGURES[name]
+        figure = fig.FIGURES[name]
         points = [point for point in entries if point.figure == name]
         yield _table(figure, [point for point in points if point.is_reference])
         yield Text("")
@@ -212,9 +193,9 @@ def _show(entries: Sequence[FigurePoint], out: str, seed: int) -> Iterator[Block
     yield Text(f"CSV, pictures and {PAGE} are in {out}; seed {seed}.")
 
 
-def _table(figure: Figure, points: Sequence[FigurePoint]) -> TextTable:
+def _table(figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> TextTable:
     """The means of a figure: a row a size, a column a line."""
-    names = (*figure.lines, *YARDSTICKS)
+    names = (*figure.lines, *fig.YARDSTICKS)
     cells = {(point.size, point.algorithm): point for point in points}
     rows = [
         (str(size), *(_cell(cells.get((size, name))) for name in names))
@@ -224,19 +205,19 @@ def _table(figure: Figure, points: Sequence[FigurePoint]) -> TextTable:
     return TextTable((">size", *(f">{SHORT[name]}" for name in names)), rows, title)
 
 
-def _cell(point: FigurePoint | None) -> str:
+def _cell(point: pts.FigurePoint | None) -> str:
     if point is None:
         return "-"
-    if point.stderr is None or point.algorithm in YARDSTICKS:
+    if point.stderr is None or point.algorithm in fig.YARDSTICKS:
         return f"{point.mean:.0f}"
     return f"{point.mean:.0f}±{point.stderr:.0f}"
 
 
-def _growth_table(entries: Sequence[FigurePoint]) -> TextTable:
+def _growth_table(entries: Sequence[pts.FigurePoint]) -> TextTable:
     """The exponent of every line of the reference policies."""
     rows = dict.fromkeys(
         (
-            FIGURES[point.figure].setting.name,
+            fig.FIGURES[point.figure].setting.name,
             point.algorithm,
             f"{point.growth.exponent:.2f}",
             "-" if point.growth.stderr is None else f"{point.growth.stderr:.2f}",

@@ -28,17 +28,8 @@ from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.search import search as study
 from topo_verify.studies.search.choices import CHOICES, Choices, reports_of
-from topo_verify.studies.search.search import (
-    DONE,
-    ByEdges,
-    CostComparison,
-    EveryCost,
-    FailingClaim,
-    Search,
-    SearchEntry,
-    search_campaign,
-)
 from topo_verify.world.enumeration.classes import WorldClass
 
 
@@ -104,9 +95,9 @@ def search(  # noqa: PLR0913  an argument an option
     file.py:attribute. A native mapper (--library) is called and judged by the compiled engine.
     """
 
-    def searches() -> Iterator[Result[SearchEntry]]:
+    def searches() -> Iterator[Result[study.SearchEntry]]:
         campaign_of = partial(
-            search_campaign,
+            study.search_campaign,
             edges=edges,
             kind=str(WorldClass.parse(kind)),
             choices=policies,
@@ -127,10 +118,10 @@ def search(  # noqa: PLR0913  an argument an option
                 campaign = campaign_of(searched)
                 backend = _backend(searched, workers, cluster, needed)
                 with _opened(output, ledger, depends, campaign, searched) as store:
-                    study = Search(campaign, searched, backend, store)
-                    yield from _searched(output, study, compare=compare is not None)
+                    one_search = study.Search(campaign, searched, backend, store)
+                    yield from _searched(output, one_search, compare=compare is not None)
 
-    def show(entries: Sequence[SearchEntry]) -> Iterator[Block]:
+    def show(entries: Sequence[study.SearchEntry]) -> Iterator[Block]:
         return chain.from_iterable(_shown(entry, worst=worst) for entry in entries)
 
     return output.run("search", searches, show, account=_account, in_process=mappers.in_process)
@@ -181,32 +172,34 @@ def _searches(
     return found
 
 
-def _searched(output: Output, study: Search, *, compare: bool) -> Iterator[Result[SearchEntry]]:
+def _searched(
+    output: Output, one_search: study.Search, *, compare: bool
+) -> Iterator[Result[study.SearchEntry]]:
     """The result of one search; after Ctrl-C, of the worlds done so far."""
-    campaign = study.campaign
+    campaign = one_search.campaign
 
-    def result() -> Result[SearchEntry]:
-        entry = study.entry(compare=compare)
-        failed, incomplete = entry.verdict == "REFUTED", entry.verdict not in DONE
+    def result() -> Result[study.SearchEntry]:
+        entry = one_search.entry(compare=compare)
+        failed, incomplete = entry.verdict == "REFUTED", entry.verdict not in study.DONE
         return Result(entry, failed=failed, incomplete=incomplete)
 
     try:
-        study.work(output.progress)
-        study.run_again(output.progress)
+        one_search.work(output.progress)
+        one_search.run_again(output.progress)
     except KeyboardInterrupt:
         # Yield before raising: `Output` prints what it has and then exits 3.
         yield result()
         raise
     if campaign.engine == "compiled":
         known = output.timing.setdefault("engine", {"engine": 0.0, "checkers": 0.0})
-        known["engine"] += study.seconds.engine
-        known["checkers"] += study.seconds.checkers
-    entry = study.entry()
+        known["engine"] += one_search.seconds.engine
+        known["checkers"] += one_search.seconds.checkers
+    entry = one_search.entry()
     reports = None if campaign.ways is None else partial(reports_of, campaign)
     for one in (entry.counterexample, *(claim.smallest for claim in entry.claims)):
         if one is not None:
             output.found.run_again(
-                study.mappers,
+                one_search.mappers,
                 *(one.world, one.claim, campaign.limits, one.message),
                 reports=reports,
             )
@@ -237,7 +230,7 @@ def _opened(
 # ---------------------------------------------------------------- the account
 
 
-def _account(entries: Sequence[SearchEntry]) -> acc.Account:
+def _account(entries: Sequence[study.SearchEntry]) -> acc.Account:
     """The account of `search`: a suite a search; its verdict, and a case a claim."""
     verdict = acc.joint_verdict([entry.verdict for entry in entries])
     failing = sum(size.failing for entry in entries for size in entry.by_edges)
@@ -249,13 +242,13 @@ def _account(entries: Sequence[SearchEntry]) -> acc.Account:
     )
 
 
-def _class(entry: SearchEntry, before: str) -> str:
+def _class(entry: study.SearchEntry, before: str) -> str:
     """The worlds of a search; before the name of a class other than `any` stands `before`."""
     kind = "" if entry.kind == "any" else f"{before}{entry.kind}"
     return f"worlds of 1 to {plural(entry.edges, 'edge')}{kind}"
 
 
-def _cases(entry: SearchEntry) -> Iterator[acc.JudgedCase]:
+def _cases(entry: study.SearchEntry) -> Iterator[acc.JudgedCase]:
     first = entry.counterexample
     yield acc.verdict_case(
         "every world of the class",
@@ -271,7 +264,7 @@ def _cases(entry: SearchEntry) -> Iterator[acc.JudgedCase]:
     yield from map(_failing, wrong.values())
 
 
-def _failing(one: FailingClaim) -> acc.JudgedCase:
+def _failing(one: study.FailingClaim) -> acc.JudgedCase:
     where = f"in {plural(one.failing, 'world')}; {one.smallest.message}"
     return acc.JudgedCase(one.claim, "failed", "failed", message=where, again=one.smallest.replay)
 
@@ -282,7 +275,7 @@ SHOWN = 3
 """The number of worlds shown in one cell; JSON has more."""
 
 
-def _shown(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
+def _shown(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:
     """One search, for people: a table, the verdict, the counterexample."""
     policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
     title = f"{_who(entry)}: {_class(entry, ', class ')}{policies}"
@@ -296,7 +289,8 @@ def _shown(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     if pairs:
         yield Text("")
         yield TextTable(
-            (">edges", ">A dearer", ">at most by", ">B dearer", "A dearer, first"), pairs
+            (">edges", ">A costs more", ">at most by", ">B costs more", "A costs more, first"),
+            pairs,
         )
     yield from _every(entry, worst=worst)
     yield Text("")
@@ -321,7 +315,7 @@ def _shown(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
         yield from unjudged(entry.target, "these worlds", entry.judgements)
 
 
-def _every(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
+def _every(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:
     """The states and choices of --policies every; with --worst the range of the costs, too."""
     sizes = [(e.edges, e.every) for e in entry.by_edges if e.every is not None and e.every.worlds]
     if not sizes:
@@ -335,7 +329,7 @@ def _every(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
         (str(m), *map(str, (e.cheapest, e.reference, e.dearest)), *_saved(e)) for m, e in sizes
     ]
     yield Text("")
-    columns = (">edges", ">cheapest", ">reference", ">dearest", ">saves", ">at most", "in")
+    columns = (">edges", ">cheapest", ">reference", ">highest", ">saves", ">at most", "in")
     yield TextTable(columns, costs, "sums of costs: the least, of the reference, the most")
     low, reference = (sum(getattr(e, name) for _, e in sizes) for name in ("cheapest", "reference"))
     yield Text("")
@@ -345,7 +339,7 @@ def _every(entry: SearchEntry, *, worst: bool) -> Iterator[Block]:
     )
 
 
-def _saved(entry: EveryCost) -> tuple[str, ...]:
+def _saved(entry: study.EveryCost) -> tuple[str, ...]:
     """The share that the cheapest runs save together, and where one saves most."""
     together = f"{1 - entry.cheapest / entry.reference:.1%}"
     one = entry.most_saved
@@ -354,20 +348,20 @@ def _saved(entry: EveryCost) -> tuple[str, ...]:
     return together, f"{1 - one.cheapest / one.reference:.1%}", one.world
 
 
-def _who(entry: SearchEntry) -> str:
+def _who(entry: study.SearchEntry) -> str:
     if all(e.compare is None for e in entry.by_edges):
         return entry.target
     first, _, second = entry.target.partition(",")
     return f"A {first}, B {second}"
 
 
-def _costs(entry: ByEdges) -> tuple[str, ...]:
+def _costs(entry: study.ByEdges) -> tuple[str, ...]:
     mean = f"{entry.total_cost / entry.runs:.2f}" if entry.runs else "-"
     worst = _some(entry.worst, entry.attained)
     return str(entry.max_cost), mean, str(entry.attained), worst
 
 
-def _compared(edges: int, pair: CostComparison) -> tuple[str, ...]:
+def _compared(edges: int, pair: study.CostComparison) -> tuple[str, ...]:
     first = [f"{world.world} ({world.cost}, {world.other})" for world in pair.first]
     row = map(str, (edges, pair.dearer, pair.most, pair.cheaper))
     return (*row, _some(first, pair.dearer))
@@ -379,7 +373,7 @@ def _some(names: Sequence[str], number: int) -> str:
     return f"{shown} …" if number > SHOWN else shown or "-"
 
 
-def _conclusion(entry: SearchEntry) -> str:
+def _conclusion(entry: study.SearchEntry) -> str:
     worlds = f"{entry.checked} of {plural(entry.total, 'world')} checked"
     if entry.from_ledger:
         now = sum(size.checked + size.undecided for size in entry.by_edges) - entry.from_ledger
@@ -403,7 +397,7 @@ def _conclusion(entry: SearchEntry) -> str:
     return f"{worlds}, no claim failed{late}"
 
 
-def _counterexamples(entry: SearchEntry) -> Iterator[Block]:
+def _counterexamples(entry: study.SearchEntry) -> Iterator[Block]:
     """The smallest counterexample, and the smallest for each claim."""
     first = entry.counterexample
     if first is None:
