@@ -86,8 +86,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def printed(line: str) -> str:
     """What a command prints; it may end with a counterexample or incomplete, not with an error."""
-    if line.startswith(PROGRAM):
-        done = CliRunner().invoke(main, shlex.split(line.removeprefix(PROGRAM), comments=True))
+    if line.startswith((PROGRAM, "topo-verify ")):
+        done = CliRunner().invoke(main, shlex.split(line, comments=True)[1:])
         assert done.exit_code in {0, 1, 3}, done.stderr
         return done.stdout
     arguments = ["bash", "-c", line] if " > " in line else shlex.split(line)
