@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from topo_verify.world.enumeration.pruned import worlds
     from topo_verify.world.rooted_map import World
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 __all__ = [
     "CATALOGUE",
