@@ -145,7 +145,8 @@ def test_the_command_of_the_wheel_works_on_its_own(built: Built, tmp_path: Path)
 def test_the_sdist_holds_tests_docs_and_examples(built: Built) -> None:
     names = built.sdist_names()
     assert names >= {
-        *("Makefile", "CHANGELOG.md", "CONTRIBUTING.md", "constraints.txt", "action.yml"),
+        *("Makefile", "CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "constraints.txt"),
+        "action.yml",
         *(".ci/run", "docs/conf.py", "docs/gallery/m2-8.svg", "docs/site/glossary.py"),
         *("tests/test_packaging.py", "tests/data/golden.json", "examples/mapper_c/mapper.c"),
         *("examples/own_mapper/mapper.py", "benchmarks/run.py"),
@@ -172,8 +173,9 @@ def test_the_tests_in_the_sdist_run_where_it_is_unpacked(built: Built, tmp_path:
     assert done.returncode == 0, done.stdout
 
 
-def test_the_three_versions_are_one() -> None:
+def test_the_four_versions_are_one() -> None:
     assert topo_verify.__version__ == project_table()["version"]
+    assert f"\nversion: {topo_verify.__version__}\n" in (ROOT / "CITATION.cff").read_text()
     assert metadata.version("topo-verify") == topo_verify.__version__
 
 
