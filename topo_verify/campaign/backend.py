@@ -63,7 +63,7 @@ MACHINES = "the Dask worker was lost, each time"
 SHORT_OF_MEMORY = "the mapper raised MemoryError there, and here it did not"
 """Why a world is undecided in which a worker lacked memory that a process of the client's has."""
 
-_MEMORY_ERROR = re.compile(r"the mapper raised \w*MemoryError\b")  # numpy has one of its own
+_MEMORY_ERROR = re.compile(r"the mapper raised \w*MemoryError\b")  # numpy has another one
 
 Depends = Sequence[str] | None
 """Further files that mappers depend on; None: what they load is not asked for."""
@@ -347,7 +347,7 @@ def _cut(campaign: c.Campaign, shard: c.Shard, runs: int) -> list[c.Shard]:
 def _cut_at_rank(shard: c.Shard, ranks: int) -> list[c.Shard]:
     """Cut a shard around the rank at which native code was lost.
 
-    If it was lost behind the last, it may have been in any world that its process came to harm.
+    If it was lost behind the last, any of its worlds may have damaged its process.
     """
     worlds = shard.stop - shard.start
     if worlds < 2:
@@ -383,7 +383,7 @@ def _lost(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.ShardResult:
         )
     if calls_native(campaign):
         return _lost_in_native_code(campaign, shard, loss)
-    external = loss.stranger and loss.silence is None
+    external = loss.maybe_external and loss.silence is None
     row = _row_at(campaign, shard, loss.items, str(loss), external=external)
     if row is not None and external:
         why = f"its worker was killed each time ({loss.status})"
@@ -447,8 +447,8 @@ def _survived(
 ) -> c.ShardResult:
     """The result of a shard, with the losses in runs that were done when tried again."""
     for shard, loss in losses:
-        cause = loss.cause if loss.stranger else f"{loss}{SECOND_TRY}"
-        external, at, items = loss.stranger, shard, loss.items
+        cause = loss.cause if loss.maybe_external else f"{loss}{SECOND_TRY}"
+        external, at, items = loss.maybe_external, shard, loss.items
         if calls_native(campaign):
             external, items = True, 0
             rank = shard.start + max(0, min(loss.items, shard.stop - shard.start - 1))

@@ -165,7 +165,7 @@ def listed_shards(worlds: NamedWorlds) -> Iterator[Shard]:
 
 
 class Stop(msgspec.Struct, frozen=True):
-    """When a campaign ends before its last world: after so many failing worlds, or time-outs."""
+    """Numbers of failing worlds and of time-outs that end a campaign before its last world."""
 
     failing: int | None = None
     timeouts: int | None = None
@@ -271,7 +271,7 @@ class ShardResult(msgspec.Struct, frozen=True):
     Attributes:
         tally: of its worlds.
         rows: all of them, or the notable ones.
-        loaded: what the mappers had loaded by then; None: nobody asked.
+        loaded: what the mappers had loaded by then; None: not asked for.
         seconds: what the compiled engine and the checkers took.
     """
 

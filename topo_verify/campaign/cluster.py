@@ -11,7 +11,7 @@ loss means here that a whole Dask worker went, with its machine, its network or 
   `allowed-failures` says (3). Most losses end here, and change no result.
 - A task that was lost more often is done again with no other task at work, so that none is blamed
   for what another one does. If it is lost again, it is cut, down to a task that cannot be cut:
-  `Remote.lost` says what its result is. That convicts nobody.
+  `Remote.lost` says what its result is. That convicts no mapper.
 - If the scheduler is lost, or no worker is left for `PATIENCE` seconds, an InputError says so. The
   client holds the results: what it has written down is kept.
 
@@ -58,7 +58,7 @@ AHEAD = 2
 
 _DO = f"__import__({cluster_worker.__name__!r}, fromlist=['do']).do(assignment)"
 """What a worker evaluates. To send the function itself would end a worker that lacks topo_verify:
-Dask reads it before it knows of a task, so nobody could say what is missing."""
+Dask reads it before it knows of a task, so the error could not name what is missing."""
 
 
 class _Future(Protocol):
@@ -255,7 +255,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
         future.add_done_callback(self._done.put)
 
     def _listen(self) -> None:
-        """Take what one task came to; now and then look whether there are workers."""
+        """Take the result of one task; now and then look whether there are workers."""
         with suppress(Empty):
             self._hear(self._done.get(timeout=LOOK))
         if monotonic() > self._looked + LOOK:
@@ -270,7 +270,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
             raise _no_worker(self._cluster.address)
 
     def _hear(self, future: _Future) -> None:
-        """Take what one task came to."""
+        """Take the result of one task."""
         if future.status not in ("finished", "error"):  # cancelled: Dask does so on a lost link
             raise self._cluster.lost()
         piece, alone = self._at.pop(future), self._alone

@@ -5,10 +5,10 @@ workers, and finds out over what:
 
 - Each worker writes heartbeats while it works. One that ends, or that writes no heartbeat for
   longer than any limit allows, is lost; what is left of its process group is killed.
-- A task that loses its worker is tried again, as often as `Work.attempts` says: a stranger may have
-  killed the worker. After that it is cut around the item where the worker was last seen, and the
+- A task that loses its worker is tried again, as often as `Work.attempts` says: something else may
+  have killed the worker. Then it is cut around the item where the worker was last seen, and the
   pieces are tried, down to the one item that kills. A task that cannot be cut is given to
-  `Work.lost`, which says what its result is.
+  `Work.lost`, which returns its result.
 - No loss is forgotten: what comes of a task whose worker was lost in an item that was done when it
   was tried again is given to `Work.survived`, which says what that means for the result.
 - Workers are forks of a process that has loaded nothing and that no other program can look into
@@ -50,8 +50,8 @@ class Pool(Generic[TaskT, ResultT]):
     """Workers on this machine. A `TaskBackend`; see above.
 
     Args:
-        size: how many workers at most. Each is started when there is a task for it.
-        in_flight: told now and then how many items are finished in tasks that are not.
+        size: the most workers. Each is started when there is a task for it.
+        in_flight: called now and then with the number of items done in unfinished tasks.
         folder: where workers are started; None: in the current folder.
     Raises (by `run`):
         InputError: a worker says that the input is bad, or another process speaks for a worker.
@@ -152,7 +152,7 @@ class Pool(Generic[TaskT, ResultT]):
         self._workers.remove(worker)
         status = worker.kill()
         piece = self._at.pop(worker, None)
-        if piece is None:  # it was idle: whoever killed it, no task is to blame
+        if piece is None:  # it was idle, so no task is to blame
             return
         loss = Loss(status, silence, loading=not worker.ready, items=worker.items)
         if worker.ready:  # one that dies while it loads would do so over any piece

@@ -47,7 +47,7 @@ class PolicyCosts(msgspec.Struct, frozen=True):
         worlds: in how many worlds; those in which no claim fails, whatever is chosen.
         states, choices: the number of states with more than one way, and of their ways.
         cheapest, reference, dearest: sums of costs: the least that a run can cost in each world,
-            what the reference policies cost, the most.
+            the cost of the reference policies, the most.
         most_saved: where the cheapest run saves the greatest share.
     """
 

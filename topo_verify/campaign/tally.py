@@ -69,7 +69,7 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
         worlds, failing, undecided: worlds; those where a claim fails; those that are left open.
         timeouts: runs that a time limit ended, or that lost their worker each time.
         late: runs that were cut off and say nothing else.
-        lost: worlds in which a worker was lost, perhaps by nothing that a mapper did.
+        lost: worlds in which a worker was lost, perhaps not by a mapper's fault.
         statuses: for each claim, how many runs have which status.
         shares: for each claim, how much was judged in all runs together, of how much.
         claims: for each claim that fails, in how many worlds.

@@ -4,7 +4,7 @@
     Loss        how a worker was lost
     Division    how a task is cut around the item that kills
     Remote      what other machines need on top of that
-    TaskBackend     whoever does tasks: `pool.py` on this machine, `cluster.py` on others
+    TaskBackend     does tasks: `pool.py` on this machine, `cluster.py` on others
 
 A job, a task and a result are data (JSON); this file knows nothing of what they mean. A task that
 loses its workers is cut into pieces, which are done like tasks; their results are joined again.
@@ -25,7 +25,7 @@ ResultT_co = TypeVar("ResultT_co", covariant=True)
 
 
 def processors() -> int:
-    """How many processors this process may use: a good number of workers."""
+    """The number of processors that this process may use: a good number of workers."""
     affinity = getattr(os, "sched_getaffinity", None)
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
@@ -38,7 +38,7 @@ class Loss:
         status: its exit status in words, `exit code 3` or `signal 9`.
         silence: after how many seconds without a heartbeat it was killed; None: it ended itself.
         loading: it was not ready for its first task yet.
-        items: so many items of its task were finished.
+        items: the number of items of its task that were finished.
     """
 
     status: str
@@ -47,8 +47,8 @@ class Loss:
     items: int = 0
 
     @property
-    def stranger(self) -> bool:
-        """Whether it may have been lost by nothing that its task did, as by a lack of memory."""
+    def maybe_external(self) -> bool:
+        """Whether the loss may not be the task's fault, e.g. the out-of-memory killer."""
         return self.silence is not None or self.status == f"signal {signal.SIGKILL.value}"
 
     @property
@@ -88,8 +88,8 @@ class Remote(Generic[TaskT, ResultT]):
         remade: `module:function`, which makes the same `Work` from its job, as JSON.
         task: the type of a task, to read it from JSON.
         parts: a task in parts, without a look at its items; fewer than two: it cannot be cut.
-        lost: the result of a task that cannot be cut and with which machines were lost, so many
-            that none is tried again; that convicts nobody.
+        lost: the result of a task that cannot be cut and with which machines were lost each time;
+            it convicts no mapper.
         require_ours: raises an InputError if a result was made with other files than are here; it
             is given the result and the name of the worker.
     """
@@ -110,12 +110,12 @@ class Work(Generic[TaskT, ResultT]):
         job: what each worker is handed once, before its first task.
         result: the type of a result, to read it from JSON.
         lost: the result of a task that was lost with its last worker; it may raise.
-        survived: the result of a task that lost workers, given what it came to in the end, how they
-            were lost, each with the piece that it was at, and the pieces that were given up;
-            default: what it came to.
-        silence: a worker that writes no heartbeat for so many seconds is lost.
+        survived: the result of a task that lost workers, given its last result, how they were lost,
+            each with the piece that it was at, and the pieces that were given up; default: its
+            last result.
+        silence: seconds without a heartbeat after which a worker is lost.
         loading: seconds that a worker has to get ready.
-        attempts: so many workers may be lost with a task.
+        attempts: the most workers that may be lost with a task.
         division: how a task is cut; None: it cannot be.
         remote: what other machines need; None: the work is done on this one only.
     """
@@ -135,7 +135,7 @@ class Work(Generic[TaskT, ResultT]):
 
 
 class TaskBackend(Protocol[TaskT, ResultT_co]):
-    """Whoever does tasks: a pool on this machine, or a cluster of others."""
+    """Does tasks: a pool on this machine, or a cluster of others."""
 
     def run(
         self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = ...
@@ -154,8 +154,8 @@ def in_order(
     """The results in the order of the tasks.
 
     Args:
-        tasks: each an object of its own.
-        ahead: at most so many tasks are taken before the first of them is finished: a slow one must
+        tasks: different objects.
+        ahead: the most tasks that are taken before the first of them is finished: a slow one must
             not fill the memory with results that wait for it.
     """
     taken: deque[TaskT] = deque()

@@ -6,8 +6,8 @@
     heartbeat   three words in a file: how many items of the task are finished, a number that
                 grows, and in how many milliseconds the next sign of life is due (0: as usual)
 
-What the process works at is named by `module:function` (`Serve`): the pool, which starts it, knows
-nothing of its own of searches, mappers or worlds.
+The work is named by `module:function` (`Serve`): the pool, which starts the process, knows nothing
+of searches, mappers or worlds.
 
 Four things the code here must see to:
 
@@ -116,13 +116,13 @@ class Heartbeat:
         self.address = ctypes.addressof(self._words)
 
     def __call__(self, items: int) -> None:
-        """Report that so many items of the task are finished, and that something new begins."""
+        """Report the number of finished items, and that the next one begins."""
         self._words[0] = items
         self._words[1] += 1
 
     @contextmanager
     def within(self, seconds: float) -> Generator[None]:
-        """The next sign of life is due in so many seconds, as long as the block runs."""
+        """The next sign of life is due in `seconds`, as long as the block runs."""
         self._words[2] = int(1000 * seconds)
         try:
             yield
@@ -294,7 +294,7 @@ def main(commands: BinaryIO, out: BinaryIO, heartbeat: int) -> None:
     try:
         _work(function_at(serve)(bytes(job)), lines, send, Heartbeat(heartbeat))
     except ConnectionError:
-        pass  # the parent is gone: nobody wants the result
+        pass  # the parent is gone, and needs no result
     except InputError as error:
         send(WorkerFailed(str(error), bug=False))
     except Exception:  # noqa: BLE001  whatever it is, the parent is told

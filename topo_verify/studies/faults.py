@@ -119,7 +119,7 @@ def try_faults(
 
     Args:
         by: which checks.
-        workers: so many processes, each with a fault of its own; 0: this one.
+        workers: the number of processes, each with another fault; 0: this one.
         thorough: count the failing worlds of every size, and try the harmless differences in all
             worlds of 5 edges, too.
         engine: what runs a fault that has a kernel, in worlds of up to `COUNTED` edges; the
@@ -245,7 +245,7 @@ LARGEST = 7
 """The most edges of worlds in which a fault is searched for."""
 
 COUNTED = 5
-"""Up to so many edges all failing worlds of a size are counted; in larger ones if thorough."""
+"""The most edges of worlds in which all failing ones are counted; in larger ones if thorough."""
 
 SEEDS = range(5)
 EXAMPLES = 100
@@ -271,8 +271,8 @@ class Smallest(msgspec.Struct, frozen=True):
 
     Attributes:
         edges: that size; the largest that was searched if nothing was found.
-        failing, checked: in how many of so many worlds of that size a claim fails. Beyond
-            `COUNTED` edges the search ends at the first of them, unless it is thorough.
+        failing, checked: worlds of that size in which a claim fails, and those that were tried.
+            Beyond `COUNTED` edges the search ends at the first, unless it is thorough.
         total: how many worlds of that size there are.
         undecided: in how many of all searched worlds a run was out of time.
         claims: for each claim that fails there, in how many worlds.
@@ -301,7 +301,7 @@ class Examples(msgspec.Struct, frozen=True):
             found something; None if there is none.
         strategy: which one that is; None as above.
         examples: of each strategy that was asked, that of each seed; None where nothing was found.
-        most: after so many a test gives up.
+        most: the number of examples after which a test gives up.
         undecided: how many examples were cut off, by moves or by time.
     """
 

@@ -1,4 +1,4 @@
-"""Certificates: what a log of percepts and doors proves where nobody knows the world.
+"""Certificates: what a log of percepts and doors proves without its world.
 
 A real robot leaves a log of the doors that it took and what it sensed behind them. It proves its
 map (PROVED), or it is true of several worlds (UNKNOWN: walk on), or something is wrong (REFUTED).

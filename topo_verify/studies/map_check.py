@@ -44,7 +44,7 @@ from topo_verify.world.least_cost import BreadthFirstTree, covering_walk
 from topo_verify.world.rooted_map import Dart, World
 
 MOST_DETOURS = 8
-"""So many unproved edges, the nearest, are tried as a way home from where the log ends."""
+"""The most unproved edges, the nearest, that are tried as a way home from where the log ends."""
 
 
 @dataclass(frozen=True, slots=True)

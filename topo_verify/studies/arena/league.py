@@ -203,7 +203,7 @@ class League:
         return rows
 
     def memory(self, entry: LeagueEntry) -> float | None:
-        """The mebibytes that a mapper took in its dearest world of a suite, if they are known."""
+        """The mebibytes that a mapper took in its most expensive world of a suite, if known."""
         if entry.dearest is None:
             return None
         kibibytes = self.peaks.get((entry.mapper, entry.dearest.world))

@@ -1,7 +1,7 @@
 """The runs of a league: one campaign for each mapper, which ends at its first failing world.
 
 **Memory** is measured apart, since the process of a worker also keeps the trace and judges it: the
-mapper plays one world in a fresh process of its own, an algorithm of the catalogue too, and the
+mapper plays one world in a fresh process, an algorithm of the catalogue too, and the
 system says what its resident set was at most. What this does not show: memory of processes that a
 program starts.
 

@@ -4,8 +4,9 @@ A suite is made of **families**, which weigh the same in its means however many 
 family is drawn (a call with a seed: seeds 0, 1, … by default) or **exact**: every world of a finite
 class, so that its mean has no error of sampling.
 
-With another seed than 0 the worlds are drawn anew, by seeds that a hash makes of it: whoever does
-not know that seed cannot have met the worlds before. Exact families have no seed and stay the same.
+With another seed than 0 the worlds are drawn anew, by seeds that a hash makes of it: a mapper that
+does not know that seed cannot have met the worlds before. Exact families have no seed and stay the
+same.
 """
 
 from __future__ import annotations
@@ -89,7 +90,7 @@ def drawn(call: str, number: int, *, planar: bool = False) -> SuiteFamily:
 
 
 def _drawn_seed(seed: int, call: str, place: int) -> int:
-    """The seed of one world: its place in the public suite, else a hash that nobody can guess."""
+    """The seed of one world: its place in the public suite, else a hash that cannot be guessed."""
     if seed == 0:
         return place
     return int.from_bytes(sha256(f"{seed} {call} {place}".encode()).digest()[:6])
@@ -107,7 +108,7 @@ def alike(call: str, *markers: int) -> SuiteFamily:
 
 
 def every(edges: int) -> SuiteFamily:
-    """Every world of 1 to so many edges, in the order of their ids."""
+    """Every world of 1 to `edges` edges, in the order of their ids."""
     counts = {m: rank_order.count(m) for m in range(1, edges + 1)}
     return SuiteFamily(
         f"edges<={edges}",

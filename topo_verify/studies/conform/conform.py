@@ -282,7 +282,7 @@ def _text(line: bytes) -> str:
 # ---------------------------------------------------------------- many worlds
 
 MAX_TIMEOUTS = 20
-"""After so many time-outs the rest of the corpus is not tried."""
+"""The number of time-outs after which the rest of the corpus is not tried."""
 
 
 class CostRatio(msgspec.Struct, frozen=True):

@@ -58,7 +58,7 @@ class DrawnWorld:
         self._rest = dict[FoldCode, Rest]()
 
     def turned(self, dart: int, by: int) -> int:
-        """The dart so many doors clockwise of a dart."""
+        """The dart `by` doors clockwise of a dart."""
         v = self.vertex[dart]
         return self._first[v] + (dart - self._first[v] + by) % self.degrees[v]
 

@@ -1,7 +1,8 @@
 """The value of a game of robot against world: the least cost, in the worst case or in sum.
 
-The robot makes a **choice**: so many moves. The world answers with what is seen then; each answer
-leaves some of the worlds open, a **state**, or none, and the game is over. The value of a state is
+The robot makes a **choice**, which is a number of moves. The world answers with what is seen then;
+each answer leaves some of the worlds open, a **state**, or none, and the game is over. The value of
+a state is
 
     worst case   least over the choices of   moves + the greatest value over the answers
     sum          least over the choices of   moves · worlds + the sum of the values
@@ -45,11 +46,11 @@ class Least(NamedTuple):
 
 
 class _OutOfStates(Exception):
-    """As many states as are allowed were met."""
+    """The search met `most_states` states."""
 
 
 class GameChoice(NamedTuple, Generic[S]):
-    """So many moves, and the states that their answers leave open."""
+    """A number of moves, and the states that their answers leave open."""
 
     moves: int
     left: tuple[S, ...]
@@ -81,7 +82,7 @@ class Solver(Generic[S]):
     Args:
         rules: of the game.
         mean: the least sum is sought, in place of the least worst case.
-        most_states: when so many states are met, the search is cut short.
+        most_states: the number of states at which the search is cut short.
     """
 
     def __init__(self, rules: Rules[S], *, mean: bool, most_states: float = math.inf) -> None:

@@ -1,4 +1,4 @@
-"""Exhaustive search: a mapper in every world up to so many edges, or in a class of them.
+"""Exhaustive search: a mapper in every world up to N edges, or in a class of them.
 
 search.py      the campaign of a search, its result and the verdict
 choices.py     the choices that the paper leaves open: policies, and every choice; states/

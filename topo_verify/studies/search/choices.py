@@ -2,7 +2,7 @@
 
 A claim must hold for all of them. A search goes through
 
-    reference    the reference policies alone (and a mapper that has no policies as it is)
+    reference    the reference policies alone (and a mapper without policies)
     all          every named pick policy with every named order policy, `random` with a few seeds
     every        every choice that any policy could make; and every named policy, in worlds of up
                  to 4 edges

@@ -144,7 +144,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
         claims: of each claim that fails, in how many worlds, and the smallest.
         not_declared: the claims that no run declared anything about.
         from_ledger: in how many worlds mappers ran before, as the store says; in the rest, now.
-        lost: worlds in which a worker was lost, perhaps by nothing that the mapper did.
+        lost: worlds in which a worker was lost, perhaps not by the mapper's fault.
         run_again: what came of the worlds that were run again, alone and in a row.
         engine: what ran and judged; judged_by: the same in words.
         decided_by: with --policies every, who decided the largest worlds: the `mapper`, or a

@@ -6,7 +6,7 @@
     every.py     what a search does with a world: its runs, and the range of its costs
     kernel.py    a model, for worlds of 5 and 6 edges: rules that remember nothing, compiled
     behind.py    what may happen behind one e, for the kernel
-    best.py      a cheapest and a dearest run, read off the tables of the kernel
+    best.py      a cheapest and a most expensive run, read off the tables of the kernel
     table.py     a world as the kernel takes it, and what the kernel found
 
 `best.py` loads numba and NumPy, so it is imported where it is used.

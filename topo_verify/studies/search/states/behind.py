@@ -19,7 +19,7 @@ NONE, PREFIX, HISTORY = 0, 1, 2
 """The rules, as numbers."""
 
 VERTICES, UNKNOWN, NEVER = 8, 15, 1 << 40
-"""Keys have room for so many vertices; what stands for no dart, and for no cost."""
+"""The most vertices in a key; what stands for no dart, and for no cost."""
 
 GOOD, KILLED, DIFFERS, CONFIRMED, FULL = 0, 1, 2, 3, 4
 """What is wrong: a true hypothesis rejected by the rule, by motion; a false one confirmed. `FULL`:

@@ -39,7 +39,7 @@ class Tables:
         self._try = compiled(b.tried, k.STATES)
 
     def search(self, size: int, rule: int, *, overlap: bool) -> None:
-        """Search the states of the world in the table, which has so many darts."""
+        """Search the states of the world in the table, which has `size` darts."""
         self._size, self._rule, self._overlap = size, rule, overlap
         self._search_world(
             self.world, size, rule, overlap, self._work, self._cost, self._low, self._darts,

@@ -4,7 +4,7 @@
                               choice lies on a run that is judged by every claim; `graph.py`
     5 and 6 edges             decided by a model: `none`, `prefix` and `history` are written anew in
                               `kernel.py`, which judges claims 3 and 4 in each state; the cheapest
-                              and the dearest run are made by the mapper and judged by every claim
+                              and the most expensive run are the mapper's, judged by every claim
 
 Beside these, every named policy runs in a world that the mapper decides, and the reference policies
 in a larger one: the policies are code, too, and the script stands in their place.
@@ -77,7 +77,7 @@ def decided_by(edges: int) -> Decider:
 
 
 def require_edges(text: str, algorithm: Algorithm, edges: int) -> None:
-    """Raise an InputError unless every choice can be searched in worlds with so many edges."""
+    """Raise an InputError unless every choice can be searched in worlds with `edges` edges."""
     known = table.is_known(algorithm)
     most = MOST_BY_MODEL if known else MOST_BY_MAPPER
     if edges > most:
@@ -91,7 +91,7 @@ def require_edges(text: str, algorithm: Algorithm, edges: int) -> None:
 
 
 def judged_by(edges: int) -> str:
-    """What judged the choices in worlds with so many edges, in words."""
+    """What judged the choices in worlds with `edges` edges, in words."""
     if decided_by(edges) == "mapper":
         return "every claim, on a run for each choice"
     return "a model: claims 3 and 4 in each state; every claim on three runs of the mapper"

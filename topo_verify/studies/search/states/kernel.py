@@ -31,13 +31,13 @@ STATES = WordLayout("states", {}, sources=(behind.__module__, __name__))
 """The kernels of both files. They have no workspace: their arrays are given to them one by one."""
 
 MOST_DARTS = 14
-"""Keys have room for so many darts."""
+"""The most darts in a key."""
 
 KEY, REACHED, PLACE, SLOT = 0, 1, 2, 3
 """Rows of the workspace: of each S its key, where the robot may stand, its slot; and the slots."""
 
 ROOM = 1 << 14
-"""So many S are kept for one world; `FULL` is returned if they are more."""
+"""The most S that are kept for one world; `FULL` is returned if there are more."""
 
 
 @kernel
