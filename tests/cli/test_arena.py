@@ -245,7 +245,7 @@ def test_an_entrant_that_fails_between_two_messages_ends_no_league(
 
 @pytest.mark.usefixtures("cut_off")
 def test_an_interrupted_league_says_how_many_runs_are_done(call: Call) -> None:
-    assert "interrupted after 3 of 8 runs" in call(f"{LINE} --out here").stderr
+    assert "interrupted after 4 of 8 runs" in call(f"{LINE} --out here").stderr
 
 
 @pytest.mark.usefixtures("cut_off")
