@@ -12,7 +12,7 @@ import hashlib
 import html
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -70,12 +70,13 @@ def page_shell(title: str = "A run, step by step") -> PageShell:
         "style": style,
         "script": script,
     }
-    before, after = (
-        # In one pass: what is put in is not searched.
-        re.sub(r"\{([a-z]+)\}", lambda found: values[found[1]], half)
-        for half in part("page.html").split("{recording}")
-    )
+    before, after = (mark_up(half, values) for half in part("page.html").split("{recording}"))
     return PageShell(before, after, source_hash(style), source_hash(script))
+
+
+def mark_up(template: str, values: Mapping[str, str]) -> str:
+    """The template with its names in braces replaced by values; what is put in is not searched."""
+    return re.sub(r"\{([a-z]+)\}", lambda match: values[match[1]], template)
 
 
 def json_in_page(data: object) -> str:

@@ -5,9 +5,8 @@
 
 from __future__ import annotations
 
-import re
 from base64 import b64encode
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from html import escape
 
 from topo_verify.errors import LINE, shown
@@ -33,11 +32,6 @@ LONG_CELL = 40
 def blocks_as_html(blocks: Iterable[bl.Block]) -> Iterator[str]:
     """The blocks as HTML, one after the other; empty paragraphs are left out."""
     yield from filter(None, map(_html, blocks))
-
-
-def mark_up(template: str, values: Mapping[str, str]) -> str:
-    """The template with its names in braces replaced by values; what is put in is not searched."""
-    return re.sub(r"\{([a-z]+)\}", lambda found: values[found[1]], template)
 
 
 def code(line: str) -> str:

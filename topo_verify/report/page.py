@@ -18,11 +18,18 @@ from itertools import count
 from typing import Any, cast
 
 from topo_verify.errors import plural
-from topo_verify.player.page import PageShell, json_in_page, page_shell, source_hash, squeezed
+from topo_verify.player.page import (
+    PageShell,
+    json_in_page,
+    mark_up,
+    page_shell,
+    source_hash,
+    squeezed,
+)
 from topo_verify.player.recording import recording
 from topo_verify.report.account import UNFINISHED, Account, Ending, Exhibit, JudgedCase, JudgedSuite
 from topo_verify.report.blocks import PALETTE, TONES, clean
-from topo_verify.report.html import blocks_as_html, code, mark_up, picture, toned, xml_text
+from topo_verify.report.html import blocks_as_html, code, picture, toned, xml_text
 
 MOST_DRAWN = 200
 """The most edges of a world that is drawn and played: larger ones take seconds."""
@@ -37,7 +44,8 @@ EXITS = {
 
 def report_page(account: Account, run: Ending) -> str:
     """The page of a run."""
-    shell = page_shell() if any(_can_be_played(one) for one in _all_exhibits(account)) else None
+    exhibits = account.exhibits + account.others
+    shell = page_shell() if any(map(_is_played, exhibits)) else None
     style, script = _style(), _part("report.js") if shell is not None else ""
     values = {
         "policy": _policy(style, script, shell),
@@ -45,7 +53,7 @@ def report_page(account: Account, run: Ending) -> str:
         "style": style,
         "header": _header(account, run),
         "main": "\n".join(_sections(account, run)),
-        "data": "\n".join(_data(_all_exhibits(account), shell)),
+        "data": "\n".join(_data(exhibits, shell)),
         "script": script,
     }
     return mark_up(_part("report.html"), values)
@@ -165,42 +173,38 @@ def _case(case: JudgedCase) -> str:
 # ---------------------------------------------------------------- counterexamples
 
 
-def _all_exhibits(account: Account) -> tuple[Exhibit, ...]:
-    return account.exhibits + account.others
+def _is_drawn(exhibit: Exhibit) -> bool:
+    return exhibit.whole or len(exhibit.world.edges) <= MOST_DRAWN
 
 
-def _can_be_drawn(one: Exhibit) -> bool:
-    return one.whole or len(one.world.edges) <= MOST_DRAWN
+def _is_played(exhibit: Exhibit) -> bool:
+    return bool(exhibit.runs) and _is_drawn(exhibit)
 
 
-def _can_be_played(one: Exhibit) -> bool:
-    return bool(one.runs) and _can_be_drawn(one)
-
-
-def _exhibit(number: int, one: Exhibit) -> str:
-    notes = "".join(f"<li>{xml_text(clean(note))}</li>" for note in one.notes)
-    parts = [f"<article>\n<h3>{xml_text(clean(one.title))}</h3>"]
+def _exhibit(number: int, exhibit: Exhibit) -> str:
+    title = xml_text(clean(exhibit.title))
+    notes = "".join(f"<li>{xml_text(clean(note))}</li>" for note in exhibit.notes)
+    parts = [f"<article>\n<h3>{title}</h3>"]
     parts += [f"<ul>{notes}</ul>"] if notes else []
-    parts.append(_picture(one))
-    if _can_be_played(one):
-        title = xml_text(clean(one.title))
+    parts.append(_picture(exhibit))
+    if _is_played(exhibit):
         parts.append(
             f'<details class="play" data-recording="run-{number}" data-title="{title}">'
             "<summary>Play the run, step by step</summary></details>"
         )
-    return "\n".join([*parts, _again(one.again), "</article>"])
+    return "\n".join([*parts, _again(exhibit.again), "</article>"])
 
 
-def _picture(one: Exhibit) -> str:
-    world = one.world
+def _picture(exhibit: Exhibit) -> str:
+    world = exhibit.world
     size = (
         f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')},"
         f" genus {world.genus}"
     )
-    caption = xml_text(f"{clean(one.name)}: {size}")
-    if not _can_be_drawn(one):
+    caption = xml_text(f"{clean(exhibit.name)}: {size}")
+    if not _is_drawn(exhibit):
         return f'<p class="soft">{caption}; too large to be drawn here.</p>'
-    drawn = picture(world.draw(), f"The world {clean(one.name)}: {size}")
+    drawn = picture(world.draw(), f"The world {clean(exhibit.name)}: {size}")
     return f"<figure>{drawn}<figcaption>{caption}</figcaption></figure>"
 
 
@@ -209,9 +213,10 @@ def _data(exhibits: Sequence[Exhibit], shell: PageShell | None) -> Iterator[str]
     if shell is None:
         return
     yield _script("player", [shell.before, shell.after])
-    for number, one in enumerate(exhibits, 1):
-        if _can_be_played(one):
-            yield _script(f"run-{number}", recording(one.world, one.runs, name=one.name))
+    for number, exhibit in enumerate(exhibits, 1):
+        if _is_played(exhibit):
+            data = recording(exhibit.world, exhibit.runs, name=exhibit.name)
+            yield _script(f"run-{number}", data)
 
 
 def _script(name: str, data: object) -> str:

@@ -147,13 +147,13 @@ def crossings(curves: Sequence[Floats]) -> list[Crossing]:
         t = (offset[:, 0] * q[:, 1] - offset[:, 1] * q[:, 0]) / turn
         u = (offset[:, 0] * p[:, 1] - offset[:, 1] * p[:, 0]) / turn
         hit = (t >= 0) & (t < 1) & (u >= 0) & (u < 1)  # False where parallel
-    found: list[Crossing] = []
+    result: list[Crossing] = []
     for i, j, s, r in zip(first[hit], second[hit], t[hit], u[hit], strict=True):
         x, y = starts[i] + s * steps[i]
         reach = (float(np.hypot(*steps[k])) * float(part) for k, part in ((i, s), (j, r)))
         a, b = (float(along[k]) + more for k, more in zip((i, j), reach, strict=True))
-        found.append(Crossing(int(owner[i]), int(owner[j]), (float(x), float(y)), a, b))
-    return found
+        result.append(Crossing(int(owner[i]), int(owner[j]), (float(x), float(y)), a, b))
+    return result
 
 
 def _legs(curves: Sequence[Floats]) -> tuple[Floats, Floats, Ints, Ints, Floats]:

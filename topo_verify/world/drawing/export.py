@@ -82,14 +82,14 @@ def _rendered(layout: Layout, svg: str, kind: Literal["png", "pdf"]) -> bytes:
         raise InputError(
             f"a picture as {kind.upper()} needs typst: install 'topo-verify[draw]', or write .svg"
         ) from error
-    made: bytes = typst.compile(
+    content: bytes = typst.compile(
         _TYPST,
         format=kind,
         ppi=min(DENSITY, 72 * MOST_PIXELS / max(layout.width, layout.height)),
         sys_inputs={"svg": svg, "size": f"[{layout.width}, {layout.height}]"},
         ignore_system_fonts=True,  # the same bytes whatever fonts are installed
     )
-    return made
+    return content
 
 
 def _page(world: World, layout: Layout, svg: str) -> str:

@@ -139,7 +139,7 @@ def fitted(sketch: Sketch, rounding: float) -> Layout:
         radius=round(radius, 2),
         centres=tuple((round(x, 2), round(y, 2)) for x, y in centres.tolist()),
         paths=tuple((data,) for data in paths),
-        bridges=bridges(paths, radius),
+        bridges=find_bridges(paths, radius),
     )
 
 
@@ -155,25 +155,25 @@ def path(chain: Floats, radius: float, rounding: float) -> str:
     return curves.smooth([(x, y) for x, y in points.tolist()], rounding)
 
 
-def bridges(paths: Sequence[str], radius: float) -> tuple[Bridge, ...]:
+def find_bridges(paths: Sequence[str], radius: float) -> tuple[Bridge, ...]:
     """A bridge wherever two of the paths cross; of two edges the later one passes over."""
     flat = [curves.flatten(data) for data in paths]
-    found = crossings(flat)
+    places = crossings(flat)
     half = 0.9 * radius
     # Neighbouring bridges on one edge must not cover each other's halos.
     along: dict[int, list[float]] = {}
-    for crossing in found:
+    for crossing in places:
         along.setdefault(crossing.first, []).append(crossing.along_first)
         along.setdefault(crossing.second, []).append(crossing.along_second)
-    made: list[Bridge] = []
-    for crossing in found:
+    bridges: list[Bridge] = []
+    for crossing in places:
         over = max(crossing.first, crossing.second)
         under = min(crossing.first, crossing.second)
-        place = crossing.along_first if crossing.first == over else crossing.along_second
-        near = [abs(place - other) for other in along[over] if other != place]
+        along_over = crossing.along_first if crossing.first == over else crossing.along_second
+        near = [abs(along_over - other) for other in along[over] if other != along_over]
         reach = min([half, *(0.45 * gap for gap in near)])
-        made.append(Bridge(over, under, curves.piece(flat[over], place, max(reach, 0.02))))
-    return tuple(made)
+        bridges.append(Bridge(over, under, curves.piece(flat[over], along_over, max(reach, 0.02))))
+    return tuple(bridges)
 
 
 def _towards(step: Floats) -> Floats:

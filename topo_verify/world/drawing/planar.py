@@ -136,8 +136,8 @@ def gridded(mesh: Mesh) -> Floats:
             for point in dict.fromkeys([*corners, *range(mesh.size)])
         }
     )
-    found: Any = nx.combinatorial_embedding_to_pos(embedding)
-    places = np.array([found[point] for point in range(mesh.size)], float)
+    grid: Any = nx.combinatorial_embedding_to_pos(embedding)
+    places = np.array([grid[point] for point in range(mesh.size)], float)
     a, b, c = places[mesh.frame]
     upright = np.array([[1, 0], [0.5, sqrt(3) / 2]])
     return np.asarray((places - a) @ np.linalg.inv(np.array([b - a, c - a])) @ upright, np.float64)
@@ -180,13 +180,13 @@ class _Energy:
 
     def jacobians(self, places: Floats, inverse: Floats) -> Floats:
         a, b, c = (places[self.triangles[:, k]] for k in range(3))
-        found: Floats = np.stack([b - a, c - a], 2) @ inverse
-        return found
+        jacobians: Floats = np.stack([b - a, c - a], 2) @ inverse
+        return jacobians
 
     def bends(self, places: Floats) -> Floats:
         a, b, c = (places[self.lines[:, k]] for k in range(3))
-        found: Floats = a - 2 * b + c
-        return found
+        bends: Floats = a - 2 * b + c
+        return bends
 
     def value(self, places: Floats, inverse: Floats) -> float:
         j = self.jacobians(places, inverse)
@@ -282,8 +282,8 @@ def _stiffness(s: Floats, *, bold: bool) -> Floats:
     newton: Floats = 2 + 6 * s**-4
     if not bold:
         return newton
-    found: Floats = np.where(s < 1, 2 * (1 + s) * (1 + s * s) * s**-3, newton)
-    return found
+    secant: Floats = np.where(s < 1, 2 * (1 + s) * (1 + s * s) * s**-3, newton)
+    return secant
 
 
 def _nearer(s: Floats) -> Floats:

@@ -64,29 +64,29 @@ class PlaneMap:
 
     def cycle(self, half: int) -> list[int]:
         """The half-edges of the face on the left of this one."""
-        found = [half]
-        while (half := self.after[self.other[half]]) != found[0]:
-            found.append(half)
-        return found
+        cycle = [half]
+        while (half := self.after[self.other[half]]) != cycle[0]:
+            cycle.append(half)
+        return cycle
 
     def faces(self) -> list[list[int]]:
         """All faces, by their least half-edges."""
         seen: set[int] = set()
-        found: list[list[int]] = []
+        faces: list[list[int]] = []
         for half in range(len(self.other)):
             if half not in seen:
-                found.append(self.cycle(half))
-                seen.update(found[-1])
-        return found
+                faces.append(self.cycle(half))
+                seen.update(faces[-1])
+        return faces
 
     def chain(self, number: int) -> list[int]:
         """The half-edges of an edge of the world, one after the other from its lesser dart."""
         a, b = self.world.edges[number]
-        found = [self.half[a]]
-        while self.other[found[-1]] != self.half[b]:
+        chain = [self.half[a]]
+        while self.other[chain[-1]] != self.half[b]:
             # At a dummy straight on is two places further.
-            found.append(self.after[self.after[self.other[found[-1]]]])
-        return found
+            chain.append(self.after[self.after[self.other[chain[-1]]]])
+        return chain
 
     # ------------------------------------------------------------ growing
 
@@ -133,7 +133,7 @@ class PlaneMap:
     def insert(self, number: int, way: Sequence[int] = ()) -> None:
         """Put an edge in, across these half-edges in turn."""
         a, b = self.world.edges[number]
-        made = [self._place(a, number)]
+        halves = [self._place(a, number)]
         for half in way:
             beyond, across, dummy = self.other[half], self.edge[half], self.nodes
             self.nodes += 1
@@ -144,11 +144,11 @@ class PlaneMap:
             back = self._new(dummy, across, arrive)
             self._join(half, back)
             self._join(ahead, beyond)
-            self._join(made[-1], arrive)
-            made += [arrive, leave]
-        made.append(self._place(b, number))
-        self._join(made[-2], made[-1])
-        self._name_faces(made)
+            self._join(halves[-1], arrive)
+            halves += [arrive, leave]
+        halves.append(self._place(b, number))
+        self._join(halves[-2], halves[-1])
+        self._name_faces(halves)
 
     def _name_faces(self, halves: Sequence[int]) -> None:
         """New names for the faces beside these half-edges: all that an insertion has changed."""
@@ -173,11 +173,11 @@ class PlaneMap:
                 if face not in entered:
                     entered[face] = self.other[half]
                     queue.append(face)
-        found: list[int] = []
+        way: list[int] = []
         while goal != home:
-            found.append(entered[goal])
+            way.append(entered[goal])
             goal = self.face[self.other[entered[goal]]]
-        return found
+        return way
 
     def face_at(self, dart: Dart) -> int:
         """The face in which the place of the dart lies."""
@@ -229,16 +229,16 @@ def _spanning_tree(world: World, random: Random) -> list[Dart]:
 def _insert_uncrossed(plane: PlaneMap, rest: list[int]) -> list[int]:
     """Put in what fits without a crossing, as long as anything does; the others are returned."""
     while True:
-        left: list[int] = []
+        crossing: list[int] = []
         for number in rest:
             a, b = map(plane.face_at, plane.world.edges[number])
             if a == b:
                 plane.insert(number)
             else:
-                left.append(number)
-        if len(left) == len(rest):
-            return left
-        rest = left
+                crossing.append(number)
+        if len(crossing) == len(rest):
+            return crossing
+        rest = crossing
 
 
 def best_plane_map(world: World, seed: int = 0) -> PlaneMap | None:
@@ -300,8 +300,8 @@ class _Builder:
         for half, other in enumerate(plane.other):
             if half < other:
                 loop = plane.node[half] == plane.node[other]
-                made = self.new(max(points, 2) if loop else points)
-                self.between[half], self.between[other] = made, made[::-1]
+                middle = self.new(max(points, 2) if loop else points)
+                self.between[half], self.between[other] = middle, middle[::-1]
 
     def new(self, number: int) -> tuple[int, ...]:
         """The numbers of new points, added at the end."""
@@ -369,7 +369,7 @@ def over(plane: PlaneMap, outer: int, *, points: int) -> Mesh:
 def _radii(plane: PlaneMap, builder: _Builder) -> Floats:
     """The radius of a point is about that around which one circle for each neighbour fits."""
     degree = Counter(p for triangle in builder.triangles for p in triangle)
-    drawn = {p for made in builder.between.values() for p in made}
+    drawn = {p for middle in builder.between.values() for p in middle}
     radii = np.full(builder.size, 0.5)
     for point, number in degree.items():
         fit = 0.5 / sin(pi / max(number, 3)) - 0.5
@@ -393,7 +393,7 @@ def _lines(plane: PlaneMap, builder: _Builder) -> Ints:
 def points_of(plane: PlaneMap, between: dict[int, tuple[int, ...]], number: int) -> list[int]:
     """The points of the mesh along an edge of the world, from its lesser dart's vertex on."""
     chain = plane.chain(number)
-    found = [plane.node[chain[0]]]
+    points = [plane.node[chain[0]]]
     for half in chain:
-        found += [*between[half], plane.node[plane.other[half]]]
-    return found
+        points += [*between[half], plane.node[plane.other[half]]]
+    return points

@@ -71,19 +71,19 @@ def _fan(world: World) -> Floats:
 
 def _leaves(world: World) -> dict[Dart, int]:
     """The number of leaves beyond each dart."""
-    found: dict[Dart, int] = {}
+    leaves: dict[Dart, int] = {}
     todo = list(range(len(world.alpha)))
     while todo:
         dart = todo[-1]
         out = world.alpha[dart]
         onward = [d for d in world.vertices[world.vertex_of[out]] if d != out]
-        missing = [d for d in onward if d not in found]
+        missing = [d for d in onward if d not in leaves]
         if missing:
             todo += missing
             continue
-        found[dart] = max(1, sum(found[d] for d in onward))
+        leaves[dart] = max(1, sum(leaves[d] for d in onward))
         todo.pop()
-    return found
+    return leaves
 
 
 def _spiral(world: World) -> Floats:
