@@ -210,14 +210,14 @@ def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Itera
     known = config.stash[_SESSION].targets
     try:
         if not isinstance(named, str):
-            found: tuple[Target, ...] = (one_target(named),)
+            mappers: tuple[Target, ...] = (one_target(named),)
         elif named in known:
-            found = known[named]
+            mappers = known[named]
         else:
-            found = known[named] = targets(named)
+            mappers = known[named] = targets(named)
     except InputError as error:
         raise pytest.Collector.CollectError(str(error)) from error
-    for target in found:
+    for target in mappers:
         for claim in CLAIMS:
             yield ClaimTest(target, edges, claim)
 
@@ -232,8 +232,8 @@ def pytest_make_collect_report(
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
         name = shown(text)
-        made = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
-        report.result.append(made)
+        collected = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
+        report.result.append(collected)
     return report
 
 

@@ -178,13 +178,13 @@ def _asked(
 
 def _loaded(asked: Sequence[str], *, in_process: bool) -> tuple[Target, ...]:
     """The mappers, each once. Workers load them again; here it is seen that they can be."""
-    found = [target for text in asked for target in targets_of(text, in_process=in_process)]
-    names = [target.text for target in found]
+    loaded = [target for text in asked for target in targets_of(text, in_process=in_process)]
+    names = [target.text for target in loaded]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
-        close(found)
+        close(loaded)
         raise InputError(f"target {twice!r} takes part twice: name each mapper once")
-    return tuple(found)
+    return tuple(loaded)
 
 
 def _require_players(league: League) -> None:

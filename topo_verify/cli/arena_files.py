@@ -153,14 +153,14 @@ def claims_in_words(entry: LeagueEntry) -> str:
     return in_words(entry.claims, "hold")
 
 
-def _figure(found: MeanInterval | LeagueBehind | None, sign: str = "") -> str:
+def _figure(figure: MeanInterval | LeagueBehind | None, sign: str = "") -> str:
     """A mean and how far its interval reaches to each side; JSON has more digits."""
-    if found is None:
+    if figure is None:
         return "-"
-    mean = f"{found.mean:{sign}.2f}"
-    if found.high is None:
+    mean = f"{figure.mean:{sign}.2f}"
+    if figure.high is None:
         return mean
-    reach = found.high - found.mean
+    reach = figure.high - figure.mean
     return f"{mean} ± {reach:.2f}" if reach else f"{mean} exact"
 
 
@@ -347,7 +347,7 @@ def table_csv(entries: Sequence[LeagueEntry]) -> str:
 
 def _rows(entry: LeagueEntry) -> Iterator[Sequence[object]]:
     ratio, behind = entry.ratio, entry.behind
-    found = entry.counterexample
+    broken = entry.counterexample
     one = entry.families[0] if len(entry.families) == 1 else None
     yield (
         *(entry.place, entry.mapper, entry.suite, one.family if one else "", entry.worlds),
@@ -355,7 +355,7 @@ def _rows(entry: LeagueEntry) -> Iterator[Sequence[object]]:
         *((ratio.mean, ratio.low, ratio.high) if ratio else (None, None, None)),
         *((behind.mean, behind.low, behind.high) if behind else (None, None, None)),
         *(entry.rejected_free, entry.rejected_moving, claims_in_words(entry)),
-        f"{found.claim} in {found.world}" if found else None,
+        f"{broken.claim} in {broken.world}" if broken else None,
     )
     for family in entry.families if one is None else ():
         mean = family.ratio

@@ -48,10 +48,10 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
     """The seeds of the generated worlds and of the order."""
     if value is None:
         return 0, secrets.randbelow(2**32)
-    found = re.fullmatch(r"([0-9]{1,18})(?::([0-9]{1,18}))?", value)
-    if found is None:
+    match = re.fullmatch(r"([0-9]{1,18})(?::([0-9]{1,18}))?", value)
+    if match is None:
         raise click.BadParameter(f"expected N or N:ORDER, two numbers from 0, got {value!r}")
-    return int(found[1]), int(found[2] or found[1])
+    return int(match[1]), int(match[2] or match[1])
 
 
 @options.command(
@@ -244,20 +244,20 @@ def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Ite
         yield sentence
 
 
-def _numbers(one: LevelResult) -> tuple[str, ...]:
-    rest = one.worlds - one.passed - one.failed
-    return (str(one.passed), str(one.failed), str(rest), str(one.worlds))
+def _numbers(level: LevelResult) -> tuple[str, ...]:
+    rest = level.worlds - level.passed - level.failed
+    return (str(level.passed), str(level.failed), str(rest), str(level.worlds))
 
 
 def _findings(level: LevelResult, shared: Mapping[str, Playback]) -> Iterator[Block]:
     """The first world of each kind of finding."""
     for kind, number in level.kinds.items():
-        found = next(one for one in level.findings if one.kind == kind)
+        finding = next(other for other in level.findings if other.kind == kind)
         yield Text("")
         what = f"{level.level}: {kind}" if kind != level.level else kind
-        yield Text(f"{what} in {plural(number, 'world')}, first {found.world}:")
-        yield from _difference(found, level, shared)
-        yield Command(found.replay, "again: ")
+        yield Text(f"{what} in {plural(number, 'world')}, first {finding.world}:")
+        yield from _difference(finding, level, shared)
+        yield Command(finding.replay, "again: ")
 
 
 def _difference(
@@ -270,9 +270,9 @@ def _difference(
         yield Bullets((f"{where}{found.message}",))
         return
     sides = ((level.like, parted.expected), (level.target, parted.seen))
-    told = [(name, does or "does nothing more") for name, does in sides]
+    lines = [(name, does or "does nothing more") for name, does in sides]
     yield Text("")
-    yield View(lambda width: parting(run, parted.at, told, width))
+    yield View(lambda width: parting(run, parted.at, lines, width))
     yield Text("")
 
 
@@ -299,10 +299,10 @@ def _costs(level: LevelResult) -> Iterator[Block]:
         f"Cost over {plural(level.passed, 'world')}: {plural(cost.mapper, 'edge traversal')},"
         f" {level.like} {cost.reference}: {cost.ratio:.3f} of it."
     )
-    other = [one for one in level.priced if one.ratio not in (1.0, None)]
+    other = [price for price in level.priced if price.ratio not in (1.0, None)]
     if not other:
         return
-    ranked = sorted(other, key=lambda one: -(one.ratio or 0))
+    ranked = sorted(other, key=lambda price: -(price.ratio or 0))
     chosen = list(dict.fromkeys([*ranked[:SHOWN], *ranked[-SHOWN:]]))
     rows = [(o.world, str(o.mapper), str(o.reference), f"{o.ratio:.3f}") for o in chosen]
     yield TextTable(("world", ">cost", f">{level.like}", ">ratio"), rows)
@@ -322,7 +322,7 @@ def _account(levels: Sequence[LevelResult]) -> acc.Account:
     words = acc.counted(passed, total, f"{acc.worlds(total)} conform")
     if verdict == "REFUTED":
         words = acc.counted(failed, total, f"{acc.worlds(total)} fail")
-    suites = ((name, _cases([one for one in levels if one.target == name])) for name in names)
+    suites = ((name, _cases([level for level in levels if level.target == name])) for name in names)
     extent = acc.JudgedExtent(verdict, words)
     return acc.Account(", ".join(names), extent, acc.suites(suites))
 
@@ -338,10 +338,11 @@ def _cases(levels: Sequence[LevelResult]) -> Iterator[acc.JudgedCase]:
             again="" if first is None else first.replay,
         )
         for case in acc.claim_cases(level.judgements):
-            found = next((one for one in level.findings if one.claim == case.name), None)
-            yield (
-                case if found is None else replace(case, message=found.message, again=found.replay)
-            )
+            finding = next((other for other in level.findings if other.claim == case.name), None)
+            if finding is None:
+                yield case
+            else:
+                yield replace(case, message=finding.message, again=finding.replay)
 
 
 # ---------------------------------------------------------------- for the page
@@ -358,7 +359,7 @@ def _exhibits(
     first: dict[str, list[WorldFinding]] = {}
     for level in levels:
         for kind in level.kinds:
-            finding = next(one for one in level.findings if one.kind == kind)
+            finding = next(other for other in level.findings if other.kind == kind)
             first.setdefault(finding.world, []).append(finding)
     if not first:
         return
@@ -367,7 +368,7 @@ def _exhibits(
         runs: tuple[PlayedRun, ...] = ()
         if not batch and number < MOST_EXHIBITS:
             runs = tuple(_runs_in(study.campaign, worlds[name], findings))
-        notes = dict.fromkeys(f"{one.kind}: {one.message}" for one in findings)
+        notes = dict.fromkeys(f"{other.kind}: {other.message}" for other in findings)
         yield acc.Exhibit(
             title=target_title(study.target, name),
             world=worlds[name],
@@ -386,7 +387,7 @@ def _runs_in(
         report = judge(explore(world, target, limits=campaign.limits), strict=campaign.strict)
         exhibit = exhibit_of(report)
         yield from exhibit.runs if exhibit is not None else ()
-    if any(one.difference is not None for one in findings):
+    if any(finding.difference is not None for finding in findings):
         asked = Asked(*campaign.asked)
         yield PlayedRun(asked.name, explore(world, asked.reference).trace)
 

@@ -52,17 +52,17 @@ def stored_rows(
     Args:
         workers: the number of processes; 0: this one alone.
     """
-    total = sum(one.total for one in campaigns)
+    total = sum(campaign.total for campaign in campaigns)
     if store is not None:
-        output.timing["from_store"] = stored = sum(one.stored for one in campaigns)
+        output.timing["from_store"] = stored = sum(campaign.stored for campaign in campaigns)
         if stored:
             output.note(f"{stored} of {plural(total, 'run')} are in {store.path}")
     try:
-        for one in campaigns:
-            yield from one.rows(workers, output.progress)
+        for campaign in campaigns:
+            yield from campaign.rows(workers, output.progress)
     except KeyboardInterrupt:
         if store is not None:
-            stored = sum(one.stored for one in campaigns)
+            stored = sum(campaign.stored for campaign in campaigns)
             output.note(
                 f"{stored} of {plural(total, 'run')} are kept in {store.path}; the same command"
                 " goes on"

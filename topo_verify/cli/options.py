@@ -42,7 +42,9 @@ class OnceCommand(click.Command):
         return super().parse_args(ctx, args)
 
     def _require_once(self, ctx: click.Context, args: Sequence[str]) -> None:
-        options = [one for one in self.get_params(ctx) if isinstance(one, click.Option)]
+        options = [
+            parameter for parameter in self.get_params(ctx) if isinstance(parameter, click.Option)
+        ]
         parser = self.make_parser(ctx)
         for option in options:
             collecting = copy(option)
@@ -111,9 +113,9 @@ def command(
                 output.ask(report=report, junit=junit, badge=badge)
                 return run(output, **kwargs)
 
-        made = make(name, cls=OnceCommand, epilog=epilog(*examples))(wrapper)
-        made.params += OUTPUT_OPTIONS + (REPORT_OPTIONS if reports else [])
-        return made
+        command = make(name, cls=OnceCommand, epilog=epilog(*examples))(wrapper)
+        command.params += OUTPUT_OPTIONS + (REPORT_OPTIONS if reports else [])
+        return command
 
     return decorate
 

@@ -226,21 +226,21 @@ class Output:
 
             An account says what its entries are if all of them pass; it knows of no interrupt.
             """
-            made = account(done.entries)
-            words = made.extent.words + ("" if done.finished else ", interrupted")
+            summary = account(done.entries)
+            words = summary.extent.words + ("" if done.finished else ", interrupted")
             return replace(
-                made,
-                about=made.about or command,  # no entry names a mapper
-                extent=acc.JudgedExtent(_VERDICTS.get(done.code, made.extent.verdict), words),
-                blocks=made.blocks or tuple(show(done.entries)),
+                summary,
+                about=summary.about or command,  # no entry names a mapper
+                extent=acc.JudgedExtent(_VERDICTS.get(done.code, summary.extent.verdict), words),
+                blocks=summary.blocks or tuple(show(done.entries)),
                 exhibits=self.found.exhibits,
                 left_out=self.found.left_out,
             )
 
         def last() -> Iterator[Block]:
             if account is not None and self.style == "markdown":
-                made = accounted(account)  # first, since a summary is read from its first line
-                yield Text(f"{made.extent.verdict}: {made.about}, {made.extent.words}")
+                summary = accounted(account)  # first, since a summary is read from its first line
+                yield Text(f"{summary.extent.verdict}: {summary.about}, {summary.extent.words}")
             yield from (live.end if live else show)(done.entries)
             yield from self.found.blocks() if walk else ()
             if more.get("in_process"):

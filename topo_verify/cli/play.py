@@ -112,12 +112,12 @@ def play(
     """
 
     def played() -> Iterator[Result[PlayEntry]]:
-        found = mappers.load()
+        targets = mappers.load()
         at = named_world(world, marker)
         require_one_world(file, 1)
         runs: list[PlayedRun] = []
-        for number, mapper in enumerate(found):
-            output.progress(f"{mapper.text} in {at.name}", number, len(found))
+        for number, mapper in enumerate(targets):
+            output.progress(f"{mapper.text} in {at.name}", number, len(targets))
             run = run_mapper(at.world, mapper, limits=limits)
             report, _ = judged(run, at, limits, strict=strict)
             runs.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))

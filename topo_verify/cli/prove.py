@@ -219,13 +219,13 @@ def _account(output: Output, entries: Sequence[ProveEntry], options: str) -> acc
         options: what the command that proves one theorem again needs besides its name.
     """
     # What is not as expected comes first.
-    for entry in sorted(entries, key=lambda one: (one.ok, one.kind != "negative")):
+    for entry in sorted(entries, key=lambda theorem: (theorem.ok, theorem.kind != "negative")):
         output.found.show(_exhibit(entry))
     positive = [entry.verdict for entry in entries if entry.expected != "REFUTED"]
     things = "theorem" if len(entries) == 1 else "theorems"
     words = acc.counted(sum(entry.ok for entry in entries), len(entries), f"{things} as expected")
     suites: dict[str, list[acc.JudgedCase]] = {}
-    for entry in sorted(entries, key=lambda one: KINDS.index(one.kind)):
+    for entry in sorted(entries, key=lambda theorem: KINDS.index(theorem.kind)):
         suites.setdefault(entry.kind, []).append(_case(entry, options))
     return acc.Account(
         plural(len(entries), "theorem"),

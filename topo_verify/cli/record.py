@@ -77,12 +77,12 @@ def record(  # noqa: PLR0913  an argument an option
                 target, named, total, limits=limits, engine=engine, store=file
             )
             rows = noted(stored_rows(output, [runs], workers, file))
-            made = study.record(target, corpus, rows, worlds=texts, seed=seed, limits=limits)
+            baseline = study.record(target, corpus, rows, worlds=texts, seed=seed, limits=limits)
         # A baseline of some of the worlds would make every later comparison look complete.
-        whole = len(made.entries) == total
+        whole = len(baseline.entries) == total
         if whole:
-            files.write(out, encode(made))
-        entry = study.recorded(made, target, failing, out if whole else None)
+            files.write(out, encode(baseline))
+        entry = study.recorded(baseline, target, failing, out if whole else None)
         yield Result(entry, failed=entry.wrong > 0, incomplete=entry.undecided > 0)
 
     return output.run("record", recorded, _show, seed=seed, in_process=mappers.in_process)

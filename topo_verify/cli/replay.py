@@ -236,8 +236,8 @@ def _show(
     for entry, report in zip(entries, reports, strict=True):
         words = f"{entry.target} in {entry.world}, {plural(entry.cost, 'edge traversal')}: "
         undecided = entry.stopped is not None and not entry.ok and not entry.findings
-        told = f"not decided, {entry.stopped}"
-        yield Text(words + (told if undecided else in_words(entry.claims, "claims hold")))
+        reason = f"not decided, {entry.stopped}"
+        yield Text(words + (reason if undecided else in_words(entry.claims, "claims hold")))
         if not undecided:
             yield from unjudged(entry.target, entry.world, entry.judgements)
         if not entry.ok or asked.to_end:

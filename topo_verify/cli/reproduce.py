@@ -106,10 +106,10 @@ def reproduce(  # noqa: PLR0913  an argument an option
                     " only; leave one of the two out"
                 )
         folder = options.make_folder(out, "--out")
-        made = _runs(output, figures, extent, engine, folder, workers or processors())
-        found = [(one, pts.figure_points(one, extent, made)) for one in figures]
-        _write(output, folder, found, shlex.join([*words, "--out", out]))
-        for _, line in found:
+        runs = _runs(output, figures, extent, engine, folder, workers or processors())
+        drawn = [(chosen, pts.figure_points(chosen, extent, runs)) for chosen in figures]
+        _write(output, folder, drawn, shlex.join([*words, "--out", out]))
+        for _, line in drawn:
             for point in line:
                 incomplete = point.undecided > 0
                 yield Result(point, failed=bool(point.findings), incomplete=incomplete)

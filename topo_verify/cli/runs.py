@@ -176,15 +176,18 @@ def claims_cell(claims: Mapping[str, Status], *, incomplete: bool = False) -> st
 def unjudged(mapper: str, world: str, judgements: Iterable[Judgement]) -> Iterator[Text]:
     """Sentences that name the claims that were not fully judged, and say why."""
     claims: dict[str, list[Judgement]] = {reason: [] for reason in _REASONS.values()}
-    for one in judgements:
-        reasons = _REASONS | _WITHOUT_A_MAP if one.claim == "map-entailed" else _REASONS
-        if one.status in reasons:
-            claims.setdefault(reasons[one.status], []).append(one)
+    for judgement in judgements:
+        reasons = _REASONS | _WITHOUT_A_MAP if judgement.claim == "map-entailed" else _REASONS
+        if judgement.status in reasons:
+            claims.setdefault(reasons[judgement.status], []).append(judgement)
     for reason, of_reason in claims.items():
         if of_reason:
-            names = [one.claim for one in of_reason]
+            names = [judgement.claim for judgement in of_reason]
             if of_reason[0].status in ("partial", "undecided"):
-                names = [f"{one.claim} {one.judged} of {one.of}" for one in of_reason]
+                names = [
+                    f"{judgement.claim} {judgement.judged} of {judgement.of}"
+                    for judgement in of_reason
+                ]
             text = reason.format(mapper=mapper, world=world, size=LARGE)
             yield Text(f"{text}: {', '.join(names)}.")
 

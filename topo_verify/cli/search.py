@@ -164,12 +164,12 @@ def _searches(
                 f"--compare {compare}: expected two different algorithms of the catalogue, as A,B"
             )
         return [pair]
-    found: list[tuple[Target, ...]] = [(mapper,) for mapper in mappers.load()]
-    if ledger is not None and len(found) != 1:
+    separate: list[tuple[Target, ...]] = [(mapper,) for mapper in mappers.load()]
+    if ledger is not None and len(separate) != 1:
         raise InputError(
-            f"--ledger {ledger}: expected one TARGET, got {len(found)}; search them one by one"
+            f"--ledger {ledger}: expected one TARGET, got {len(separate)}; search them one by one"
         )
-    return found
+    return separate
 
 
 def _searched(
@@ -257,10 +257,10 @@ def _cases(entry: study.SearchEntry) -> Iterator[acc.JudgedCase]:
         message="" if first is None else f"{first.claim} in {first.world}: {first.message}",
         again="" if first is None else first.replay,
     )
-    wrong = {one.claim: one for one in entry.claims}
+    wrong = {failing_claim.claim: failing_claim for failing_claim in entry.claims}
     for case in acc.claim_cases(entry.judgements):
-        one = wrong.pop(case.name, None)
-        yield case if one is None else _failing(one)
+        failing_claim = wrong.pop(case.name, None)
+        yield case if failing_claim is None else _failing(failing_claim)
     yield from map(_failing, wrong.values())
 
 

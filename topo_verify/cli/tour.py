@@ -138,15 +138,15 @@ def _against(world: World, log: str) -> tuple[Trace, Sequence[Event], LogAgainst
     Of a log that refutes the map nothing is left out; else what a mapper declared is.
     """
     name = "standard input" if log == "-" else log
-    seen = read_log(log)
+    log_events = read_log(log)
     try:
-        found = check_map(world, seen)
+        verdict_on_map = check_map(world, log_events)
     except InputError as error:
         raise InputError(f"{name}: {error}") from error
-    walked = tuple(event for event in seen if isinstance(event, Start | Move))
-    against = entry_of(LogAgainstMap, found, log=log, moves=len(walked) - 1)
-    trace = seen if found.verdict == "REFUTED" else (*walked, *found.onward)
-    return trace, found.onward, against
+    walked = tuple(event for event in log_events if isinstance(event, Start | Move))
+    against = entry_of(LogAgainstMap, verdict_on_map, log=log, moves=len(walked) - 1)
+    trace = log_events if verdict_on_map.verdict == "REFUTED" else (*walked, *verdict_on_map.onward)
+    return trace, verdict_on_map.onward, against
 
 
 def _show(entries: Sequence[TourEntry]) -> Iterator[Block]:

@@ -255,12 +255,12 @@ class CountEntry(msgspec.Struct, frozen=True):
 
 def _range(_context: click.Context, _option: click.Parameter, value: str) -> range:
     """The numbers of edges in `N` or `A..B`."""
-    found = re.fullmatch(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}))?", value)
-    if not found:
+    match = re.fullmatch(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}))?", value)
+    if not match:
         raise click.BadParameter(
             f"expected a number of edges as 6 or a range as 1..6, got {value!r}"
         )
-    first, last = int(found[1]), int(found[2] or found[1])
+    first, last = int(match[1]), int(match[2] or match[1])
     if not first <= last <= options.MAX_EDGES:
         raise click.BadParameter(
             f"expected ascending numbers of edges up to {options.MAX_EDGES}, got {value!r}"
