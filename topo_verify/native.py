@@ -57,7 +57,7 @@ _NO_DOORS = np.zeros(1, np.int64)[:0]
 
 
 def _compiled(function: F) -> F:
-    """The function, which numba compiles; its type is as it is written."""
+    """The function, compiled by numba, with the type of the original."""
     made: F = _njit(function)
     return made
 

@@ -46,7 +46,7 @@ def add_vertex(table, count, look):
 
 @numba.njit
 def with_room(table, count, more):
-    """The table, copied into a larger one if it lacks room for so many more darts."""
+    """The table, copied into a larger one if it lacks room for `more` darts."""
     if max(count[DARTS] + more, count[N] + 1) <= table.shape[1]:
         return table
     larger = np.zeros((ROWS, 2 * (table.shape[1] + more)), np.int64)

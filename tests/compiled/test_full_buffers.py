@@ -23,7 +23,7 @@ from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.events import POSE, spans
 from topo_verify.compiled.explore import run_world
 from topo_verify.compiled.folding import add_place, join_places, lay, start_fold
-from topo_verify.compiled.judging import consequences, entailed, fold, layout
+from topo_verify.compiled.judging import entailed, fold, layout
 
 # ---------------------------------------------------------------- runs
 
@@ -182,13 +182,13 @@ def test_what_follows_has_no_room_for_more_ends_or_pairs() -> None:
     for field, full in (("entries", most), ("waiting", most - 1)):
         for number, is_full in ((full - 1, 0), (full, 1)):
             case = square()
-            consequences.start_consequences(case)
+            fold.start_consequences(case)
             setattr(case.consequences, field, number)
             for node in (2, 3):  # the second end behind a dart is one with the first
-                consequences.put_beyond(
+                fold.put_beyond(
                     case,
-                    consequences.slot_at(case.fold, 0, 1),
-                    consequences.slot_at(case.fold, node, 1),
+                    fold.slot_at(case.fold, 0, 1),
+                    fold.slot_at(case.fold, node, 1),
                 )
             assert case.full == is_full
 

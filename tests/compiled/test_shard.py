@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
+from msgspec import structs
 
 pytest.importorskip("numba", reason="the compiled engine needs numba")
 
@@ -14,11 +15,13 @@ from topo_verify.campaign.run import explore
 from topo_verify.checkers import CLAIMS, check
 from topo_verify.compiled.events import words
 from topo_verify.compiled.faults import PLANTED
-from topo_verify.compiled.shard import ShardCounts, examine_range
+from topo_verify.compiled.shard import CompiledChecks, ShardCounts, examine_range
 from topo_verify.compiled.workspace import TRACE
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper
+from topo_verify.robot.events import Finish, Reject, Start
+from topo_verify.robot.percept import Percept
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
@@ -157,3 +160,47 @@ def test_the_kernel_asks_a_claim_at_every_level() -> None:
     for level in (8, 9, 10):
         (counts,) = examine_range(["basic"], 2, claims=level)
         assert list(counts.statuses) == list(CLAIMS)[:level]
+
+
+def test_compiled_checks_judge_as_the_checkers_do() -> None:
+    checks = CompiledChecks()
+    mappers: list[Mapper | str] = ["basic", "folding", FAULTS["sets-out-unturned"].mapper]
+    for world in (world for edges in (1, 2, 3) for world in worlds(edges=edges)):
+        for mapper in mappers:
+            run = explore(world, mapper)
+            ours = checks(world, run.trace, run.stopped, strict=False)
+            assert list(ours) == list(check(world, run.trace, run.stopped))
+
+
+def test_compiled_checks_pass_nothing_that_the_checkers_refuse() -> None:
+    world = World.from_id("m3/9")
+    start, *events, finish = explore(world, "basic").trace
+    assert isinstance(finish, Finish)
+    assert isinstance(start, Start)
+    edges = finish.map.edges
+    doctored = [
+        (structs.replace(start, percept=Percept(9, None)), *events, finish),
+        (start, *events, structs.replace(finish, cost=-1)),
+        (start, *events, _with_map(finish, edges=(*edges, edges[0]))),
+        (start, *events, _with_map(finish, edges=edges[1:])),
+        (start, *events, _with_map(finish, marker=1)),
+        (start, *events[:-1], finish),
+    ]
+    rejects = [at for at, event in enumerate(events) if isinstance(event, Reject)]
+    for at in rejects:  # as a word, this percept would be the one that was seen
+        event = events[at]
+        assert isinstance(event, Reject)
+        seen = event.evidence.observed
+        assert seen is not None
+        alias = Percept(seen.degree - 1, 65536 + (-1 if seen.marker is None else seen.marker))
+        wrong = structs.replace(event, evidence=structs.replace(event.evidence, observed=alias))
+        doctored.append((start, *events[:at], wrong, *events[at + 1 :], finish))
+    assert rejects
+    for trace in doctored:
+        judged = list(CompiledChecks()(world, trace, None, strict=False))
+        assert judged == list(check(world, trace))
+        assert any(one.status == "failed" for one in judged)
+
+
+def _with_map(finish: Finish, **fields: object) -> Finish:
+    return structs.replace(finish, map=structs.replace(finish.map, **fields))

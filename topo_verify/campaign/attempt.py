@@ -21,7 +21,7 @@ from typing import Any
 
 import msgspec
 
-from topo_verify.campaign.judge import CheckedTraces, Report, judge, replay_line, undecided
+from topo_verify.campaign.judge import Checks, Report, judge, replay_line, undecided
 from topo_verify.campaign.row import SECOND_TRY, Judged, PolicyCosts, Row, hashed
 from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import Finding
@@ -72,7 +72,7 @@ def attempt(  # noqa: PLR0913  an argument an option
     where: str,
     strict: bool = False,
     witness: bool = True,
-    known: CheckedTraces | None = None,
+    known: Checks | None = None,
     beat: Callable[[], None] = lambda: None,
 ) -> Attempt:
     """Run a mapper in a world, again if its process was killed, and judge the run.
@@ -81,7 +81,7 @@ def attempt(  # noqa: PLR0913  an argument an option
         where: the world, as the command line names it.
         strict: judge claim 10 also in worlds with more than 2,000 edges.
         witness: also run the mapper in the witness world of a wrong map.
-        known: traces that were checked before.
+        known: in the place of `check`.
         beat: called before each run and each judgement.
     """
 

@@ -31,7 +31,7 @@ from typing import Any, Literal, Protocol
 import msgspec
 
 from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
-from topo_verify.campaign.judge import CheckedTraces
+from topo_verify.campaign.judge import CheckedTraces, Checks
 from topo_verify.campaign.progress import Progress, ProgressRate
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, on_engine
@@ -305,10 +305,12 @@ def examine(
     shard: Shard,
     beat: Beat = lambda _runs: None,
     look: Look | None = None,
+    known: Checks | None = None,
 ) -> ShardResult:
     """Run every mapper in every world of a shard.
 
     Args:
+        known: in the place of the checkers.
         look: in the place of the one that the campaign names.
     Raises:
         Interrupted: Ctrl-C.
@@ -322,10 +324,10 @@ def examine(
         for place, name, world in campaign.worlds.worlds(shard):
             met: list[Row] = []
             several = len(mappers) > 1 or campaign.ways is not None
-            known = CheckedTraces() if several else None
+            checks = CheckedTraces() if several else known
             for target in mappers:
                 told = partial(beat, done)
-                once = partial(_attempt, campaign, world, name, known, told, ours=target.mapper)
+                once = partial(_attempt, campaign, world, name, checks, told, ours=target.mapper)
                 for made in ways(target, world, once):
                     met.append(row_of(made, name, place, len(met), look))
                 done += 1
@@ -345,7 +347,7 @@ def _attempt(
     campaign: Campaign,
     world: World,
     name: str,
-    known: CheckedTraces | None,
+    known: Checks | None,
     beat: Callable[[], None],
     target: Target,
     *,

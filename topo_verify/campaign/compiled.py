@@ -13,13 +13,14 @@ numbers. It is not trusted. The checkers judge again, from runs of the reference
   to counts of nothing.
 
 In all these worlds both engines must agree on every event of the run. If they disagree on anything,
-that is a bug of ours, and the campaign ends.
+topo-verify has a bug, and the campaign ends.
 
 A **native mapper** (`--library`) is called by the engine, in the place of an algorithm; for the
-checkers it runs in a process of its own, behind a pipe. If the two disagree, it need not be a bug
-of ours: such a mapper may do something else each time. So the counts of that slice do not count:
-its worlds are undecided, but for the one in which the two disagree, if a claim fails there by the
-checkers. A worker that ends in native code is a lost worker; backend.py says what that means.
+checkers it runs in its own process, behind a pipe. If the two disagree, the cause need not be
+topo-verify: such a mapper may do something else each time. So the counts of that slice are
+discarded: its worlds are undecided, but for the one in which the two disagree, if a claim fails
+there by the checkers. A worker that ends in native code is a lost worker; backend.py says what that
+means.
 
 What this does not show: the other worlds were judged and counted by the engine alone. If it is
 wrong in a share p of all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.

@@ -10,7 +10,7 @@ import shlex
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import msgspec
 
@@ -223,6 +223,16 @@ def assert_maps(
         raise ClaimUndecided(f"nothing is refuted, and {names} is not decided: {report}")
 
 
+class Checks(Protocol):
+    """Gives the judgements of `check`, in a quicker way where there is one."""
+
+    def __call__(
+        self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
+    ) -> Sequence[Judgement]:
+        """The judgements of `check`; see there."""
+        ...
+
+
 class CheckedTraces:
     """Checks each distinct trace in a world once: mappers in small worlds often leave the same.
 
@@ -259,7 +269,7 @@ def judge(
     where: str | None = None,
     options: Sequence[str] = (),
     strict: bool = False,
-    known: CheckedTraces | None = None,
+    known: Checks | None = None,
 ) -> Report:
     """Judge a run by every claim; see `examine`.
 
@@ -269,7 +279,7 @@ def judge(
 
     Args:
         options: the options that the replay command needs besides world and target.
-        known: traces that were checked before.
+        known: in the place of `check`.
     """
     where = where or world_argument(run.world)
     words = (*options, *strict_option(run.world, strict=strict))
@@ -334,7 +344,7 @@ def judge_trace(  # noqa: PLR0913  an argument an option
     where: str | None = None,
     replay_command: str | None = None,
     strict: bool = False,
-    known: CheckedTraces | None = None,
+    known: Checks | None = None,
 ) -> Report:
     """Judge a trace of any origin in its world.
 
@@ -343,7 +353,7 @@ def judge_trace(  # noqa: PLR0913  an argument an option
         where: the world as the command line names it; default: its id.
         replay_command: the command line that shows the findings again; default: `replay` of the
             target in the world.
-        known: traces that were checked before.
+        known: in the place of `check`.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`.
         InternalError: an algorithm of the catalogue is right at a cost below that of any proof.

@@ -29,7 +29,6 @@ from topo_verify.algorithms import CATALOGUE, REFERENCE, Algorithm
 from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import check
 from topo_verify.compiled import require
-from topo_verify.compiled.faults import PLANTED
 from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.delivery import Undelivered, deliver
 from topo_verify.programs.library import LIBRARY
@@ -313,6 +312,8 @@ def is_native(target: Target) -> bool:
 
 def planted(fault: str) -> CompiledAlgorithm | None:
     """The compiled mapper with the mistake of this seeded fault; None if no kernel has it."""
+    from topo_verify.compiled.faults import PLANTED
+
     found = PLANTED.get(fault)
     return None if found is None else CompiledAlgorithm(found[1], fault)
 

@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 
 @inlined
 def next_world(world: WorldWords, walk: WalkWords) -> int:
-    """The rank of the next world, which lies in the workspace now; -1 if there is none."""
+    """Place the next world in the workspace and return its rank; -1 after the last world."""
     if walk.pruned != 0:
         return next_pruned(world, walk)
     return next_of_all(world, walk)
@@ -140,7 +140,7 @@ def join_from(
     """Join e with the first open dart from c on that is not pruned, and return it.
 
     `rank`: before, the rank of the step with c; after, of the step that was made.
-    Returns: if there is none, n or c: the first place for a new vertex's last dart.
+    Returns: n or c if none is left: the first place for a new vertex's last dart.
     """
     ways = 0
     if c < n and u > 1:
@@ -171,7 +171,7 @@ def new_vertex_from(
     """Hang a vertex on e, the first that is not pruned, whose last dart is c or more: that dart.
 
     `rank`: before, the rank of the step with c; after, of the step that was made.
-    Returns: m2, if there is none.
+    Returns: m2 if none is left.
     """
     rank = walk.rank
     while c < m2 and rank < walk.stop:
@@ -270,7 +270,7 @@ def ranked_tables(
     """The same worlds as `pruned.ranked_tables` lists, with their ranks, by the kernel.
 
     Raises:
-        InputError: numba is not installed, or so many edges cannot be listed.
+        InputError: numba is not installed, or there are too many edges.
     """
     import numpy as np
 

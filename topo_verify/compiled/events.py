@@ -155,9 +155,15 @@ def digest(trace: TraceWords) -> int:
 
 
 def percept_word(percept: Percept | None) -> int:
-    """The word that stands for a percept; -1 for none."""
+    """The word that stands for a percept; -1 for none.
+
+    Raises:
+        OverflowError: no word does, as no world has such a percept.
+    """
     if percept is None:
         return ABSENT
+    if percept.degree >= P or not -1 < (percept.marker or 0) < max(percept.degree, 1):
+        raise OverflowError(f"{percept} is no percept of a world")
     return percept.degree * P + (0 if percept.marker is None else 1 + percept.marker)
 
 

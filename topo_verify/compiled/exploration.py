@@ -69,7 +69,7 @@ def explore(run: RunWords) -> int:
 
 @entry
 def explore_rounds(run: RunWords, at: int, rounds: int) -> int:
-    """Part of `explore`: so many rounds of its loop, so that the caller may stop in between.
+    """Part of `explore`: at most `rounds` rounds of its loop, so the caller may stop in between.
 
     Args:
         at: what the part before returned; -1: there was none.
@@ -86,7 +86,7 @@ def explore_rounds(run: RunWords, at: int, rounds: int) -> int:
 
 @kernel
 def start(run: RunWords) -> int:
-    """Stand at the marker with S as it is there: v0 alone. Returns the reference dart, on S."""
+    """Start at the marker, with S as v0 alone. Returns the reference dart, on S."""
     robot = run.robot
     robot.dart = 0
     robot.cost = 0

@@ -193,7 +193,7 @@ def free_memory() -> int:
     """How many bytes this process may still take; where nothing is known, the machine's memory.
 
     It is the least of what the machine has available, what is left to the control group of this
-    process (version 1 or 2), and what is left of its own limit of address space.
+    process (version 1 or 2), and what is left of its limit of address space.
     """
     rows = [line.split() for line in _lines("/proc/meminfo")]
     available = [int(row[1]) << 10 for row in rows if row[0] == "MemAvailable:"]
@@ -252,7 +252,7 @@ class CompiledJob:
     events: list[Event] = field(default_factory=list[Event])
 
     def run(self, layout: ws.WordLayout, room: int) -> Workspace:
-        """The workspace after the run, with room for so many words of trace."""
+        """The workspace after the run, with room for `room` words of trace."""
         explore: Callable[[Workspace, int, int], int] = compiled(explore_rounds, layout)
         space = workspace(layout, room)
         place_world(space, layout, self.world)
@@ -299,7 +299,7 @@ class CompiledJob:
 
 
 def workspace(layout: ws.WordLayout, room: int) -> Workspace:
-    """A workspace with room for so many words of trace; what is never touched takes no memory."""
+    """A workspace with room for `room` words of trace; untouched pages take no memory."""
     import numpy as np
 
     size = layout.at("trace.word") + room
@@ -329,6 +329,35 @@ def place_world(space: Workspace, layout: ws.WordLayout, world: World) -> None:
     for name, row in (("alpha", alpha), ("vertex", vertex), ("first", first), ("degree", degrees)):
         at = layout.at(f"world.{name}")
         space[at : at + len(row)] = row
+
+
+def place_map(space: Workspace, layout: ws.WordLayout, delivered: MapData) -> bool:
+    """Write a delivered map into a workspace as the map S.
+
+    Returns:
+        False if its darts are not numbered vertex by vertex from the marker's on, or half of
+        them is not the number of its edges.
+    """
+    import numpy as np
+
+    degrees = [len(darts) for darts in delivered.vertices]
+    size = sum(degrees)
+    numbered = [dart for darts in delivered.vertices for dart in darts] == list(range(size))
+    is_whole = numbered and 2 * len(delivered.edges) == size <= ws.CHART_DARTS
+    if not is_whole or delivered.marker != (0 if size else None):
+        return False
+    alpha = [-1] * size
+    for one, other in delivered.edges:
+        if not (0 <= one < size and 0 <= other < size):
+            return False
+        alpha[one], alpha[other] = other, one
+    first = np.concatenate(([0], np.cumsum(degrees)))[:-1]
+    vertex = np.repeat(np.arange(len(degrees)), degrees)
+    for name, row in (("first", first), ("degree", degrees), ("vertex", vertex), ("alpha", alpha)):
+        at = layout.at(f"chart.{name}")
+        space[at : at + len(row)] = row
+    space[layout.at("chart.vertices")], space[layout.at("chart.darts")] = len(degrees), size
+    return True
 
 
 def map_of(space: Workspace, layout: ws.WordLayout) -> MapData:

@@ -52,7 +52,7 @@ def add_place(run: RunWords, percept: int, known: int) -> int:
 
 @kernel
 def turn_at_place(places: PlaceWords, dart: int, door: int) -> int:
-    """The dart that is so many doors clockwise from this one."""
+    """The dart `door` doors clockwise from this one."""
     first = places.node[dart]
     return first + (dart - first + door) % (places.looks[dart] >> 1)
 
@@ -353,7 +353,7 @@ def refute_by_folding(run: RunWords, h: int) -> bool:
     if layers.anew != 0:
         wrong = join_places(run, run.places.e, node_dart(run, h))
     elif layers.joined == 0:
-        return False  # its layer stays as it is
+        return False  # its layer does not change
     else:
         wrong = follow_layer(run, h)
     if wrong == 0:

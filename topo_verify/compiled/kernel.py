@@ -26,8 +26,8 @@ that can be written, a folder that lasts as long as the process. It may be delet
 While one process compiles the kernels of a folder, others that need them wait for its lock. Machine
 code without its checksum is compiled again.
 
-What this does not show: that nobody changed a file and its checksum on purpose. The folder belongs
-to the user, and checksums guard against accidents.
+What this does not show: that no file was changed together with its checksum. The folder belongs to
+the user, and checksums guard against accidents.
 """
 
 from __future__ import annotations
@@ -100,7 +100,6 @@ SOURCES = [
         "judging.justified",
         "judging.truth",
         "judging.fold",
-        "judging.consequences",
         "judging.entailed",
         "judging.verdict",
         "tally",
@@ -133,7 +132,7 @@ def entry(function: F) -> F:
 def callback(function: F) -> F:
     """The function itself. The mark says that a native mapper calls it: see `address_of`.
 
-    Its parameters are words.
+    The caller passes words: first the address of the workspace.
     """
     return function
 
@@ -165,7 +164,7 @@ def address_of(function: Callable[..., int], layout: WordLayout) -> int:
     """
     from numba import cfunc, types
 
-    module, name = machine_code(layout, False), function.__name__  # noqa: FBT003  part of the key
+    module, name = machine_code(layout, False), CALLED + function.__name__  # noqa: FBT003  part of the key
     words = [types.int64] * function.__code__.co_argcount
     options: dict[str, Any] = {"cache": True, "_nrt": False, "error_model": "numpy"}
     mark = cfunc(types.int64(*words), **options)
@@ -174,6 +173,9 @@ def address_of(function: Callable[..., int], layout: WordLayout) -> int:
     address: int = made.address
     return address
 
+
+CALLED = "called_"
+"""The beginning of the name of a callback, as `address_of` has it."""
 
 _lasting: list[object] = []
 """The callbacks: their machine code is there as long as they are."""
@@ -280,9 +282,9 @@ def _kernels(module: ModuleType) -> Iterator[ast.FunctionDef]:
             isinstance(mark, ast.Name) and mark.id in ("kernel", "inlined", "entry", "callback")
             for mark in node.decorator_list
         ):
-            node.decorator_list = [
-                mark for mark in node.decorator_list if ast.unparse(mark) != "callback"
-            ]
+            is_callback = ast.unparse(node.decorator_list[0]) == "callback"
+            if is_callback:
+                node.decorator_list = [ast.Name("kernel", ast.Load())]
             node = Flat(vars(module)).visit_FunctionDef(node)
             node.returns = None
             for argument in node.args.args:
@@ -290,6 +292,17 @@ def _kernels(module: ModuleType) -> Iterator[ast.FunctionDef]:
             if ast.get_docstring(node) is not None:
                 del node.body[0]
             yield _Unsigned().visit(node)
+            if is_callback:
+                yield _called(node)
+
+
+def _called(kernel: ast.FunctionDef) -> ast.FunctionDef:
+    """The function for a caller outside, which has the workspace by its address."""
+    given = ", ".join(argument.arg for argument in kernel.args.args[1:])
+    called = f"{kernel.name}(row_at(place, SIZE), {given})"
+    (node,) = ast.parse(f"def {CALLED}{kernel.name}(place, {given}): return {called}").body
+    assert isinstance(node, ast.FunctionDef)
+    return node
 
 
 class _Unsigned(ast.NodeTransformer):
@@ -386,7 +399,7 @@ class _KeptCode:
 
     @contextmanager
     def writing(self) -> Generator[None]:
-        """Files are written inside; nobody else writes. Those without their checksum are removed.
+        """The context in which files are written. It removes files without their checksum.
 
         One entry's code may be compiled from that of others, so this is about all of the module.
         """

@@ -4,7 +4,7 @@ A **view** is a class whose annotations name the words of an array, one after th
 
     class ChartWords(WordView):
         vertices: int                                   # a single word
-        alpha: Annotated[Words, "CHART_DARTS"]          # a row of so many words
+        alpha: Annotated[Words, "CHART_DARTS"]          # a row with this capacity
 
 `Fields` lays views out in an array with a letter (`W`, the workspace). A view with a part
 (`chart: ChartWords`) has the part's words, at the same places: `run.chart.alpha[d]`. Type checkers
@@ -62,6 +62,8 @@ class WordView:
 
     letter: ClassVar[str]
     is_cursor: ClassVar[bool] = False
+    extent: ClassVar[int]
+    """Of a cursor: the number of words."""
 
     def __init__(self, words: Words, origin: int | WordView = 0) -> None:
         self.array: Words = words.array if isinstance(words, WordView) else words
@@ -177,14 +179,19 @@ def _named(letter: str, part: str, view: type[WordView]) -> Iterator[Field]:
                 yield field
 
 
-def cursor(letter: str) -> Callable[[type[V]], type[V]]:
-    """The decorator of a cursor: its names are the words from where it stands on."""
+def cursor(letter: str, capacities: Mapping[str, int] = {}) -> Callable[[type[V]], type[V]]:
+    """The decorator of a cursor: its names are the words from where it stands on.
+
+    Args:
+        capacities: as in `Fields`; a row without one must be the last.
+    """
 
     def placed(view: type[V]) -> type[V]:
         above = [name for base in view.__mro__[1:] for name in vars(base).values()]
-        before = sum(isinstance(name, Field) for name in above)
-        for offset, field in enumerate(_named(letter, "", view), before):
-            field.offset = offset
+        view.extent = sum(isinstance(name, Field) for name in above)
+        for field in _named(letter, "", view):
+            field.offset = view.extent
+            view.extent += capacities.get(field.capacity, 1)
         view.is_cursor = True
         return view
 

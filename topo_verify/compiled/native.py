@@ -35,7 +35,7 @@ if TYPE_CHECKING:  # native_call.py needs numba; the module of machine code impo
         ...
 
     def row_at(address: int, size: int) -> Any:
-        """The row of so many words at this address."""
+        """The row of `size` words at this address."""
         ...
 
 
@@ -133,25 +133,13 @@ def is_number(number: int) -> bool:
 
 
 @callback
-def native_look(world: int) -> int:
-    """The percept where the robot stands."""
-    return look_native(row_at(world, SIZE))
-
-
-@kernel
-def look_native(run: RunWords) -> int:
+def native_look(run: RunWords) -> int:
     """The percept where the robot stands."""
     return REFUSED if is_over(run) else sensed(run.world, run.robot.dart)
 
 
 @callback
-def native_move(world: int, door: int, purpose: int) -> int:
-    """Leave by a door; the percept behind it."""
-    return move_native(row_at(world, SIZE), door, purpose)
-
-
-@kernel
-def move_native(run: RunWords, door: int, purpose: int) -> int:
+def native_move(run: RunWords, door: int, purpose: int) -> int:
     """Leave by a door; the percept behind it."""
     if is_over(run):
         return REFUSED
@@ -162,13 +150,7 @@ def move_native(run: RunWords, door: int, purpose: int) -> int:
 
 
 @callback
-def native_pose(world: int, e: int, number: int, hypotheses: int) -> int:
-    """Declare the hypotheses for e."""
-    return pose_native(row_at(world, SIZE), e, number, hypotheses)
-
-
-@kernel
-def pose_native(run: RunWords, e: int, number: int, hypotheses: int) -> int:
+def native_pose(run: RunWords, e: int, number: int, hypotheses: int) -> int:
     """Declare the hypotheses for e."""
     if is_over(run):
         return REFUSED
@@ -192,13 +174,7 @@ def pose_native(run: RunWords, e: int, number: int, hypotheses: int) -> int:
 
 
 @callback
-def native_reject(world: int, e: int, h: int, by: int, evidence: int, number: int, way: int) -> int:
-    """Declare a rejection; evidence: seven words; way: the doors of a record."""
-    return reject_native(row_at(world, SIZE), e, h, by, evidence, number, way)
-
-
-@kernel
-def reject_native(
+def native_reject(
     run: RunWords, e: int, h: int, by: int, evidence: int, number: int, way: int
 ) -> int:
     """Declare a rejection; evidence: seven words; way: the doors of a record."""
@@ -246,13 +222,7 @@ def is_rejection(e: int, h: int, by: int, evidence: int, number: int, way: int) 
 
 
 @callback
-def native_confirm(world: int, e: int, h: int, by: int) -> int:
-    """Declare that the other end of e is h."""
-    return confirm_native(row_at(world, SIZE), e, h, by)
-
-
-@kernel
-def confirm_native(run: RunWords, e: int, h: int, by: int) -> int:
+def native_confirm(run: RunWords, e: int, h: int, by: int) -> int:
     """Declare that the other end of e is h."""
     if is_over(run):
         return REFUSED
@@ -264,13 +234,7 @@ def confirm_native(run: RunWords, e: int, h: int, by: int) -> int:
 
 
 @callback
-def native_augment(world: int, e: int, kind: int, dart: int, degree: int) -> int:
-    """Declare that S has grown."""
-    return augment_native(row_at(world, SIZE), e, kind, dart, degree)
-
-
-@kernel
-def augment_native(run: RunWords, e: int, kind: int, dart: int, degree: int) -> int:
+def native_augment(run: RunWords, e: int, kind: int, dart: int, degree: int) -> int:
     """Declare that S has grown."""
     if is_over(run):
         return REFUSED
@@ -289,13 +253,7 @@ def augment_native(run: RunWords, e: int, kind: int, dart: int, degree: int) -> 
 
 
 @callback
-def native_skip(world: int, _why: int) -> int:
-    """Decline the world. Why: that is said where it is run again, behind the pipe."""
-    return skip_native(row_at(world, SIZE), _why)
-
-
-@kernel
-def skip_native(run: RunWords, _why: int) -> int:
+def native_skip(run: RunWords, _why: int) -> int:
     """Decline the world. Why: that is said where it is run again, behind the pipe."""
     if not is_over(run):
         run.stop = STOP_SKIP
@@ -304,17 +262,6 @@ def skip_native(run: RunWords, _why: int) -> int:
 
 @callback
 def native_deliver(
-    world: int, vertices: int, degrees: int, alpha: int, marker: int, cost: int
-) -> int:
-    """Deliver a map: of each vertex its degree, of each dart its other end, and the marker's dart.
-
-    Darts are numbered vertex by vertex, clockwise.
-    """
-    return deliver_native(row_at(world, SIZE), vertices, degrees, alpha, marker, cost)
-
-
-@kernel
-def deliver_native(
     run: RunWords, vertices: int, degrees: int, alpha: int, marker: int, cost: int
 ) -> int:
     """Deliver a map: of each vertex its degree, of each dart its other end, and the marker's dart.

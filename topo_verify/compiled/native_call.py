@@ -31,7 +31,7 @@ def call_address(_typing: Any, _address: Any, _argument: Any) -> Any:
 
 @intrinsic
 def row_at(_typing: Any, _address: Any, _size: Any) -> Any:
-    """The row of so many words at this address; nobody counts who refers to it."""
+    """The row of `size` words at this address; its references are not counted."""
     row = types.Array(types.int64, 1, "C")
 
     def generate(context: Any, builder: Any, _signature: Signature, values: Any) -> Any:

@@ -4,12 +4,12 @@
     calls.run(world)                            # -> CompiledRun, ...: of one world
     examine_steps(..., calls=calls)             # shard.py: of a range of worlds
 
-Each row of ours ends at a page that nobody may touch, and begins behind a fence; the robot lies in
-a page that nobody may write. So a mapper that runs over the end of something is ended by the
-system, and one that writes before it, or over the world, by the kernels (native.py).
+Each of our rows ends at a page without access and begins behind a fence; the robot lies in a
+read-only page. So the system ends a mapper that runs over the end of a row, and the kernels
+(native.py) end one that writes before it or over the world.
 
-What this does not show: a write that hits a row of ours without touching fence or world is not
-noticed, nor is one that hits Python.
+What this does not show: a write that hits one of our rows without touching fence or world, or
+that hits Python, is not noticed.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ _NO_ACCESS, _READ_ONLY = 0, 1
 
 
 class Guarded:
-    """Rows of words between pages that nobody may touch. They live as long as the process."""
+    """Rows of words between pages without access. They live as long as the process."""
 
     def __init__(self) -> None:
         self._rows: dict[tuple[object, ...], Row] = {}
@@ -93,12 +93,12 @@ class Guarded:
         return words[end - given.size : end].reshape(given.shape)
 
     def lock(self, row: Row) -> None:
-        """Let nobody write to the page of a short row."""
+        """Make the page of a short row read-only."""
         self._protect(row.ctypes.data // _PAGE * _PAGE, _READ_ONLY)
 
     @property
     def torn(self) -> bool:
-        """Whether somebody wrote before a row."""
+        """Whether the words before a row were overwritten."""
         return any((fence != native.FENCE).any() for fence in self._fences)
 
     def _protect(self, page: int, mode: int) -> None:
@@ -125,7 +125,7 @@ class NativeCalls:
         self._spaces: dict[tuple[str, int], Row] = {}
 
     def space(self, use: str, room: int = ws.TRACE) -> Row:
-        """The workspace for a use, with room for so many words of trace; the same each time."""
+        """The workspace for a use, with room for `room` words of trace; the same each time."""
         if (use, room) not in self._spaces:
             import numpy as np
 

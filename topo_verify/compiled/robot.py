@@ -54,7 +54,7 @@ def move(run: RunWords, door: int, purpose: int) -> int:
 
 @kernel
 def took(run: RunWords, words: int) -> int:
-    """Take room for so many words of trace: where they begin. `stop` is set if there is none."""
+    """Reserve words of trace and return where they begin. `stop` is set if there is no room."""
     trace = run.trace
     i = trace.size
     if i + words > run.task.room:

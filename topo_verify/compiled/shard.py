@@ -26,17 +26,26 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from topo_verify.checkers import CLAIMS, Status, check
+from topo_verify.checkers import CLAIMS, Judgement, Status, check
 from topo_verify.compiled import require, tally
 from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.enumeration import prepare
-from topo_verify.compiled.explore import KERNELS, CompiledJob, CompiledRun, run_world
+from topo_verify.compiled.events import words
+from topo_verify.compiled.explore import (
+    KERNELS,
+    CompiledJob,
+    CompiledRun,
+    place_map,
+    place_world,
+    run_world,
+)
 from topo_verify.compiled.faults import PLANTED
-from topo_verify.compiled.judging import layout
+from topo_verify.compiled.judging import layout, verdict
 from topo_verify.compiled.judging.truth import HASH_PRIME
 from topo_verify.compiled.kernel import compiled
+from topo_verify.compiled.names import Words
 from topo_verify.errors import InputError
-from topo_verify.robot.events import Event, Move, Start
+from topo_verify.robot.events import Event, Finish, Move, Start
 from topo_verify.robot.simulator import first_percept
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.rooted_map import World
@@ -62,7 +71,7 @@ class DearerWorld(NamedTuple):
 
 
 class ShardCounts(msgspec.Struct, frozen=True):
-    """What one algorithm came to in a range of worlds.
+    """The counts of one algorithm in a range of worlds.
 
     Attributes:
         algorithm: its name.
@@ -133,14 +142,14 @@ def examine_range(
 
     Args:
         kind: the class of worlds; ranks are those of class `any`.
-        claims: only the first so many claims: 8, 9 or 10.
+        claims: the number of claims that are judged, from the first on: 8, 9 or 10.
         stop_at_first: end behind the first world in which a claim fails.
         faults: for some of the names, the mistake to plant; the name may be any text then.
-        room: for traces of so many words, at most `TRACE`; a longer one takes longer, for its run
-            is made a second time. The counts do not depend on it.
+        room: words of trace, at most `TRACE`. A run with a longer trace is made a second time.
+            The counts do not depend on it.
     Raises:
-        InputError: numba is not installed, there is no such algorithm or fault, so many edges
-            cannot be listed, or a faulty mapper needs more room than any workspace has.
+        InputError: numba is not installed, there is no such algorithm or fault, there are too
+            many edges, or a faulty mapper needs more room than any workspace has.
     """
     require("the compiled engine")
     shard = _Shard(algorithms, edges, kind, start, stop, claims, stop_at_first, faults or {})
@@ -202,18 +211,18 @@ class _Shard:
         self.control = np.zeros(tally.CONTROL.size, np.int64)
         self.walk = tally.ControlWords(self.control)
         self.walk.level, self.walk.stop_at_first, self.walk.rank = claims, stop_at_first, -1
-        self.table = np.zeros((len(self.names), tally.T_COLUMNS), np.int64)
+        self.table = np.zeros(len(self.names) * tally.COLUMNS, np.int64)
         self.undecided = [0] * len(self.names)
-        for row, name in zip(self.table, self.names, strict=True):
+        for row, name in enumerate(self.names):
+            counts = tally.CountWords(self.table, row * tally.COLUMNS)
             if calls is not None:
-                row[tally.T_RULE] = ws.RULE_NATIVE
+                counts.rule = ws.RULE_NATIVE
                 continue
-            number, algorithm = self._fault(name)
+            counts.fault, algorithm = self._fault(name)
             if algorithm not in KERNELS:
                 known = ", ".join(KERNELS)
                 raise InputError(f"expected an algorithm of the catalogue, got {name!r}: {known}")
-            row[tally.T_RULE], row[tally.T_MOTION] = KERNELS[algorithm]
-            row[tally.T_FAULT] = number
+            counts.rule, counts.motion = KERNELS[algorithm]
         self.claims = tuple(CLAIMS)[:claims]
         self.calls = calls
         if calls is not None:
@@ -298,50 +307,106 @@ class _Shard:
 
     def _snapshot(self) -> Snapshot:
         """The counts of each algorithm so far."""
-        rows = zip(self.names, self.table, self.undecided, strict=True)
-        counts = tuple(self._counts(name, row.tolist(), undecided) for name, row, undecided in rows)
+        words = self.table.tolist()
+        counts = tuple(
+            self._counts(name, tally.CountWords(words, row * tally.COLUMNS), self.undecided[row])
+            for row, name in enumerate(self.names)
+        )
         return Snapshot(int(self.walk.rank), counts)
 
-    def _counts(self, name: str, row: list[int], undecided: int) -> ShardCounts:
-        def kept(column: int, number: int) -> tuple[int, ...]:
-            return tuple(row[column : column + min(row[number], tally.KEPT_RANKS)])
+    def _counts(self, name: str, row: tally.CountWords, undecided: int) -> ShardCounts:
+        def kept(ranks: Words, number: int) -> tuple[int, ...]:
+            return tuple(ranks[k] for k in range(min(number, tally.KEPT_RANKS)))
 
-        columns = (tally.T_DEARER_RANKS, tally.T_DEARER_COSTS, tally.T_DEARER_OTHERS)
-        dearer = zip(*(kept(column, tally.T_DEARER) for column in columns), strict=True)
         places = list(enumerate(self.claims))
         statuses: dict[str, dict[str, int]] = {
-            claim: dict(
-                zip(layout.STATUSES, row[tally.T_STATUS + k * tally.STATUS_COUNT :], strict=False)
-            )
+            claim: {
+                status: row.status[k * tally.STATUS_COUNT + number]
+                for number, status in enumerate(layout.STATUSES)
+            }
             for k, claim in places
         }
         failing = {
-            claim: (row[tally.T_CLAIM_FAILING + k], row[tally.T_CLAIM_FIRST + k])
-            if row[tally.T_CLAIM_FAILING + k]
-            else (0, -1)
+            claim: (row.claim_failing[k], row.claim_first[k]) if row.claim_failing[k] else (0, -1)
             for k, claim in places
         }
+        dearer = (row.more_ranks, row.more_costs, row.more_others)
         return ShardCounts(
             algorithm=name,
-            worlds=row[tally.T_WORLDS],
-            failing=row[tally.T_FAILING],
+            worlds=row.worlds,
+            failing=row.failing,
             claims=failing,
-            newly_failing=row[tally.T_NEWLY_FAILING],
-            newly_failing_claims={c: row[tally.T_CLAIM_NEWLY_FAILING + k] for k, c in places},
+            newly_failing=row.newly_failing,
+            newly_failing_claims={claim: row.claim_newly_failing[k] for k, claim in places},
             undecided=undecided,
             statuses=statuses,
-            shares={claim: (row[tally.T_JUDGED + k], row[tally.T_OF + k]) for k, claim in places},
-            total=row[tally.T_TOTAL],
-            most=row[tally.T_MOST],
-            attained=row[tally.T_ATTAINED],
-            worst=kept(tally.T_WORST, tally.T_ATTAINED),
-            failing_ranks=kept(tally.T_FAILING_RANKS, tally.T_FAILING),
-            digest=row[tally.T_DIGEST] % (1 << 64),
-            dearer=row[tally.T_DEARER],
-            cheaper=row[tally.T_CHEAPER],
-            excess=row[tally.T_EXCESS],
-            dearer_worlds=tuple(DearerWorld(*one) for one in dearer),
+            shares={claim: (row.judged[k], row.of[k]) for k, claim in places},
+            total=row.total,
+            most=row.most,
+            attained=row.attained,
+            worst=kept(row.worst, row.attained),
+            failing_ranks=kept(row.failing_ranks, row.failing),
+            digest=row.digest % (1 << 64),
+            dearer=row.more,
+            cheaper=row.less,
+            excess=row.excess,
+            dearer_worlds=tuple(map(DearerWorld, *(kept(ranks, row.more) for ranks in dearer))),
         )
+
+
+class CompiledChecks:
+    """Judges runs in small worlds as `check` does, by the compiled judge.
+
+    The checkers judge each run for which that leaves a verdict open or says that a claim fails.
+    """
+
+    def __init__(self) -> None:
+        import numpy as np
+
+        self._space = np.zeros(ws.SMALL.at("SIZE"), np.int64)
+        self._case = np.zeros(layout.JUDGE_SIZE, np.int64)
+        self._judge = compiled(verdict.judge, ws.SMALL)
+
+    def __call__(
+        self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
+    ) -> Sequence[Judgement]:
+        """The judgements of `check`; see there."""
+        if stopped is not None or not self._holds(world, trace):
+            return check(world, trace, stopped, strict=strict)
+        case = layout.CaseWords(self._case)
+        return [
+            Judgement(claim, layout.STATUSES[case.status[k]], int(case.judged[k]), int(case.of[k]))
+            for k, claim in enumerate(CLAIMS)
+        ]
+
+    def _holds(self, world: World, trace: Sequence[Event]) -> bool:
+        """Whether the judge decides all claims of this run, and none fails."""
+        start, events, finish = trace[0], trace[1:-1], trace[-1]
+        if (
+            len(world.alpha) > ws.WORLD_DARTS
+            or not (isinstance(start, Start) and start.percept == first_percept(world))
+            or not isinstance(finish, Finish)
+            or (finish.cost or 0) < 0
+            or Start in map(type, events)
+        ):
+            return False
+        try:
+            row = words(events)
+            fits = len(row) <= ws.TRACE and place_map(self._space, ws.SMALL, finish.map)
+            if fits:
+                at = ws.SMALL.at("trace.word")
+                self._space[at : at + len(row)] = row
+        except (ValueError, OverflowError):  # the trace has what no word stands for
+            return False
+        if not fits:
+            return False
+        place_world(self._space, ws.SMALL, world)
+        self._space[ws.SMALL.at("trace.size")] = len(row)
+        case = layout.CaseWords(self._case)
+        case.darts, case.vertices = len(world.alpha), len(world.vertices)
+        case.bound, case.level, case.delivered = world.cost_bound, ALL_CLAIMS, 1
+        case.reported = -1 if finish.cost is None else finish.cost
+        return bool(self._judge(self._space, self._case) == 0)
 
 
 def doors_hash(events: Iterable[Event]) -> int:

@@ -1,70 +1,75 @@
-"""Runs algorithms in every world of a rank range, judges each run, and counts what came of it.
+"""Runs algorithms in every world of a rank range, judges each run, and counts the verdicts.
 
-`T` has one row for each algorithm: what it is, and its counts. `task.room` says how long a trace
-may be.
+The table has one row of counts for each algorithm. `task.room` is the greatest length of a trace.
 
 Mirrors `Counts` in campaign/tally.py. Differs: each algorithm is counted in its own row; ranks are
 kept, no findings. A run whose verdict is open interrupts the walk, so that Python has the checkers
-judge it and `enter_open` count it. The walk also pauses behind as many worlds as Python asks for,
-and then goes on in the same table: so Python sees what single worlds add to it.
+judge it and `enter_open` count it. The walk also pauses after as many worlds as Python asks for,
+and then goes on in the same table, so Python sees what single worlds add to it.
 """
 
 from __future__ import annotations
+
+from typing import Annotated
 
 from topo_verify.compiled.enumeration import next_world
 from topo_verify.compiled.exploration import explore
 from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.verdict import is_world, judge
-from topo_verify.compiled.kernel import WordTable, entry, kernel
-from topo_verify.compiled.names import Fields, WordView
+from topo_verify.compiled.kernel import entry, kernel
+from topo_verify.compiled.names import Fields, Words, WordView, cursor
 from topo_verify.compiled.native import explore_native
 from topo_verify.compiled.workspace import *
 
-_used = 0
-
-
-def _column(size: int = 1) -> int:
-    """The next column, or so many side by side."""
-    global _used  # noqa: PLW0603  the layout is made once, when the module is loaded
-    place = _used
-    _used += size
-    return place
-
-
 KEPT_RANKS = 10
-"""So many ranks are kept of failing worlds, of the dearest, and of those dearer than another."""
+"""The most ranks kept of failing worlds, of the most expensive, and of those where the first
+algorithm costs more."""
 
 STATUS_COUNT = 5
 
-T_RULE = _column()
-T_MOTION = _column()
-T_FAULT = _column()
-T_WORLDS = _column()
-T_FAILING = _column()
-T_TOTAL = _column()
-T_MOST = _column()
-T_ATTAINED = _column()
-T_DIGEST = _column()
-T_COST = _column()
-"""Of the last world: the cost; -1 if a claim fails."""
-T_WORST = _column(KEPT_RANKS)
-T_FAILING_RANKS = _column(KEPT_RANKS)
-T_CLAIM_FAILING = _column(CLAIM_COUNT)
-T_CLAIM_FIRST = _column(CLAIM_COUNT)
-T_NEWLY_FAILING = _column()
-"""In how many worlds this row is the first that fails; so the rows' sum counts no world twice."""
-T_CLAIM_NEWLY_FAILING = _column(CLAIM_COUNT)
-T_STATUS = _column(CLAIM_COUNT * STATUS_COUNT)
-T_JUDGED = _column(CLAIM_COUNT)
-T_OF = _column(CLAIM_COUNT)
-T_DEARER = _column()
-"""In the first row, if there are two: in how many worlds the first costs more than the second."""
-T_CHEAPER = _column()
-T_EXCESS = _column()
-T_DEARER_RANKS = _column(KEPT_RANKS)
-T_DEARER_COSTS = _column(KEPT_RANKS)
-T_DEARER_OTHERS = _column(KEPT_RANKS)
-T_COLUMNS = _used
+PerKeptRank = Annotated[Words, "KEPT_RANKS"]
+PerStatus = Annotated[Words, "STATUSES"]
+
+
+class TableWords(WordView):
+    """A row of counts for each algorithm."""
+
+    letter = "T"
+
+
+@cursor("T", {"KEPT_RANKS": KEPT_RANKS, "CLAIM_COUNT": CLAIM_COUNT, "STATUSES": 5 * CLAIM_COUNT})
+class CountWords(WordView):
+    """What an algorithm is, and its counts."""
+
+    rule: int
+    motion: int
+    fault: int
+    worlds: int
+    failing: int
+    total: int
+    most: int
+    attained: int
+    digest: int
+    cost: int  # in the last world; -1 if a claim fails there
+    worst: PerKeptRank
+    failing_ranks: PerKeptRank
+    claim_failing: PerClaim
+    claim_first: PerClaim
+    # worlds in which this row is the first that fails, so the rows' sum counts no world twice
+    newly_failing: int
+    claim_newly_failing: PerClaim
+    status: PerStatus  # of claim k, with this status: at k * STATUS_COUNT + status
+    judged: PerClaim
+    of: PerClaim
+    more: int  # of the first of two rows: worlds in which it costs more than the second
+    less: int
+    excess: int
+    more_ranks: PerKeptRank
+    more_costs: PerKeptRank
+    more_others: PerKeptRank
+
+
+COLUMNS = CountWords.extent
 
 
 class ControlWords(WordView):
@@ -89,7 +94,12 @@ MIXED = 0x9E3779B97F4A7C15 - (1 << 64)
 
 @entry
 def examine_worlds(
-    run: RunWords, walk: WalkWords, case: CaseWords, control: ControlWords, T: WordTable, rows: int
+    run: RunWords,
+    walk: WalkWords,
+    case: CaseWords,
+    control: ControlWords,
+    table: TableWords,
+    rows: int,
 ) -> int:
     """Examine the worlds to come: `ENDED`, `PAUSED`, or `OPEN` at row `row` of the last one."""
     state = GO_ON
@@ -102,15 +112,16 @@ def examine_worlds(
             run.native.rank = rank
             control.failed = 0
         while control.row < rows:
-            row = control.row
+            at = control.row * COLUMNS
+            counts = CountWords(table, at)
             wrong = examine_run(
-                run, walk, case, control.level, T[row, T_RULE], T[row, T_MOTION], T[row, T_FAULT]
+                run, walk, case, control.level, counts.rule, counts.motion, counts.fault
             )
             if wrong < 0:
                 return OPEN
-            enter(case, control, T, wrong)
-            control.row = row + 1
-        state = close(control, T, rows)
+            enter(case, control, table, wrong)
+            control.row += 1
+        state = close(control, table, rows)
     return state
 
 
@@ -144,94 +155,98 @@ def examine_run(
     case.reported = reported
     wrong = judge(run, case)
     if wrong >= 0 and run.stop >= STOP_SKIP:
-        wrong = -1  # the mapper declined the world, or had no room: that convicts nobody
+        wrong = -1  # the mapper declined the world, or had no room: the verdict is open
     return wrong
 
 
 @kernel
-def enter(case: CaseWords, control: ControlWords, T: WordTable, wrong: int) -> None:
+def enter(case: CaseWords, control: ControlWords, table: TableWords, wrong: int) -> None:
     """Count a judged run in its row."""
-    row = control.row
+    at = control.row * COLUMNS
+    counts = CountWords(table, at)
     rank = control.rank
     cost = case.cost
-    T[row, T_WORLDS] += 1
+    counts.worlds += 1
     digest = (case.doors_hash ^ cost) * MIXED
     for k in range(case.level):
         status = case.status[k]
-        T[row, T_STATUS + k * STATUS_COUNT + status] += 1
-        T[row, T_JUDGED + k] += case.judged[k]
-        T[row, T_OF + k] += case.of[k]
+        counts.status[k * STATUS_COUNT + status] += 1
+        counts.judged[k] += case.judged[k]
+        counts.of[k] += case.of[k]
         digest = (digest ^ status) * 1099511628211
         if (wrong >> k) & 1 != 0:
-            if T[row, T_CLAIM_FAILING + k] == 0:
-                T[row, T_CLAIM_FIRST + k] = rank
-            T[row, T_CLAIM_FAILING + k] += 1
+            if counts.claim_failing[k] == 0:
+                counts.claim_first[k] = rank
+            counts.claim_failing[k] += 1
             if (control.failed >> k) & 1 == 0:
-                T[row, T_CLAIM_NEWLY_FAILING + k] += 1
+                counts.claim_newly_failing[k] += 1
     digest = (digest ^ rank) * MIXED
-    T[row, T_DIGEST] += digest ^ ((digest >> 31) & 0x1FFFFFFFF)
-    T[row, T_COST] = -1
+    counts.digest += digest ^ ((digest >> 31) & 0x1FFFFFFFF)
+    counts.cost = -1
     if wrong != 0:
-        if T[row, T_FAILING] < KEPT_RANKS:
-            T[row, T_FAILING_RANKS + T[row, T_FAILING]] = rank
-        T[row, T_FAILING] += 1
+        if counts.failing < KEPT_RANKS:
+            counts.failing_ranks[counts.failing] = rank
+        counts.failing += 1
         if control.failed == 0:
-            T[row, T_NEWLY_FAILING] += 1
+            counts.newly_failing += 1
         control.failed |= wrong
         return
-    T[row, T_COST] = cost
-    T[row, T_TOTAL] += cost
-    if cost > T[row, T_MOST]:
-        T[row, T_MOST] = cost
-        T[row, T_ATTAINED] = 0
-    if cost == T[row, T_MOST]:
-        if T[row, T_ATTAINED] < KEPT_RANKS:
-            T[row, T_WORST + T[row, T_ATTAINED]] = rank
-        T[row, T_ATTAINED] += 1
+    counts.cost = cost
+    counts.total += cost
+    if cost > counts.most:
+        counts.most = cost
+        counts.attained = 0
+    if cost == counts.most:
+        if counts.attained < KEPT_RANKS:
+            counts.worst[counts.attained] = rank
+        counts.attained += 1
 
 
 @kernel
-def close(control: ControlWords, T: WordTable, rows: int) -> int:
+def close(control: ControlWords, table: TableWords, rows: int) -> int:
     """Close the world, as all its runs are counted: `GO_ON`, `ENDED` or `PAUSED`."""
     control.row = 0
     if rows == 2:
-        compare_costs(T, control.rank)
+        compare_costs(table, control.rank)
     if control.stop_at_first != 0:
         for row in range(rows):
-            if T[row, T_FAILING] > 0:
+            at = row * COLUMNS
+            if CountWords(table, at).failing > 0:
                 return ENDED
     control.pause -= 1
     return PAUSED if control.pause == 0 else GO_ON
 
 
 @kernel
-def compare_costs(T: WordTable, rank: int) -> None:
+def compare_costs(table: TableWords, rank: int) -> None:
     """Compare what the two algorithms paid in the last world, if no claim fails."""
-    cost = T[0, T_COST]
-    other = T[1, T_COST]
+    first, second = 0, COLUMNS
+    counts = CountWords(table, first)
+    cost = counts.cost
+    other = CountWords(table, second).cost
     if cost < 0 or other < 0 or cost == other:
         return
     if cost < other:
-        T[0, T_CHEAPER] += 1
+        counts.less += 1
         return
-    if T[0, T_DEARER] < KEPT_RANKS:
-        T[0, T_DEARER_RANKS + T[0, T_DEARER]] = rank
-        T[0, T_DEARER_COSTS + T[0, T_DEARER]] = cost
-        T[0, T_DEARER_OTHERS + T[0, T_DEARER]] = other
-    T[0, T_DEARER] += 1
-    T[0, T_EXCESS] = max(T[0, T_EXCESS], cost - other)
+    if counts.more < KEPT_RANKS:
+        counts.more_ranks[counts.more] = rank
+        counts.more_costs[counts.more] = cost
+        counts.more_others[counts.more] = other
+    counts.more += 1
+    counts.excess = max(counts.excess, cost - other)
 
 
 @entry
-def enter_open(case: CaseWords, control: ControlWords, T: WordTable, rows: int) -> int:
+def enter_open(case: CaseWords, control: ControlWords, table: TableWords, rows: int) -> int:
     """Count a run that the checkers judged: the state of the walk behind it."""
     wrong = 0
     for k in range(case.level):
         if case.status[k] == FAILED:
             wrong |= 1 << k
-    enter(case, control, T, wrong)
+    enter(case, control, table, wrong)
     control.row += 1
-    return GO_ON if control.row < rows else close(control, T, rows)
+    return GO_ON if control.row < rows else close(control, table, rows)
 
 
 @entry

@@ -126,7 +126,7 @@ class ChartWords(EndWords):
     vertices: int  # vertices of S
     darts: int  # darts of S
     unexplored: int  # darts in U
-    has_tree: int  # whether `depth` and `up` are those of S as it is now
+    has_tree: int  # whether `depth` and `up` are those of the current S
     alpha: PerDart  # alpha of each dart; -1: unexplored
     vertex: PerDart  # vertex of each dart
     percept: PerDart  # percept with each dart as the reference dart
@@ -214,7 +214,7 @@ class PlaceWords(EndWords):
     merges: int  # how many times seen places were identified
     entry: PerDart  # of each vertex of S: the dart that its first dart is
     e: int  # the dart that e is
-    vu: int  # the dart by which the robot came to vu
+    vu: int  # the dart by which the robot entered vu
 
 
 class LayerWords(EndWords):
@@ -330,7 +330,7 @@ LARGE = layout(
 # ---------------------------------------------------------------- the state of an enumeration
 
 MOST_LISTED_EDGES = 12
-"""Layout `SMALL` has room for so many. (Ranks fit in 64 bits up to 16 edges.)"""
+"""The most edges for which `SMALL` has room. (Ranks fit in 64 bits up to 16 edges.)"""
 
 G_ROW = 2 * MOST_LISTED_EDGES + 2
 """Room for one number a step, a dart or a vertex."""

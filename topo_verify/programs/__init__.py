@@ -8,11 +8,10 @@ isolation.py        keeps worlds from other processes; starts Python processes o
 launcher.py         starts those that no other program can look into, not even at first
 program.py          a program behind protocol 1 as a mapper, called with a robot
 misbehaviour.py     what a program does instead of delivering a map
-loader.py           a mapper by module:attribute or file.py:attribute
+loader.py           a mapper by module:attribute or file.py:attribute; functions that numba compiles
 library.py          a native mapper: a function of a shared library; topo_verify.h
-jitted.py           the same in Python: a function that numba compiles
 delivery.py         calls a mapper and reads what it returns
-serve.py            a Python mapper behind protocol 1; each world in a fork of its own, if asked
-foreign.py          a Python mapper that is not ours, in a process of its own
+serve.py            a Python mapper behind protocol 1; each world in its own fork, if asked
+foreign.py          a user's Python mapper, in its own process
 loaded.py           the files and distributions that a mapper's process has loaded; its values
 """

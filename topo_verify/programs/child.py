@@ -1,6 +1,6 @@
 """A program as a child process: lines to it, lines from it, and its end.
 
-The program runs in a session of its own. It may flood a stream, close it, stop reading, ignore
+The program runs in its own session. It may flood a stream, close it, stop reading, ignore
 signals, or start children. Against all of these hold three invariants: the kept output is bounded;
 nothing here blocks for longer than a tick, so that a time limit can strike between two ticks; `end`
 leaves no process behind.
@@ -53,7 +53,7 @@ HEAD = b'{"type":"'
 """The first bytes of every message to a program."""
 
 AHEAD = 4
-"""So many times the longest message a program may write while it does not read."""
+"""Unread output may hold `AHEAD` messages of the greatest length."""
 
 PAUSE = 2e-5
 """Seconds by which each pause is longer than the one before, while a program does not read."""
@@ -64,7 +64,7 @@ LOOKS = 200
 """Polls without waiting before a poll that sleeps, where the program has another processor."""
 
 BUSY = 5e-4
-"""Seconds that a look takes, at most, where nobody else wants the processor."""
+"""Most seconds that a look takes on a processor without other work."""
 
 
 class Ended(Exception):
@@ -128,7 +128,7 @@ class Child:
             os.set_blocking(stream, False)
         self._poll.register(self._out, select.POLLIN)
         self._poll.register(self._err, select.POLLIN)
-        self._readers = select.poll()  # tells when nobody can read our messages any more
+        self._readers = select.poll()  # tells when no process can read our messages any more
         self._readers.register(self._in, 0)
         self._head_sent = False
         self._processor = SharedProcessor(self._process.pid)
@@ -167,7 +167,7 @@ class Child:
                 raise Silent
             # Look at the exit status only after a silent tick: what it wrote last comes first.
             if not self._listen() and self._status() is not None:
-                self._output_ended = True  # though a child of its own may hold the stream open
+                self._output_ended = True  # though its child may hold the stream open
         return self._lines.popleft()
 
     def write(self, data: bytes) -> None:
@@ -307,7 +307,7 @@ class Child:
 
         A program that reads has written all that it had to write, and pipes keep the order: so
         what it wrote before has come when this returns. It returns, too, when its output has ended
-        or nobody can read our messages.
+        or no process can read our messages.
 
         Raises:
             TooLong: it writes and writes, and does not read.
@@ -335,7 +335,7 @@ class Child:
 
     def _hear_of_end(self) -> None:
         if self._status() is not None:
-            self._output_ended = True  # though a child of its own may hold the stream open
+            self._output_ended = True  # though its child may hold the stream open
 
     # ------------------------------------------------------------ its end
 

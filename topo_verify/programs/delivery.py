@@ -39,7 +39,7 @@ class Undelivered(NamedTuple):
 def deliver(
     mapper: Callable[[R], object], robot: R, *, alone: bool = False
 ) -> Finish | Undelivered:
-    """The map that a mapper delivers, as the `finish` event; or why there is none.
+    """The map that a mapper delivers, as the `finish` event; or why it delivers none.
 
     Args:
         alone: nothing but the mapper lives in this process; so whatever is raised, it raised.
@@ -69,7 +69,7 @@ def deliver(
 
 
 def _passes(error: BaseException) -> bool:
-    """Whether somebody else raised an exception through the mapper."""
+    """Whether an exception that passed through the mapper is not the mapper's."""
     # Of the bases, too: pytest names another module in those that it prints.
     homes = {kind.__module__.partition(".")[0] for kind in type(error).__mro__}
     of_tool = not isinstance(error, Exception) and not homes.isdisjoint(TEST_TOOLS)
@@ -90,7 +90,7 @@ def exception_text(error: BaseException) -> str:
 def _place(error: BaseException) -> str:
     """Where an exception was raised: the innermost line of the user's own files, if there is one.
 
-    Otherwise the innermost line outside of topo_verify; empty if there is none.
+    Otherwise the innermost line outside of topo_verify; else empty.
     """
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.lineno]
     others = [f for f in frames if not Path(f.filename).is_relative_to(_PACKAGE)]
@@ -116,7 +116,7 @@ def finish_of(result: object) -> Finish:
             f"the mapper reports the cost {cost!r}: expected a number of moves or None"
         )
     if cost is not None and index(cost).bit_length() > 64:
-        # msgspec writes 64 bits; no run has so many moves.
+        # msgspec writes 64 bits; no run has 2^64 moves.
         raise InputError("the mapper reports a cost of more than 64 bits: expected its moves")
     rotations = tuple(map(tuple, vertices))
     delivered = MapData(rotations, tuple(map(tuple, edges)), marker)

@@ -1,4 +1,4 @@
-"""A mapper in Python that is not ours, in a process of its own: a `Program` that we serve.
+"""A user's mapper in Python, in its own process: a `Program` that we serve.
 
     with Foreign("my_mapper.py:explore") as mapper:
         report = examine(mapper.target, world)
@@ -72,7 +72,7 @@ class Unlisted(InputError):
 
 
 class Foreign(Program):
-    """A Python mapper in a process of its own; the module's docstring says how.
+    """A Python mapper in its own process; the module's docstring says how.
 
     Args:
         text: the TARGET, `package.module:attribute` or `path/file.py:attribute`.

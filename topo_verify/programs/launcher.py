@@ -137,7 +137,7 @@ class _Launcher:
     """The launcher of this process. It lives until `close`.
 
     Attributes:
-        owner: the process that started it; a fork of that has a launcher of its own.
+        owner: the process that started it; a fork of that starts its own launcher.
         foreign: a program that is not ours was started since.
     """
 
@@ -198,7 +198,7 @@ _forked: list[bool] = []
 
 
 def _launcher() -> _Launcher:
-    """The launcher of this process; started if there is none."""
+    """The launcher of this process; started if needed."""
     with _starting:
         if _launchers and _launchers[-1].owner == os.getpid():
             last = _launchers[-1]

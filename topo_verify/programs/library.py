@@ -5,8 +5,8 @@
 The robot of the header is a row of callbacks; here they hand on to a robot in Python. After a
 refusal they do nothing, until the function returns: then what stopped the robot is raised.
 
-What this does not show: that the function keeps to its own memory. It runs in a process of its own
-(foreign.py), where there is nothing to find.
+What this does not show: that the function keeps to its own memory. It runs in its own process
+(foreign.py), which holds no world.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def library_file(text: str) -> tuple[str, str]:
 
 
 def library_function(text: str) -> Any:
-    """The function of a shared library, as ctypes has it. Whoever opens a library runs its code.
+    """The function of a shared library, as ctypes has it. To open a library runs its code.
 
     Raises:
         InputError: there is no such library or symbol.
@@ -273,17 +273,17 @@ def _word(percept: Percept) -> int:
 
 
 def _seen(word: int) -> dict[str, int | None] | None:
-    """The percept of a word; None: there is none."""
+    """The percept of a word; None for the word -1."""
     if word == REFUSED:
         return None
     return {"degree": word >> 16, "marker": (word & 65535) - 1 if word & 65535 else None}
 
 
 def _words(row: Any, count: int) -> list[int] | None:
-    """So many words; None if there cannot be so many."""
+    """The first `count` words of a row; None if `count` is out of range."""
     return None if not 0 <= count <= MOST_DARTS else row[:count] if count else []
 
 
 def _named(names: tuple[str | None, ...], number: int) -> str | None:
-    """The name with this number; another text if there is none."""
+    """The name with this number, or a text that is no name."""
     return names[number] if 0 <= number < len(names) else f"number {number}"

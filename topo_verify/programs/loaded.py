@@ -131,7 +131,7 @@ def hashes(paths: Iterable[str]) -> dict[str, str]:
 
 
 def file_hash(path: str) -> str | None:
-    """The hash of a file as it is now; None if there is none that can be read."""
+    """The hash of a file's present contents; None if it cannot be read."""
     try:
         found = os.stat(path)  # noqa: PTH116  far cheaper
         if not stat.S_ISREG(found.st_mode):

@@ -6,8 +6,10 @@ Source: docs/semantics.md, section 16.
 from __future__ import annotations
 
 import ast
+import ctypes
 import importlib
 import importlib.util
+import re
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
@@ -19,8 +21,7 @@ from pathlib import Path
 from types import CodeType
 from typing import Any, cast
 
-from topo_verify.errors import InputError
-from topo_verify.programs.jitted import is_jitted, jitted_function
+from topo_verify.errors import InputError, shown
 from topo_verify.programs.library import (
     LIBRARY,
     NativeMapper,
@@ -66,7 +67,7 @@ def native_function(text: str) -> Any:
     """The function of a native mapper, as ctypes has it; it is there as long as this process.
 
     Raises:
-        InputError: there is none; or numba does not compile it, or cannot.
+        InputError: no such function; or numba does not compile it, or cannot.
     """
     if not is_python(text):
         return library_function(text)
@@ -134,7 +135,7 @@ class _UncachedLoader(SourceFileLoader):
     """
 
     def get_code(self, fullname: str) -> CodeType:  # noqa: ARG002  given by the base class
-        """The code of the source as it is now."""
+        """The code of the present source."""
         return self.source_to_code(self.get_data(self.path), self.path)
 
 
@@ -167,11 +168,63 @@ def _one_line(error: BaseException) -> str:
         return type(error).__name__
 
 
+# ---------------------------------------------------------------- functions by numba
+
+
+_lasting: list[object] = []
+"""The compiled functions: their machine code lives as long as they do."""
+
+
+def is_jitted(found: object) -> bool:
+    """Whether numba compiles this function."""
+    module = sys.modules.get("numba.core.dispatcher")
+    return module is not None and isinstance(found, module.Dispatcher)
+
+
+def jitted_function(found: Any, where: str) -> Any:
+    """A function that numba compiles, as ctypes has it.
+
+    Args:
+        where: the beginning of the sentence.
+    Raises:
+        InputError: it is no such function, or numba cannot compile it for a robot.
+    """
+    if not is_jitted(found):
+        raise InputError(
+            f"{where}: expected a function compiled by numba, got {type(found).__name__}: put"
+            " @numba.njit above it, or give it as a TARGET without --library"
+        )
+    # Compiled in the process that calls it. Numba freezes the globals that it reads, so a call
+    # leaves nothing to the next one but what it hides behind an address.
+    from numba import cfunc, types
+    from numba.core.errors import NumbaError
+
+    def call(robot: int) -> None:
+        found(robot)
+
+    try:
+        made: Any = cfunc(types.void(types.int64))(call)
+    except NumbaError as error:
+        raise InputError(f"{where}: numba cannot compile it: {_reason(str(error))}") from error
+    _lasting.append(made)
+    return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(made.address)
+
+
+def _reason(text: str) -> str:
+    """What an error of numba's comes down to, and the last place in a source that it names."""
+    lines = [line.strip() for line in text.splitlines()]
+    told = [line for line in lines if line and not line.startswith("Failed in ")]
+    first = next((line for line in told if re.match(r"\w+Error: ", line)), told[0])
+    places = [line.rstrip(":") for line in lines if re.match(r'File ".*", line \d+', line)]
+    theirs = [place for place in places if "topo_verify/" not in place]
+    return shown("; ".join((first.rstrip("."), *theirs[-1:])), limit=400)
+
+
 # ---------------------------------------------------------------- hints where a TARGET is missp
 
 
 SHOWN = 5
-"""So many names are listed where none is close."""
+"""The most names that are listed if none is close."""
 
 
 def close_name(name: str, known: Iterable[str]) -> str:
@@ -181,7 +234,7 @@ def close_name(name: str, known: Iterable[str]) -> str:
 
 
 def close_attribute(whole: object, name: str) -> str:
-    """The attribute that was meant, else the first that could be; nothing if there is none."""
+    """A hint: the closest attribute, else the first candidates; empty without candidates."""
     known = [key for key in _callables(whole) if not key.startswith("_")]
     listed = f"; it has {', '.join(known[:SHOWN])}" if known else ""
     return close_name(name, known) or listed
@@ -194,7 +247,7 @@ def _callables(whole: object) -> list[str]:
             key for key, value in cast("Mapping[str, object]", whole).items() if callable(value)
         ]
     entries: dict[str, object] = getattr(whole, "__dict__", {})
-    # What a module has imported from elsewhere is no mapper of its own.
+    # What a module has imported from elsewhere is not a mapper of this module.
     home = getattr(whole, "__name__", None)
     return [
         key

@@ -175,5 +175,5 @@ def last_words(stderr: str) -> str:
 
 
 def seen(child: Child) -> str:
-    """The first line that nobody asked for, as words to append to a sentence."""
+    """The first unexpected line, as words to append to a sentence."""
     return f": {shown_line(child.unread)}" if child.unread else ""

@@ -8,7 +8,7 @@ of them, more on a virtual machine: that decides how many moves a second go thro
 The thread is kept there, too, as long as a world lasts: were it moved to another processor, each
 message would wake one up again (9,400 moves a second in the place of 43,000, on two cores).
 
-A program with several threads or children of its own is let go, as soon as it is seen to have them.
+A program with several threads or children is released as soon as they are seen.
 So is one that has chosen its processors itself. Systems without `sched_setaffinity` do nothing.
 
 **Exit status.** It is looked up without reaping the process. A process that is not reaped keeps its
@@ -31,7 +31,7 @@ from topo_verify.errors import shown
 from topo_verify.robot.stopwatch import tasks_of
 
 LOOK_AGAIN = 16
-"""After so many worlds see whether the program has become more than one thread."""
+"""Number of worlds between two looks at whether the program has more than one thread."""
 
 
 class SharedProcessor:

@@ -6,7 +6,7 @@
 The program receives percepts and answers with doors, never the world. The simulated robot makes,
 checks and counts every move, so the program can hide none. One process plays many worlds. If
 the program misbehaves in a world, or a limit stops it, its process and all descendants are ended,
-and the next world starts a fresh one. (Our own child can be told to end a world: foreign.py.)
+and the next world starts a fresh one. (Our own child has a message that ends a world: foreign.py.)
 
 The limits of moves and time are those of `explore`. They strike here as they do in Python, because
 nothing below blocks for longer than a tick.
@@ -47,7 +47,7 @@ IN_A_ROW = 100_000
 """The most decisions that a program may declare without a move between them."""
 
 DECLARED, DECLARED_EACH = 2**24, 2**8
-"""The most bytes that a program may declare in a world: so many, and so many for each two darts.
+"""The most bytes that a program may declare in a world, and more bytes for each pair of darts.
 
 Every pair of darts of the world may be a hypothesis that is rejected.
 """
@@ -132,7 +132,7 @@ class Program:
             self.misbehaved = Misbehaved("bad-door", str(why))
             raise
         except TimeLimitExceeded as why:
-            # A failure that was told in time is no less true because it does not read on.
+            # A failure reported in time counts even if the program does not read on.
             if not isinstance(found, Misbehaved) or found.kind in ("skip", "error"):
                 self.misbehaved = silence_report(child, str(why), over=found is not None)
                 raise
@@ -231,7 +231,7 @@ class Program:
         return None if self._child is None else self._child.process
 
     def _ready(self) -> Child:
-        """The process that waits for a world; started if there is none."""
+        """The process that waits for a world; started if needed."""
         if self._child is None:
             self._reaper = self._reaper or ReaperProcess()
             try:

@@ -1,6 +1,6 @@
 """Kills the programs that a harness leaves behind when the harness itself is killed.
 
-The reaper is a process in a session of its own, which a signal to the harness does not reach. It
+The reaper is a process in its own session, which a signal to the harness does not reach. It
 reads `+ group mark` when the harness has started a program and `- group mark` when the harness has
 ended one. When its input ends, the harness has ended: the reaper kills every program that is still
 on its list. `ReaperProcess` (child.py) starts this file as a script, `python -I -S reaper.py`, so

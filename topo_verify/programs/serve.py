@@ -1,4 +1,4 @@
-"""A Python mapper behind protocol 1, in a process of its own.
+"""A Python mapper behind protocol 1, in its own process.
 
 The command line starts one for each mapper that is not of the catalogue (foreign.py); it says more
 than the protocol can: that the mapper is loaded, what it raised and where, which files it opened.
@@ -167,7 +167,7 @@ def _as_program(mapper: Mapper, robot: RemoteRobot) -> object:
 
 
 def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
-    """Play for `Foreign`, which is told what kept the mapper from delivering a map."""
+    """Play for `Foreign`; the answer says what kept the mapper from delivering a map."""
     try:
         found = deliver(mapper, robot, alone=True)
     except Skipped as stop:
@@ -216,8 +216,8 @@ def fresh(text: str) -> None:
     """Serve the mapper of a TARGET for `Foreign`, each world in a fork of this process.
 
     This process loads all that a mapper needs but the mapper: a fork takes some milliseconds, to
-    start Python anew a few hundred. What a fork does to itself it does to nobody else; if a signal
-    ends it, this process ends itself by the same. What numba has to compile, which takes seconds,
+    start Python anew a few hundred. A fork changes no other process; if a signal ends
+    it, this process ends itself by the same. What numba has to compile, which takes seconds,
     is compiled here; no world has been played then.
 
     What this does not show: that nothing is left of an earlier world on the disk or in the

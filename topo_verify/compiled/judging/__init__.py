@@ -5,7 +5,6 @@
     truth.py        claims 1 to 7: the trace replayed in its world    checkers/replayed_trace.py
     justified.py    claim 8: the evidence, recomputed                 checkers/excursions.py
     fold.py         the fold of a history, with rollback              checkers/folding.py
-    consequences.py all that contradicts if an edge led there         Fold.contradictions
     entailed.py     claims 9 and 10                                   checkers/entailment.py
     verdict.py      status and share of each claim; `judge`           claims.py, coverage.py
 

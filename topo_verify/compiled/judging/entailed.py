@@ -10,8 +10,8 @@ The moves alone are claim 9; with `level` 10, or where a rejection rests on a co
 from __future__ import annotations
 
 from topo_verify.compiled.events import *
-from topo_verify.compiled.judging.consequences import all_that_follow
 from topo_verify.compiled.judging.fold import (
+    all_that_follow,
     find_dart,
     find_node,
     fold_move,

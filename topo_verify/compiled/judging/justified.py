@@ -122,7 +122,7 @@ def beyond_s(
     rest: int,
     observed: int,
 ) -> bool:
-    """`percepts_agree` where the word leaves S at a dart, with so many doors to go."""
+    """`percepts_agree` where the word leaves S at a dart, with `rest` doors to go."""
     if rejection.record != dart or rejection.doors != rest or rejection.at not in (ABSENT, dart):
         return True
     for k in range(rest):

@@ -7,19 +7,22 @@ moves.
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from topo_verify.compiled.events import *
 from topo_verify.compiled.kernel import inlined
 from topo_verify.compiled.names import Fields, Words, WordView
 from topo_verify.compiled.workspace import *
 
+if TYPE_CHECKING:
+    from topo_verify.checkers import Status
+
 CLAIM_COUNT = 10
 
 OK, FAILED, PARTIAL, NOT_DECLARED, UNDECIDED = range(5)
 """The status of a claim, as a number; `STATUSES` has the names."""
 
-STATUSES = ("ok", "failed", "partial", "not-declared", "undecided")
+STATUSES: tuple[Status, ...] = ("ok", "failed", "partial", "not-declared", "undecided")
 
 JUDGE_DARTS = 64
 """Darts of S have lower numbers, or the verdict is open: sets of them are masks."""
@@ -81,7 +84,7 @@ class FoldWords(OpenWords):
 
 
 class ConsequenceWords(OpenWords):
-    """What follows of an assumption: consequences.py."""
+    """What follows of an assumption: `all_that_follow` in fold.py."""
 
     met: int  # a mask of the contradictions
     waiting: int

@@ -208,6 +208,13 @@ def _one_process(
     """All shards in one process of the mapper's."""
     with _program(campaign.mappers[0]) as program:
         program.start()
+        if campaign.engine == "compiled":  # it called a native mapper
+            from topo_verify.compiled.shard import CompiledChecks
+
+            checks = CompiledChecks()  # as in the search
+            for shard in shards:
+                yield shard, examine(campaign, (program.target,), shard, known=checks)
+            return
         yield from here((program.target,))(campaign, shards, in_flight)
 
 

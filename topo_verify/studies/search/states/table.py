@@ -18,7 +18,6 @@ from topo_verify.algorithms.motion import overlap, retrace
 from topo_verify.errors import InputError, InternalError
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import exit_dart, percepts
-from topo_verify.studies.search.states.behind import FULL
 from topo_verify.studies.search.states.script import ChoicePoint
 from topo_verify.world.rooted_map import Dart, World
 
@@ -86,6 +85,8 @@ def found_in(
         table[3, vertex], table[4, vertex] = rotation[0], len(rotation)
     tables.search(size, RULES.index(algorithm.rule), overlap=algorithm.motion is overlap)
     wrong, states, choices, least, most, maps = (int(tables.found[place]) for place in range(6))
+    from topo_verify.studies.search.states.behind import FULL
+
     if wrong == FULL:
         raise InternalError(f"{world.text} has too many states for the kernel")
     cheap, dear = ((), ()) if wrong else (tables.order(0), tables.order(1))
