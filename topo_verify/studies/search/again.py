@@ -213,7 +213,7 @@ def _one_process(
 
             checks = CompiledChecks()  # as in the search
             for shard in shards:
-                yield shard, examine(campaign, (program.target,), shard, known=checks)
+                yield shard, c.examine(campaign, (program.target,), shard, known=checks)
             return
         yield from here((program.target,))(campaign, shards, in_flight)
 
