@@ -20,7 +20,7 @@ from topo_verify.compiled.workspace import TRACE
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper
-from topo_verify.robot.events import Finish, Reject, Start
+from topo_verify.robot.events import Finish, Reject, Start, Trace
 from topo_verify.robot.percept import Percept
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
@@ -178,7 +178,7 @@ def test_compiled_checks_pass_nothing_that_the_checkers_refuse() -> None:
     assert isinstance(finish, Finish)
     assert isinstance(start, Start)
     edges = finish.map.edges
-    doctored = [
+    doctored: list[Trace] = [
         (structs.replace(start, percept=Percept(9, None)), *events, finish),
         (start, *events, structs.replace(finish, cost=-1)),
         (start, *events, _with_map(finish, edges=(*edges, edges[0]))),
