@@ -15,7 +15,6 @@ SHOWN = dict(commands_on("replay.md"))
         ("a", "it came here by v1:4 and back by v1:2, so door 1 is door 3"),
         ("b", "the way home from v1:3 is by door 1; the robot took no door"),
         ("c", "who comes in by v0:1 sees (3, marker 2); the robot saw (3, marker 1)"),
-        ("d", "it leaves out 6, unexplored too, at the vertex that edge 5 leaves"),
         ("astray", "asked for door 4 at a vertex with 4 doors"),
     ],
 )
