@@ -25,7 +25,7 @@ from topo_verify.cli.runs import (
     unjudged,
     walk_view,
 )
-from topo_verify.errors import InputError, plural
+from topo_verify.errors import InputError, InternalError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.walk import Extent
 from topo_verify.programs.loader import Target
@@ -39,6 +39,24 @@ OF_A_MAPPER = ("--target", "--cmd", "--library", "--pick", "--order")
 """Options that mean nothing to a trace, which has its mapper behind it."""
 
 
+KERNEL_TIMEOUT = 600
+"""Seconds for each program of Coq and OCaml."""
+
+
+class KernelJudgement(msgspec.Struct, frozen=True):
+    """What the judge that is proved in Coq says of the run.
+
+    Attributes:
+        by: what judged; "" if Coq or OCaml is not installed.
+        why: the reason why the run was not judged; "" if it was.
+        judgements: of the claims that Coq defines, the same as those of the checkers.
+    """
+
+    by: str
+    why: str
+    judgements: tuple[Judgement, ...]
+
+
 class ReplayEntry(msgspec.Struct, frozen=True):
     """The judgement of one run: an entry of `results`.
 
@@ -47,6 +65,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
         claims: the status of each claim.
         judgements: the same, with how much of the run each status rests on.
         stopped: why the mapper delivered no map, or None.
+        kernel: what the judge that is proved in Coq says; null without --kernel.
     """
 
     world: str
@@ -58,12 +77,14 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     claims: dict[str, Status]
     judgements: tuple[Judgement, ...]
     stopped: str | None
+    kernel: KernelJudgement | None
 
 
 @options.command(
     "replay m5/17 --target enhancement-ii",
     "replay m2/9 --target my_mapper.py:explore --all",
     "replay trace.jsonl",
+    "replay trace.jsonl --kernel",
 )
 @click.argument("what", metavar="FILE|WORLD")
 @options.mappers("basic", meaning="The mapper to run in WORLD.", with_policies=True)
@@ -79,6 +100,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     meaning="Show the walk from event K on.  [default: the last moves before the first finding]",
 )
 @player_option
+@click.option("--kernel", "proved", is_flag=True, help="Have the judge proved in Coq judge, too.")
 @options.strict
 @options.limits
 def replay(  # noqa: PLR0913  an argument an option
@@ -91,6 +113,7 @@ def replay(  # noqa: PLR0913  an argument an option
     everything: bool,
     first: int | None,
     player: str | None,
+    proved: bool,
     strict: bool,
     limits: Limits,
 ) -> int:
@@ -99,7 +122,8 @@ def replay(  # noqa: PLR0913  an argument an option
     FILE holds a trace, as explore --trace writes it; it is judged in the world that it names, or in
     that of --world. In a WORLD the mapper of --target is run. Shown are the last moves before the
     first finding, event by event: where the robot really was, what the mapper decided and why, and
-    beside its map what is so in the world.
+    beside its map what is so in the world. With --kernel the judge that is proved in Coq judges the
+    run as well; where Coq or OCaml is missing it does not, and the exit code is 3.
     """
     reports: list[Report] = []
 
@@ -133,7 +157,9 @@ def replay(  # noqa: PLR0913  an argument an option
             write_page(player, run.world, report.world, [played])
         reports.append(report)
         ok = not report.findings and not incomplete
-        entry = entry_of(ReplayEntry, report, ok=ok, trace=trace, stopped=stopped)
+        kernel = _judged_in_coq(output, report) if proved else None
+        incomplete = incomplete or (kernel is not None and bool(kernel.why))
+        entry = entry_of(ReplayEntry, report, ok=ok, trace=trace, stopped=stopped, kernel=kernel)
         yield Result(entry, failed=bool(report.findings), incomplete=incomplete)
 
     asked = Extent(0, to_end=True) if everything else Extent(first, to_end=first is not None)
@@ -230,6 +256,31 @@ def _ran(
     return msgspec.structs.replace(report, world=at.name).of(report.run), run.stopped, incomplete
 
 
+def _judged_in_coq(output: Output, report: Report) -> KernelJudgement:
+    """What the extracted judge says of the run.
+
+    Raises:
+        InternalError: it says something else than the checkers.
+    """
+    from topo_verify.proofs.mechanised import judge
+
+    if report.run is None:
+        return KernelJudgement("", "the run has no trace", ())
+    opinion = judge.second_opinion(
+        (report.run.world, report.run.trace),
+        timeout=KERNEL_TIMEOUT,
+        progress=lambda doing: output.progress(doing, 0, 1),
+    )
+    checked = {judgement.claim: judgement for judgement in report.judgements}
+    for judgement in opinion.judgements:
+        if judgement != msgspec.structs.replace(checked[judgement.claim], findings=()):
+            raise InternalError(
+                f"{opinion.by} says of {judgement.claim}: {judgement.status}, judged"
+                f" {judgement.judged} of {judgement.of}; the checkers say otherwise"
+            )
+    return KernelJudgement(opinion.by, opinion.why, opinion.judgements)
+
+
 def _show(
     entries: Sequence[ReplayEntry], reports: Sequence[Report], asked: Extent
 ) -> Iterator[Block]:
@@ -240,9 +291,18 @@ def _show(
         yield Text(words + (reason if undecided else in_words(entry.claims, "claims hold")))
         if not undecided:
             yield from unjudged(entry.target, entry.world, entry.judgements)
+        if entry.kernel is not None:
+            yield Text(_in_coq(entry.kernel))
         if not entry.ok or asked.to_end:
             yield Text("")
             yield from walk_view(report, asked)
             yield from other_findings(report, asked)
         elif not undecided:
             yield Text("Nothing is wrong; --all shows the walk.")
+
+
+def _in_coq(kernel: KernelJudgement) -> str:
+    """What the judge that is proved in Coq says, in one sentence."""
+    if kernel.why:
+        return f"Not judged by the judge that is proved in Coq: {kernel.why}"
+    return f"Judged again by {kernel.by}: the same of {len(kernel.judgements)} of 10 claims."

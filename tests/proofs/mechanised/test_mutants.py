@@ -369,6 +369,18 @@ MUTANTS = (
     Mutant("lucky-map", "Judge",
         "Point => true | Edges _ => closed_b (trace_log t) end", "Point | Edges _ => true end",
         "JudgeCorrect"),
+    Mutant("decided-in-the-point", "Judge",
+        "Point => negb (existsb decides (steps t))", "Point => true", "JudgeEntailed"),
+    Mutant("new-though-it-may-be-known", "Judge",
+        "negb (allows L F (spot z e) (spot z h))) (seq 0 (darts M))",
+        "(allows L F (spot z e) (spot z h))) (seq 0 (darts M))", "JudgeEntailed"),
+    Mutant("degree-behind-believed", "Judge",
+        "Some q => (degree_there L q =? n) && forallb", "Some q => forallb", "JudgeEntailed"),
+    Mutant("places-of-a-vertex-not-turned", "Judge",
+        "map (fun k => (fst q, k + snd q)) (seq 0 n)", "map (fun k => (fst q, k)) (seq 0 n)",
+        "JudgeEntailed"),
+    Mutant("follows-from-the-start", "Claims",
+        "event_follows p (acts past) ev", "event_follows p [] ev", "JudgeEntailed"),
 )  # fmt: skip
 
 QUICK = {

@@ -1,7 +1,7 @@
 (** The claims that a trace is judged by, over a world and a trace (docs/semantics.md, section 9).
 
-    SCEPTICS READ THIS FILE. It contains definitions only, no theorem. It says what claims 1 to 7 and
-    9 say, with the names of docs/semantics.md. Claims 8 and 10 are not written here yet.
+    SCEPTICS READ THIS FILE. It contains definitions only, no theorem. It says what all claims but
+    8 say, with the names of docs/semantics.md. Claim 8 is not written here yet.
 
     w     any world: the point, or a world with edges          t    a trace
     W     the world as a map: [ground w]                       S    the map that the mapper declares
@@ -171,3 +171,14 @@ Definition cost_in_bound w t := let m := edges_of w in let n := vertices (ground
 (** Claim 9. The percepts are true, a map is delivered, and it is every world that shows the log. *)
 Definition map_entailed w t := percepts_true w t /\
   exists D, delivered_in t D /\ forall w', shows_log w' (trace_log t) -> right_map D w'.
+
+(** What an event declares follows from the steps before it: it is so in all worlds that show the log
+    up to that moment. No event declares what is so in the point. *)
+Definition follows_from t past ev := let p := percept_at_start t in
+  event_follows p (acts past) ev /\ ~ shows_log Point (log_after p (acts past)).
+
+(** Claim 10. The percepts are true, and every declared rejection, confirmation and augmentation
+    follows from the steps before it. (The planar prior is not declared: planarity is not defined.) *)
+Definition decisions_entailed w t := percepts_true w t /\
+  forall past ev after, steps t = past ++ Act ev :: after -> is_decision ev = true ->
+  follows_from t past ev.

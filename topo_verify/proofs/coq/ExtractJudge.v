@@ -4,4 +4,4 @@
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From Topo Require Import Judge.
 
-Extraction "judge.ml" judge_trace.
+Extraction "judge.ml" judge_trace judge_decisions.

@@ -313,6 +313,69 @@ Definition judge_entailed w t := judged_as (declares w t (fun _ => false) || has
   (negb (shows_b (ground w) (trace_log t) && right_end w t &&
     match w with Point => true | Edges _ => closed_b (trace_log t) end)) (maps t) 1.
 
-(** The judge: claims 1 to 7 and 9, in this order. *)
+(** What the history tells of S without a world: the log so far, S, and of each dart of S a place of
+    the log where it was seen. *)
+Record history := { so_far : Log; sketched : Map; spots : list place }.
+
+(** The place of dart e. *)
+Definition spot z e := nth e (spots z) (0, 0).
+
+(** The history at the start. *)
+Definition first_history (p : Percept) := {| so_far := {| start := p; moves := [] |};
+  sketched := initial (fst p); spots := map (fun k => (0, k)) (seq 0 (fst p)) |}.
+
+(** The place behind a place, if its edge was crossed. *)
+Definition place_behind L p := match fold_of L with
+  | Some (f, R) => option_map snd
+      (find (fun r => place_eqb (fst r) (found (percepts_of L) f p)) R)
+  | None => None end.
+
+(** The degree of the vertex of a place. *)
+Definition degree_there L (p : place) := degree_at (percepts_of L) (fst p).
+
+(** The event follows from this history. *)
+Definition follows_b z ev := let L := so_far z in let F := fold_of L in let M := sketched z in
+  match ev with
+  | Move _ _ => true
+  | Reject e h => is_open M e && is_open M h && negb (allows L F (spot z e) (spot z h))
+  | Confirm e h => is_open M e && is_open M h && partners L F (spot z e) (spot z h)
+  | Loop e h n => is_open M e && is_open M h && partners L F (spot z e) (spot z h) &&
+      (degree_there L (spot z h) =? n)
+  | New e a n => is_open M e && (a =? darts M) && match place_behind L (spot z e) with
+      | Some q => (degree_there L q =? n) && forallb (fun h => (h =? e) || negb (is_open M h) ||
+          negb (allows L F (spot z e) (spot z h))) (seq 0 (darts M))
+      | None => false end
+  end.
+
+(** The history after an event that follows. *)
+Definition next_history z ev := let L := so_far z in match ev with
+  | Move k p => {| so_far := {| start := start L; moves := moves L ++ [(k, p)] |};
+      sketched := sketched z; spots := spots z |}
+  | New e _ n => {| so_far := L; sketched := drawn (sketched z) ev; spots := spots z ++
+      match place_behind L (spot z e) with
+      | Some q => map (fun k => (fst q, k + snd q)) (seq 0 n)
+      | None => [] end |}
+  | _ => {| so_far := L; sketched := drawn (sketched z) ev; spots := spots z |} end.
+
+(** All these events follow, each from the history before it. *)
+Fixpoint all_follow z es := match es with
+  | [] => true
+  | ev :: es => follows_b z ev && all_follow (next_history z ev) es end.
+
+(** How many crossed edges have no explored dart of S. *)
+Definition not_grown W z := length (filter (fun x => negb (existsb (fun d =>
+  explored (chart z) d && (key_of W z d =? x)) (seq 0 (darts (chart z))))) (walked_edges z)).
+
+(** The step is a decision. *)
+Definition decides d := match d with Act ev => is_decision ev | Pose _ _ => false end.
+
+(** Claim 10. *)
+Definition judge_decisions w t := let W := ground w in let n := how_many W t decides in
+  judged_as (declares w t decides) (negb (shows_b W (trace_log t) && match w with
+    | Point => negb (existsb decides (steps t))
+    | Edges _ => all_follow (first_history (percept_at_start t)) (acts (steps t)) end))
+    n (n + not_grown W (last_stage W t)).
+
+(** The judge: claims 1 to 7 and 9, in this order. Claim 10 stands apart: it takes longer. *)
 Definition judge_trace w t : list judgement := [judge_percepts w t; judge_posed w t; judge_kept w t;
   judge_confirmed w t; judge_map w t; judge_cost t; judge_bound w t; judge_entailed w t].

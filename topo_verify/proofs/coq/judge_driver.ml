@@ -1,6 +1,7 @@
 (* The main program of the extracted judge. It reads natural numbers from standard input, separated by
    white space: how many runs there are, and for each run
 
+     asked    1 if claim 10 is asked, or 0
      world    the next dart clockwise of each dart, and the other dart of its edge, two lists; dart 0 is the
               root; without a dart it is the point
      trace    percept, steps, end
@@ -59,8 +60,10 @@ let trace () =
 let word = function Ok -> "ok" | Failed -> "failed" | Partial -> "partial" | NotDeclared -> "not-declared"
 
 let run () =
+  let asked = number () = 1 in
   let world = world () in
+  let trace = trace () in
   let told ((status, judged), of_) = Printf.sprintf "%s %d %d" (word status) judged of_ in
-  print_endline (String.concat " " (List.map told (judge_trace world (trace ()))))
+  print_endline (String.concat " " (List.map told (judge_trace world trace @ if asked then [judge_decisions world trace] else [])))
 
 let () = for _ = 1 to number () do run () done

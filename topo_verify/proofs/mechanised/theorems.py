@@ -254,6 +254,8 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
         "The judge says failed exactly if the cost is outside its bounds."),
     _one("coq-judge-entailed", "JudgeCorrect.judge_claim9", "map-entailed",
         "The judge says failed exactly if the delivered map is not every world with this log."),
+    _one("coq-judge-decisions", "JudgeEntailed.judge_claim10", "decisions-entailed",
+        "The judge says failed exactly if a decision does not follow from what came before it."),
 )  # fmt: skip
 
 

@@ -1,0 +1,219 @@
+"""The judge of coq/Judge.v, extracted as a program in OCaml: a second opinion on a trace.
+
+coq/Claims.v defines claims over a world and a trace, and Coq proves that the judge says `failed`
+of a claim exactly where its definition is violated (coq/JudgeCorrect.v, coq/JudgeDecisions.v,
+coq/JudgeEntailed.v). How
+much is judged, `judged` of `of`, is computed by the same program and no part of the theorems.
+
+Trusted besides Coq: its extraction, in which natural numbers become OCaml's integers; the OCaml
+compiler; `numbers` here and coq/judge_driver.ml, which hand the trace over.
+
+What this does not show: anything of claim 8, which Coq does not define yet; or of claim 10 where a
+trace declares the planar prior, since Coq does not define planarity.
+
+Source: docs/semantics.md, section 9; docs/proofs.md.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import get_args
+
+from topo_verify.checkers import CLAIMS, Judgement, Status
+from topo_verify.checkers.replayed_trace import require_order
+from topo_verify.errors import InputError
+from topo_verify.proofs.mechanised import toolchain
+from topo_verify.robot import events as ev
+from topo_verify.robot.percept import Percept
+from topo_verify.world.rooted_map import World
+
+MISSING = "rejection-justified"
+"""The claim that has no definition in Coq yet."""
+
+PROVED_CLAIMS = tuple(claim for claim in CLAIMS if claim != MISSING)
+"""The claims that the judge judges, in the order of its answer."""
+
+LONG = 400
+"""Of traces with more events the judge is not asked claim 10: it folds the log at each decision."""
+
+LARGEST = 2**60
+"""Larger numbers are not handed over: OCaml's integers have 63 bits."""
+
+TracedRun = tuple[World, Sequence[ev.Event]]
+"""A world, and what happened there."""
+
+
+@dataclass(frozen=True, slots=True)
+class ProvedOpinion:
+    """What the extracted judge says of one trace.
+
+    Attributes:
+        by: what judged; "" if nothing is installed that could.
+        judgements: one for each claim of `judged_claims`, without findings; empty if not judged.
+        why: the reason why the trace was not judged; "" if it was.
+    """
+
+    by: str
+    judgements: tuple[Judgement, ...] = ()
+    why: str = ""
+
+
+def second_opinion(
+    run: TracedRun, *, timeout: float, progress: Callable[[str], None] = lambda _: None
+) -> ProvedOpinion:
+    """What the judge says of one run; it is built in a folder that is removed at the end.
+
+    Raises:
+        InputError: the installed Coq or OCaml refuses the sources; or as `numbers`.
+    """
+    numbers(*run)
+    if why := missing():
+        return ProvedOpinion("", why=why)
+    by = f"the judge extracted by {toolchain.version()}"
+    with TemporaryDirectory() as folder:
+        try:
+            progress("compiling the judge")
+            program = build(Path(folder), timeout=timeout)
+            progress("judging the trace")
+            (judgements,) = judge(program, [run], timeout=timeout)
+        except toolchain.Unfinished as error:
+            return ProvedOpinion(by, why=str(error))
+    return ProvedOpinion(by, judgements)
+
+
+def missing() -> str:
+    """The reason why the judge cannot be built here; "" if it can."""
+    no_ocaml = shutil.which("ocamlfind") is None
+    ocaml = "ocamlfind not installed: apt-get install ocaml-findlib" if no_ocaml else ""
+    return toolchain.missing() or ocaml
+
+
+def build(folder: Path, *, timeout: float) -> Path:
+    """The program, compiled in this folder with the part of the library that it needs.
+
+    Raises:
+        InputError: a compiler refuses a file.
+        toolchain.Unfinished: a file takes too long, or a compiler is killed or lacks memory.
+    """
+    names = [name for name in toolchain.required("Judge") if not (folder / f"{name}.vo").exists()]
+    toolchain.copy_library(folder, [*names, "ExtractJudge"])
+    shutil.copy(toolchain.SOURCES / "judge_driver.ml", folder)
+    ran = toolchain.compile_all(folder, [*names, "ExtractJudge"], timeout=timeout)
+    if ran.accepted:
+        sources = ["judge.mli", "judge.ml", "judge_driver.ml"]
+        command = ["ocamlfind", "ocamlopt", "-w", "-a", *sources, "-o", "judge"]
+        ran = toolchain.run(command, folder, timeout=timeout)
+    if not ran.accepted:
+        raise InputError(f"the judge cannot be built: {ran.output[-300:]}")
+    return folder / "judge"
+
+
+def judged_claims(trace: Sequence[ev.Event]) -> tuple[str, ...]:
+    """The claims that the judge judges of this trace."""
+    planar = any(isinstance(event, ev.Reject) and event.rule == "planar" for event in trace)
+    return PROVED_CLAIMS[:-1] if planar or len(trace) > LONG else PROVED_CLAIMS
+
+
+def judge(
+    program: Path, runs: Iterable[TracedRun], *, timeout: float
+) -> list[tuple[Judgement, ...]]:
+    """What the program says of each run: a judgement without findings for each claim.
+
+    Raises:
+        InputError: as `numbers`.
+        toolchain.Unfinished: it takes too long, is killed or lacks memory.
+    """
+    lines = [" ".join(map(str, numbers(world, trace))) for world, trace in runs]
+    stdin = "\n".join([str(len(lines)), *lines])
+    ran = toolchain.run([str(program)], program.parent, timeout=timeout, stdin=stdin)
+    answers = ran.output.splitlines()
+    if not ran.accepted or len(answers) != len(lines):
+        raise toolchain.Unfinished(f"the judge ended without a result: {ran.output[-300:]}")
+    return [tuple(_judgements(line.split())) for line in answers]
+
+
+def _judgements(words: Sequence[str]) -> Iterator[Judgement]:
+    rows = zip(words[::3], words[1::3], words[2::3], strict=True)
+    for claim, (word, judged, of) in zip(PROVED_CLAIMS, rows, strict=False):  # 10 may be missing
+        status: Status = next(status for status in get_args(Status) if status == word)
+        yield Judgement(claim, status, int(judged), int(of))
+
+
+# ---------------------------------------------------------------- a run as natural numbers
+
+
+def numbers(world: World, trace: Sequence[ev.Event]) -> list[int]:
+    """A run as the program reads it (coq/judge_driver.ml).
+
+    Raises:
+        InputError: the trace is out of order, or has a number below 0 or above 2^60.
+    """
+    require_order(trace)
+    start, finish = trace[0], trace[-1]
+    assert isinstance(start, ev.Start)
+    delivered = isinstance(finish, ev.Finish)
+    world = World.from_code(world.code)  # its root is dart 0
+    steps = [_step(event) for event in (trace[1:-1] if delivered else trace[1:])]
+    stated = [
+        int(judged_claims(trace) == PROVED_CLAIMS),
+        *_listed(world.sigma), *_listed(world.alpha), *_percept(start.percept),
+        len(steps), *chain.from_iterable(steps),
+        *(_ending(finish) if isinstance(finish, ev.Finish) else [0]),
+    ]  # fmt: skip
+    if not 0 <= min(stated) <= max(stated) <= LARGEST:
+        raise InputError(
+            "the trace has a number below 0 or above 2^60, which cannot be stated as a natural"
+            " number: leave out --kernel"
+        )
+    return stated
+
+
+def _listed(row: Sequence[int]) -> list[int]:
+    return [len(row), *row]
+
+
+def _percept(percept: Percept) -> list[int]:
+    return [percept.degree, *_optional(percept.marker)]
+
+
+def _optional(number: int | None) -> list[int]:
+    # A number below 0 stays below 0, and is refused.
+    return [0 if number is None else number + 1 if number >= 0 else number]
+
+
+def _step(event: ev.Event) -> list[int]:
+    match event:
+        case ev.Move(door, percept):
+            return [0, door, *_percept(percept)]
+        case ev.Reject(edge, hypothesis):
+            return [1, edge, hypothesis]
+        case ev.Confirm(edge, hypothesis):
+            return [2, edge, hypothesis]
+        case ev.Augment(edge, kind, dart, degree):
+            return [3 if kind == "loop" else 4, edge, dart, degree]
+        case ev.Pose(edge, hypotheses):
+            return [5, edge, *_listed(hypotheses)]
+        case _:  # pragma: no cover: `require_order` lets only the first and the last be others
+            raise AssertionError(event)
+
+
+def _ending(finish: ev.Finish) -> list[int]:
+    """The end; a map only if each edge is a pair, and a dart is marked if there is one."""
+    vertices, edges, marker = finish.map.vertices, finish.map.edges, finish.map.marker
+    head = [1, *_optional(finish.cost)]
+    if any(len(edge) != 2 for edge in edges) or (marker is None) == any(vertices):
+        return [*head, 0]
+    # Any labels may name the darts: here the numbers of their first appearance do.
+    number: dict[int | None, int] = {}
+    rows = [[number.setdefault(label, len(number)) for label in row] for row in (*vertices, *edges)]
+    rotations, pairs = rows[: len(vertices)], rows[len(vertices) :]
+    return [
+        *head, 1,
+        len(rotations), *chain.from_iterable(map(_listed, rotations)),
+        len(pairs), *chain.from_iterable(pairs), number.setdefault(marker, len(number)),
+    ]  # fmt: skip
