@@ -231,11 +231,11 @@ def test_worlds_without_a_map_are_the_reason_why_map_entailed_is_judged_in_part(
 # ---------------------------------------------------------------- the judge that is proved in Coq
 
 
-def opinion(monkeypatch: pytest.MonkeyPatch, *, judged: int) -> None:
-    """Have the judge say what the checkers say, but for how much of the last claim was judged."""
+def opinion(monkeypatch: pytest.MonkeyPatch, *, more: int = 0) -> None:
+    """Have the judge say what the checkers say, but that `more` of the last claim was judged."""
     checked = check(World.from_id("m5/17"), trace_of("m5/17"))
     told = [one for one in checked if one.claim in judge.PROVED_CLAIMS]
-    told[-1] = msgspec.structs.replace(told[-1], judged=judged)
+    told[-1] = msgspec.structs.replace(told[-1], judged=told[-1].judged + more)
     answer = judge.ProvedOpinion("the judge", tuple(told))
     monkeypatch.setattr(judge, "second_opinion", Mock(return_value=answer))
 
@@ -243,7 +243,7 @@ def opinion(monkeypatch: pytest.MonkeyPatch, *, judged: int) -> None:
 def test_the_output_says_that_the_proved_judge_judged(
     results: Results, call: Call, trace: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    opinion(monkeypatch, judged=1)
+    opinion(monkeypatch)
     (entry,) = results(f"replay {trace.name} --kernel")["results"]
     assert (entry["kernel"]["by"], entry["kernel"]["why"]) == ("the judge", "")
     assert [one["claim"] for one in entry["kernel"]["judgements"]] == [*judge.PROVED_CLAIMS]
@@ -255,7 +255,7 @@ def test_the_output_says_that_the_proved_judge_judged(
 def test_a_proved_judge_that_says_otherwise_is_a_bug_of_ours(
     call: Call, trace: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    opinion(monkeypatch, judged=0)
+    opinion(monkeypatch, more=1)
     done = call(f"replay {trace.name} --kernel")
     assert done.exit_code == 70
     assert "the checkers say otherwise" in done.stderr
