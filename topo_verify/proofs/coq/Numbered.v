@@ -242,14 +242,26 @@ Proof.
   apply IH. congruence.
 Qed.
 
-(** Claim 9: every connected map that shows a log has a table that [check_map] accepts. *)
-Theorem table_exists M L : is_map M -> connected M -> replays M L -> exists t, check_map t L = true /\
-  (total t = true <-> forall d, d < darts M -> alpha M d <> None).
+(** Claim 9: every connected map that shows a log has a table that [check_map] accepts, with a row for
+    each dart. *)
+Theorem table_with_rows M L : is_map M -> connected M -> replays M L -> exists t, check_map t L = true /\
+  (total t = true <-> forall d, d < darts M -> alpha M d <> None) /\ length t = darts M.
 Proof.
   intros WM CM R. destruct (discovery_exists M WM CM) as (ord & Nb & All).
-  destruct (table_by_right M WM ord Nb All) as (C & E & T). exists (table_by M ord). split.
+  destruct (table_by_right M WM ord Nb All) as (C & E & T). exists (table_by M ord). split; [|split].
   - unfold check_map. rewrite C. simpl. apply check_table_spec in C as [WT _].
     destruct (embedded_replays M _ _ L WM WT E R) as [R1 R2]. simpl root in R1, R2. rewrite R1.
     destruct (percept_eqb_spec (start L) (start L)) as [_|N]; [|tauto]. apply check_moves_shown, R2.
   - exact T.
+  - unfold table_by. rewrite map_length. apply Nat.le_antisymm; rewrite <- (seq_length (darts M) 0);
+      (apply NoDup_incl_length; [try apply Nb; apply seq_NoDup|]); intros d I.
+    + apply in_seq. apply (nb_lt M ord Nb) in I. lia.
+    + apply in_seq in I. apply All. lia.
+Qed.
+
+(** So it has a table. *)
+Corollary table_exists M L : is_map M -> connected M -> replays M L -> exists t, check_map t L = true /\
+  (total t = true <-> forall d, d < darts M -> alpha M d <> None).
+Proof.
+  intros WM CM R. destruct (table_with_rows M L WM CM R) as (t & A & B & _). eauto.
 Qed.
