@@ -79,6 +79,7 @@ class History:
         self.crossed: dict[MapDart, Crossed] = {}
         self.cost, self.settled = 0, 0
         self._home: Tree | None = None
+        self._neighbours: dict[PlaceNode, list[tuple[PlaceNode, NodeDart]]] = {}
 
     # ---------------------------------------------------------------- S in the fold
 
@@ -147,17 +148,28 @@ class History:
         Args:
             ghosts_only: pass over the vertices of S (but for the place of the start).
         """
-        places, first = self.places, self.places.place(start)
+        first = self.places.place(start)
         reached = {first}
         queue: list[tuple[PlaceNode, int, NodeDart | None]] = [(first, 0, None)]
         for found in queue:  # grows as it goes
             yield found
-            for dart in places.darts(found[0]):
-                end = places.across(dart)
-                if end is not None and (there := places.place(end)) not in reached:
+            place, distance, _ = found
+            for there, end in self._neighbours.get(place) or self.neighbours(place):
+                if there not in reached:
                     reached.add(there)
-                    if not (ghosts_only and places.vertex(end) is not None):
-                        queue.append((there, found[1] + 1, end))
+                    if not (ghosts_only and self.places.vertex(there) is not None):
+                        queue.append((there, distance + 1, end))
+
+    def neighbours(self, place: PlaceNode) -> list[tuple[PlaceNode, NodeDart]]:
+        """The places next to a place, each with the dart by which the robot comes in there.
+
+        Kept until the fold changes at the place: most searches pass over places that are settled.
+        """
+        places = self.places
+        if place not in self._neighbours:
+            ends = (places.across(dart) for dart in places.darts(place))
+            self._neighbours[place] = [(places.place(end), end) for end in ends if end is not None]
+        return self._neighbours[place]
 
     def ghosts(self, e: MapDart) -> dict[PlaceNode, int]:
         """The ghosts that hang together with vu, and how far from it they are."""
@@ -204,6 +216,10 @@ class History:
                 raise self.impossible(wrong)
             # Where places were identified, doors that were seen at a ghost may be doors of S now.
             merged = places.merges != merges
+            if merged:
+                self._neighbours.clear()
+            else:
+                self._neighbours.pop(places.place(exit_dart), None)
             self._note(self.chart.unexplored if merged else () if e is None else (e,))
             self._settle()
         self.at = places.resolve(beyond)
