@@ -81,7 +81,7 @@ def test_no_notation_gives_a_public_name_another_meaning() -> None:
         ("Definition seen := 0.", "seen"),
         ("Lemma turn_lt : True.", "turn_lt"),
         ("Inductive two := (* a comment *) One | consistent.", "consistent"),
-        ("Inductive both : Prop :=\n| same_refl : both\n| other : both.", "same_refl"),
+        ("Inductive a_pair : Prop :=\n| same_refl : a_pair\n| other : a_pair.", "same_refl"),
         ("Record pair := { left_of : nat; start : nat }.", "start"),
         ("Notation closed := (fun L => L).", "closed"),
         ("Section A.\nFixpoint walk n := n.\nEnd A.", "walk"),
