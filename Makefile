@@ -5,7 +5,7 @@
 #   make long                       the tests that make test leaves out because they take long
 #   make nightly                    every test, the slow ones too, with new examples each time
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
-#   make mutants                    the checkers with one thing changed: each must fail a test
+#   make mutants                    checkers and algorithms with one thing changed: each must be seen
 #   make torture                    hostile input, programs and signals: minutes, seeded
 #   make docs                       the site: pages, reference, gallery, links, examples
 #   make lint types                 ruff; mypy and pyright, both strict
@@ -85,6 +85,7 @@ bench: $(VENV)/.bench
 # Every change that the operators know, in every file of checkers/; some minutes.
 mutants: $(VENV)/.dev
 	$(BIN)/python benchmarks/mutants.py
+	$(BIN)/python benchmarks/bridge.py
 
 # Another seed, other trials: make torture SEED=7
 torture: $(VENV)/.dev

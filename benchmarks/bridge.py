@@ -1,0 +1,199 @@
+"""Mutation test of the bridge: every small change of the algorithms must change a trace.
+
+The mapper that Coq proves is extracted to OCaml, and the tests compare its traces with those of
+`topo_verify/algorithms/`. Here each mutant of the files in `MUTATED` (mutations.py) maps the same
+worlds, with the policies of the catalogue and with others, until its trace is another one than the
+program in OCaml wrote; if it never is, it has **survived**. Those that change nothing that a
+trace shows are listed in `SAME`, each with the reason.
+
+Each mutant runs in a fork, and its source stands in for the module at a new import of the
+algorithms. A fork that takes over 20 s of the processor comes to no end, and is seen.
+
+    .venv/bin/python benchmarks/bridge.py                     every mutant
+    .venv/bin/python benchmarks/bridge.py --only motion.py    those of one file
+    .venv/bin/python benchmarks/bridge.py --library DIR       the library in Coq, compiled before
+
+Exit code 1 if a mutant survives that is not in `SAME`, or one that is there was seen.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import multiprocessing
+import sys
+from collections.abc import Iterator, Sequence
+from importlib.abc import MetaPathFinder, SourceLoader
+from importlib.machinery import ModuleSpec
+from importlib.util import spec_from_file_location
+from multiprocessing.connection import Connection
+from pathlib import Path
+from resource import RLIMIT_AS, RLIMIT_CPU, setrlimit
+from tempfile import TemporaryDirectory
+
+from mutations import Mutant, mutants
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from tests.helpers import PAPER, trace_of, worlds  # noqa: E402  the tree is on the path only now
+from tests.proofs.mechanised import test_extracted_mappers as bridge  # noqa: E402
+from tests.proofs.mechanised.conftest import LIMIT, extracted  # noqa: E402
+from tests.proofs.mechanised.written import written  # noqa: E402
+from topo_verify.proofs.mechanised import toolchain  # noqa: E402
+from topo_verify.world.resolve import resolve_world  # noqa: E402
+
+FOLDER = ROOT / "topo_verify" / "algorithms"
+MUTATED = ("enhancement_i", "enhancement_ii", "enhancement_iii", "exploration", "motion")
+"""What the loop, the motions and the rules of the paper are made of."""
+
+SECONDS = 20
+MEMORY = 4 << 30
+
+NOT_COMPARED = "it is the number of a sequence in the evidence, which Coq's rules do not give"
+NOT_READ = "records are read at unexplored darts only, and both darts are explored by then"
+NEVER_AWAY = (
+    "only folding may conclude away from vu and from the marker, and in no world that was searched"
+    " does it: every world with 5 edges, and about 90 larger ones"
+)
+ONE_LEVEL = (
+    "the catalogue has one level or all of them; with one, nothing deeper is recorded anyway"
+)
+
+SAME: dict[str, str] = {
+    "enhancement_i.py PrefixRule.refute: len(sequences) - 1 -> len(sequences) + 1": NOT_COMPARED,
+    "enhancement_i.py PrefixRule.refute: 1 -> 2 (4)": NOT_COMPARED,
+    "enhancement_ii.py HistoryRule.refute: len(sequences) - 1 -> len(sequences) + 1": NOT_COMPARED,
+    "enhancement_ii.py HistoryRule.refute: 1 -> 2 (2)": NOT_COMPARED,
+    "enhancement_iii.py RecordsRule.learn: self.records.pop(e, None) -> pass": NOT_READ,
+    "enhancement_iii.py RecordsRule.learn: self.records.pop(entry, None) -> pass": NOT_READ,
+    "enhancement_iii.py RecordsRule._record: step + self.levels -> step - self.levels": ONE_LEVEL,
+    "enhancement_iii.py RecordsRule._record: 1 -> 2": ONE_LEVEL,
+    "exploration.py execute: shared < len(h.doors) -> shared <= len(h.doors)": (
+        "a way that is shared whole ends where the robot stands, or a rule has refuted it"
+    ),
+    "exploration.py localise: pilot.back(0) -> pass": NEVER_AWAY,
+    "exploration.py localise: 0 -> 1 (2)": NEVER_AWAY,
+    "motion.py Pilot.__init__: 0 -> 1 (2)": "it is set when the robot crosses e, before it is read",
+    "motion.py Pilot.forward: return percept -> return None": "its callers do not use it",
+}
+"""Mutants that change nothing that a trace shows, by their text; and why."""
+
+
+def jobs() -> Iterator[bridge.Job]:
+    """The runs; those first that see most mutants soonest."""
+    drawn = [resolve_world(world) for world in (*bridge.FAMILIES, *bridge.TELLING_GENUS)]
+    some = [*drawn, *worlds(range(4))]
+    for name in bridge.PROVED:
+        yield from (bridge.Job(name, world) for world in some)
+    for pick, order in (("first", "oldest"), ("last", "newest")):
+        for name in ("basic", "enhancement-iii-all+i"):
+            yield from (bridge.Job(name, world, pick, order) for world in some)
+    yield from (bridge.Job(name, resolve_world(bridge.TELLING)) for name in bridge.PROVED)
+    yield from (bridge.Job(name, resolve_world(bridge.LONG[0])) for name in PAPER)
+
+
+class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's own
+    """Imports one module of the algorithms from a changed source."""
+
+    def __init__(self, mutant: Mutant) -> None:
+        self.name = f"topo_verify.algorithms.{Path(mutant.file).stem}"
+        self.path, self.source = str(FOLDER / mutant.file), mutant.source
+
+    def find_spec(self, fullname: str, *_: object) -> ModuleSpec | None:
+        """Where it is, if it is the one."""
+        if fullname != self.name:
+            return None
+        return spec_from_file_location(fullname, self.path, loader=self)
+
+    def get_filename(self, fullname: str) -> str:  # noqa: ARG002  as importlib asks
+        """The file that it replaces."""
+        return self.path
+
+    def get_data(self, path: str) -> bytes:  # noqa: ARG002  as importlib asks
+        """The changed source."""
+        return self.source.encode()
+
+
+def differs(mutant: Mutant, runs: Sequence[tuple[bridge.Job, str]], pipe: Connection) -> None:
+    """In a fork: send the run in which the mutant leaves another trace, "" if there is none."""
+    setrlimit(RLIMIT_AS, (MEMORY, MEMORY))
+    setrlimit(RLIMIT_CPU, (SECONDS, SECONDS))
+    for name in [name for name in sys.modules if name.startswith("topo_verify.algorithms")]:
+        del sys.modules[name]
+    sys.meta_path.insert(0, Planted(mutant))
+    try:
+        catalogue = importlib.import_module("topo_verify.algorithms").CATALOGUE
+    except Exception:  # noqa: BLE001  whatever a mutant raises
+        pipe.send("the import")
+        return
+    for job, trace in runs:
+        try:
+            algorithm = catalogue[job.algorithm].with_policies(pick=job.pick, order=job.order)
+            same = written(trace_of(job.world, algorithm)) == trace
+        except Exception:  # noqa: BLE001  a mutant may deliver what is no map
+            same = False
+        if not same:
+            pipe.send(f"{job.algorithm}, {job.pick}, {job.order}, in {job.world!r}")
+            return
+    pipe.send("")
+
+
+def seen(mutant: Mutant, runs: Sequence[tuple[bridge.Job, str]]) -> str:
+    """The run in which a mutant is seen, "" if there is none."""
+    fork = multiprocessing.get_context("fork")
+    here, there = fork.Pipe(duplex=False)
+    process = fork.Process(target=differs, args=(mutant, runs, there), daemon=True)
+    process.start()
+    there.close()
+    try:
+        found = here.recv()
+    except EOFError:
+        found = "a run without end"
+    process.join()
+    return str(found)
+
+
+def report(wanted: Sequence[Mutant], runs: Sequence[tuple[bridge.Job, str]]) -> int:
+    """Print who survives; the exit code."""
+    holes, wrong, same = 0, 0, 0
+    for mutant in wanted:
+        where, reason = seen(mutant, runs), SAME.get(str(mutant))
+        if where and reason:
+            wrong += 1
+            print(f"{mutant}\n    is said to change nothing, but is seen by {where}", flush=True)
+        if not where:
+            same += reason is not None
+            holes += reason is None
+            print(f"{mutant} (line {mutant.line})\n    {reason or 'SURVIVES'}", flush=True)
+    print(f"{len(wanted) - same - holes} of {len(wanted)} mutants seen in {len(runs)} runs,")
+    print(f"{same} change nothing, {holes} survive")
+    return 1 if holes or wrong else 0
+
+
+def main() -> int:
+    """Run it."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--only", default="", help="mutants whose file or text has this in it")
+    parser.add_argument("--library", type=Path, help="a folder with the library in Coq, compiled")
+    options = parser.parse_args()
+    everyone = [mutant for name in MUTATED for mutant in mutants(FOLDER / f"{name}.py")]
+    wanted = [mutant for mutant in everyone if options.only in str(mutant)]
+    if unknown := SAME.keys() - {str(mutant) for mutant in everyone}:
+        raise SystemExit(f"in SAME, but there are no such mutants: {unknown}")
+    if why := toolchain.missing():
+        raise SystemExit(why)
+    with TemporaryDirectory() as made, TemporaryDirectory() as folder:
+        if options.library is None:
+            toolchain.copy_library(Path(made), toolchain.files())
+            ran = toolchain.compile_all(Path(made), toolchain.files(), timeout=LIMIT)
+            assert ran.accepted, ran.output
+        library = options.library or Path(made)
+        program = extracted(library.resolve(), Path(folder), "Mappers", "main")
+        every = list(jobs())
+        traces = bridge.traces_in_coq(program, every)
+    return report(wanted, list(zip(every, traces, strict=True)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
