@@ -73,7 +73,7 @@ Lemma tour_or_right W0 L0 W fuel : world W0 -> replays W0 L0 -> closed L0 -> wor
   does W b (tour_or (explore_on fuel) W0 ms t) (fun M _ _ => isomorphic M W).
 Proof.
   intros H0 R0 C0 HW S Lf. assert (WW := world_is_map W HW). assert (Lr := root_lt W WW).
-  induction ms as [|(k, q) ms IH]; intros t b Lt D E; cbn [tour_or].
+  intros ms. induction ms as [|(k, q) ms IH]; intros t b Lt D E; cbn [tour_or].
   - apply does_return. apply (closed_determines L0); auto. rewrite app_nil_r in E. split; [auto|].
     rewrite E. apply Lt.
   - destruct D as [Lk D]. simpl in Lk. assert (Lb := walk_lt W WW _ _ _ Lr (proj1 Lt)).
@@ -132,7 +132,7 @@ Proof.
   assert (H : forall l ns t j, length ns < j ->
     answer_after (tour_or (explore_on n) W0 l t) ns <> Lost ->
     answer_after (tour_or (explore_on j) W0 l t) ns = answer_after (tour_or (explore_on n) W0 l t) ns).
-  { induction l as [|(k, p) l IH]; intros ns t j L N; auto. destruct ns as [|(i, r) ns]; auto.
+  { intros l. induction l as [|(k, p) l IH]; intros ns t j L N; auto. destruct ns as [|(i, r) ns]; auto.
     simpl in *. destruct (i =? k); auto. destruct (percept_eqb r p); [apply IH; auto; lia|].
     apply after_bind; auto. intros x rest Le Nx. apply G; auto. lia. }
   intros N. apply H; auto.

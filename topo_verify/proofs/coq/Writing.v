@@ -73,7 +73,7 @@ Proof.
   intros R xs l F. split; [discriminate|]. unfold many, and_then, number, write_many. simpl.
   assert (E : forall xs fuel, Forall P xs -> length xs <= length fuel ->
     elements r fuel (N.of_nat (length xs)) (flat_map w xs ++ l) = Some (xs, l)).
-  { clear xs F. induction xs as [|x xs IH]; intros fuel F L; [destruct fuel; auto|].
+  { clear xs F. intros xs. induction xs as [|x xs IH]; intros fuel F L; [destruct fuel; auto|].
     inversion F as [|y ys Px Pxs E]. destruct fuel as [|n fuel]; simpl in L; [lia|].
     simpl flat_map. rewrite <- app_assoc. cbn [length]. rewrite Nat2N.inj_succ.
     destruct (N.succ (N.of_nat (length xs))) as [|p] eqn:Q; [lia|]. cbn [elements].
