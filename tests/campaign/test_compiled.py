@@ -308,7 +308,7 @@ def uncompiled(monkeypatch: pytest.MonkeyPatch, fault: Callable[..., int]) -> No
         return plain_kernel(function)
 
     def enters(case: Any, control: Any, t: Any, wrong: int) -> None:
-        enter(case, control, t, fault(case, control, wrong, t[0, tally.T_WORLDS] + 1))
+        enter(case, control, t, fault(case, control, wrong, tally.CountWords(t).worlds + 1))
 
     enter = tally.enter
     monkeypatch.setattr(tally, "enter", enters)

@@ -94,8 +94,10 @@ def test_a_platonic_solid_has_a_twin_on_the_torus() -> None:
 
 
 def test_a_twin_that_looks_different_is_not_handed_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    other = World.from_id("m2/0")
-    monkeypatch.setattr(twins, "_exchanged", lambda _: iter([other]))
+    def exchanged(_: World) -> list[World]:
+        return [World.from_id("m2/0")]
+
+    monkeypatch.setattr(twins, "_exchanged", exchanged)
     with pytest.raises(InternalError, match="do not look the same"):
         World.from_id("m2/7").twin()
 

@@ -152,8 +152,8 @@ def _show(entries: Sequence[Comparison]) -> Iterator[Block]:
 
 def _table(groups: Sequence[Group]) -> TextTable:
     """The table of classes; a kind without worlds has no column."""
-    kinds = [k for k in KINDS if k != "equal" and any(group.kinds[k] for group in groups)]
-    by_kind = [(f">{SHORT[kind]}", partial(_in_kind, kind)) for kind in kinds]
+    shown: list[ChangeKind] = [k for k in KINDS if any(group.kinds[k] for group in groups)]
+    by_kind = [(f">{SHORT[kind]}", partial(_in_kind, kind)) for kind in shown if kind != "equal"]
     return Rows(groups).table(
         ("class", lambda g: g.value if g.by == "shape" else f"{g.by} {g.value}"),
         (">worlds", lambda g: f"{g.worlds:,}"),

@@ -37,7 +37,7 @@ def register() -> None:
     ours = [f"/topo_verify/{path.name}{'/**' * path.is_dir()}" for path in PACKAGE.iterdir()]
     known = scrutineer.UNHELPFUL_LOCATIONS
     # By `vars`, since its type says how many names there are.
-    vars(scrutineer)["UNHELPFUL_LOCATIONS"] = (*known, *(n for n in ours if n not in known))
+    scrutineer.__dict__["UNHELPFUL_LOCATIONS"] = (*known, *(n for n in ours if n not in known))
     # How long an example takes depends on the load of the machine, and on the world.
     settings.register_profile("topo", deadline=None, suppress_health_check=[HealthCheck.too_slow])
     for name, examples in (("topo-ci", 100), ("topo-nightly", 5_000)):

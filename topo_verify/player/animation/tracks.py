@@ -233,9 +233,9 @@ class Tracks:
         steps = list[Leg]()
         for moment in self.moments:
             event, number = moment.event, moment.number
-            goal = tested.get(number)
-            if decides := isinstance(event, ev.Reject | ev.Confirm) and event.rule == "motion":
-                goal = event.hypothesis
+            goal, decides = tested.get(number), False
+            if isinstance(event, ev.Reject | ev.Confirm) and event.rule == "motion":
+                goal, decides = event.hypothesis, True
             at = walk.place(moment, goal)
             if at is not None:
                 # It was entered by this dart, so the other end was left.

@@ -129,7 +129,7 @@ def gridded(mesh: Mesh) -> Floats:
     corners: list[int] = mesh.frame.tolist()
     # NetworkX takes for the outer face that of the first point and its first neighbour.
     first = {corners[0]: corners[1]}
-    embedding: Any = nx.PlanarEmbedding()
+    embedding: nx.PlanarEmbedding[int] = nx.PlanarEmbedding()
     embedding.set_data(
         {
             point: [*_cycle(before[point], first.get(point, next(iter(before[point]))))]
