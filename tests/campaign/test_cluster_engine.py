@@ -19,11 +19,11 @@ from tests.campaign.test_cluster import address, started, worker
 from tests.studies.search.searching import json, searched, wait_for
 from topo_verify import InputError
 from topo_verify.campaign import backend
+from topo_verify.campaign import campaign as campaigns
 from topo_verify.campaign.backend import COMPILING, _job, _work, clustered
 from topo_verify.campaign.campaign import Campaign
 from topo_verify.campaign.cluster import Cluster, connected
 from topo_verify.campaign.targets import targets
-from topo_verify.studies.search import search as searching
 from topo_verify.studies.search.search import Search, SearchEntry, search, search_campaign
 from topo_verify.world.enumeration import rank_order
 
@@ -35,7 +35,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
 @pytest.fixture(autouse=True)
 def small_shards(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Several shards a size, so that workers are at different ones."""
-    monkeypatch.setattr(searching, "ENGINE_SHARD", 100)
+    monkeypatch.setattr(campaigns, "ENGINE_SHARD", 100)
     return folder
 
 

@@ -22,7 +22,6 @@ import pytest
 from tests.python import python
 from tests.studies.search.searching import shards_in
 from topo_verify import InputError, Limits
-from topo_verify.campaign import backend
 from topo_verify.campaign import campaign as campaigns
 from topo_verify.campaign import store as stores
 from topo_verify.campaign.backend import pooled
@@ -101,7 +100,7 @@ def examined_again(monkeypatch: pytest.MonkeyPatch, campaign: Campaign) -> list[
         return examine_shard(*arguments)
 
     with monkeypatch.context() as patch:
-        patch.setattr(backend, "examine", examine)
+        patch.setattr(campaigns, "examine", examine)
         searched(campaign)
     return again
 

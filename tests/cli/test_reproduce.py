@@ -59,7 +59,7 @@ def fast(monkeypatch: pytest.MonkeyPatch) -> Changes:
         counts.enter(rows)
         return ShardResult(counts.tally(), tuple(rows))
 
-    monkeypatch.setattr("topo_verify.campaign.backend.examine", examine)
+    monkeypatch.setattr("topo_verify.campaign.campaign.examine", examine)
     return changes
 
 
