@@ -369,8 +369,15 @@ def test_the_first_example_of_a_property_test_imports_nothing(
     [("", "None", "0:00:00.200000"), ('settings.load_profile("mine")', "0:00:03", "0:00:03")],
 )
 def test_a_property_of_a_mapper_has_no_deadline_unless_the_user_has_set_one(
-    session: Session, pytester: pytest.Pytester, of_the_user: str, ours: str, others: str
+    session: Session,
+    pytester: pytest.Pytester,
+    monkeypatch: pytest.MonkeyPatch,
+    of_the_user: str,
+    ours: str,
+    others: str,
 ) -> None:
+    for name in ("CI", "GITHUB_ACTIONS", "GITLAB_CI"):  # where Hypothesis loads its profile `ci`
+        monkeypatch.delenv(name, raising=False)
     pytester.makeconftest(
         f"""
         from hypothesis import settings
