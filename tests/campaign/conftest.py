@@ -8,6 +8,9 @@ from pathlib import Path
 
 import pytest
 
+collect_ignore = ["intruder.py"]
+"""Modules with no doctest that pytest must not import: this one attacks from its first line on."""
+
 
 @pytest.fixture(autouse=True)
 def few_worlds_run_again(monkeypatch: pytest.MonkeyPatch) -> None:
