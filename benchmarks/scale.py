@@ -1,4 +1,4 @@
-"""What a large search takes: the tables of docs/scale.md.
+"""What a large search takes: the table of docs/scale.md.
 
     .venv/bin/python benchmarks/scale.py [--worlds N]
 

@@ -1,7 +1,7 @@
 """What a program does instead of delivering a map, and the sentence that says so.
 
 `Misbehaved` ends a world. `decoded` reads a line or says what is wrong with it; `crash_report` and
-`silence_report` say why no line came. Docs/oracle.md lists causes and cures of every kind.
+`silence_report` say why no line came. docs/reference/programs.md lists the causes and cures.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ Misbehaviour = Literal[
     "skip",
     "error",
 ]
-"""What a program may do instead of delivering a map. Docs/oracle.md lists causes and cures."""
+"""What a program may do instead of delivering a map; docs/reference/programs.md lists cures."""
 
 MISBEHAVIOURS: tuple[Misbehaviour, ...] = get_args(Misbehaviour)
 

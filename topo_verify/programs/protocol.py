@@ -9,7 +9,7 @@ test keeps them equal.
 
     $ python -m topo_verify.programs.protocol     # the four schemas, as one JSON object
 
-Source: docs/semantics.md, section 15; docs/oracle.md.
+Source: docs/semantics.md, section 15; docs/reference/programs.md.
 """
 
 from __future__ import annotations

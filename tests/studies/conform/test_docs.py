@@ -1,4 +1,4 @@
-"""docs/oracle.md says what is so: its conversations, its kinds of findings, its figures."""
+"""docs/oracle.md and docs/reference/programs.md: conversations, kinds of findings, figures."""
 
 from __future__ import annotations
 
@@ -19,8 +19,9 @@ from topo_verify.studies.corpus import corpus_from
 from topo_verify.world.formats import world_json
 
 PAGE = (ROOT / "docs" / "oracle.md").read_text()
+PROGRAMS = (ROOT / "docs" / "reference" / "programs.md").read_text()
 
-BLOCKS = [block.splitlines() for block in re.findall(r"```\n(.*?)```", PAGE, re.DOTALL)]
+BLOCKS = [block.splitlines() for block in re.findall(r"```\n(.*?)```", PROGRAMS, re.DOTALL)]
 
 
 def test_the_conversation_is_the_one_that_takes_place() -> None:
@@ -38,7 +39,7 @@ def test_the_batch_is_the_one_that_takes_place() -> None:
 
 
 def test_every_kind_of_finding_is_explained() -> None:
-    rows = re.findall(r"^\| (`[^|]+?) \|", PAGE, re.MULTILINE)
+    rows = re.findall(r"^\| (`[^|]+?) \|", PROGRAMS, re.MULTILINE)
     explained = {kind for row in rows for kind in re.findall(r"`([a-z0-9-]+)`", row)}
     limits = set(get_args(Limit)) - {"world-timeout"}  # that one is not decided
     ours = {*MISBEHAVIOURS, *limits, "no-map", "worker-lost", "decisions"} - {"skip", "error"}
@@ -48,5 +49,5 @@ def test_every_kind_of_finding_is_explained() -> None:
 
 def test_the_figures_are_those_of_the_code() -> None:
     assert f"After {MAX_TIMEOUTS} time-outs" in PAGE
-    assert f"at most {IN_A_ROW:,} between two moves" in PAGE
+    assert f"at most {IN_A_ROW:,} between two moves" in PROGRAMS
     assert f"the {corpus_from([]).total} worlds of the default corpus" in PAGE

@@ -64,8 +64,8 @@ class WorldFinding(msgspec.Struct, frozen=True, kw_only=True):
     """A `Finding` with its kind.
 
     Attributes:
-        kind: what the program did instead of delivering a map (docs/oracle.md), `move-timeout`,
-            `budget`, `no-map`, `decisions`; else the claim.
+        kind: what the program did instead of delivering a map (docs/reference/programs.md),
+            `move-timeout`, `budget`, `no-map`, `decisions`; else the claim.
         difference: on level `decisions`, the first difference of the runs.
     """
 
