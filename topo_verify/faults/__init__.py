@@ -1,13 +1,11 @@
 """Mappers with one mistake each, and the claim that must catch it. They test the checks.
 
     fault.py       what a fault is, and how a part of a reference algorithm is replaced
-    motion.py, marker.py, hypotheses.py, chart.py, prefix.py, history.py, records.py, folding.py,
-    declarations.py, report.py
-                   the mistakes, by the part of the mapper that they are in
-    harmless.py    differences that are no mistakes: no check may report them
+    harmless.py    differences that no check may report
 
-Every fault can be named as a TARGET, as `topo_verify.faults.motion:restores_with_the_wrong_sign`.
-Which check finds which, how fast and in which smallest world: `topo-verify faults`.
+Every other file has the mistakes in one part of the mapper. Each fault is a TARGET, as
+`topo_verify.faults.motion:restores_with_the_wrong_sign`; `topo-verify faults` shows which check
+finds which.
 """
 
 from __future__ import annotations
@@ -47,4 +45,4 @@ FAULTS: dict[str, Fault] = {
     for fault in vars(part).values()
     if isinstance(fault, Fault)
 }
-"""Every fault and every harmless difference under its name."""
+"""Every fault and harmless difference by name."""

@@ -14,7 +14,6 @@ fault = partial(Fault, part="chart")
 
 class _NextDart(Chart):
     def join(self, e: MapDart, other: MapDart) -> None:
-        # `other` is the first dart of the newest vertex only when the loop has just added it for e.
         new = self.first[-1] == other > 0 and e < other
         super().join(e, self.turn(other, 1) if new else other)
 
@@ -29,7 +28,7 @@ joins_by_the_second_dart = fault(
 
 class _OneWay(Chart):
     def join(self, e: MapDart, other: MapDart) -> None:
-        # The newest vertex keeps both directions, or the robot could not walk away from it.
+        # Not at the newest vertex, which the robot must leave.
         older = self.vertex[other] < len(self.first) - 1
         super().join(e, other)
         if older:
@@ -60,7 +59,6 @@ counts_doors_anticlockwise = fault(
 class _Unreduced(Chart):
     def turn(self, dart: MapDart, door: Door) -> MapDart:
         first = self.first[self.vertex[dart]]
-        # The reference reduces the sum modulo the degree.
         return first + min(dart - first + door % self.degree[self.vertex[dart]], self._last(dart))
 
     def _last(self, dart: MapDart) -> int:

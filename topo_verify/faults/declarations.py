@@ -1,4 +1,4 @@
-"""Mistakes in what is declared: the mapper is right, its account of itself is not."""
+"""Mistakes in the declarations of a mapper that is right."""
 
 from __future__ import annotations
 
@@ -48,8 +48,8 @@ leaves_out_every_second_reject = fault(
 class _CitesNonsense(ForwardingRobot):
     def declare(self, event: Decision) -> None:
         if isinstance(event, Reject):
-            seen = Percept(424242, None)
-            event = Reject(event.edge, event.hypothesis, "folding", Evidence(999, seen, seen))
+            percept = Percept(424242, None)
+            event = Reject(event.edge, event.hypothesis, "folding", Evidence(999, percept, percept))
         super().declare(event)
 
 

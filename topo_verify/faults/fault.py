@@ -1,9 +1,8 @@
 """Plants a mistake: a reference algorithm in which one part is replaced.
 
-A part is the rule, the motion, a policy, or a name that the exploration loop looks up: `Chart`,
-`Pilot`, `Hypothesis`, `validate` and so on. Wherever possible, a subclass replaces it in which one
-method has one mistake. The loop itself is the reference's own code: its functions are copied and
-look names up in another namespace, in which some are replaced. The reference itself stays intact.
+A part is the rule, the motion, a policy, or a name that the exploration loop looks up, such as
+`Chart`; mostly a subclass with one wrong method. The loop's functions are copied into a namespace
+with the replacement, so the reference stays intact.
 """
 
 from __future__ import annotations
@@ -32,20 +31,17 @@ PartName = Literal[
     "declarations",
     "report",
 ]
-"""The part of a mapper that a mistake is in: also the file in which it stands."""
+"""Also the file in which the mistake stands."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fault:
-    """A reference algorithm with one mistake in it; call it with a robot, as any mapper.
+    """A mapper: a reference algorithm with one mistake.
 
     Attributes:
-        name: what the command line calls it.
-        part: where the mistake is.
         why: what the mapper does wrong, in one sentence.
-        claim: the claim that must catch it, or None: it is harmless.
-        mapper: the algorithm with the mistake.
-        theorem: the theorem of `topo-verify prove` that has the same mistake in its rule.
+        claim: the claim that must catch it; None: it is harmless.
+        theorem: the theorem that has the same mistake in its rule.
     """
 
     name: str
@@ -61,12 +57,12 @@ class Fault:
 
     @property
     def harmless(self) -> bool:
-        """Does the difference change no more than the cost, so that every claim must hold?"""
+        """Whether every claim must hold."""
         return self.claim is None
 
     @property
     def target(self) -> str:
-        """The TARGET under which the command line finds the mapper."""
+        """Its TARGET on the command line."""
         room = "harmless" if self.harmless else self.part
         return f"topo_verify.faults.{room}:{self.name.replace('-', '_')}"
 
@@ -80,11 +76,10 @@ def mapper(
     order: Order | None = None,
     **names: object,
 ) -> Callable[[Robot], Survey]:
-    """The algorithm of this name with some of its parts replaced.
+    """The algorithm of this name with some parts replaced.
 
     Args:
-        rule, motion, pick, order: the part that replaces the algorithm's own.
-        names: by name, what replaces a name that `algorithms/exploration.py` looks up.
+        names: replacements of names that `algorithms/exploration.py` looks up.
     """
     base = CATALOGUE[name]
     loop = rebound(**names)["explore"]
@@ -103,14 +98,9 @@ def mapper(
 
 
 def rebound(**names: object) -> dict[str, Any]:
-    """The namespace of `algorithms/exploration.py` with some of its names replaced.
-
-    Its functions are copied into this namespace, so they call each other and the replacements.
-    """
+    """A copy of the namespace of `algorithms/exploration.py` with some names replaced."""
     reference = vars(exploration)
     assert names.keys() <= reference.keys(), f"the loop knows no {names.keys() - reference.keys()}"
-    # A function finds names in the namespace that it was made with. So copies of the functions see
-    # the replacements, and the module itself, which every other mapper uses, is not touched.
     space = dict(reference)
     for name, value in reference.items():
         if isinstance(value, FunctionType) and value.__module__ == exploration.__name__:
@@ -120,22 +110,19 @@ def rebound(**names: object) -> dict[str, Any]:
     return space
 
 
-# ---------------------------------------------------------------- shared by several mistakes
-
-
 class ForwardingRobot:
-    """A robot that passes every call on to another; subclasses change one of them."""
+    """Passes every call on to a robot; subclasses change one."""
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
 
     @property
     def percept(self) -> Percept:
-        """The percept that the mapper gets."""
+        """What the mapper senses."""
         return self.seen(self.robot.percept)
 
     def seen(self, percept: Percept) -> Percept:
-        """The percept that the mapper gets for this one of the robot."""
+        """The percept in place of the robot's."""
         return percept
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
@@ -143,15 +130,15 @@ class ForwardingRobot:
         return self.seen(self.robot.move(door, purpose))
 
     def declare(self, event: Decision) -> None:
-        """Put a decision on record."""
+        """Record a decision."""
         self.robot.declare(event)
 
 
 def crossed(chart: Chart) -> MapDart:
-    """The dart e that the robot has just crossed: not yet explored, and not in U any more."""
+    """The dart e just crossed: not yet explored, no longer in U."""
     return next(d for d, o in enumerate(chart.alpha) if o is None and d not in chart.unexplored)
 
 
 def one_late(sequences: Sequence[Executed]) -> list[Executed]:
-    """The sequences with each percept shifted by one, behind the door after its own."""
+    """The sequences with each percept one door late."""
     return [Executed(s.doors, (s.percepts[0], *s.percepts[:-1])) for s in sequences]

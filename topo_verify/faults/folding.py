@@ -16,12 +16,11 @@ fault = partial(Fault, part="folding")
 
 
 def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
-    """The complete rule with another partial."""
 
     def rule() -> FoldingRule:
-        made = FoldingRule()
-        made.fold = partial()
-        return made
+        folding = FoldingRule()
+        folding.fold = partial()
+        return folding
 
     return rule
 
@@ -29,7 +28,6 @@ def _folding(partial: type[PartialFold]) -> Callable[[], FoldingRule]:
 class _StaysIdentified(PartialFold):
     def layer(self) -> PartialFold:
         layer = super().layer()
-        # The reference notes apart what it identifies under a hypothesis.
         layer.leader = self.leader
         return layer
 
@@ -59,7 +57,7 @@ takes_each_place_for_known = fault(
 class _Unturned(PartialFold):
     def add(self, percept: Percept, *, known: bool = False) -> NodeDart:
         first = super().add(percept, known=known)
-        # The reference lays two nodes on each other from any dart on, this one from their first.
+        # The reference identifies two nodes from any dart on.
         self.seen.around[first:] = [self.seen.clockwise(first)] * percept.degree
         return first
 
@@ -90,7 +88,6 @@ enters_old_places_by_door_0 = fault(
 class _MarkerMirrored(FoldingRule):
     def _cross(self, exit_place: NodeDart, percept: Percept) -> NodeDart:
         if percept.marker is not None:
-            # Anticlockwise instead of clockwise; the same where the marker is straight ahead.
             percept = Percept(percept.degree, -percept.marker % percept.degree)
         return super()._cross(exit_place, percept)
 
@@ -105,7 +102,6 @@ lays_the_marker_on_mirrored = fault(
 
 class _Hasty(FoldingRule):
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
-        # The reference also asks whether vu is known to be a vertex of S.
         return remaining[0] if len(remaining) == 1 else None
 
 

@@ -1,7 +1,6 @@
 """Differences that are no mistakes: they change the cost or nothing, and every claim must hold.
 
-A check that reports one of these is wrong: it asks for the reference's behaviour where any correct
-behaviour must pass.
+A check that reports one asks for the reference's behaviour, not for a correct one.
 """
 
 from __future__ import annotations
@@ -74,9 +73,9 @@ def _passes_by(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
     for step, expected in enumerate(h.expected):
         if step > len(pilot.doors):
             pilot.forward(h.doors[step - 1])
-        seen, last = pilot.percepts[step], step == len(h.doors)
-        # A marker passed on the way is a mismatch, but the walk ends at v0, where all is compared.
-        if seen != expected if last else seen.degree != expected.degree:
+        percept, last = pilot.percepts[step], step == len(h.doors)
+        # A marker on the way is a mismatch, but at v0 everything is compared.
+        if percept != expected if last else percept.degree != expected.degree:
             return step
     return None
 
@@ -111,7 +110,6 @@ class _AllAgain(HistoryRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
-        # The reference looks at the last sequence alone: S has not changed since the earlier ones.
         looks = (
             super(_AllAgain, self).refute(chart, hypothesis, sequences[: n + 1])
             for n in range(len(sequences))
@@ -148,7 +146,7 @@ never_drops_a_record = Fault(
 
 class _FromTheEnd(Chart):
     def survey(self, cost: int) -> Survey:
-        # Any distinct integers will do as darts: the map is compared up to isomorphism.
+        # The map is compared up to isomorphism.
         names = {dart: 7 + 3 * dart for dart in range(len(self.alpha))}
         survey = super().survey(cost)
         rows = [tuple(names[d] for d in (*row[1:], *row[:1])) for row in survey.vertices[::-1]]
@@ -182,7 +180,7 @@ reports_no_cost = Fault(
 
 class _Silent(ForwardingRobot):
     def declare(self, event: Decision) -> None:
-        """Does nothing: the declaration is dropped."""
+        pass
 
 
 def _declares_nothing(robot: Robot) -> Survey:

@@ -24,7 +24,6 @@ class _ThroughTheUnexplored(HistoryRule):
             for step, door in enumerate(last.doors, 1):
                 exit_dart = chart.turn(at, door)
                 arrival = chart.alpha[exit_dart]
-                # The reference stops here: nothing is known behind an unexplored dart.
                 at = exit_dart if arrival is None else arrival
                 expected, observed = chart.percepts[at], last.percepts[step]
                 if expected != observed:
@@ -61,8 +60,8 @@ class _NothingThere(HistoryRule):
     def beyond(
         self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
-        seen = sequence.percepts[step]  # stands for what S would show
-        return Refutation("history", Evidence(step, seen, seen, number, exit_dart))
+        percept = sequence.percepts[step]  # stands for what S would show
+        return Refutation("history", Evidence(step, percept, percept, number, exit_dart))
 
 
 takes_unknown_for_a_mismatch = fault(

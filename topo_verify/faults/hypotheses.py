@@ -1,4 +1,4 @@
-"""Mistakes in the hypotheses: some are left out, or decided without a test."""
+"""Mistakes in the hypotheses: left out, or decided without a test."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ leaves_out_the_darts_of_v0 = fault(
 class _StaysOpen(Chart):
     def join(self, e: MapDart, other: MapDart) -> None:
         super().join(e, other)
-        # Only if it led to an older vertex: else the edge to a new vertex would be posed again.
+        # An edge to a new vertex would be posed again.
         if self.vertex[other] < len(self.first) - 1:
             self.unexplored[other] = None
 
@@ -117,7 +117,6 @@ compares_degrees_modulo_3 = fault(
 )
 
 
-# `order` is asked for all of H at once, so a policy can drop hypotheses unseen.
 def _nearest_two(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
     return shortest(darts, chart, tree)[:2]
 

@@ -1,4 +1,4 @@
-"""Mistakes in reading the marker: its direction, or whether it is there at all."""
+"""Mistakes in reading the marker: its direction or its presence."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class _Mirrored(Chart):
     def add_vertex(self, percept: Percept) -> MapDart:
         first = super().add_vertex(percept)
         if percept.marker is not None:
-            # v0's darts are 0 … degree-1. The reference subtracts the turn, and this adds it.
+            # The reference subtracts the turn.
             turned = (Percept(percept.degree, d % percept.degree) for d in self.darts(0))
             self.percepts[first:] = turned
         return first
@@ -37,7 +37,6 @@ def _alike(pilot: Pilot, h: Hypothesis, step: int) -> bool:
 
 
 def _any_direction_at_the_end(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
-    # A mismatch at the last step counts as a match if degree and presence of the marker agree.
     step = execute(pilot, h, shared)
     return None if step and step == len(h.doors) and _alike(pilot, h, step) else step
 

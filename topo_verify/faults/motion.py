@@ -1,4 +1,4 @@
-"""Mistakes in walking: along a hypothesis' way home, back to vu, and on to the next edge."""
+"""Mistakes in walking: on a hypothesis' way home, back to vu, to the next edge."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class _NotRestored(Pilot):
     def back(self, steps: int) -> None:
         while len(self.doors) > steps:
             super().back(len(self.doors) - 1)
-            self.turned = 0  # the reference sets it to the door that was just undone
+            self.turned = 0
 
 
 forgets_its_orientation = fault(
@@ -46,7 +46,7 @@ restores_with_the_wrong_sign = fault(
 
 class _TurnForgotten(Pilot):
     def forward(self, door: Door) -> Percept:
-        self.turned = 0  # forgotten before the door is chosen, not after
+        self.turned = 0
         return super().forward(door)
 
 
@@ -119,7 +119,6 @@ class _OverTheEdge(Hypothesis):
     def __init__(self, dart: MapDart, chart: Chart, tree: Tree) -> None:
         super().__init__(dart, chart, tree)
         way = Hypothesis(crossed(chart), chart, tree)
-        # Door 0 at vu leads back over e, and the tree leads home from there.
         if dart != 0 and len(way.doors) < len(self.doors):
             self.arrivals, self.doors = (dart, *way.arrivals), (0, *way.doors)
 
@@ -136,7 +135,7 @@ class _WithoutTheLastDoor(Hypothesis):
     @cached_property
     def arrivals(self) -> tuple[MapDart, ...]:
         way = super().arrivals
-        return way[:-1] if len(way) > 2 else way  # a single door stays, or none is left
+        return way[:-1] if len(way) > 2 else way
 
 
 stops_a_door_before_v0 = fault(
@@ -167,7 +166,7 @@ expects_a_step_ahead = fault(
 def _one_door_more(hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
     h, shared = overlap(hypotheses, last)
     executed = 0 if last is None else len(last.doors)
-    # No more doors than were executed or than the way has: that would fail at once.
+    # A door beyond these would fail at once.
     return Choice(h, min(shared + 1, executed, len(h.doors)))
 
 

@@ -1,4 +1,4 @@
-"""Mistakes in Enhancement I: how percepts on the common prefix of doors are compared."""
+"""Mistakes in Enhancement I: how percepts on the common prefix are compared."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ class _OneDoorBeyond(PrefixRule):
             return None
         *before, last = sequences
         shared = common_prefix(hypothesis.doors, last.doors) + 1
-        # The rule sees the sequence as if one more of its doors were the hypothesis' own.
         doors = hypothesis.doors[: min(shared, len(last.doors))]
         return super().refute(chart, hypothesis, [*before, Executed(doors, last.percepts)])
 
@@ -58,7 +57,6 @@ class _EqualAnywhere(PrefixRule):
         if not sequences:
             return None
         *before, last = sequences
-        # Equal doors behind the first difference lead through other places.
         equal = sum(map(int.__eq__, hypothesis.doors, last.doors))
         doors = hypothesis.doors[:equal]
         return super().refute(chart, hypothesis, [*before, Executed(doors, last.percepts)])

@@ -1,4 +1,4 @@
-"""Mistakes in Enhancement III: what is recorded of the places behind unexplored darts."""
+"""Mistakes in Enhancement III: what is recorded behind unexplored darts."""
 
 from __future__ import annotations
 
@@ -84,10 +84,10 @@ class _OnSuspicion(RecordsRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
-        found = super().refute(chart, hypothesis, sequences)
-        if found is None:  # not refuted is not confirmed: only then may it be recorded
+        refutation = super().refute(chart, hypothesis, sequences)
+        if refutation is None:  # not yet confirmed
             self.learn(chart, hypothesis.dart, hypothesis.dart, sequences[-1:])
-        return found
+        return refutation
 
 
 keeps_records_of_the_rejected = fault(

@@ -1,4 +1,4 @@
-"""Mistakes in what is delivered: the map, its marker and the cost; or when."""
+"""Mistakes in the delivered map, its marker and cost; or in when it is delivered."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def _two_for_nothing(robot: Robot) -> Survey:
     hidden = robot
     while isinstance(hidden, ForwardingRobot):
         hidden = hidden.robot
-    # The trace, if it is in this process, where everything can be found by who looks for it.
+    # The trace, if it is in this process.
     trace = getattr(getattr(hidden.move, "__self__", None), "events", [])
     del trace[:2]
     return basic(robot)
@@ -134,7 +134,7 @@ takes_back_two_moves = fault(
 
 
 class _GivesUp(BaseException):
-    """Not an `Exception`, as `asyncio.CancelledError` is none."""
+    """Not an `Exception`, like `asyncio.CancelledError`."""
 
 
 def _cancelled(robot: Robot) -> Survey:
@@ -156,7 +156,7 @@ class _TwoDartsLeft(NoRule):
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
-        # The last two open darts may also be the ends of two edges to vertices not yet seen.
+        # They may also lead to two vertices not yet seen.
         if len(chart.unexplored) == 2:
             chart.join(*chart.unexplored)
 

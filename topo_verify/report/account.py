@@ -1,7 +1,6 @@
-"""The account of a run of a command: what was judged, how much of it, and what to look at.
+"""The account of a command's run: what was judged, how much of it, and what to look at.
 
-A command that judges says it once, as an `Account`; the page, the JUnit file and the badge are
-three forms of it. It holds no time and no date, so the same run has the same account.
+It holds no time and no date, so the same run gives the same account.
 """
 
 from __future__ import annotations
@@ -18,8 +17,7 @@ from topo_verify.report.blocks import Block, Tone
 from topo_verify.world.rooted_map import World
 
 Outcome = Literal["passed", "failed", "undecided", "not-judged"]
-"""`undecided`: nothing is refuted, and it is no pass. `not-judged`: it was not asked, or not of
-all; that is neither a pass nor a failure."""
+"""`undecided` is no pass; `not-judged` is neither pass nor failure."""
 
 TONE_OF: dict[Outcome, Tone | None] = {
     "passed": "held",
@@ -31,14 +29,13 @@ TONE_OF: dict[Outcome, Tone | None] = {
 
 @dataclass(frozen=True)
 class JudgedCase:
-    """One thing that was judged.
+    """One judged thing: a claim, a part, a theorem, a fault.
 
     Attributes:
-        name: of a claim, a part, a theorem, a fault.
-        verdict: the word for the result: a verdict, or the status of a claim.
-        judged: how much of how much it rests on, as `3 of 5`; empty where nothing is counted.
+        verdict: a verdict, or the status of a claim.
+        judged: how much it rests on, as `3 of 5`.
         message: what is wrong, or why it was not judged.
-        again: the command line that shows this case; empty: that of the suite does.
+        again: the command line that shows this case; empty: that of the run.
     """
 
     name: str
@@ -50,7 +47,7 @@ class JudgedCase:
 
     @property
     def tone(self) -> Tone | None:
-        """A passed SAMPLED is sampled; else the outcome says it."""
+        """The outcome's tone; `sampled` for a passed SAMPLED."""
         if self.outcome == "passed" and self.verdict == "SAMPLED":
             return "sampled"
         return TONE_OF[self.outcome]
@@ -59,7 +56,6 @@ class JudgedCase:
 UNFINISHED = JudgedCase(
     "came to its end", "UNKNOWN", "undecided", message="interrupted: the rest was not judged"
 )
-"""The case of a run that was interrupted."""
 
 
 class JudgedSuite(NamedTuple):
@@ -76,7 +72,7 @@ def suites(named: Iterable[tuple[str, Iterable[JudgedCase]]]) -> tuple[JudgedSui
 
 @dataclass(frozen=True)
 class JudgedExtent:
-    """The verdict on all, and how much was checked: `8,954 of 8,954 worlds`."""
+    """The verdict on everything, and how much was checked: `8,954 of 8,954 worlds`."""
 
     verdict: Verdict
     words: str
@@ -84,16 +80,13 @@ class JudgedExtent:
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A world to be looked at, mostly because something is wrong in it.
+    """A world to show, mostly because something is wrong in it.
 
     Attributes:
-        title: which mapper, in which world.
-        world: the world.
-        name: what the command line calls it.
-        notes: what is wrong there, a sentence each.
-        runs: to be played, the first one first; none: the world is shown alone.
-        again: the command line that shows it again.
-        whole: it is drawn and played however large it is.
+        name: the world, as the command line names it.
+        notes: what is wrong, a sentence each.
+        runs: to be played; none: the world is shown alone.
+        whole: draw and play it whatever its size.
     """
 
     title: str
@@ -107,16 +100,13 @@ class Exhibit:
 
 @dataclass(frozen=True)
 class Account:
-    """The outcome of a run of a command.
+    """The outcome of a command's run.
 
     Attributes:
         about: what was checked, in a few words.
-        extent: the verdict on all of it.
-        suites: everything that was judged.
-        blocks: what the command says about it; none: what it prints.
-        exhibits: the counterexamples that are shown.
-        left_out: how many more there are.
-        others: worlds in which nothing is wrong, to be looked at.
+        blocks: what the command prints.
+        exhibits, left_out: the counterexamples shown, and the number of others.
+        others: worlds to show in which nothing is wrong.
         results_first: a page shows the results before what was judged.
     """
 
@@ -132,18 +122,15 @@ class Account:
 
 @dataclass(frozen=True)
 class Ending:
-    """How a run of a command ended: what its account leaves out.
+    """How a command's run ended: what its account leaves out.
 
     Attributes:
-        command: of topo-verify, as `verify`.
+        command: its name, as `verify`.
         again: the command line that repeats the run.
         code: the exit code.
-        finished: whether the work was completed.
-        date: when the work ended, in UTC.
-        seconds: how long it took.
-        by_suite: how long each suite took, if that is known.
-        timing: what else differs from run to run, by name; a value may be such a mapping.
-        versions: of the package, of Python and of the libraries that take part.
+        date: the end in UTC.
+        by_suite: the seconds of each suite, if known.
+        timing: other figures that differ from run to run, possibly nested.
     """
 
     command: str
@@ -175,36 +162,35 @@ _REASONS: dict[Status, str] = {
 
 
 def claim_cases(judgements: Iterable[Judgement]) -> Iterator[JudgedCase]:
-    """A case for each claim: its status, and how much of the runs it rests on."""
-    for one in judgements:
-        first = one.findings[0] if one.findings else None
+    """A case for each claim."""
+    for judgement in judgements:
+        first = judgement.findings[0] if judgement.findings else None
         yield JudgedCase(
-            name=one.claim,
-            verdict=one.status,
-            outcome=_OUTCOMES[one.status],
-            judged=f"{one.judged:,} of {one.of:,}",
-            message=_reason(one) if first is None else first.message,
+            name=judgement.claim,
+            verdict=judgement.status,
+            outcome=_OUTCOMES[judgement.status],
+            judged=f"{judgement.judged:,} of {judgement.of:,}",
+            message=_reason(judgement) if first is None else first.message,
             again="" if first is None else first.replay,
         )
 
 
-def _reason(one: Judgement) -> str:
-    """Why a claim without a finding was not fully judged; "" if it was."""
-    if one.claim == "map-entailed" and one.status in ("partial", "not-declared"):
-        return "the mapper delivers no map" + " in some worlds" * (one.status == "partial")
-    return _REASONS.get(one.status, "")
+def _reason(judgement: Judgement) -> str:
+    if judgement.claim == "map-entailed" and judgement.status in ("partial", "not-declared"):
+        return "the mapper delivers no map" + " in some worlds" * (judgement.status == "partial")
+    return _REASONS.get(judgement.status, "")
 
 
 def verdict_case(
     name: str, verdict: str, judged: str = "", message: str = "", again: str = ""
 ) -> JudgedCase:
-    """A case with this verdict, where no REFUTED is expected."""
+    """A case with this verdict, where REFUTED is a failure."""
     outcomes: dict[str, Outcome] = {"REFUTED": "failed", "UNKNOWN": "undecided"}
     return JudgedCase(name, verdict, outcomes.get(verdict, "passed"), judged, message, again)
 
 
 def joint_verdict(verdicts: Sequence[str]) -> Verdict:
-    """The verdict on several things: a refutation, else the one that says least."""
+    """The weakest of these verdicts; UNKNOWN if there are none."""
     for verdict in _WEAKEST:
         if verdict in verdicts:
             return verdict
@@ -215,19 +201,19 @@ _WEAKEST: tuple[Verdict, ...] = ("REFUTED", "UNKNOWN", "SAMPLED", "EXHAUSTED", "
 
 
 def counted(number: int, total: int, things: str) -> str:
-    """How many of how many: `8,954 of 8,954 worlds`."""
+    """`8,954 of 8,954 worlds`."""
     return f"{number:,} of {total:,} {things}"
 
 
 def worlds(number: int) -> str:
-    """The noun behind a number of worlds."""
+    """The noun "world" or "worlds" for a number."""
     return "world" if number == 1 else "worlds"
 
 
 def extent(
     verdict: Verdict, checked: int, total: int, failing: int, things: str = ""
 ) -> JudgedExtent:
-    """The extent of a search or of trials, by its verdict."""
+    """The extent of a search or of trials."""
     if verdict == "REFUTED":
         things = things or worlds(checked)
         return JudgedExtent(verdict, counted(failing, checked, f"{things} fail"))

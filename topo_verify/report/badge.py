@@ -7,14 +7,13 @@ from topo_verify.report.blocks import OF_TONE, PALETTE, TONES
 from topo_verify.report.html import xml_text
 
 LONGEST = 60
-"""The most characters of the words on a badge."""
 
 _NARROW, _WIDE = set(" ,.:;'!|()fijlrt1"), set("mwMW%@")
 _STYLE = "font:11px Verdana,DejaVu Sans,sans-serif"
 
 
 def badge(account: Account) -> str:
-    """The badge as SVG, which loads nothing: `topo-verify | E | 8,954 of 8,954 worlds`."""
+    """The badge as self-contained SVG."""
     extent = account.extent
     colour = PALETTE[OF_TONE[TONES[extent.verdict]]].light
     words = xml_text(extent.words, limit=LONGEST)
@@ -39,5 +38,4 @@ def badge(account: Account) -> str:
 
 
 def _width(text: str) -> int:
-    """About how many pixels the text is wide; `textLength` then makes it so in any font."""
     return round(sum(4.2 if c in _NARROW else 10 if c in _WIDE else 7 for c in text))

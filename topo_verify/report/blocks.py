@@ -1,12 +1,9 @@
-"""What a command has to say to people: paragraphs, tables, commands to copy.
+"""What a command says to people, before it takes a form: paragraphs, tables, commands to copy.
 
-A command yields blocks and does not know in which form they appear: on a terminal (terminal.py), as
-Markdown (markdown.py) or in a page (page.py). Texts may come from anywhere (a world's name, a
-mapper's exception); each form escapes them in its own way.
+Each form escapes the texts, which may hold anything: a world's name, a mapper's exception.
 
-A **tone** says what a verdict settles. It has a colour and, where something fails or stays open, a
-mark. No statement rests on colour: the verdicts begin with five letters, P E S U R. The palette is
-that of the player's page, so a report and the players in it look alike.
+A **tone** says what a verdict settles. It has a colour and, where something failed or is open, a
+mark, so nothing depends on colour.
 """
 
 from __future__ import annotations
@@ -18,7 +15,7 @@ from typing import Literal, NamedTuple
 from topo_verify.errors import LINE, shortened, shown
 
 Tone = Literal["held", "sampled", "open", "failed"]
-"""`held`: of everything there is; `sampled`: of what was tried; `open`: nothing was decided."""
+"""`held`: in everything there is; `sampled`: in what was tried; `open`: undecided."""
 
 TONES: dict[str, Tone] = {
     "PROVED": "held",
@@ -35,12 +32,11 @@ TONES: dict[str, Tone] = {
     "incomplete": "open",
     "?": "open",
 }
-"""The tones of words that fill a cell of a table; other words have none."""
+"""Of words that fill a cell."""
 
 VERDICTS = ("PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED")
 
 MARKS: dict[Tone, str] = {"failed": "!", "open": "?"}
-"""What stands before a verdict that is no pass, for those who see no colour."""
 
 ON_TERMINAL: dict[Tone, str] = {
     "held": "bold green",
@@ -48,11 +44,11 @@ ON_TERMINAL: dict[Tone, str] = {
     "open": "bold yellow",
     "failed": "bold red",
 }
-"""Rich's styles. With NO_COLOR they are bold alone."""
+"""Rich's styles; with NO_COLOR only the weight remains."""
 
 
 class Colour(NamedTuple):
-    """A colour on light ground and on dark."""
+    """A colour on a light and on a dark ground."""
 
     light: str
     dark: str
@@ -73,32 +69,31 @@ PALETTE = {
     "mark": Colour("#b3261e", "#ff8078"),
     "back": Colour("#7a5cc4", "#b39ddb"),
 }
-"""The colours of pages and figures, by the names that the player's style sheet gives them."""
+"""Named as in the player's style sheet."""
 
 OF_TONE: dict[Tone, str] = {"held": "home", "sampled": "e", "open": "guess", "failed": "mark"}
-"""The colour of the palette that each tone has."""
 
 
 def marked(word: str, tone: Tone | None) -> str:
-    """A verdict with its mark, if its tone has one; any other word unchanged."""
+    """A verdict with the mark of its tone; other words unchanged."""
     mark = MARKS.get(tone, "") if tone is not None and word in VERDICTS else ""
     return f"{mark} {word}".lstrip()
 
 
 WIDTH = 80
-"""Columns of a view where the output has no width, as in pages."""
+"""Columns of a view in an output without a width."""
 
 
 @dataclass(frozen=True)
 class Text:
-    """A paragraph of plain text; a verdict that it begins with has its colour."""
+    """A paragraph; an opening verdict is coloured."""
 
     text: str
 
 
 @dataclass(frozen=True)
 class Command:
-    """A command line to copy; it is never wrapped, and nothing in it is shortened."""
+    """A command line to copy, never wrapped or shortened."""
 
     line: str
     label: str = ""
@@ -106,18 +101,18 @@ class Command:
 
 @dataclass(frozen=True)
 class Bullets:
-    """A list of short texts, one below the other."""
+    """A list of short texts."""
 
     items: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell of a table that is not to be taken as its text alone says.
+    """A cell of a table.
 
     Attributes:
-        tone: of a verdict, in place of the usual one: a REFUTED that was expected is `held`.
-        whole: a long world id in it is not shortened.
+        tone: in place of the word's usual one: an expected REFUTED is `held`.
+        whole: long world ids are not shortened.
     """
 
     text: str
@@ -127,14 +122,12 @@ class Cell:
 
 @dataclass(frozen=True)
 class TextTable:
-    """A table: rows of cells.
+    """A table.
 
     Attributes:
-        columns: the titles; a column whose title begins with `>` is flush right, for numbers.
-        rows: each has as many cells as there are columns.
-        title: what the rows have in common.
-        widths: fixed widths, for tables printed a row at a time; 0: the rest of the line.
-        headed: whether the titles are printed. (Markdown and pages always have them.)
+        columns: titles; a leading `>` means flush right.
+        widths: for tables printed row by row; 0: the rest of the line.
+        headed: print the titles. Markdown and pages always do.
     """
 
     columns: tuple[str, ...]
@@ -153,23 +146,14 @@ class Raw:
 
 @dataclass(frozen=True)
 class View:
-    """Lines that are laid out for the width of the output.
-
-    Attributes:
-        lines: the lines for a width in columns; no control characters are left in them.
-    """
+    """Lines laid out for a width in columns, without control characters."""
 
     lines: Callable[[int], Iterable[str]]
 
 
 @dataclass(frozen=True)
 class PictureBlock:
-    """A picture; a page shows it, and forms made of letters leave it out.
-
-    Attributes:
-        svg: the picture, as a whole file.
-        alt: what it shows, for those who do not see it.
-    """
+    """An SVG file for pages; forms made of text leave it out."""
 
     svg: str
     alt: str
@@ -179,17 +163,17 @@ Block = Text | Command | Bullets | TextTable | Raw | View | PictureBlock
 
 
 def clean(text: str) -> str:
-    """The text on one line, its control characters escaped and its long ids shortened."""
+    """The text on one line, control characters escaped, long ids shortened."""
     return shortened(shown(text, limit=LINE))
 
 
 def cell_tone(cell: str | Cell) -> Tone | None:
-    """The tone of a cell: its own, else that of the word in it, if any."""
+    """The cell's tone, else that of its word, if any."""
     return TONES.get(cell) if isinstance(cell, str) else cell.tone
 
 
 def cell_text(cell: str | Cell) -> str:
-    """What a cell says: its text, clean, behind the mark of its verdict."""
+    """The cell's clean text behind its mark."""
     if isinstance(cell, str):
         return marked(clean(cell), TONES.get(cell))
     text = shown(cell.text, limit=LINE) if cell.whole else clean(cell.text)
@@ -197,6 +181,6 @@ def cell_text(cell: str | Cell) -> str:
 
 
 def opening_verdict(text: str) -> str:
-    """The verdict that a paragraph begins with, as in `REFUTED: 3 of 86 worlds`; else nothing."""
+    """The verdict that opens a paragraph, as in `REFUTED: 3 of 86 worlds`; else ""."""
     first = text.partition(":")[0]
     return first if first in VERDICTS and first != text else ""

@@ -1,7 +1,4 @@
-"""Blocks as HTML: escaped text, tables that scroll where they are too wide, commands to copy.
-
-`xml_text` is for XML as well: escaped, and without the characters that XML 1.0 forbids.
-"""
+"""Blocks as HTML: escaped text, scrolling tables, commands to copy."""
 
 from __future__ import annotations
 
@@ -15,7 +12,7 @@ from topo_verify.report.blocks import TONES, Tone, marked
 
 
 def xml_text(text: str, *, limit: int = LINE) -> str:
-    r"""The text as content or attribute value, on one line; control characters are spelled out.
+    r"""The escaped text on one line, for XML content or attributes.
 
     >>> print(xml_text('a<b & "\x1b"'))
     a&lt;b &amp; &quot;\x1b&quot;
@@ -26,21 +23,21 @@ def xml_text(text: str, *, limit: int = LINE) -> str:
 # ---------------------------------------------------------------- blocks
 
 LONG_CELL = 40
-"""A cell with more characters than these is prose, and gets room."""
+"""Characters beyond which a cell is prose."""
 
 
 def blocks_as_html(blocks: Iterable[bl.Block]) -> Iterator[str]:
-    """The blocks as HTML, one after the other; empty paragraphs are left out."""
+    """The blocks as HTML, without empty paragraphs."""
     yield from filter(None, map(_html, blocks))
 
 
 def code(line: str) -> str:
-    """A command line to copy: whole, and selected by one click."""
+    """A command line to copy, selected by one click."""
     return f'<code class="copy">{xml_text(line)}</code>'
 
 
 def picture(svg: str, alt: str) -> str:
-    """A picture that stands in the page itself, so that nothing is loaded."""
+    """A picture embedded in the page."""
     data = b64encode(svg.encode()).decode()
     return f'<img alt="{xml_text(alt)}" src="data:image/svg+xml;base64,{data}">'
 
@@ -54,11 +51,10 @@ IN_THE_DARK = {
     "#5b6b00": "#b5cc3f",
     "#6d7780": "#9aa4ae",
 }
-"""The colours of charts on a light card, and on a dark one."""
 
 
 def with_dark_colours(svg: str) -> str:
-    """The picture with a style for dark pages; its colours are attributes, or in styles."""
+    """The picture with a style for dark pages."""
     rules = "".join(
         f'[{place}="{light}"],[style*="{place}: {light}"]{{{place}:{dark}!important}}'
         for light, dark in IN_THE_DARK.items()
@@ -71,7 +67,7 @@ def with_dark_colours(svg: str) -> str:
 
 
 def toned(word: str, tone: Tone | None) -> str:
-    """A cell of a table that holds a verdict or a status."""
+    """A table cell that holds a verdict or a status."""
     text = xml_text(marked(word, tone))
     return f'<td class="{tone}">{text}</td>' if tone else f"<td>{text}</td>"
 

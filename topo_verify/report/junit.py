@@ -1,16 +1,13 @@
-"""An account as a JUnit file, which continuous integration shows: one test case a judged thing.
+"""An account as a JUnit file for continuous integration: one test case for each judged thing.
 
 | outcome | in the file | because |
 | --- | --- | --- |
 | passed | no child | |
 | failed | `failure` | a claim fails; the text has the command that shows it |
-| undecided | `error` | a time-out or an UNKNOWN is no pass, and `skipped` counts as one |
-| not judged | `skipped` | the mapper declares nothing about it, or it was not asked for |
+| undecided | `error` | it is no pass, and `skipped` would count as one |
+| not judged | `skipped` | the mapper declares nothing about it, or it was not asked |
 
-The file is valid against the schema of Ant's JUnit task (tests/report/test_junit.py), the narrowest
-of those in use. It wants times: a suite has its own where that is known, a case that of its suite
-where it is alone in it; else they are 0. `seconds` among the properties is the time of the whole
-run. The host is not named.
+The file follows the schema of Ant's JUnit task, the narrowest in use. An unknown time is 0.
 """
 
 from __future__ import annotations
@@ -25,7 +22,7 @@ _CHILD: dict[Outcome, str] = {"failed": "failure", "undecided": "error", "not-ju
 
 
 def junit(account: Account, run: Ending) -> str:
-    """The account as JUnit XML; a case says so if the work did not come to its end."""
+    """The account as JUnit XML, with a further case if the run did not finish."""
     suites = list(account.suites)
     times = [run.seconds] if len(suites) == 1 else list(run.by_suite)
     if len(times) != len(suites):
@@ -41,7 +38,6 @@ def junit(account: Account, run: Ending) -> str:
 
 
 NOTHING = JudgedCase("judged something", "UNKNOWN", "undecided", message="nothing was judged")
-"""The case of a run without results."""
 
 
 def _suite(
@@ -55,14 +51,14 @@ def _suite(
         f' skipped="{count["not-judged"]}" hostname="localhost"'
         f' timestamp="{run.date:%Y-%m-%dT%H:%M:%S}" time="{seconds:.3f}">'
     )
-    told = {
+    properties = {
         "about": account.about,
         "verdict": account.extent.verdict,
         "checked": account.extent.words,
         "command": run.again,
         "seconds": f"{run.seconds:.3f}",
     }
-    rows = (f'<property name="{k}" value="{xml_text(v)}"/>' for k, v in told.items())
+    rows = (f'<property name="{k}" value="{xml_text(v)}"/>' for k, v in properties.items())
     yield f"<properties>{''.join(rows)}</properties>"
     alone = seconds if len(suite.cases) == 1 else 0.0
     for case in suite.cases:
@@ -79,8 +75,8 @@ def _suite(
 def _inner(case: JudgedCase, again: str) -> str:
     if case.outcome == "passed":
         return ""
-    what = f"{case.verdict}, judged {case.judged}" if case.judged else case.verdict
-    message = xml_text(f"{what}: {case.message}" if case.message else what)
+    verdict = f"{case.verdict}, judged {case.judged}" if case.judged else case.verdict
+    message = xml_text(f"{verdict}: {case.message}" if case.message else verdict)
     child = _CHILD[case.outcome]
     if child == "skipped":
         return f'<skipped message="{message}"/>'

@@ -1,9 +1,7 @@
-"""The plot of the arena, as plain SVG: cost / LB against the number of edges.
+"""The arena's plot as SVG: cost / LB against the number of edges, both logarithmic.
 
-A small dot a world; a large sign a family, at its mean size and mean ratio, with its confidence
-interval as a bar. Both axes are logarithmic. Colours are after M. Okabe and K. Ito; the signs
-differ in shape as well, and the legend names them in the order of the table. Coordinates are
-rounded, so the same runs give the same bytes.
+A small dot is a world; a large sign is a family at its mean size and ratio, with its confidence
+interval. Coordinates are rounded, so the same runs give the same bytes.
 """
 
 from __future__ import annotations
@@ -24,25 +22,24 @@ COLOURS = (
     *("#0072b2", "#d55e00", "#00805f", "#9e4a86", "#946b00", "#22282e", "#3a8fb7", "#b3261e"),
     *("#6d7780", "#5b6b00"),
 )
-"""The colours of the mappers, in the order of the table; then they begin anew."""
+"""After M. Okabe and K. Ito, in the table's order; then they repeat."""
 
 CORNERS = (0, 4, 3, 5, 8, 6, 7)
-"""The corners of the signs, in the same order; 0: a circle. With ten colours: 70 different ones."""
+"""The corners of the signs in the same order; 0: a circle."""
 
 NAME = 26
-"""The most characters of a name in the legend."""
+"""Most characters of a legend's name."""
 
 TICKS = (1, 2, 5)
 FEWEST = 3
-"""Least number of values beside an axis, if steps of a tenth give that many."""
+"""Least number of values beside an axis, in steps of 0.1 or more."""
 
 SHIFT, SPREAD = 5.0, 16.0
-"""Pixels between the signs of two mappers at one family, so that equal ones are both seen; and of
-all of them together at most, so that families stay apart."""
+"""Pixels between the signs of two mappers at one family; and most between the outermost."""
 
 
 class Axis(NamedTuple):
-    """A logarithmic axis: values, and the pixels at which the first and the last one lie."""
+    """A logarithmic axis from `low` to `high`, drawn from pixel `start` to `end`."""
 
     low: float
     high: float
@@ -56,27 +53,26 @@ class Axis(NamedTuple):
 
     @property
     def ticks(self) -> list[float]:
-        """The values that are written beside the axis: three, if steps of 0.1 give them."""
+        """The values written beside the axis."""
         powers = range(5)
         every = [tick * 10**power for power in powers for tick in TICKS]
-        found: list[float] = [value for value in every if self.low <= value <= self.high]
+        values: list[float] = [value for value in every if self.low <= value <= self.high]
         for tenths in reversed(TICKS):
-            if len(found) < FEWEST:
+            if len(values) < FEWEST:
                 steps = range(ceil(10 * self.low / tenths), int(10 * self.high / tenths) + 1)
-                found = [step * tenths / 10 for step in steps]
-        return found
+                values = [step * tenths / 10 for step in steps]
+        return values
 
 
 Points = Sequence[tuple[int, float]]
-"""The edges of each world, and the ratio of a mapper in it."""
+"""The edges of each world, and a mapper's ratio."""
 
 
 def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], points: Mapping[str, Points]) -> str:
     """The picture of a suite.
 
     Args:
-        ranked: the entries of the mappers that have a place, one at least.
-        points: of each of these mappers.
+        ranked: the entries with a place, at least one.
     """
     edges, ratios = zip(*(point for every in points.values() for point in every), strict=True)
     x = Axis(min(edges) / 1.15, max(edges) * 1.15, LEFT, WIDTH - RIGHT)
@@ -107,7 +103,6 @@ def _text(x: float, y: float, words: str, *, soft: bool = False, more: str = "")
 
 
 def _frame(suite: Suite, x: Axis, y: Axis) -> Iterator[str]:
-    """Card, title, grid and axes."""
     card, line = PALETTE["card"].light, PALETTE["line"].light
     yield f'<rect width="{WIDTH}" height="{HEIGHT}" fill="{card}"/>'
     yield _text(LEFT, 22, f"{suite.name}: {suite.about}", more=' font-size="15"')
@@ -127,9 +122,9 @@ def _frame(suite: Suite, x: Axis, y: Axis) -> Iterator[str]:
 
 
 def _names(entry: LeagueEntry, x: Axis) -> Iterator[str]:
-    """The names of the families above their places, in three rows so that none covers another."""
+    """Family names in three rows, to avoid overlaps."""
     line = PALETTE["faint"].light
-    for number, family in enumerate(sorted(entry.families, key=lambda one: one.edges)):
+    for number, family in enumerate(sorted(entry.families, key=lambda family: family.edges)):
         at = min(max(x.at(family.edges), LEFT + 60), WIDTH - RIGHT - 20)
         more = ' text-anchor="middle" font-size="10"'
         yield (
@@ -146,7 +141,6 @@ def _dots(points: Points, colour: str, x: Axis, y: Axis) -> Iterator[str]:
 
 
 def _means(entry: LeagueEntry, number: int, shift: float, x: Axis, y: Axis) -> Iterator[str]:
-    """The sign of each family, and the bar of its interval."""
     for family in entry.families:
         at, ratio = round(x.at(family.edges) + shift, 1), family.ratio
         if ratio.low is not None and ratio.high is not None and ratio.low < ratio.high:

@@ -1,4 +1,4 @@
-"""Blocks as Markdown, with the tables of GitHub: for the summaries of continuous integration."""
+"""Blocks as GitHub-flavoured Markdown, for the summaries of continuous integration."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from topo_verify.report import blocks as bl
 
 
 def markdown(blocks: Iterable[bl.Block]) -> str:
-    """The blocks as Markdown (with the tables of GitHub)."""
+    """The blocks as Markdown."""
     return "\n\n".join(filter(None, map(_markdown, blocks))) + "\n"
 
 
@@ -42,28 +42,27 @@ def _markdown(block: bl.Block) -> str:  # noqa: PLR0911  one for each kind of bl
 
 
 _LINKED = re.compile(r"@|://|www\.|#\d|\bGH-\d", re.IGNORECASE)
-"""What GitHub and GitLab make a mention or a link of, whether or not a backslash precedes it."""
+"""Becomes a mention or a link even behind a backslash."""
 
 _ACTIVE = re.compile(r"[\\`*|<\[\]~&$]|(?<![^\W_])_|_(?![^\W_])")
-"""Characters that mean something within a line of Markdown; `_` does not within a word."""
+"""Markup within a line; `_` is none within a word."""
 
 _OPENING = re.compile(r"(\d*)([-+#>=.)])")
-"""What may open a list, a title, a rule or a quotation at the start of a paragraph."""
+"""May open a list, title, rule or quotation."""
 
 
 def _paragraph(text: str) -> str:
-    """The text as a paragraph; it opens no list, title or quotation."""
     line = _inline(text.lstrip())
     return _OPENING.sub(r"\1\\\2", line, count=1) if _OPENING.match(line) else line
 
 
 def _cell(cell: str | bl.Cell) -> str:
-    """A cell of a table, where a `|` counts even within code."""
+    """A table cell, where `|` separates even within code."""
     return re.sub(r"(?<!\\)\|", r"\\|", _escaped(bl.cell_text(cell)))
 
 
 def _inline(text: str) -> str:
-    """The text, so that Markdown shows it literally; a word that would be a link is code."""
+    """Literal text; words that would become links are code."""
     return _escaped(bl.clean(text))
 
 
@@ -87,5 +86,4 @@ def _fenced(text: str) -> str:
 
 
 def _fence(text: str, *, least: int) -> str:
-    """Backticks, more than stand anywhere in the text."""
     return "`" * max(least, *(len(run) + 1 for run in re.findall("`+", text)), 0)

@@ -1,12 +1,9 @@
-"""The report of a run as ONE self-contained page that makes no request.
+"""The report of a run as one self-contained page that makes no request.
 
-It holds what was judged and how much of it, what the command says, each counterexample with its
-picture and a player, the versions, and the command lines that repeat it all. Times stand in the
-section `timing` alone: the rest is the same, byte for byte, whenever the same run is repeated.
+Only the section `timing` differs when the same run is repeated.
 
-A content security policy allows two styles and two scripts by their hashes: those of this page and
-those of the player, which run in sandboxed frames. All players share one copy of the player's page;
-a frame is made when it is opened. Whatever a mapper, a world or a file name brings is escaped text.
+A content security policy allows by hash the styles and scripts of this page and of the player,
+which runs in sandboxed frames. Everything from a mapper, a world or a file name is escaped.
 """
 
 from __future__ import annotations
@@ -32,14 +29,13 @@ from topo_verify.report.blocks import PALETTE, TONES, clean
 from topo_verify.report.html import blocks_as_html, code, picture, toned, xml_text
 
 MOST_DRAWN = 200
-"""The most edges of a world that is drawn and played: larger ones take seconds."""
+"""Most edges of a world that is drawn and played; larger ones take seconds."""
 
 EXITS = {
     0: "nothing found in what was checked",
     1: "a claim fails, or something is not as expected",
     3: "incomplete; what was not decided is no pass",
 }
-"""What the exit codes say of a run that has a page."""
 
 
 def report_page(account: Account, run: Ending) -> str:
@@ -60,7 +56,6 @@ def report_page(account: Account, run: Ending) -> str:
 
 
 def _policy(style: str, script: str, shell: PageShell | None) -> str:
-    """Nothing but these styles and scripts, and pictures that stand in the page."""
     styles = [source_hash(style), *([shell.style] if shell else [])]
     scripts = [source_hash(script), *([shell.script] if shell else [])]
     return (
@@ -110,20 +105,20 @@ def _again(line: str) -> str:
 
 
 def _sections(account: Account, run: Ending) -> Iterator[str]:
-    found = [*map(_exhibit, count(1), account.exhibits)]
+    exhibits = [*map(_exhibit, count(1), account.exhibits)]
     if account.left_out:
-        found.append(f"<p>{account.left_out} more are not shown here.</p>")
+        exhibits.append(f"<p>{account.left_out} more are not shown here.</p>")
     # Where something is wrong, one looks there first; elsewhere they were expected.
     wrong = account.extent.verdict == "REFUTED"
-    if found and wrong:
-        yield _section("counterexamples", "Counterexamples", found)
+    if exhibits and wrong:
+        yield _section("counterexamples", "Counterexamples", exhibits)
     sections = [
         _section("judged", "What was judged", map(_suite, account.suites)),
         _section("results", "Results", blocks_as_html(account.blocks)),
     ]
     yield from reversed(sections) if account.results_first else sections
-    if found and not wrong:
-        yield _section("counterexamples", "Counterexamples, as expected", found)
+    if exhibits and not wrong:
+        yield _section("counterexamples", "Counterexamples, as expected", exhibits)
     if account.others:
         numbered = map(_exhibit, count(1 + len(account.exhibits)), account.others)
         yield _section("worlds", "Worlds to look at", numbered)
@@ -133,7 +128,7 @@ def _sections(account: Account, run: Ending) -> Iterator[str]:
 
 
 def _flat(timing: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, str]]:
-    """Each figure with the names that lead to it, as `ms_per_move, lattices, folding`."""
+    """Each figure with its path of names."""
     for name, value in timing.items():
         path = f"{before}, {name}" if before else name
         if isinstance(value, dict):
@@ -146,8 +141,10 @@ def _section(name: str, title: str, parts: Iterator[str] | Sequence[str]) -> str
     return "\n".join([f'<section id="{name}">', f"<h2>{title}</h2>", *parts, "</section>"])
 
 
-def _facts(told: Iterable[tuple[str, str]]) -> str:
-    rows = (f"<tr><th>{xml_text(name)}</th><td>{xml_text(value)}</td></tr>" for name, value in told)
+def _facts(facts: Iterable[tuple[str, str]]) -> str:
+    rows = (
+        f"<tr><th>{xml_text(name)}</th><td>{xml_text(value)}</td></tr>" for name, value in facts
+    )
     return f'<div class="wide"><table>{"".join(rows)}</table></div>'
 
 
@@ -209,7 +206,6 @@ def _picture(exhibit: Exhibit) -> str:
 
 
 def _data(exhibits: Sequence[Exhibit], shell: PageShell | None) -> Iterator[str]:
-    """The recordings, and the page that plays them, as data."""
     if shell is None:
         return
     yield _script("player", [shell.before, shell.after])

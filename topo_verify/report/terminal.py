@@ -1,8 +1,7 @@
-"""Blocks on a terminal, or in a file as on one: in colour on a terminal, else 80 columns wide.
+"""Blocks on a terminal.
 
-A table gives up width where it can: columns of text become narrower, down to their longest word.
-Numbers and verdicts are never broken; where there is no room for them side by side, each row is
-printed as a list of its cells.
+A table that is too wide narrows its text columns down to their longest word. It never breaks
+numbers and verdicts; if they do not fit, each row becomes a list.
 """
 
 from __future__ import annotations
@@ -20,17 +19,16 @@ if TYPE_CHECKING:
     from rich.text import Text as Line
 
 LONGEST_WORD = 24
-"""A longer word may be broken where a column of text has no room for it."""
+"""Longer words may be broken."""
 
 GAP = 2
-"""Columns between two columns of a table."""
 
 LEAST_REST = 20
-"""Least width of a column that takes the rest of the line."""
+"""Least width of a column of width 0."""
 
 
 def pretty(blocks: Iterable[bl.Block], out: IO[str]) -> None:
-    """Print the blocks, as wide as the terminal; elsewhere as wide as COLUMNS says, or 80."""
+    """Print the blocks to a terminal's width, else to COLUMNS, else to 80 columns."""
     console = None
     for block in blocks:
         if isinstance(block, bl.PictureBlock):
@@ -56,7 +54,6 @@ def _console(out: IO[str]) -> Console:
 
 
 def _columns() -> int:
-    """What COLUMNS says, if that is a width one can print in; else 80."""
     text = os.environ.get("COLUMNS", "")
     return int(text) if text.isascii() and text.isdigit() and 20 <= int(text) <= 1000 else bl.WIDTH
 
@@ -92,7 +89,7 @@ def _print(block: bl.Text | bl.Command | bl.Bullets | bl.TextTable, console: Con
 
 
 def column_widths(table: bl.TextTable, width: int) -> list[int] | None:
-    """The width of each column in a line of this width; None if there is no room for all."""
+    """The column widths in a line of this width; None if they do not fit."""
     room = width - GAP * (len(table.columns) - 1)
     least = [_least(table, place) for place in range(len(table.columns))]
     if table.widths:
@@ -117,7 +114,7 @@ def _most(table: bl.TextTable, place: int) -> int:
 
 
 def _least(table: bl.TextTable, place: int) -> int:
-    """The longest thing in a column that is not broken: a number, a verdict, a word."""
+    """The longest unbreakable part of a column."""
     whole = table.columns[place].startswith(">")
     longest = [_word(_title(table.columns[place])) if table.headed else 0]
     for row in table.rows:
@@ -167,7 +164,6 @@ def _line(cell: str | bl.Cell) -> Line:
 
 
 def _print_list(table: bl.TextTable, row: Sequence[str | bl.Cell], console: Console) -> None:
-    """A row as a list: its first cell, and below it the others behind their titles."""
     from rich.padding import Padding
     from rich.table import Table as RichTable
     from rich.text import Text as Line
@@ -175,10 +171,10 @@ def _print_list(table: bl.TextTable, row: Sequence[str | bl.Cell], console: Cons
     # A number alone says nothing.
     title = f"{_title(table.columns[0])} " if table.columns[0].startswith(">") else ""
     console.print(Line(title).append_text(_line(row[0])))
-    told = [(t, c) for t, c in zip(table.columns[1:], row[1:], strict=True) if bl.cell_text(c)]
+    cells = [(t, c) for t, c in zip(table.columns[1:], row[1:], strict=True) if bl.cell_text(c)]
     grid = RichTable(box=None, show_header=False, pad_edge=False, padding=(0, GAP, 0, 0))
-    grid.add_column(width=max((_length(_title(title)) for title, _ in told), default=0))
+    grid.add_column(width=max((_length(_title(title)) for title, _ in cells), default=0))
     grid.add_column(overflow="fold")
-    for title, cell in told:
+    for title, cell in cells:
         grid.add_row(_title(title), _line(cell))
     console.print(Padding(grid, (0, 0, 0, 2)))

@@ -1,21 +1,14 @@
 """Advice for a robot whose log does not prove its map yet: which way to go on, and the way back.
 
-The nearest open door is bad advice: behind it lie new open doors, and a robot that goes on like
-that never learns that two places are one, since only the marker tells. (In a building of 20
-junctions and 26 corridors 400 rounds of it left 574 doors open.)
+The nearest open door is bad advice: behind it lie new open doors, and only the marker tells that
+two places are one. So the mapper `homing` explores **in thought**, from the marker on: the fold of
+the log answers its moves. The robot goes to the first door that the fold does not know, and asks
+again with the longer log.
 
-So a mapper of the catalogue, `homing`, explores **in thought**: it starts at the marker, and each
-of its moves is answered by the fold of the log, as long as the log tells what is behind a door. The
-first door of which the log does not tell is where the robot has to go. The robot takes the shortest
-way there, and the longer log is asked again.
+**This ends.** In the robot's world the mapper makes finitely many moves, and its history proves the
+map. The fold answers one more of them each time.
 
-**This ends.** In the robot's world the mapper makes a finite number of moves, and its history
-proves the map. The fold of the log answers one more of these moves each time. Once it answers all,
-it holds that history, so it has no open dart either. The robot walks no farther than the mapper
-would, since between two doors that are new it takes the shortest way.
-
-What this does not show: that no shorter walk proves the map. And the advice is not judged: whether
-the map is proved, the checkers say.
+What this does not show: that no shorter walk proves the map.
 """
 
 from __future__ import annotations
@@ -32,15 +25,14 @@ from topo_verify.studies.log_report import Certificate, way_to
 ADVISER = "homing"
 
 MOST_THOUGHTS = 20_000
-"""Most moves in thought. A log of a million random moves would take hours to think through."""
+"""Most moves in thought; a log of a million random moves would take hours."""
 
 
 class Advice(msgspec.Struct, frozen=True):
     """How to go on from where a log ends.
 
     Attributes:
-        walk: the doors to take; the last one was never crossed. A robot that follows this and asks
-            again proves the map after finitely many rounds.
+        walk: the doors to take; the last one was never crossed.
         home: the doors of the shortest known way back to the marker.
     """
 
@@ -51,7 +43,7 @@ class Advice(msgspec.Struct, frozen=True):
 def advice(certificate: Certificate) -> Advice | None:
     """The advice for an incomplete log; None: the map is proved, or no world shows the log.
 
-    After `MOST_THOUGHTS` moves in thought the walk is empty: go home, and ask again from there.
+    After `MOST_THOUGHTS` moves in thought the walk is empty: go home, and ask again there.
     """
     fold = certificate.fold
     if fold is None or certificate.map is not None:
@@ -69,18 +61,16 @@ def advice(certificate: Certificate) -> Advice | None:
 
 
 class _UnknownDoor(Exception):
-    """The mapper in thought takes an open dart of the fold."""
-
     def __init__(self, node: int, dart: int) -> None:
         self.node, self.dart = node, dart
 
 
 class _EnoughThought(Exception):
-    """The mapper in thought has made `MOST_THOUGHTS` moves."""
+    pass
 
 
 class _Remembered:
-    """A robot that remembers and does not move: it stands in the fold of a log."""
+    """A robot in the fold of a log."""
 
     def __init__(self, fold: Fold) -> None:
         self._fold = fold
@@ -89,18 +79,11 @@ class _Remembered:
 
     @property
     def percept(self) -> Percept:
-        """What the log tells of this place."""
         (node, reference), (home, marked) = self._at, self._home
         degree = self._fold.degree(node)
         return Percept(degree, (marked - reference) % degree if node == home and degree else None)
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:  # noqa: ARG002  a Robot has it
-        """What the log tells of the place behind a door.
-
-        Raises:
-            _UnknownDoor: it tells nothing of it.
-            _EnoughThought: this is one move too many.
-        """
         if self._moves == MOST_THOUGHTS:
             raise _EnoughThought
         self._moves += 1
@@ -112,4 +95,4 @@ class _Remembered:
         return self.percept
 
     def declare(self, event: Decision) -> None:
-        """Nobody judges a thought."""
+        pass

@@ -4,7 +4,7 @@
 | --- | --- |
 | `corpus` | every world of 1 to 4 edges, 20 of each strategy, the street network |
 | `edges<=5` | every world of 1 to 5 edges, in the order of their ids |
-| `generated:200` | 200 worlds, the same number from each strategy (up to a remainder) |
+| `generated:200` | 200 worlds, spread evenly over the strategies |
 | `generated:200:STRATEGY` | 200 worlds of one strategy, such as `planar_worlds(max_edges=20)` |
 | a folder | the world files in it, in the order of their names |
 | any WORLD | this world: a path, `family:…`, an id, `nyc` |
@@ -13,8 +13,7 @@
     corpus.total, corpus.digest          # 87, and a hash that names exactly these worlds
     for at in corpus: at.name, at.world
 
-Each iteration enumerates the worlds again, so a corpus may be larger than memory. A world that two
-texts name occurs twice.
+Each iteration enumerates the worlds again, so a corpus may be larger than memory.
 
 Source: docs/semantics.md, section 16.
 """
@@ -36,16 +35,12 @@ from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 DEFAULT = ("corpus",)
-"""The worlds if none are named."""
 
 SMALL = "edges<=4"
-"""The exhaustive part of the default corpus."""
 
 GENERATED = 160
-"""How many worlds of the default corpus are generated."""
 
 NETWORKS = ("nyc",)
-"""The street networks in the package."""
 
 STRATEGIES = (
     "worlds(min_edges=1, max_edges=24)",
@@ -57,14 +52,12 @@ STRATEGIES = (
     "symmetric_worlds(min_edges=1, max_edges=24)",
     "uniform_worlds(edges=12)",
 )
-"""The strategies that `generated:N` draws from, in this order."""
+"""What `generated:N` draws from, in this order."""
 
 MOST_GENERATED = 1_000_000
 MOST_ENUMERATED = 9
-"""The most edges of `edges<=N`: 576,037,442 worlds have 9 edges."""
 
 SUFFIXES = (".json", ".graphml", ".net.xml", ".pc", ".plc")
-"""The endings of the files in a folder that are read as worlds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,10 +65,8 @@ class Named:
     """A world of a corpus.
 
     Attributes:
-        name: a WORLD of the command line if it has an id or a file, else a text that is unique.
-        world: the world.
+        name: a WORLD if it has an id or a file, else a unique text.
         group: the text of WORLDS that names it.
-        replay_arguments: the arguments of a command line that name this world.
     """
 
     name: str
@@ -86,14 +77,7 @@ class Named:
 
 @dataclass(frozen=True)
 class CorpusPart:
-    """The worlds that one text names.
-
-    Attributes:
-        text: the text.
-        total: their number.
-        listed: lists them; called once for each iteration.
-        finite: they are all worlds of a finite class.
-    """
+    """The worlds that one text names; `listed` lists them anew."""
 
     text: str
     total: int
@@ -113,7 +97,7 @@ class Corpus:
 
     @property
     def total(self) -> int:
-        """The number of worlds, by formulas and lengths, without listing any."""
+        """The number of worlds, without listing any."""
         return sum(part.total for part in self.parts)
 
     @property
@@ -123,25 +107,22 @@ class Corpus:
 
     @property
     def description(self) -> str:
-        """The texts and how many worlds each one names."""
+        """Each text with its number of worlds."""
         return ", ".join(f"{part.text} ({part.total:,})" for part in self.parts)
 
     @cached_property
     def digest(self) -> str:
-        """A hash of the worlds in their order.
-
-        The text `edges<=N` stands for its worlds, since the enumeration order is a promise.
-        """
-        made = sha256(b"topo-verify/corpus 1")
+        """A hash of the worlds in order; `edges<=N` stands for its own."""
+        digest = sha256(b"topo-verify/corpus 1")
         for part in self.parts:
-            made.update(msgspec.json.encode([part.text if part.finite else "", part.total]))
+            digest.update(msgspec.json.encode([part.text if part.finite else "", part.total]))
             for at in () if part.finite else part.listed():
-                made.update(msgspec.json.encode(at.world.code))
-        return made.hexdigest()
+                digest.update(msgspec.json.encode(at.world.code))
+        return digest.hexdigest()
 
 
 class CorpusWorlds:
-    """The worlds of a corpus with their names, to be iterated any number of times."""
+    """The worlds of a corpus with their names."""
 
     def __init__(self, corpus: Corpus) -> None:
         self._corpus = corpus
@@ -152,19 +133,17 @@ class CorpusWorlds:
         return ((at.name, at.world) for at in self._corpus)
 
     def at(self, place: int) -> Named:
-        """The world at a place. No later call asks for an earlier place."""
+        """The world at a place; places must not decrease."""
         while self._last is None or self._last[0] < place:
             self._last = next(self._placed)
         return self._last[1]
 
 
 def corpus_from(texts: Sequence[str] = DEFAULT, *, seed: int = 0) -> Corpus:
-    """The worlds that these texts name, in their order; the default corpus if there are none.
+    """The worlds that these texts name, in order; the default corpus if there are none.
 
-    Args:
-        seed: of the generated worlds.
     Raises:
-        InputError: a text names no worlds, or a named file holds none.
+        InputError: a text names no worlds, or a file holds none.
     """
     parts = [part for text in texts or DEFAULT for part in _parts(text, seed)]
     return Corpus(tuple(parts))
@@ -181,7 +160,6 @@ def _parts(text: str, seed: int) -> Iterator[CorpusPart]:
     elif text.startswith("generated"):
         yield _generated(text, seed)
     elif text == "-":
-        # Standard input can be read once, but a corpus is iterated several times.
         raise InputError("--worlds -: standard input is read only once; name a file or a folder")
     elif _is_folder(text):
         yield _folder(text)
@@ -193,8 +171,8 @@ def _parts(text: str, seed: int) -> Iterator[CorpusPart]:
 
 
 def _enumerated(text: str) -> CorpusPart:
-    found = re.fullmatch(r"edges<=([0-9]{1,3})", text)
-    most = int(found[1]) if found else 0
+    match = re.fullmatch(r"edges<=([0-9]{1,3})", text)
+    most = int(match[1]) if match else 0
     if not 1 <= most <= MOST_ENUMERATED:
         raise InputError(
             f"--worlds: expected 'edges<=N', every world of 1 to N edges, with N from 1 to"
@@ -203,7 +181,7 @@ def _enumerated(text: str) -> CorpusPart:
 
     def listed() -> Iterator[Named]:
         for edges in range(1, most + 1):
-            # Listing in order of rank is much faster than unranking each id.
+            # Much faster than unranking each id.
             for rank, table in enumerate(rank_order.tables(edges)):
                 name = f"m{edges}/{rank}"
                 yield Named(name, World.from_code(table), text, ("--worlds", name))
@@ -215,15 +193,14 @@ def _enumerated(text: str) -> CorpusPart:
 
 
 def _generated(text: str, seed: int) -> CorpusPart:
-    found = re.fullmatch(r"generated:([0-9]{1,9})(?::(.+))?", text, re.DOTALL)
-    number = int(found[1]) if found else 0
-    if found is None or not 1 <= number <= MOST_GENERATED:
+    match = re.fullmatch(r"generated:([0-9]{1,9})(?::(.+))?", text, re.DOTALL)
+    number = int(match[1]) if match else 0
+    if match is None or not 1 <= number <= MOST_GENERATED:
         raise InputError(
             f"--worlds: expected 'generated:N' or 'generated:N:STRATEGY' with N from 1 to"
             f" {MOST_GENERATED:,}, as in 'generated:200:planar_worlds(max_edges=20)', got {text!r}"
         )
-    strategies = STRATEGIES if found[2] is None else (found[2],)
-    # The first strategies draw one world more, if the number does not divide.
+    strategies = STRATEGIES if match[2] is None else (match[2],)
     each, more = divmod(number, len(strategies))
     worlds: list[World] = []
     for place, strategy in enumerate(strategies):
@@ -234,7 +211,7 @@ def _generated(text: str, seed: int) -> CorpusPart:
 
 
 def drawn(asked: str, strategy: str, number: int, seed: int) -> list[World]:
-    """Worlds of a strategy, given as text; `asked` is the option that asks for them.
+    """Worlds of a strategy given as text; `asked` is the option that asks for them.
 
     Raises:
         InputError: there is no such strategy, or it draws no worlds.
@@ -267,7 +244,6 @@ def _by_name(name: str, group: str) -> Named:
 
 
 def _named(name: str, world: World, group: str, arguments: tuple[str, ...]) -> Named:
-    """A world without a file; its id, if it has one, is its name and the argument."""
     if len(world.edges) > rank_order.MAX_ID_EDGES:
         return Named(name, world, group, arguments)
     return Named(world.id, world, group, ("--worlds", world.id))

@@ -1,22 +1,17 @@
 """Tries all checks on all seeded faults: which finds which, how fast, in which smallest world.
 
-    search       every world of 1, 2, … edges, until there are some in which a claim fails: how many
-                 of that size, and the smallest in which the one run already convicts the mapper,
-                 by claims 9 and 10 alone
-    properties   property tests on worlds of two strategies: how many examples until one fails, the
-                 median over five seeds; the second is asked where the first leaves a seed without
-    proofs       a theorem of which the solver refutes the version with the same mistake in it; the
-                 pairs are made by hand, and most mistakes in motion and drawing have none
+    search       every world of 1, 2, … edges up to the first size in which a claim fails
+    properties   property tests on two strategies, five seeds each; the second strategy is tried if
+                 the first leaves a seed without
+    proofs       a theorem whose version with the same mistake the solver refutes; pairs are made
+                 by hand
 
-A fault counts as caught if each of the checks asked for finds it, and the claim that must catch it
-fails in worlds of the smallest size. A harmless difference must be found by none. A run that a time
-limit ended counts as undecided, never as a fault found. Entries come in the order of the faults.
+A fault is caught if each check that was asked for finds it, and its claim fails in worlds of the
+smallest size. A harmless difference must be found by none. A run that a time limit ended is
+undecided.
 
-Mappers are limited by counts, not by time: of their moves, and of the edges that they declare. The
-time limit is for a mapper that neither moves nor declares and never ends.
-
-What this does not show: that these are all the mistakes there are; or, for the harmless ones,
-anything about larger worlds beyond those that were drawn.
+What this does not show: that there are no other mistakes; or that harmless differences pass in
+larger worlds.
 """
 
 from __future__ import annotations
@@ -51,7 +46,7 @@ Check = Literal["search", "properties", "proofs"]
 CHECKS: tuple[Check, ...] = get_args(Check)
 
 LARGEST_HARMLESS, LARGEST_THOROUGH = 4, 5
-"""The most edges of worlds in which a harmless difference is tried: usually; if thorough."""
+"""Most edges for a harmless difference: usually; if thorough."""
 
 
 class Caught(msgspec.Struct, frozen=True):
@@ -61,7 +56,7 @@ class Caught(msgspec.Struct, frozen=True):
         name, part, why, claim, harmless, target: of the fault.
         search, properties: None if the check was not asked for.
         proofs: None also if no theorem has this mistake.
-        asked: how many checks spoke of it; none do if `by` is `proofs` and no theorem has it.
+        asked: the number of checks that apply to it.
         undecided: nothing is wrong, but a run was out of time or a theorem is UNKNOWN.
         ok: a fault is caught by every check that was asked; a harmless difference by none.
     """
@@ -95,12 +90,12 @@ def named_faults(names: Sequence[str]) -> list[Fault]:
 
 
 def mapper_of(entry: Caught) -> Target:
-    """The mapper with the fault that an entry is about."""
+    """The mapper with the fault of an entry."""
     return Target(entry.target, FAULTS[entry.name].mapper)
 
 
 def warm(faults: Iterable[Fault]) -> None:
-    """Have the kernels with these mistakes compiled, before workers look for them in the cache."""
+    """Compile the kernels with these mistakes, so that workers find them in the cache."""
     require_compiled((), Limits())
     if mapper := next(filter(None, (planted(fault.name) for fault in faults)), None):
         explore(World.from_id("m1/0"), Target(mapper.name, mapper))
@@ -115,19 +110,16 @@ def try_faults(
     engine: Engine = "reference",
     tell: Progress | None = None,
 ) -> Iterator[Caught]:
-    """Try the checks on each of these faults.
+    """Try the checks on each of these faults, in order.
 
     Args:
-        by: which checks.
         workers: the number of processes, each with another fault; 0: this one.
-        thorough: count the failing worlds of every size, and try the harmless differences in all
-            worlds of 5 edges, too.
-        engine: what runs a fault that has a kernel, in worlds of up to `COUNTED` edges; the
-            checkers judge the runs. All other runs are by the reference.
+        thorough: count failing worlds of every size, and try harmless differences up to 5 edges.
+        engine: runs a fault that has a kernel in worlds of up to `COUNTED` edges.
         tell: the progress callback, called in the larger worlds.
     """
     faults = list(faults)
-    # A worker finds a fault by its name alone, so any other is tried in this process.
+    # A worker finds a fault by its name.
     known = all(FAULTS.get(fault.name) is fault for fault in faults)
     if workers and known and len(faults) > 1:
         with closing(
@@ -142,7 +134,7 @@ def try_faults(
 
 
 class FaultsJob(msgspec.Struct, frozen=True):
-    """What a worker is handed before its first fault; the faults are named, one a task."""
+    """What a worker gets before its first fault."""
 
     by: tuple[Check, ...]
     thorough: bool
@@ -152,13 +144,13 @@ class FaultsJob(msgspec.Struct, frozen=True):
 def _in_workers(
     faults: Sequence[Fault], job: FaultsJob, workers: int
 ) -> Generator[tuple[Fault, Caught]]:
-    """The faults in their order, each with what the checks found in a process of their own."""
+    """Each fault with what the checks found in a worker."""
     work = Work(
         serve=f"{__name__}:serve_faults",
         job=job,
         result=Caught,
         lost=_lost,
-        silence=inf,  # checks are counted, not clocked: a thorough one may take an hour
+        silence=inf,  # a thorough check may take an hour
     )
     with Pool(work, workers) as pool:
         names = [fault.name for fault in faults]
@@ -182,7 +174,6 @@ def serve_faults(job: bytes) -> Generator[Handler]:
 
 
 def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool, engine: Engine) -> Caught:
-    """Try every check on a fault, the search in worlds of up to `COUNTED` edges."""
     last = (LARGEST_THOROUGH if thorough else LARGEST_HARMLESS) if fault.harmless else COUNTED
     return entry_of(
         fault,
@@ -195,21 +186,21 @@ def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool, engine: Engine)
 def _to_the_end(
     fault: Fault, entry: Caught, workers: int, *, thorough: bool, tell: Progress | None
 ) -> Caught:
-    """Go on with the larger worlds if the search found nothing in the smaller ones."""
+    """Search larger worlds if the smaller ones showed nothing."""
     if fault.harmless or entry.search is None or entry.search.failing:
         return entry
-    found = smallest(fault, first=COUNTED + 1, workers=workers, thorough=thorough, tell=tell)
-    return entry_of(fault, found, entry.properties, entry.proofs)
+    larger = smallest(fault, first=COUNTED + 1, workers=workers, thorough=thorough, tell=tell)
+    return entry_of(fault, larger, entry.properties, entry.proofs)
 
 
 def entry_of(
-    fault: Fault, found: Smallest | None, drawn: Examples | None, proved: Proof | None
+    fault: Fault, searched: Smallest | None, drawn: Examples | None, proved: Proof | None
 ) -> Caught:
-    """The entry of a fault: what these checks found, and whether each finds what it must."""
+    """The entry of a fault: what these checks found, and whether that is right."""
     asked: list[bool | None] = []
-    if found is not None:
-        caught = bool(found.failing) if fault.harmless else fault.claim in found.claims
-        asked.append(_finds_what_it_must(fault, caught, found.undecided))
+    if searched is not None:
+        caught = bool(searched.failing) if fault.harmless else fault.claim in searched.claims
+        asked.append(_finds_what_it_must(fault, caught, searched.undecided))
     if drawn is not None:
         caught = drawn.found if fault.harmless else drawn.median_examples is not None
         asked.append(_finds_what_it_must(fault, caught, drawn.undecided))
@@ -222,18 +213,17 @@ def entry_of(
         claim=fault.claim,
         harmless=fault.harmless,
         target=fault.target,
-        search=found,
+        search=searched,
         properties=drawn,
         proofs=proved,
         asked=len(asked),
-        # None, an undecided check, is no pass for `all`.
         undecided=None in asked and False not in asked,
         ok=all(asked),
     )
 
 
 def _finds_what_it_must(fault: Fault, caught: bool, undecided: int) -> bool | None:  # noqa: FBT001  private
-    """Does a check find a fault, and no harmless difference? None: a run was undecided."""
+    """Whether a check finds a fault, and no harmless difference; None: undecided."""
     if caught:
         return not fault.harmless
     return None if undecided else fault.harmless
@@ -242,28 +232,24 @@ def _finds_what_it_must(fault: Fault, caught: bool, undecided: int) -> bool | No
 # ---------------------------------------------------------------- one fault and one check
 
 LARGEST = 7
-"""The most edges of worlds in which a fault is searched for."""
 
 COUNTED = 5
-"""The most edges of worlds in which all failing ones are counted; in larger ones if thorough."""
+"""Most edges of worlds in which all failing ones are counted, unless thorough."""
 
 SEEDS = range(5)
 EXAMPLES = 100
-"""The most examples of a property test: Hypothesis's default."""
 
 STRATEGIES = (
     "worlds(max_edges=30)",
     "worlds(min_edges=16,max_edges=24,max_degree=4,simple=True)",
 )
-"""What the property tests draw from: any worlds, most of them small; and street networks, so
-large that a way home leads through places seen before, where a wrong second look shows."""
+"""Any worlds, mostly small; and street networks whose ways home lead through places seen before."""
 
 A_SECOND = Limits(move_timeout=1, world_timeout=1)
-"""The time limits of a run: a second, moves or not; a few milliseconds are usual.
-(A mapper that walks in a circle on its map, without moving, fills the memory in a minute.)"""
+"""A mapper that walks in a circle on its map, without moving, fills the memory in a minute."""
 
 TIMEOUT = 20.0
-"""Seconds for a question to the solver; each takes a fraction of one."""
+"""Seconds for a question to the solver."""
 
 
 class Smallest(msgspec.Struct, frozen=True):
@@ -271,9 +257,7 @@ class Smallest(msgspec.Struct, frozen=True):
 
     Attributes:
         edges: that size; the largest that was searched if nothing was found.
-        failing, checked: worlds of that size in which a claim fails, and those that were tried.
-            Beyond `COUNTED` edges the search ends at the first, unless it is thorough.
-        total: how many worlds of that size there are.
+        failing, checked, total: numbers of worlds of that size.
         undecided: in how many of all searched worlds a run was out of time.
         claims: for each claim that fails there, in how many worlds.
         world: the first of them.
@@ -297,12 +281,12 @@ class Examples(msgspec.Struct, frozen=True):
     """What property tests found.
 
     Attributes:
-        median_examples: how many examples it took with the first strategy with which all seeds
-            found something; None if there is none.
-        strategy: which one that is; None as above.
-        examples: of each strategy that was asked, that of each seed; None where nothing was found.
+        median_examples: examples needed with the first strategy that succeeds with all seeds, or
+            None.
+        strategy: that strategy, or None.
+        examples: by strategy, for each seed; None where nothing was found.
         most: the number of examples after which a test gives up.
-        undecided: how many examples were cut off, by moves or by time.
+        undecided: how many examples were cut off.
     """
 
     median_examples: int | None
@@ -313,7 +297,7 @@ class Examples(msgspec.Struct, frozen=True):
 
     @property
     def found(self) -> bool:
-        """Does a test of any strategy and seed fail?"""
+        """Whether any test fails."""
         return any(number is not None for row in self.examples.values() for number in row)
 
 
@@ -345,8 +329,7 @@ def smallest(
 
     Args:
         first, largest: the first size at which to stop, and the last.
-        thorough: count the failing worlds also of sizes beyond `COUNTED`.
-        engine: what runs the fault, if it has a kernel, in this process.
+        thorough: count failing worlds also beyond `COUNTED` edges.
     """
     target = Target(fault.target, (planted(fault.name) if engine == "compiled" else None) or fault)
     limits = A_SECOND if fault.harmless else None
@@ -354,9 +337,8 @@ def smallest(
     while True:
         edges += 1
         counted = thorough or edges <= COUNTED
-        # Each search begins with one edge again. The smaller sizes cost little, and so `undecided`
-        # speaks of all of them.
-        found = search(
+        # From one edge on each time, so `undecided` counts all sizes.
+        entry = search(
             target,
             edges=edges if counted else largest,
             keep_going=counted,
@@ -364,17 +346,16 @@ def smallest(
             workers=workers,
             tell=tell,
         )
-        if found.counterexample is not None or found.edges == largest:
-            return _smallest(found)
+        if entry.counterexample is not None or entry.edges == largest:
+            return _smallest(entry)
 
 
-def _smallest(found: SearchEntry) -> Smallest:
-    """What a search found; of its sizes only the last has a world in which a claim fails."""
-    first = found.counterexample
-    size = found.by_edges[-1 if first is None else first.edges - 1]
+def _smallest(entry: SearchEntry) -> Smallest:
+    first = entry.counterexample
+    size = entry.by_edges[-1 if first is None else first.edges - 1]
     convicting = (
         claim.smallest.world
-        for claim in found.claims
+        for claim in entry.claims
         if claim.claim in ("map-entailed", "decisions-entailed")
     )
     return Smallest(
@@ -382,8 +363,8 @@ def _smallest(found: SearchEntry) -> Smallest:
         failing=size.failing,
         checked=size.checked,
         total=size.total,
-        undecided=sum(size.undecided for size in found.by_edges),
-        claims={claim.claim: claim.failing for claim in found.claims},
+        undecided=sum(size.undecided for size in entry.by_edges),
+        claims={claim.claim: claim.failing for claim in entry.claims},
         world=first.world if first else None,
         convicting=min(convicting, key=lambda world: int(world.partition("/")[2]), default=None),
         message=first.message if first else "",
@@ -395,37 +376,33 @@ def _smallest(found: SearchEntry) -> Smallest:
 
 
 class _Failed(Exception):
-    """A claim fails in the world that was drawn: the property test found the fault."""
+    pass
 
 
 class _TooManyEdges(Exception):
-    """The mapper declared more edges than the world has."""
+    pass
 
 
 def examples(fault: Fault, *, seeds: Sequence[int] = SEEDS, most: int = EXAMPLES) -> Examples:
-    """How many examples property tests take to find the fault, for each strategy and seed.
-
-    If one strategy finds it with every seed, the next is not tried.
-    """
+    """How many examples property tests take to find the fault, for each strategy and seed."""
     numbers: dict[str, tuple[int | None, ...]] = {}
     undecided = 0
     for strategy in STRATEGIES:
         row = [examples_to_detection(fault, strategy, seed, most=most) for seed in seeds]
         numbers[strategy] = tuple(number for number, _ in row)
         undecided += sum(late for _, late in row)
-        found = [number for number, _ in row if number is not None]
-        if len(found) == len(seeds):
-            return Examples(round(median(found)), strategy, numbers, most, undecided)
+        numbers_found = [number for number, _ in row if number is not None]
+        if len(numbers_found) == len(seeds):
+            return Examples(round(median(numbers_found)), strategy, numbers, most, undecided)
     return Examples(None, None, numbers, most, undecided)
 
 
 def examples_to_detection(
     fault: Fault, strategy: str, seed: int, *, most: int = EXAMPLES
 ) -> tuple[int | None, int]:
-    """After how many examples a property test with this seed fails, and how many were undecided.
+    """After how many examples a property test fails, or None; and how many were undecided.
 
-    None: after `most` it has not failed. Hypothesis's default settings, but for the seed, no
-    example database, no shrinking, and no literals of the modules that are loaded.
+    Hypothesis's default settings, but without example database, shrinking, and literals of modules.
     """
     import hypothesis
 
@@ -451,7 +428,7 @@ def examples_to_detection(
     @hypothesis.given(resolve_strategy(strategy))
     def every_claim_holds(world: World) -> None:
         nonlocal tried, found, failing, undecided
-        if world == failing:  # the failing example comes once more, to be shown
+        if world == failing:  # once more, to be shown
             raise _Failed
         tried += 1
         wrong = fails(fault, world)
@@ -466,12 +443,11 @@ def examples_to_detection(
 
 
 def fails(fault: Fault, world: World) -> bool | None:
-    """Does a claim fail in this world? None if the run was cut off, which says nothing.
+    """Whether a claim fails in this world; None: the run was cut off, which says nothing.
 
-    It judges one claim after the other, up to the first that fails. A mapper that declares more
-    edges than there are has failed and is stopped: a map S that is wrong may grow without end. A
-    harmless mapper may make the moves of claim 7, which takes seconds. One with a mistake may make
-    4m², twice what any of the catalogue is known to need.
+    A mapper that declares more edges than there are has failed: a wrong map S may grow without end.
+    A harmless mapper may make the moves of claim 7, one with a mistake 4m², twice what the
+    catalogue is known to need.
     """
     edges = len(world.edges)
     bound = world.cost_bound
@@ -479,7 +455,7 @@ def fails(fault: Fault, world: World) -> bool | None:
     limits = replace(A_SECOND, budget=budget)
     target = Target(fault.target, lambda robot: fault(_Counting(robot, edges)))
     run = explore(world, target, limits=limits)
-    # Only the bound of claim 7 counts against a mapper: any other limit is ours, proving nothing.
+    # Only the bound of claim 7 counts against a mapper.
     if run.limit is not None and (run.limit != "budget" or budget < bound):
         return None
     if run.map is None or run.cost != sum(isinstance(event, Move) for event in run.trace):
@@ -489,8 +465,6 @@ def fails(fault: Fault, world: World) -> bool | None:
 
 
 class _Counting(ForwardingRobot):
-    """Stops a mapper that declares more explored edges than the world has."""
-
     def __init__(self, robot: Robot, edges: int) -> None:
         super().__init__(robot)
         self.left = edges
@@ -506,7 +480,7 @@ class _Counting(ForwardingRobot):
 
 
 def proof(fault: Fault) -> Proof | None:
-    """The verdict on the theorem with the same mistake in it; None if there is no such theorem."""
+    """The verdict on the theorem with the same mistake; None if there is no such theorem."""
     if fault.theorem is None:
         return None
     from topo_verify.proofs.catalogue import choose
@@ -514,6 +488,6 @@ def proof(fault: Fault) -> Proof | None:
 
     (theorem,) = choose([fault.theorem])
     outcome = theorem.prove(Budget(timeout=TIMEOUT))
-    # A refutation that the replay in worlds does not confirm decides nothing.
+    # The replay in worlds must confirm a refutation.
     open_ended = outcome.verdict == "REFUTED" and not theorem.ok(outcome)
     return Proof(theorem.name, "UNKNOWN" if open_ended else outcome.verdict)

@@ -1,9 +1,8 @@
 """How far a rule is from the best possible: what it walked though the history had refuted it.
 
-A false hypothesis that motion rejects was perhaps refuted already by what had been seen before the
-robot set out to test it: the fold of the history, with e and h joined, contradicts. The complete
-rule (`folding`) never walks such a hypothesis. The **gap** of a run is the share of the false
-hypotheses posed that were refutable so and were walked all the same.
+The fold of the history, with e and h joined, may contradict a false hypothesis before the robot
+sets out to test it. The complete rule (`folding`) never walks such a hypothesis. The **gap** is the
+share of the false hypotheses that were refutable so and were walked all the same.
 
 Source: docs/semantics.md, section 11.
 """
@@ -20,7 +19,7 @@ from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject
 
 
 class Gap(NamedTuple):
-    """False hypotheses: posed; rejected by motion; of these, refuted before by the fold."""
+    """False hypotheses: posed; rejected by motion; of these, already refuted by the fold."""
 
     false: int
     walked: int
@@ -28,7 +27,7 @@ class Gap(NamedTuple):
 
     @property
     def share(self) -> float:
-        """The gap; 0 where no false hypothesis was posed."""
+        """The gap; 0 if no false hypothesis was posed."""
         return self.refutable / self.false if self.false else 0.0
 
 
@@ -45,7 +44,7 @@ def gap(trace: Sequence[Event]) -> Gap:
     for event in trace:
         match event:
             case Move(door, percept):
-                if setting_out:  # the history up to here is what the choice was made with
+                if setting_out:
                     e, ends = on_fold.place(edge), ((h, on_fold.place(h)) for h in alive)
                     refuted |= {h for h, end in ends if any(fold.contradictions(e, end, ()))}
                     setting_out = False

@@ -6,10 +6,9 @@
 | 0 | 3 |   |
 | 1 | 2 | 1 |
 
-The first row is what the robot senses at the start, so it has no door. Each further row is a move:
-the door taken, then what is sensed behind it. An empty `marker` says that it is not in sight. The
-columns may stand in any order, with commas, semicolons or tabs between them; other columns and
-empty rows are passed over. Rows are counted as a spreadsheet does: the titles are row 1.
+The first row is the percept at the start. Each further row is a move: the door taken, then the
+percept behind it. An empty `marker` is not in sight. Commas, semicolons or tabs separate the
+columns; other columns and empty rows are ignored. Row 1 has the titles.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ def read_log(path: str) -> Trace:
     name = "standard input" if path == "-" else path
     with nullcontext(files.standard_input()) if path == "-" else files.opened(path) as stream:
         lines = files.lines(stream, name=name)
-        first: list[bytes] = []  # up to the first line that is not empty
+        first: list[bytes] = []
         for line in lines:
             first.append(line)
             if line.strip():
@@ -50,7 +49,7 @@ def read_log(path: str) -> Trace:
 
 
 def table_events(lines: Iterable[bytes], name: str) -> Iterator[Event]:
-    """The events in the lines of a CSV table; the first line that is not empty has the titles.
+    """The events in the lines of a CSV table with titles.
 
     Raises:
         InputError: a column is missing, or a row is no move.

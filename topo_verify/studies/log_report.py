@@ -1,18 +1,13 @@
 """Certificates: what a log of percepts and doors proves without its world.
 
-A real robot leaves a log of the doors that it took and what it sensed behind them. It proves its
-map (PROVED), or it is true of several worlds (UNKNOWN: walk on), or something is wrong (REFUTED).
-
     certificate = certify(read_trace(log))
     certificate.map             # the world, proved; or None
     certificate.witnesses       # else: two worlds, each of which shows this very log
 
     for door in open_doors(certificate, 100): ...     # at most 100, nearest to the log's end first
 
-The map is proved once no door is open, so the open doors are the work that is left; behind them
-there may be further ones. The checkers judge the log (checkers/certificate.py), and every world
-given out here is seen by them to show it. What is added here is for people: how large, how much is
-left, which worlds tell.
+The map is proved once no door is open. checkers/certificate.py judges the log and checks that each
+world given out shows it.
 """
 
 from __future__ import annotations
@@ -39,14 +34,10 @@ class Certificate:
     """What a log proves: its one map, or what is left to walk.
 
     Attributes:
-        verdict: PROVED: the map is proved and what was declared follows. UNKNOWN: the log is true
-            of several worlds. REFUTED: there are findings.
         map: the one world that shows the log, or None.
         open_darts: how many darts of the fold were never crossed; 0 if there is a map.
         vertices, edges: of the map; else of the smaller witness; 0 if no world shows the log.
         entailed, decisions: how many of the declared decisions follow from the log before them.
-        findings: what is wrong; an incomplete log that declares nothing wrong has none.
-        log: what was judged.
         fold: of the log; None if no world shows it.
     """
 
@@ -62,7 +53,7 @@ class Certificate:
 
     @property
     def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
-        """The verdict on the log in one word."""
+        """PROVED, UNKNOWN (several worlds show the log) or REFUTED (there are findings)."""
         if self.findings:
             return "REFUTED"
         return "UNKNOWN" if self.map is None else "PROVED"
@@ -74,7 +65,7 @@ class Certificate:
 
     @property
     def witnesses(self) -> tuple[World, ...]:
-        """Two different worlds that show an incomplete log, made now; none for any other log."""
+        """Two different worlds that show an incomplete log; none for another log."""
         if self.fold is None or self.map is not None:
             return ()
         return tuple(showing(self.fold.world(hang), self.log) for hang in (1, 2))
@@ -84,8 +75,7 @@ def certify(trace: Sequence[Event]) -> Certificate:
     """Judge a log without its world.
 
     Args:
-        trace: at least `start` and `move` events; declared decisions and a delivered map are judged
-            too, if there are any.
+        trace: at least `start` and `move` events.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
             its places have more than 2^20 doors together, and more than 16 an event.
@@ -93,12 +83,12 @@ def certify(trace: Sequence[Event]) -> Certificate:
     """
     judged = judge_log(trace)
     shown = judged.broken is None
-    fold, left = judged.fold, judged.fold.open_darts()
+    fold, open_darts = judged.fold, judged.fold.open_darts()
     return Certificate(
         map=judged.map,
-        open_darts=left,
-        vertices=len(fold.roots()) + left if shown else 0,
-        edges=(sum(map(fold.degree, fold.roots())) + left) // 2 if shown else 0,
+        open_darts=open_darts,
+        vertices=len(fold.roots()) + open_darts if shown else 0,
+        edges=(sum(map(fold.degree, fold.roots())) + open_darts) // 2 if shown else 0,
         entailed=sum(not conclusion.why for conclusion in judged.conclusions),
         decisions=sum(isinstance(event, Concluded) for event in trace),
         findings=judged.findings,
@@ -116,8 +106,7 @@ class OpenDoor(msgspec.Struct, frozen=True):
     Attributes:
         event: the first event of the log at which its place was reached.
         door: which door, as counted at that event.
-        walk: the doors to take from where the log ends, this one last; none is shorter among the
-            ways through doors that the log has crossed.
+        walk: a shortest way there from where the log ends, through crossed doors, this door last.
     """
 
     event: int
@@ -126,18 +115,14 @@ class OpenDoor(msgspec.Struct, frozen=True):
 
 
 def open_doors(certificate: Certificate, most: int | None = None) -> list[OpenDoor]:
-    """The open doors of an incomplete log, breadth-first from where it ends; of others none.
-
-    Args:
-        most: the number of doors to name, the nearest; None: all.
-    """
+    """The open doors of an incomplete log, breadth-first from its end, at most `most` of them."""
     fold = certificate.fold
     if fold is None or not certificate.open_darts:
         return []
-    found = [*islice(_nearest(fold), most)]
-    reached = _reached(certificate.log, fold, {node for node, _, _ in found})
+    nearest = [*islice(_nearest(fold), most)]
+    reached = _reached(certificate.log, fold, {node for node, _, _ in nearest})
     doors: list[OpenDoor] = []
-    for node, dart, walk in found:
+    for node, dart, walk in nearest:
         event, reference = reached[node]
         doors.append(OpenDoor(event, (dart - reference) % fold.degree(node), walk))
     return doors
@@ -159,21 +144,21 @@ def way_to(fold: Fold, place: int) -> tuple[tuple[Door, ...], int]:
 
 
 _Walk = tuple["_Walk", Door] | None
-"""The doors of a walk, the last one first; None: no door."""
+"""A linked list, last door first."""
 
 
 def _places(fold: Fold) -> Iterator[tuple[int, int, _Walk]]:
-    """The places of a fold, nearest to the robot first: a node, its dart of arrival, the walk."""
+    """The places, nearest to the robot first: a node, its dart of arrival, the walk."""
     start, reference = fold.find(fold.at)
-    found = {start}
+    reached = {start}
     queue: list[tuple[int, int, _Walk]] = [(start, reference, None)]
     for node, entry, walk in queue:  # grows as it goes
         yield node, entry, walk
         degree = fold.degree(node)
         for door in range(degree):
             end = fold.partner((node, (entry + door) % degree))
-            if end is not None and end[0] not in found:
-                found.add(end[0])
+            if end is not None and end[0] not in reached:
+                reached.add(end[0])
                 queue.append((*end, (walk, door)))
 
 
@@ -188,7 +173,7 @@ def _doors(walk: _Walk) -> tuple[Door, ...]:
 def _reached(
     log: Sequence[Event], fold: Fold, places: AbstractSet[int]
 ) -> dict[int, tuple[int, int]]:
-    """Of each of these places, the first event there and the robot's reference dart then."""
+    """Of each place, the first event there and the reference dart then."""
     reached: dict[int, tuple[int, int]] = {}
     at = fold.find((0, 0))
     for when, event in enumerate(log):

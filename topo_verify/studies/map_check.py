@@ -1,27 +1,21 @@
 """A map and a log: is the map refuted, proved, or what is left to walk?
 
-A robot holds a map and has walked a part of the place. Its log refutes the map at the first event
-that the map does not show. Or the fold of the log has no open dart: then the map is proved. Or the
-log is true of this map and of others; then a way to go on is planned, which proves the map if the
-map is right. (If it is wrong, a percept on that way differs, or the way proves another map.)
-
     check = check_map(world, read_trace(log))
     check.verdict        # REFUTED, PROVED or UNKNOWN
     check.onward         # UNKNOWN: the moves that prove it from where the log ends
 
-Only `start` and `move` events count; what a log declares is for `certify` to judge.
+Only `start` and `move` events count.
 
-An edge of the breadth-first tree of the map is **proved** if the fold has crossed it at the end of
-the tree path that leads there from v0; an edge outside the tree, if its loop is closed in the fold.
-The fold has no open dart just if all edges are proved.
+An edge of the map's breadth-first tree is **proved** if the fold has crossed it at the end of the
+tree path from v0; a chord, if its loop is closed in the fold. The fold has no open dart just if all
+edges are proved.
 
-**What is minimised.** A plan goes home, perhaps over an unproved edge; then it walks the loops that
-are not proved yet, the shortest first and each only if those before it did not prove it; trees that
-hang off are walked when it passes them, and the last way is not walked back. If every loop is
-proved, it walks the shortest-path tree from where the robot stands. Of these plans the cheapest
-counts. From the start alone it is the least cost of a proof, and in a tree it is the cheapest way.
-In general it need not be: to find the cheapest is as hard as the travelling salesman problem
-(proved loops, and dead ends to visit here and there). So `cost` is an upper bound there.
+**What is minimised.** A plan goes home, perhaps over an unproved edge; then it walks the loops not
+yet proved, the shortest first; it visits hanging trees when it passes them, and does not walk back
+at the end. If every loop is proved, it walks the shortest-path tree from where the robot stands.
+The cheapest plan counts. From the start alone it is the least cost of a proof; in a tree it is
+optimal. In general the optimum is as hard as the travelling salesman problem, so `cost` is an upper
+bound.
 
 Source: docs/semantics.md, section 11.
 """
@@ -44,7 +38,7 @@ from topo_verify.world.least_cost import BreadthFirstTree, covering_walk
 from topo_verify.world.rooted_map import Dart, World
 
 MOST_DETOURS = 8
-"""The most unproved edges, the nearest, that are tried as a way home from where the log ends."""
+"""Most unproved edges, the nearest, that are tried as a way home."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +47,9 @@ class MapCheck:
 
     Attributes:
         verdict: REFUTED: the map does not show this log. PROVED: it alone does. UNKNOWN: others do.
-        event: the event that refutes the map, or None.
-        message: why it does; "" otherwise.
+        event: the event that refutes the map.
         unproved: the edges that are not proved yet, each by its two darts in the map.
-        onward: the moves that prove the map from where the log ends, with what the map shows
-            behind each door; none unless UNKNOWN.
+        onward: the moves that prove an UNKNOWN map from where the log ends.
     """
 
     verdict: Literal["PROVED", "UNKNOWN", "REFUTED"]
@@ -75,12 +67,9 @@ class MapCheck:
 def check_map(world: World, log: Sequence[Event]) -> MapCheck:
     """What this log says of the map `world`.
 
-    Args:
-        log: at least `start` and `move` events.
     Raises:
         InputError: the log does not begin with its only `start`, or goes on after `finish`.
-    Complexity: a plan folds the log once and takes O(cost) beside that; there are at most
-        `MOST_DETOURS` + 2 plans.
+    Complexity: at most `MOST_DETOURS` + 2 plans, each folds the log once and takes O(cost) beside.
     """
     replayed = ReplayedTrace(world, log)
     if not replayed.is_history:
@@ -99,7 +88,7 @@ def check_map(world: World, log: Sequence[Event]) -> MapCheck:
 
 
 def moves(world: World, at: Dart, doors: Sequence[Door]) -> Iterator[Move]:
-    """The moves of a robot with reference dart `at` that takes these doors in this world."""
+    """The moves of a robot with reference dart `at` that takes these doors."""
     shown = percepts(world)
     for door in doors:
         at = world.alpha[exit_dart(world, at, door)]
@@ -114,36 +103,31 @@ def tour_log(world: World) -> Trace:
 
 
 def _refutation(replayed: ReplayedTrace) -> MapCheck:
-    """The first event of a log that its map does not show."""
     if replayed.false_percepts:
-        event, seen, shown = replayed.false_percepts[0]
-        told = f"the map shows {shown} there, and the log says {seen}"
+        event, observed, shown = replayed.false_percepts[0]
+        message = f"the map shows {shown} there, and the log says {observed}"
     else:
         assert replayed.illegal is not None, "a log that is no history shows why"
         event = replayed.illegal
         degree = replayed.map.seen_at(replayed.positions[-1]).degree
         refused = replayed.trace[event]
         assert isinstance(refused, Move), "only a move can be illegal"
-        told = f"the map has doors 0 to {degree - 1} there, and the log takes door {refused.door}"
-    return MapCheck("REFUTED", event, told)
+        message = (
+            f"the map has doors 0 to {degree - 1} there, and the log takes door {refused.door}"
+        )
+    return MapCheck("REFUTED", event, message)
 
 
 def _require_proof(fold: Fold, onward: Sequence[Move]) -> None:
-    """Raise an InternalError unless this way on proves the map; the fold grows by it."""
+    """Raise an InternalError unless this way proves the map."""
     for event in onward:
         fold.move(event.door, event.percept)
-    if left := fold.open_darts():
-        raise InternalError(f"a way on leaves {left} darts of the fold open")
+    if open_darts := fold.open_darts():
+        raise InternalError(f"a way on leaves {open_darts} darts of the fold open")
 
 
 class _Planner:
-    """A map in its canonical numbering, a log folded, and the robot at its end.
-
-    Args:
-        world: the map.
-        history: the log, which the map shows.
-        at: the robot's reference dart in the map.
-    """
+    """A map in its canonical numbering, a log folded, and the robot at its end."""
 
     def __init__(self, world: World, history: Sequence[Event], at: Dart | None = None) -> None:
         self.tree = BreadthFirstTree(world.code)
@@ -153,14 +137,13 @@ class _Planner:
         self.at = 0 if at is None else self.darts.index(at)
 
     def go(self, darts: Sequence[Dart]) -> None:
-        """Let the robot leave by these darts, one after the other."""
         for event in moves(self.canonical, self.at, self.tree.doors(darts, self.at)):
             self.fold.move(event.door, event.percept)
         if darts:
             self.at = self.tree.table[1][darts[-1]]
 
     def trace(self, darts: Sequence[Dart]) -> Place | None:
-        """Where a walk from v0 that leaves by these darts arrives in the fold, or None."""
+        """Where a walk from v0 by these darts arrives in the fold, or None."""
         node, reference = self.fold.find((0, 0))
         for door in self.tree.doors(darts):
             end = self.fold.partner((node, reference + door))
@@ -170,17 +153,16 @@ class _Planner:
         return node, reference
 
     def is_closed(self, chord: Dart) -> bool:
-        """Whether the loop of this chord is closed in the fold."""
         loop = self.tree.loop(chord)
         return self.trace(loop) == self.fold.find((0, self.tree.table[1][loop[-1]]))
 
     def open_loops(self) -> list[Dart]:
-        """The chords whose loops are not closed, those with the shortest loop first."""
+        """Chords whose loops are not closed, shortest loop first."""
         chords = [chord for chord in self.tree.chords if not self.is_closed(chord)]
         return sorted(chords, key=lambda chord: (self.tree.weight(chord), chord))
 
     def unreached(self) -> list[int]:
-        """The vertices to which the fold has not crossed the whole tree path, ascending."""
+        """Vertices whose tree path the fold has not wholly crossed."""
         return [v for v in range(len(self.tree.first)) if self.trace(self.tree.down(v)) is None]
 
     def plan(self, home: Sequence[Dart]) -> list[Dart]:
@@ -195,7 +177,7 @@ class _Planner:
 
 
 def _numbering(world: World, tree: BreadthFirstTree) -> list[Dart]:
-    """The dart of the world that each dart of its canonical code is."""
+    """The world's dart for each dart of its canonical code."""
     darts: list[Dart] = []
     for v, first in enumerate(tree.first):
         dart = world.alpha[darts[tree.table[1][first]]] if v else world.root
@@ -207,15 +189,14 @@ def _numbering(world: World, tree: BreadthFirstTree) -> list[Dart]:
 
 
 def _unproved(planner: _Planner) -> list[tuple[Dart, Dart]]:
-    """The edges of the map that the log does not prove, by their two darts, ascending."""
+    """The unproved edges by their two darts, ascending."""
     tree, darts = planner.tree, planner.darts
-    left = [*(tree.first[v] for v in planner.unreached()), *planner.open_loops()]
-    pairs = ((darts[dart], darts[tree.table[1][dart]]) for dart in left)
+    darts_left = [*(tree.first[v] for v in planner.unreached()), *planner.open_loops()]
+    pairs = ((darts[dart], darts[tree.table[1][dart]]) for dart in darts_left)
     return sorted((min(pair), max(pair)) for pair in pairs)
 
 
 def _way_on(world: World, history: Sequence[Event], at: Dart) -> tuple[Door, ...]:
-    """The doors of the cheapest plan that proves the map from where the log ends."""
     planner = _Planner(world, history, at)
     tree, start = planner.tree, planner.at
     home = tree.home(tree.vertex[start])
@@ -228,9 +209,9 @@ def _way_on(world: World, history: Sequence[Event], at: Dart) -> tuple[Door, ...
 
 
 def _detours(tree: BreadthFirstTree, at: Dart, chords: Sequence[Dart]) -> list[list[Dart]]:
-    """The ways home from the vertex of a dart that go over one of these edges, shortest first."""
+    """The ways home over one of these edges, shortest first."""
     alpha, start = tree.table[1], tree.vertex[at]
-    entry: dict[int, Dart] = {start: at}  # of each vertex found: the dart by which the search left
+    entry: dict[int, Dart] = {start: at}  # by which the search left
     queue = [start]
     for v in queue:  # grows as it goes
         for dart in range(tree.first[v], tree.first[v] + tree.table[0][v]):
@@ -249,9 +230,9 @@ def _detours(tree: BreadthFirstTree, at: Dart, chords: Sequence[Dart]) -> list[l
 
 
 def _around(world: World, at: Dart, unproved: Sequence[tuple[Dart, Dart]]) -> tuple[Door, ...]:
-    """The doors of a walk from dart `at` over these tree edges, along shortest ways from there.
+    """A walk over these tree edges, along shortest ways from dart `at`.
 
-    The edges hang off: every spanning tree has them, so the breadth-first tree from `at` does.
+    The edges hang off, so every spanning tree has them.
     """
     there = world.with_marker(at)
     tree = BreadthFirstTree(there.code)

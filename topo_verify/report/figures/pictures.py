@@ -1,8 +1,7 @@
 """A figure of the paper as SVG and PNG: costs on a log scale, means with standard errors.
 
-Colours are after M. Okabe and K. Ito, so that colour-blind readers tell them apart. Each line
-carries its name at its right end. The same points give the same bytes with one version of
-matplotlib: no date, a fixed salt for ids, glyphs as paths.
+Colours are after M. Okabe and K. Ito. The same points give the same bytes with one version of
+matplotlib.
 """
 
 from __future__ import annotations
@@ -20,16 +19,15 @@ from topo_verify.studies.reproduce.points import FigurePoint
 CARD, INK, SOFT, GRID = "#fdfcf9", "#22282e", "#5c656e", "#dcdcd6"
 
 PAPER = "#b3261e"
-"""The colour of what the paper's text states."""
 
 INCHES = (7.2, 5.0)
 
 GAP = 0.048
-"""The least distance of two labels, as a share of the axis."""
+"""Least distance of two labels, as a share of the axis."""
 
 
 class LineStyle(NamedTuple):
-    """How a line is drawn: colour, marker, dashes."""
+    """How a line is drawn."""
 
     colour: str
     marker: str
@@ -114,7 +112,6 @@ def _draw(axes: Any, figure: Figure, points: Sequence[FigurePoint]) -> None:
 
 
 def _is_wide(sizes: Sequence[int]) -> bool:
-    """Whether the sizes need a log scale: on a linear one the small ones would lie together."""
     return max(sizes) > 10 * min(sizes)
 
 
@@ -135,7 +132,6 @@ def _line(axes: Any, name: str, line: Sequence[FigurePoint]) -> None:
 
 
 def _spread(axes: Any, names: Sequence[str], points: Sequence[FigurePoint]) -> None:
-    """A thick bar a point, from the lowest to the highest mean over policies; side by side."""
     sizes = [point.size for point in points]
     step = 0.011 * (max(sizes) - min(sizes))
     for k, name in enumerate(names):
@@ -153,7 +149,6 @@ def _spread(axes: Any, names: Sequence[str], points: Sequence[FigurePoint]) -> N
 
 
 def _stated(axes: Any, points: Sequence[FigurePoint]) -> None:
-    """Marks for what the paper's text states, each with its words."""
     for point in points:
         if point.paper is None:
             continue
@@ -171,16 +166,15 @@ def _stated(axes: Any, points: Sequence[FigurePoint]) -> None:
         axes.annotate(
             f"paper, {SHORT[point.algorithm]}: {point.stated}",
             (point.size, point.paper),
-            xytext=(0, 26) if _is_wide([one.size for one in points]) else (-9, 3),
+            xytext=(0, 26) if _is_wide([point.size for point in points]) else (-9, 3),
             textcoords="offset points",
-            ha="center" if _is_wide([one.size for one in points]) else "right",
+            ha="center" if _is_wide([point.size for point in points]) else "right",
             color=PAPER,
             fontsize=9,
         )
 
 
 def _labels(axes: Any, ends: dict[str, tuple[float, float]], sizes: Sequence[int]) -> None:
-    """The name of each line at its right end, moved apart where two would cover each other."""
     wide = sizes[-1] - sizes[0] or 1
     if _is_wide(sizes):
         axes.set_xlim(0.9 * sizes[0], 1.9 * sizes[-1])
@@ -207,9 +201,9 @@ def _labels(axes: Any, ends: dict[str, tuple[float, float]], sizes: Sequence[int
 
 
 def spread(places: Sequence[float], gap: float) -> list[float]:
-    """The places, moved as little as needs be so that any two are at least `gap` apart.
+    """The places, moved as little as possible so that any two are at least `gap` apart.
 
-    Neighbours that are too near form a group, which is spaced evenly around its mean.
+    Neighbours that are too near form a group, spaced evenly around its mean.
     """
     order = sorted(range(len(places)), key=lambda k: (places[k], k))
     groups: list[list[int]] = []

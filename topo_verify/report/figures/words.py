@@ -1,8 +1,7 @@
 """The paragraph under a figure: what agrees with the paper, what does not, what cannot be compared.
 
-Every sentence is computed from the points, so it changes with them. The paper's statements are
-those of its text (sections I, III and IV); its pictures are not read off.
-`page` puts all pictures and paragraphs into one Markdown file.
+Every sentence is computed from the points. The paper's statements are those of its text (sections
+I, III and IV), not read off its pictures.
 """
 
 from __future__ import annotations
@@ -26,13 +25,13 @@ SHORT = {
     "edges": "edges m",
     "least-cost": "least cost",
 }
-"""By the name in results. `+I` walks as Enhancement I does: on from where a percept differed."""
+"""`+I` walks as Enhancement I does: on from where a percept differed."""
 
 
 # ---------------------------------------------------------------- paragraphs
 
 _Line = dict[int, FigurePoint]
-"""The points of a line under the reference policies, by size."""
+"""By size."""
 
 
 LADDER = (
@@ -42,7 +41,7 @@ LADDER = (
     "enhancement-iii-one",
     "enhancement-iii-all",
 )
-"""Each costs less than the one before, says the text."""
+"""By cost, according to the paper."""
 
 
 def paragraph(
@@ -51,8 +50,7 @@ def paragraph(
     """The paragraph under a figure.
 
     Args:
-        points: its points.
-        others: those of other figures, for what the text says across figures.
+        others: points of other figures, for statements across figures.
     """
     lines = {
         name: {p.size: p for p in points if p.algorithm == name and p.is_reference}
@@ -77,7 +75,6 @@ def paragraph(
 
 
 def _stated(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
-    """What the text states for a point, beside what was measured there."""
     for (name, size), stated in figure.stated.items():
         point = lines[name].get(size)
         if point is None:
@@ -90,7 +87,7 @@ def _stated(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
 
 
 def _first_beyond(figure: Figure, basic: _Line) -> Iterator[str]:
-    """From which size on the basic algorithm costs what the paper states for 10×10."""
+    """The first size at which basic costs what the paper states for 10×10."""
     stated = figure.stated.get(("basic", 10))
     if stated is None or not basic:
         return
@@ -102,7 +99,6 @@ def _first_beyond(figure: Figure, basic: _Line) -> Iterator[str]:
 
 
 def _order(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
-    """Whether each enhancement of the figure costs less than the one before it."""
     for before, after in pairwise(LADDER):
         if after not in figure.lines or not lines.get(before):
             continue
@@ -126,7 +122,7 @@ def _sizes(sizes: Sequence[int]) -> str:
 
 
 def _reduction(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
-    """By how much the strongest enhancement of the figure reduces the cost of the basic one."""
+    """What the figure's strongest enhancement saves."""
     best = [name for name in LADDER if name in figure.lines][-1]
     both = [size for size in lines["basic"] if size in lines[best]]
     if best == "basic" or not both:
@@ -142,7 +138,6 @@ def _reduction(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
 
 
 def _growths(lines: dict[str, _Line]) -> Iterator[str]:
-    """The exponents of the lines."""
     fits = [
         f"{SHORT[name]} {point.growth}"
         for name, line in lines.items()
@@ -153,7 +148,7 @@ def _growths(lines: dict[str, _Line]) -> Iterator[str]:
 
 
 def _yardsticks(lines: dict[str, _Line]) -> Iterator[str]:
-    """What the largest size costs beside m and the least cost of a proof."""
+    """The largest size beside m and the least cost."""
     basic, folding, least = lines["basic"], lines["folding"], lines["least-cost"]
     shared = [size for size in basic if size in folding and size in least]
     if shared:
@@ -168,7 +163,7 @@ def _yardsticks(lines: dict[str, _Line]) -> Iterator[str]:
 
 
 def _policies(figure: Figure, points: Sequence[FigurePoint]) -> Iterator[str]:
-    """The spread over policies at 10×10, or at the largest size."""
+    """At 10×10, or at the largest size."""
     pairs = {point.pair for point in points} - {None}
     if len(pairs) < 2:
         return
@@ -186,7 +181,6 @@ def _policies(figure: Figure, points: Sequence[FigurePoint]) -> Iterator[str]:
 
 
 def _open(figure: Figure) -> str:
-    """What the text leaves open, so that absolute figures need not agree."""
     if figure.setting is LATTICE:
         return (
             "The text leaves open which edge and which hypothesis come next, where the marker lies,"
@@ -210,31 +204,29 @@ def _percent(share: float) -> str:
 # ---------------------------------------------------------------- the page
 
 PAGE = "figures.md"
-"""The name of the file."""
 
 
 def stem(figure: Figure) -> str:
-    """The name of the files of a figure, without an ending."""
+    """A figure's file name without an ending."""
     return f"figure-{figure.name}"
 
 
 def page(
-    found: Sequence[tuple[Figure, Sequence[FigurePoint]]],
+    figures: Sequence[tuple[Figure, Sequence[FigurePoint]]],
     *,
     command: str,
     judged: str,
     pictures: bool,
 ) -> str:
-    """All figures with their paragraphs, as one Markdown file.
+    """All figures with their paragraphs as one Markdown file.
 
     Args:
         command: the command line that makes it again.
         judged: a sentence on what was judged.
-        pictures: whether there are pictures to show.
     """
     lines = ["# The paper's figures", "", "Made by", "", f"    {command}", "", judged, ""]
-    every = [point for _, points in found for point in points]
-    for figure, points in found:
+    every = [point for _, points in figures for point in points]
+    for figure, points in figures:
         lines += [f"## Figure {figure.name}: {figure.title}", ""]
         if pictures:
             lines += [f"![Figure {figure.name}: {figure.title}]({stem(figure)}.svg)", ""]
@@ -243,7 +235,7 @@ def page(
 
 
 def judged_sentence(points: Sequence[FigurePoint]) -> str:
-    """How many runs stand behind these points, and how many claims held in each."""
+    """The number of runs behind these points, and of claims that held."""
     # A point of two figures, as basic at 10×10 of 3 and 6a, is one.
     asked = {
         (FIGURES[p.figure].setting.name, p.algorithm, p.size, p.pair): p

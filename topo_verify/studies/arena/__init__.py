@@ -2,5 +2,5 @@
 
 suites.py    the named suites: families of worlds with their seeds
 league.py    from rows to the table: places, intervals, counterexamples
-match.py     the campaign of each mapper, hidden worlds, memory
+match.py     the mappers' campaigns, hidden worlds, memory
 """

@@ -1,19 +1,15 @@
 """From runs to the league table: places, paired intervals, coverage of claims, counterexamples.
 
 A mapper has a place in a suite if it was judged in all its worlds and no claim failed in any run of
-the call. One that breaks a claim anywhere has no place in any suite: its entries hold the
-counterexample, the first failing world in the order of suites and worlds. What is judged in part
-(`not-declared`, `partial`) is no failure, and `claims` says so.
+the call. One that breaks a claim anywhere has no place in any suite. Nothing depends on the order
+in which runs finish.
 
-Nothing here depends on the order in which runs were finished.
-
-**Intervals.** Means are over families of worlds that weigh the same. With F families, of which
-family f has n worlds, mean x and variance s² (of the sample), the mean is that of the family means,
-and its standard error the root of Σ s²/n over F. An **exact** family, every world of a finite
-class, has no error of sampling. The interval is Student's, at 95 %; its degrees of freedom are
-those of B. L. Welch (Biometrika 34, 1947): (Σ a)² / Σ (a² / (n-1)) with a = s²/n. With one family
-they are n - 1. Of two mappers the differences in the same worlds are taken first (**paired**): what
-makes a world expensive for both drops out.
+**Intervals.** With F families of equal weight, of which family f has n worlds, mean x and sample
+variance s², the mean is that of the family means, and its standard error the root of Σ s²/n over F.
+An **exact** family, every world of a finite class, has no sampling error. The interval is
+Student's, at 95 %; its degrees of freedom are those of B. L. Welch (Biometrika 34, 1947):
+(Σ a)² / Σ (a² / (n-1)) with a = s²/n. Two mappers are compared by their **paired** differences in
+the same worlds.
 
 **Ties.** A mapper shares the place of the one above it unless the interval of its paired difference
 from the first mapper with that place lies above 0.
@@ -125,8 +121,7 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
         ratio: cost / LB, the mean over families.
         losses: where it loses most against the first of the table, at most `KEPT_LOSSES` worlds.
         rejected_free, rejected_moving: hypotheses, over all worlds.
-        ms_per_move: milliseconds of processor time a move; it depends on the machine, and is the
-            one figure here that differs from run to run.
+        ms_per_move: milliseconds of processor time a move; differs from run to run.
     """
 
     mapper: str
@@ -150,22 +145,18 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
 
 
 KEPT_REASONS = 3
-"""How many worlds that are not decided have their reasons kept."""
 
 KEPT_LOSSES = 3
-"""The most worlds that are named in which a mapper loses against the first of the table."""
 
 
 @dataclass(frozen=True)
 class League:
-    """What is to be played: mappers, suites, a seed; and the table of the runs so far.
+    """What is to be played, and the table of the runs so far.
 
     Attributes:
-        mappers: by their TARGETs, in the order of the command line.
         seed: of the drawn worlds.
-        limits: of each run.
-        made: the rows that are done, by mapper and world; grows while they are made.
-        peaks: the kibibytes that a mapper took at most in a world; None: the system does not tell.
+        made: the finished rows, by mapper and world.
+        peaks: the most kibibytes of a mapper in a world; None: the system does not tell.
     """
 
     mappers: tuple[Target, ...]
@@ -178,7 +169,7 @@ class League:
     )
 
     def plays(self, mapper: Target, suite: Suite) -> bool:
-        """Whether a mapper is right to be asked: one that assumes planar worlds plays no others."""
+        """Whether a mapper plays a suite: one that assumes planar worlds plays no others."""
         assumes = mapper.mapper.assumes if isinstance(mapper.mapper, Algorithm | Steered) else None
         return assumes != "planar" or suite.planar
 
@@ -193,7 +184,7 @@ class League:
         return sum(len(self.worlds_of(mapper)) for mapper in self.mappers)
 
     def _counted(self, mapper: Target) -> dict[str, Row]:
-        """The runs of a mapper up to the first failing one, by world, as far as they are done."""
+        """A mapper's finished runs by world, up to the first failing one."""
         rows: dict[str, Row] = {}
         for world in self.worlds_of(mapper):
             if (row := self.made.get((mapper.text, world))) is not None:
@@ -203,7 +194,7 @@ class League:
         return rows
 
     def memory(self, entry: LeagueEntry) -> float | None:
-        """The mebibytes that a mapper took in its most expensive world of a suite, if known."""
+        """The mebibytes of a mapper in its most expensive world of a suite, if known."""
         if entry.dearest is None:
             return None
         kibibytes = self.peaks.get((entry.mapper, entry.dearest.world))
@@ -215,7 +206,7 @@ class League:
         return [entry for suite in self.suites for entry in self._table(suite, counted)]
 
     def runs(self, mapper: str, suite: Suite) -> list[Row]:
-        """The runs of a mapper in a suite, in the order of its worlds, as far as they are done."""
+        """The finished runs of a mapper in a suite, in the order of its worlds."""
         runs = (self.made.get((mapper, world)) for world in suite.worlds(self.seed))
         return [run for run in runs if run is not None]
 
@@ -238,7 +229,7 @@ class League:
         return placed + sorted(others, key=lambda one: one.counterexample is not None)
 
     def _entry(self, mapper: str, suite: Suite, rows: Mapping[str, Row]) -> LeagueEntry:
-        """The entry without its place, from the rows that count."""
+        """The entry without its place."""
         failure = next((row for row in rows.values() if row.failed), None)
         runs = [rows[world] for world in suite.worlds(self.seed) if world in rows]
         decided = [run for run in runs if run.undecided is None]
@@ -269,7 +260,6 @@ class League:
         )
 
     def _tied(self, entry: LeagueEntry, top: LeagueEntry, suite: Suite) -> bool:
-        """Whether a mapper cannot be told from one above it at `LEVEL`."""
         difference = self._difference(entry, top, suite)
         return difference.low is None or difference.low <= 0
 
@@ -280,7 +270,7 @@ class League:
     def _placed(
         self, entry: LeagueEntry, place: int, best: LeagueEntry, suite: Suite
     ) -> LeagueEntry:
-        """The entry with its place, and how it stands against the first of the table."""
+        """The entry with its place and its distance from the first."""
         behind, losses = None, tuple[LostWorld, ...]()
         if entry is not best:
             found = self._difference(entry, best, suite)
@@ -289,7 +279,6 @@ class League:
         return msgspec.structs.replace(entry, place=place, behind=behind, losses=losses)
 
     def _losses(self, mapper: str, best: str, suite: Suite) -> Iterator[LostWorld]:
-        """The worlds in which a mapper loses most against the first of the table."""
         pairs = zip(self.runs(mapper, suite), self.runs(best, suite), strict=True)
         lost = [(ours.ratio - theirs.ratio, ours, theirs) for ours, theirs in pairs]
         lost.sort(key=lambda one: -one[0])  # equal ones stay in the order of the worlds
@@ -309,7 +298,7 @@ class League:
 
 
 def _split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Sequence[T]]]:
-    """What is known of the worlds of a suite, by family."""
+    """The values of a suite's worlds by family."""
     start = 0
     for family in suite.families:
         yield family, values[start : start + family.size]
@@ -317,7 +306,7 @@ def _split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Seq
 
 
 def _interval(suite: Suite, values: Sequence[float]) -> MeanInterval:
-    """The mean over the families of a suite, given a value for each of its worlds."""
+    """The mean over a suite's families of a value for each world."""
     return mean_interval([FamilySample(part, one.exact) for one, part in _split(suite, values)])
 
 
@@ -361,7 +350,7 @@ class FamilySample(NamedTuple):
 
 
 def mean_interval(families: Sequence[FamilySample]) -> MeanInterval:
-    """The mean over families, and its interval. Each family has one value at least."""
+    """The mean over families, and its interval. Each family has at least one value."""
     mean = fmean(fmean(family.values) for family in families)
     sampled = [family.values for family in families if not family.exact]
     if any(len(values) < 2 for values in sampled):
@@ -381,9 +370,9 @@ def _rounded(value: float) -> float:
 
 
 def student(freedom: float) -> float:
-    """The 97.5 % quantile of Student's t distribution; `freedom` is 1 or more.
+    """The 97.5 % quantile of Student's t distribution for at least 1 degree of freedom.
 
-    A fraction of a degree is left out, which makes the interval a little wider.
+    A fraction of a degree is dropped, so the interval is a little wider.
     """
     import scipy.special  # type: ignore[import-untyped]  # pyright: ignore[reportMissingTypeStubs]
 

@@ -1,13 +1,11 @@
 """The runs of a league: one campaign for each mapper, which ends at its first failing world.
 
-**Memory** is measured apart, since the process of a worker also keeps the trace and judges it: the
-mapper plays one world in a fresh process, an algorithm of the catalogue too, and the
-system says what its resident set was at most. What this does not show: memory of processes that a
-program starts.
+**Memory** is measured apart, as the peak resident set of a fresh process in which the mapper plays
+one world. What this does not show: memory of processes that a program starts.
 
 **Hidden worlds.** A mapper can read the store while others play. So in the rows of drawn worlds a
-hash of the arena's seed and of the world's name stands for the name, and nothing stands for the
-map. What this does not hide: a finding, which tells of its world.
+hash of the arena's seed and of the world's name replaces the name, and the map is left out. What
+this does not hide: a finding, which tells of its world.
 """
 
 from __future__ import annotations
@@ -61,7 +59,6 @@ def matches(league: League, store: Store | None) -> list[MapperCampaign]:
 def _kept(
     league: League, store: Store | None, campaign: c.Campaign, mapper: Target, what: str = ""
 ) -> c.ShardMemory | None:
-    """Where the rows of a campaign are kept; see `Store.campaign`."""
     if store is None:
         return None
     identity = campaign.identity(source_hash([mapper]))
@@ -75,7 +72,7 @@ def _kept(
 
 @dataclass(frozen=True)
 class _Hidden:
-    """Keeps results under names from which no mapper can tell the drawn worlds."""
+    """A store in which drawn worlds cannot be recognised."""
 
     memory: c.ShardMemory
     seed: int
@@ -111,14 +108,14 @@ class _Hidden:
         return msgspec.structs.replace(shard, listed=listed)
 
     def _mark(self, name: str) -> str:
-        """What stands for the name of a world."""
+        """What replaces the name of a world."""
         if not self.seed or ",seed=" not in name:  # all the world knows it
             return name
         return f"hidden-{sha256(f'{self.seed} {name}'.encode()).hexdigest()[:32]}"
 
 
 def _renamed(result: c.ShardResult, name: str, other: str) -> c.ShardResult:
-    """The result of a world under another name, also where a finding repeats it."""
+    """The result of a world under another name, also in findings."""
     text = msgspec.json.encode(result).decode().replace(name, other)
     return msgspec.json.decode(text, type=c.ShardResult)
 
@@ -127,7 +124,7 @@ def _renamed(result: c.ShardResult, name: str, other: str) -> c.ShardResult:
 
 
 def measure(league: League, store: Store | None, tell: Progress) -> None:
-    """Note the memory that each ranked mapper takes in its most expensive world of each suite."""
+    """Note the memory of each ranked mapper in its most expensive world of each suite."""
     ranked = [entry for entry in league.entries() if entry.place is not None]
     for done, entry in enumerate(ranked):
         assert entry.dearest is not None, "it was in every world"
@@ -146,7 +143,7 @@ def measure(league: League, store: Store | None, tell: Progress) -> None:
 
 
 def _peak(made: Attempt) -> int | None:
-    """The kibibytes that the process of a mapper took at most; None: the system does not tell."""
+    """The mapper's peak in kibibytes; None: unknown."""
     process = made.run.mapper.process if isinstance(made.run.mapper, Program) else None
     with suppress(OSError):
         status = Path(f"/proc/{process}/status").read_text(encoding="ascii", errors="replace")

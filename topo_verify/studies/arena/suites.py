@@ -1,12 +1,10 @@
-"""The suites of the arena: named sets of worlds, each the same for everybody.
+"""The suites of the arena: named sets of worlds, the same for everybody.
 
-A suite is made of **families**, which weigh the same in its means however many worlds each has. A
-family is drawn (a call with a seed: seeds 0, 1, … by default) or **exact**: every world of a finite
-class, so that its mean has no error of sampling.
+The **families** of a suite weigh the same in its means. A family is drawn (a call with seeds 0, 1,
+…) or **exact**: every world of a finite class, without sampling error.
 
-With another seed than 0 the worlds are drawn anew, by seeds that a hash makes of it: a mapper that
-does not know that seed cannot have met the worlds before. Exact families have no seed and stay the
-same.
+An arena seed other than 0 draws the worlds anew, by seeds hashed from it: a mapper that does not
+know it cannot have met the worlds before. Exact families stay the same.
 """
 
 from __future__ import annotations
@@ -20,7 +18,6 @@ from topo_verify.programs.loader import close_name
 from topo_verify.world.enumeration import rank_order
 
 DEFAULT = "default"
-"""The suite if none is named."""
 
 
 @dataclass(frozen=True)
@@ -28,8 +25,6 @@ class SuiteFamily:
     """Worlds of one kind.
 
     Attributes:
-        name: as tables name it.
-        size: how many worlds there are.
         listed: the WORLD arguments of the worlds, given the seed of the arena.
         exact: they are every world of a finite class.
         planar: all of them are planar.
@@ -44,11 +39,7 @@ class SuiteFamily:
 
 @dataclass(frozen=True)
 class Suite:
-    """A named set of worlds.
-
-    Attributes:
-        about: what it is for, in a few words.
-    """
+    """A named set of worlds."""
 
     name: str
     about: str
@@ -56,7 +47,7 @@ class Suite:
 
     @property
     def size(self) -> int:
-        """How many worlds there are."""
+        """The number of worlds."""
         return sum(family.size for family in self.families)
 
     @property
@@ -75,11 +66,7 @@ class Suite:
 
 
 def drawn(call: str, number: int, *, planar: bool = False) -> SuiteFamily:
-    """A family of worlds that have a seed.
-
-    Args:
-        call: the family's call without its seed, as `lattice(10,10,holes=0.2)`.
-    """
+    """A family with a seed, by its call without one, as `lattice(10,10,holes=0.2)`."""
     head = call.removesuffix(")")
     return SuiteFamily(
         call,
@@ -90,18 +77,14 @@ def drawn(call: str, number: int, *, planar: bool = False) -> SuiteFamily:
 
 
 def _drawn_seed(seed: int, call: str, place: int) -> int:
-    """The seed of one world: its place in the public suite, else a hash that cannot be guessed."""
+    """A world's place in the public suite, else a hash that cannot be guessed."""
     if seed == 0:
         return place
     return int.from_bytes(sha256(f"{seed} {call} {place}".encode()).digest()[:6])
 
 
 def alike(call: str, *markers: int) -> SuiteFamily:
-    """A family whose worlds differ in their marker alone, so that these are all of them.
-
-    Args:
-        markers: a dart for each world that is different; none: one world, however it is marked.
-    """
+    """A family whose worlds differ in their marker alone; `markers` has a dart for each."""
     head = call.removesuffix(")")
     texts = [f"family:{head},marker={dart})" for dart in markers] or [f"family:{call}"]
     return SuiteFamily(call, len(texts), lambda _seed: texts, exact=True)
@@ -150,7 +133,6 @@ SUITES = {
         Suite("regular", "random graphs of degree 8", (drawn("regular(80,8,holes=0.2)", 30),)),
     )
 }
-"""Every suite by its name."""
 
 
 def chosen_suites(text: str) -> list[Suite]:

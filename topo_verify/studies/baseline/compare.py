@@ -1,7 +1,7 @@
 """Compares a mapper with a baseline: where it is wrong, costs more or less, or decides otherwise.
 
-The mapper runs in the baseline's own worlds, under the baseline's own limits, and every claim is
-judged. Each world then falls into one kind, the first of these that fits:
+The mapper runs in the baseline's worlds under the baseline's limits. Each world is of the first
+kind that fits:
 
 | kind | meaning |
 | --- | --- |
@@ -12,13 +12,8 @@ judged. Each world then falls into one kind, the first of these that fits:
 | `other_decisions` | right in both, at the same cost, by other moves or other decisions |
 | `equal` | right in both, at the same cost, by the same moves and decisions |
 
-A mapper that declares nothing, then or now, is compared by its moves alone.
-
-**Tolerance** is asked of each world by itself: P percent are exceeded where 100·after is more than
-(100 + P)·before, in exact arithmetic. A lower cost in one world does not make up
-for a higher one in another.
-
-What this does not show: anything about worlds that are not in the baseline.
+A mapper that declares nothing, then or now, is compared by its moves alone. The tolerance of P
+percent is exceeded in each world where 100·after > (100 + P)·before, in exact arithmetic.
 
 Source: docs/baselines.md.
 """
@@ -49,13 +44,13 @@ KINDS: tuple[ChangeKind, ...] = get_args(ChangeKind)
 Property = Literal["edges", "genus", "shape"]
 
 SIZES = (0, 1, 2, 3, 4, 5, 10, 20, 50, 100, 200)
-"""The most edges in each class of worlds by size; beyond there is one more."""
+"""The most edges in each class of worlds by size."""
 
 HANDLES = 3
 """From this genus on worlds are one class."""
 
 EXAMPLES = 5
-"""The number of worlds that are kept of each kind."""
+"""Worlds kept of each kind."""
 
 
 class Change(msgspec.Struct, frozen=True):
@@ -101,7 +96,7 @@ class Group(msgspec.Struct, frozen=True):
 
     @property
     def changed(self) -> bool:
-        """Is there a world of another kind than `equal`?"""
+        """Whether a world is of another kind than `equal`."""
         return self.kinds["equal"] < self.worlds
 
 
@@ -169,15 +164,13 @@ class Comparison(msgspec.Struct, frozen=True, kw_only=True):
 
     @property
     def kinds(self) -> dict[ChangeKind, int]:
-        """The number of worlds of each kind; together all of the baseline."""
+        """The number of worlds of each kind."""
         return {kind: getattr(self, kind) for kind in KINDS}
 
 
 class BaselineWorlds:
-    """The worlds of a baseline with their names, to be iterated any number of times.
+    """The worlds of a baseline with their names.
 
-    Args:
-        name: what to call the baseline in messages.
     Raises:
         InputError: an entry of the baseline names no world.
     """
@@ -200,13 +193,11 @@ def compare(
     tolerance: str | Fraction = "0",
     name: str = "baseline",
 ) -> Comparison:
-    """Say what has changed: the join of the baseline with rows.
+    """The comparison of a baseline with rows.
 
     Args:
-        rows: those of the mapper in the baseline's worlds, in their order; fewer, if they ended
-            early.
-        tolerance: percent by which each world may cost more. It is exact: a float may put a world
-            on the wrong side.
+        rows: the mapper's, in the order of the baseline; fewer, if they ended early.
+        tolerance: percent by which each world may cost more, exact.
         name: the file of the baseline.
     """
     changes: list[Change] = []
@@ -246,7 +237,7 @@ def _summed(changes: Sequence[Change]) -> tuple[int, int, dict[ChangeKind, int]]
 
 
 def _examples(changes: Sequence[Change]) -> Iterator[Change]:
-    """The largest changes of each kind but `equal`; a world that comes twice counts once."""
+    """The largest changes of each kind but `equal`, each world once."""
     for kind in KINDS:
         if kind != "equal":
             alike = dict.fromkeys(change for change in changes if change.kind == kind)
@@ -254,7 +245,7 @@ def _examples(changes: Sequence[Change]) -> Iterator[Change]:
 
 
 def _argument(entry: BaselineEntry) -> str:
-    """How a command line names the world, in whatever folder it is called."""
+    """The world's name on the command line of any folder."""
     known = entry.name in NETWORKS or entry.name.startswith("family:")
     return entry.name if known or entry.world.startswith("{") else entry.world
 
@@ -313,7 +304,7 @@ def _message(kind: ChangeKind, then: BaselineEntry, row: Row | None) -> str:
 
 
 def _weight(change: Change) -> tuple[float, int]:
-    """A key that sorts the largest change of cost first; where none changed, the smallest world."""
+    """Sorts the largest change of cost first, else the smallest world."""
     if change.kind in ("dearer", "cheaper"):
         assert change.before is not None
         assert change.after is not None
@@ -325,7 +316,7 @@ def _weight(change: Change) -> tuple[float, int]:
 
 
 class _Class(NamedTuple):
-    """A class of worlds; classes are shown in the order of (by, place)."""
+    """A class of worlds, shown in the order of (by, place)."""
 
     by: Property
     place: int
@@ -333,7 +324,6 @@ class _Class(NamedTuple):
 
 
 def _classes(world: World) -> Iterator[_Class]:
-    """The classes that a world is in, one for each property."""
     edges = len(world.edges)
     place = next((place for place, most in enumerate(SIZES) if edges <= most), len(SIZES))
     least = SIZES[place - 1] + 1 if place else 0

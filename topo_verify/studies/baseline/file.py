@@ -1,14 +1,9 @@
 """The file of a baseline: the cost and the decisions of a mapper in each world of a corpus.
 
-    load, decode      a file, or its bytes -> Baseline: a header, an entry a world
-    encode            a Baseline -> bytes; the same bytes for the same baseline
-
-**The file** is gzip without a time stamp. It holds JSON Lines: first the header, then a line for
-each world. An entry holds the world itself, as its id or its JSON, so that a comparison needs no
-corpus. Each line ends with `sum`, a hash of this line and of all before it; so a reader can name
-the first line that was changed, lost or moved. Sums guard against accidents, not against forgery.
-
-record.py makes baselines, compare.py compares with them.
+It is gzip without a time stamp, holding JSON Lines: a header, then a line for each world, with the
+world itself, so that a comparison needs no corpus. Each line ends with `sum`, a hash of this and
+all earlier lines, so a reader can name the first line that was changed, lost or moved. Sums guard
+against accidents, not against forgery.
 
 Source: docs/semantics.md, section 14; docs/baselines.md.
 """
@@ -38,10 +33,10 @@ S = TypeVar("S", bound=msgspec.Struct)
 
 FORMAT: Literal["topo-verify/baseline"] = "topo-verify/baseline"
 VERSION: Literal[1] = 1
-"""The version that is written, and the newest that is read."""
+"""Written, and the newest that is read."""
 
 MOST_BYTES = 2**30
-"""The most bytes of an unpacked baseline: enough for some millions of worlds."""
+"""Unpacked: some millions of worlds."""
 
 _SUM = re.compile(rb'(.*),"sum":"([0-9a-f]{16})"\}\n', re.DOTALL)
 
@@ -51,10 +46,9 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
 
     Attributes:
         tool: the version of topo-verify that recorded it.
-        target, policies: the mapper, and its policies where they are known.
+        target, policies: the mapper, and its policies if known.
         worlds, seed: the arguments that gave the corpus.
-        corpus, digest, total: its description, its hash, and its number of worlds.
-        limits: the moves and the time that the mapper was allowed in each world.
+        corpus, digest, total: its description, hash and number of worlds.
     """
 
     format: Literal["topo-verify/baseline"] = FORMAT
@@ -80,10 +74,9 @@ class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
         moves: a hash of the doors, in their order.
         decisions: a hash of the declared decisions; None if there are none.
         map: the id of the delivered map (beyond 200 edges `sha256:` and the hash of its code); None
-            if the mapper delivered none, or no valid one.
+            if no valid one was delivered.
         failed: the claims that fail.
-        undecided: no claim was judged, since the run exceeded its time while it still moved, or the
-            program declined the world.
+        undecided: no claim was judged: out of time while it still moved, or declined.
     """
 
     world: str
@@ -102,13 +95,13 @@ class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
 
     @property
     def called(self) -> str:
-        """Its name for people: that of the corpus, if it has one."""
+        """Its name for people."""
         return self.name or self.world
 
 
 @dataclass(frozen=True, slots=True)
 class Baseline:
-    """A recorded baseline: one entry for each world, in the order of the corpus."""
+    """A header, and an entry for each world in the order of the corpus."""
 
     header: Header
     entries: tuple[BaselineEntry, ...]
@@ -162,10 +155,8 @@ def load(path: str | PathLike[str]) -> Baseline:
 
 
 def decode(data: bytes, *, name: str = "baseline") -> Baseline:
-    """The baseline in these bytes.
+    """The baseline in these bytes, called `name` in messages.
 
-    Args:
-        name: the input's name in messages.
     Raises:
         InputError: the bytes are no baseline, one of a newer version, or were changed after they
             were written; the sentence names the line.
@@ -187,10 +178,8 @@ def decode(data: bytes, *, name: str = "baseline") -> Baseline:
 
 
 def world_of(entry: BaselineEntry, *, name: str, line: int) -> World:
-    """The world of an entry.
+    """The world of the entry at this line.
 
-    Args:
-        name, line: the entry's place, for the message.
     Raises:
         InputError: the entry's text names no world.
     """
@@ -201,7 +190,7 @@ def world_of(entry: BaselineEntry, *, name: str, line: int) -> World:
 
 
 def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
-    """The unpacked lines, one at a time, so that a huge file is refused before it fills memory."""
+    """The unpacked lines, lazily, so that a huge file is refused before it fills memory."""
     number, size = 1, 0
     try:
         with gzip.GzipFile(fileobj=BytesIO(data)) as file:
@@ -246,7 +235,7 @@ def _require_sums(lines: Iterable[bytes], name: str) -> Iterator[bytes]:
 
 
 class _Head(msgspec.Struct):
-    """The two fields that are read before all others, since a newer version may have others."""
+    """Decoded first, since a newer version may have other fields."""
 
     format: str
     version: int

@@ -1,12 +1,8 @@
-"""Recording of a baseline: the rows of a mapper in every world of a corpus, as lines of a file.
-
-An entry keeps four results of a run: its cost; a hash of its doors; a hash of its declarations, or
-None if there are none; the id of its map. They are those of the row.
+"""Records a baseline: the rows of a mapper in every world of a corpus, as lines of a file.
 
 **The hash of the decisions** covers each `pose`, `reject`, `confirm` and `augment` with the number
 of moves before it: edge, hypotheses, rule, kind, dart. The evidence of a rejection and the purpose
-of a move say why, not what, and are left out. So two mappers have the same hashes if they make the
-same moves and the same decisions at the same time, whatever reasons they give.
+of a move say why, not what, and are left out.
 
 What this does not show: a difference between two runs whose 64-bit hashes collide.
 """
@@ -36,7 +32,7 @@ from topo_verify.studies.corpus import Corpus
 from topo_verify.world.rooted_map import World
 
 MAX_TIMEOUTS = 3
-"""After this many time-outs the remaining worlds are not tried."""
+"""Time-outs after which the remaining worlds are not tried."""
 
 
 def baseline_runs(
@@ -48,11 +44,8 @@ def baseline_runs(
     engine: Engine = "reference",
     store: Store | None = None,
 ) -> MapperCampaign:
-    """The runs of a mapper in some worlds; they end after `MAX_TIMEOUTS` time-outs.
+    """The runs of a mapper in `total` named worlds; they end after `MAX_TIMEOUTS` time-outs.
 
-    Args:
-        worlds, total: the worlds with their names, and their number.
-        store: where the runs are kept.
     Raises:
         InputError: the store holds the runs of another mapper, or under other limits.
     """
@@ -86,8 +79,7 @@ def record(
     """The baseline of a mapper in a corpus.
 
     Args:
-        rows: its rows, in the order of the corpus. If the runs ended early, there are fewer entries
-            than the header says.
+        rows: in the order of the corpus; fewer, if the runs ended early.
         worlds, seed: the arguments that gave the corpus, for the header.
     """
     header = Header(

@@ -2,5 +2,5 @@
 
 conform.py   the campaign; a row on the four levels, and the result on each; the transcript
 likeness.py  the first decision that differs from the reference's
-batch.py     a backend for a program with a simulator of its own
+batch.py     a backend for a program with its own simulator
 """

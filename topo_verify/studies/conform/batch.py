@@ -3,13 +3,11 @@
     in     {"id": "m5/17", "world": {…world JSON…}}                                a line a world
     out    {"id": "m5/17", "doors": [0, 2, …], "declare": […], "map": {…}, "cost": 12}
 
-A run is not trusted. The simulated robot walks its doors and makes its declarations at the places
-that it states, and the resulting trace is judged as any other. Runs may come in any order. A
-process receives `CHUNK` worlds and then the end of its input.
+The simulated robot walks the run's doors and makes its declarations, and the trace is judged as any
+other. Runs may come in any order. A process receives `CHUNK` worlds and then the end of its input.
 
-If a process fails while worlds are unanswered, these are bisected: each half goes to a fresh
-process, down to the one world that fails alone. If a process is silent for the time limit of one
-world, the finding goes to the first unanswered world.
+If a process fails, its unanswered worlds are bisected, down to the one that fails alone. If it is
+silent for the time limit of one world, the finding goes to the first unanswered world.
 
 What this does not show: that the program chose its doors from percepts alone. It receives whole
 worlds; claims 9 and 10 say whether its history proves the map.
@@ -42,16 +40,16 @@ from topo_verify.world.formats import world_json
 from topo_verify.world.rooted_map import World
 
 CHUNK = 2000
-"""How many worlds a process receives."""
+"""Worlds for each process."""
 
 BatchAnswer = ms.BatchRun | Misbehaved
-"""The program's answer for a world: a run, or what it did instead."""
+"""A run, or what the program did instead."""
 
 _run: msgspec.json.Decoder[ms.BatchRun] = msgspec.json.Decoder(ms.BatchRun)
 
 
 class DeliveredMap(NamedTuple):
-    """The map of a run, as `explore` reads the result of any mapper."""
+    """The map of a run, as `explore` reads it."""
 
     vertices: Sequence[Sequence[int]]
     edges: Sequence[Sequence[int]]
@@ -60,10 +58,7 @@ class DeliveredMap(NamedTuple):
 
 
 class BatchReplay:
-    """A program's answer as a mapper, which makes its moves and declarations and returns its map.
-
-    If the answer is no run, the call raises the misbehaviour at once.
-    """
+    """A program's answer as a mapper; if it is no run, the call raises the misbehaviour."""
 
     def __init__(self, answer: BatchAnswer) -> None:
         self.answer = answer
@@ -128,7 +123,6 @@ def batched(campaign: Campaign, shards: Iterator[Shard], _in_flight: InFlight) -
 
 
 def _judged(campaign: Campaign, name: str, world: World, answer: BatchAnswer) -> Attempt:
-    """The judgement on what a program answers for a world."""
     player = BatchReplay(answer)
     run = explore(world, Target(campaign.mappers[0], player), limits=campaign.limits)
     run = replace(run, misbehaved=player.misbehaved)
@@ -206,7 +200,6 @@ class BatchProgram:
         return None
 
     def _take(self, child: Child, waiting: dict[str, int], done: dict[int, BatchAnswer]) -> None:
-        """Read one run from its line."""
         try:
             line = child.line(seconds=self._seconds)
         except Silent:

@@ -5,14 +5,13 @@
     decisions   the run equals that of the reference, event for event
     cost        the cost relative to that of the reference
 
-Each world is a row of a campaign, and what a level says of it is a view of that row. A run without
-a map has ONE finding on level `result`, which says what the implementation did instead. A world is
-undecided, neither passed nor failed, if the implementation skips it, gives it up, or exceeds its
-time while it still moves; or if something else may have ended its process. After `MAX_TIMEOUTS`
-time-outs the rest of the corpus is not tried: each may cost a whole time limit.
+A run without a map has ONE finding on level `result`, which says what the implementation did
+instead. A world is undecided if the implementation skips it, gives it up, or exceeds its time while
+it still moves; or if something else may have ended its process. After `MAX_TIMEOUTS` time-outs the
+rest of the corpus is not tried.
 
-`look` notes, in the process that makes the run, how like the reference's it is. Of a world with a
-finding it writes the transcript, if that is asked for: the messages of a program, or the trace.
+`look` compares each run with the reference's, in the process that makes it, and writes the
+transcript of a failing world if asked.
 
 What this does not show: that a program behaves in the same way the next time.
 """
@@ -51,10 +50,10 @@ Level = Literal["result", "claims", "decisions", "cost"]
 LEVELS: tuple[Level, ...] = get_args(Level)
 
 LevelState = Literal["passed", "failed", "skipped", "errored", "undecided", "not-declared"]
-"""The state of a world on one level."""
+"""Of a world on one level."""
 
 RESULT = ("percepts-true", "map-isomorphic", "cost-honest", "cost-within-bound")
-"""The claims of level `result`. All others belong to level `claims`."""
+"""The claims of level `result`; all others belong to `claims`."""
 
 KEPT_OF_WORLD, KEPT_OF_KIND = 5, 10
 """The most findings that are kept for a world and a level; the most worlds of a kind of finding."""
@@ -88,7 +87,7 @@ class WorldOutcome:
     Attributes:
         states: by level; `decisions` only if a reference is to be followed.
         findings: by level, the first ones.
-        why: the reason why the world is undecided, if it is.
+        why: why the world is undecided, if it is.
         cost, reference: edge traversals, the implementation's and the reference's.
     """
 
@@ -153,7 +152,6 @@ def _open_ended(row: Row) -> LevelState | None:
 
 
 def _loss(row: Row, note: Likeness | None) -> WorldFinding:
-    """The single finding of a run without a map."""
     detail = "" if note is None else note.detail
     return WorldFinding(
         claim="map-isomorphic",
@@ -165,7 +163,6 @@ def _loss(row: Row, note: Likeness | None) -> WorldFinding:
 
 
 def _likeness(note: Likeness | None, open_ended: LevelState | None, *, lost: bool) -> LevelState:
-    """The state of level `decisions`."""
     if note is None:
         return "undecided"
     if note.difference is None:
@@ -176,7 +173,6 @@ def _likeness(note: Likeness | None, open_ended: LevelState | None, *, lost: boo
 
 
 def _parted(row: Row, like: str, difference: Difference) -> WorldFinding:
-    """The first difference from the reference as a finding."""
     ours, theirs = (side or "does nothing more" for side in (difference.expected, difference.seen))
     return WorldFinding(
         claim="decisions",
@@ -193,16 +189,16 @@ def _parted(row: Row, like: str, difference: Difference) -> WorldFinding:
 # ---------------------------------------------------------------- what is noted of a run
 
 TRANSCRIPT = {"format": "topo-verify/transcript", "version": 1}
-"""The head of a transcript: format and version."""
+"""The head of a transcript."""
 
 
 class Asked(NamedTuple):
-    """What is asked about a run, as texts, which other processes can be handed.
+    """What is asked about a run, as texts, which can be handed to other processes.
 
     Attributes:
         like: the algorithm whose decisions it should make; empty: decisions are not compared.
         pick, order: policies of the reference.
-        transcript: the folder for the transcripts of failing worlds; empty: none is written.
+        transcript: the folder for transcripts; empty: none is written.
     """
 
     like: str = ""
@@ -226,11 +222,7 @@ class Asked(NamedTuple):
 
 
 def look(*texts: str) -> Look:
-    """Notes the likeness of runs to those of the reference.
-
-    Args:
-        texts: the fields of `Asked`.
-    """
+    """Notes the likeness of runs to the reference's; `texts` are the fields of `Asked`."""
     asked = Asked(*texts)
     reference = asked.reference
 
@@ -254,7 +246,7 @@ def look(*texts: str) -> Look:
 
 
 def _keep(folder: str, made: Attempt, outcome: WorldOutcome) -> None:
-    """Write a transcript of one world."""
+    """Write the transcript of one world."""
     world, run = made.report.world, made.run
     if made.lines is None:
         text = write_trace(run.kept_trace)
@@ -282,7 +274,7 @@ def _text(line: bytes) -> str:
 # ---------------------------------------------------------------- many worlds
 
 MAX_TIMEOUTS = 20
-"""The number of time-outs after which the rest of the corpus is not tried."""
+"""Time-outs after which the rest of the corpus is not tried."""
 
 
 class CostRatio(msgspec.Struct, frozen=True):
@@ -411,7 +403,7 @@ class Conform:
         """Try the implementation in every world, or as far as the campaign says.
 
         Raises:
-            KeyboardInterrupt: Ctrl-C; `level_results` has what was found before.
+            KeyboardInterrupt: Ctrl-C; `level_results` has the worlds before it.
             InputError: there is no such mapper or program.
         """
         for _, result in c.results(self.campaign, backend, CorpusWorlds(self.corpus), tell=tell):
@@ -419,7 +411,7 @@ class Conform:
                 self.enter(row)
 
     def enter(self, row: Row) -> None:
-        """Count one world; later ones have later places."""
+        """Count one world; places must not decrease."""
         self.tried += 1
         outcome = outcome_of(row, self.asked.like)
         for level, counts in self.levels.items():

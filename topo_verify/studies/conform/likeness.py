@@ -1,10 +1,8 @@
 """The first event in which two runs in one world differ.
 
-Compared are the doors and percepts of moves, and every declared decision with its evidence. Not
-compared are the purpose of a move; which contradiction is cited, where several may follow; the
-map at the end, whose darts a mapper may number freely (`map-isomorphic` judges it).
-
-If a mapper declares nothing, its moves are compared with the reference's moves.
+Compared are the doors and percepts of moves, and every declared decision with its evidence; if the
+mapper declares nothing, the moves alone. Not compared are the purpose of a move; which of several
+contradictions is cited; the map at the end (`map-isomorphic` judges it).
 """
 
 from __future__ import annotations
@@ -28,7 +26,7 @@ from topo_verify.robot.events import (
 )
 
 SHOWN = 4
-"""How many events before the first difference are shown."""
+"""Events shown before the first difference."""
 
 
 class KnownState(msgspec.Struct, frozen=True):
@@ -92,10 +90,7 @@ def declares(trace: Iterable[Event]) -> bool:
 
 
 def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
-    """The first difference between the two runs; None if there is none.
-
-    If the mapper declares nothing, only the moves are compared.
-    """
+    """The first difference between the two runs, or None."""
     # A mapper that declares some decisions must declare all of them: it is compared in full.
     silent = not declares(mapper)
     ours = _events(reference, silent=silent)

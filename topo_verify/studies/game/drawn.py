@@ -1,4 +1,4 @@
-"""A world that the robot may be in, and what is known of the cost that is still to come there."""
+"""A world that the robot may be in, and lower bounds on the cost to come there."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class Rest(NamedTuple):
     """What a fold leaves to be done in a world.
 
     Attributes:
-        uncrossed: the vertices at the ends of edges that were never crossed, two for each edge.
-        unvisited: how many vertices were never visited.
-        trips: the lengths of the shortest closed trips that are still missing, ascending.
+        uncrossed: the end vertices of edges never crossed, two for each edge.
+        unvisited: the number of vertices never visited.
+        trips: the lengths of the shortest missing closed trips, ascending.
         ended, back: the moves on pendant edges never crossed, if the walk begins and may end there;
             if it begins at v0 and ends where it ends best.
         far: of each dart of the fold, the distance of its vertex from v0 in the fold.
@@ -63,12 +63,12 @@ class DrawnWorld:
         return self._first[v] + (dart - self._first[v] + by) % self.degrees[v]
 
     def sight(self, dart: int) -> Sight:
-        """What is seen by a robot with this reference dart."""
+        """The percept with this reference dart."""
         v = self.vertex[dart]
         return self.degrees[v], ABSENT if v else -dart % self.degrees[0]
 
     def placed(self, code: FoldCode) -> tuple[int, ...]:
-        """For each dart of the fold the dart that it is here."""
+        """For each dart of the fold its dart here."""
         if code not in self._placed:
             degrees, alpha = code
             first, _ = vertices(degrees)
@@ -83,13 +83,12 @@ class DrawnWorld:
     # ------------------------------------------------------------ lower bounds
 
     def proof_bound(self, code: FoldCode, at: int) -> int:
-        """Moves that it takes at least to close the fold here, also with the map in hand.
+        """Least moves to close the fold here, even with the map in hand.
 
-        Every edge must be crossed. Beyond that, let I be the space (modulo 2) of the closed trips
-        that were made. A trip that is missing adds at most one dimension. As for the least cost of
-        a proof, those of a lightest basis modulo I are the shortest. The first of them is under
-        way: it has `far` of its length behind it; or count the way home, and all but the longest.
-        Moves on pendant edges never crossed belong to no trip.
+        Every edge must be crossed. Let I be the space (modulo 2) of the closed trips made so far. A
+        missing trip adds at most one dimension; those of a lightest basis modulo I are the
+        shortest. The first of them may have `far` of its length behind it; or count the way home
+        and all but the longest. Moves on pendant edges never crossed belong to no trip.
         """
         rest = self._rest_of(code)
         here = self.vertex[self.placed(code)[at]]
@@ -104,19 +103,20 @@ class DrawnWorld:
         return max(bound, 1)
 
     def visit_bound(self, code: FoldCode, _at: int) -> int:
-        """Moves that it takes at least to have visited every vertex and crossed all edges but one.
+        """Least moves to visit every vertex and cross all edges but one.
 
-        So much is needed where n is known: with a vertex not visited one more loop could hang on
-        it, and two edges not crossed could have exchanged ends.
+        Needed where n is known: another loop could hang on an unvisited vertex, and two uncrossed
+            edges
+        could exchange ends.
         """
         rest = self._rest_of(code)
         return max(1, rest.unvisited, len(rest.uncrossed) // 2 - 1)
 
     def crossing_bound(self, code: FoldCode, _at: int) -> int:
-        """Moves that it takes at least to have crossed every edge.
+        """Least moves to cross every edge.
 
-        So much is needed where the world is known to be planar: the part of it that was seen is
-        planar, and where it has an open dart, a leaf or a path of two may hang on it.
+        Needed where the world is known to be planar: on an open dart a leaf or a path of two may
+            hang.
         """
         return max(1, len(self._rest_of(code).uncrossed) // 2)
 
@@ -149,7 +149,7 @@ class DrawnWorld:
         return Rest(uncrossed, unvisited, missing, *self._pendant_moves(seen), far)
 
     def _pendant_moves(self, seen: int) -> tuple[int, int]:
-        """The moves on pendant edges that were not seen: `ended` and `back` of `Rest`."""
+        """`ended` and `back` of `Rest`."""
         below = dict[int, int]()  # of each vertex of a pendant tree, such edges on the way to it
         moves = deepest = saved = 0
         for v, (edge, above, attached) in self._pendants.items():
@@ -166,7 +166,7 @@ class DrawnWorld:
 
     @cached_property
     def _edges(self) -> tuple[int, ...]:
-        """The bit of the edge of each dart."""
+        """The bit of each dart's edge."""
         return tuple(1 << min(dart, end) for dart, end in enumerate(self.alpha))
 
     @cached_property
@@ -182,7 +182,7 @@ class DrawnWorld:
 
     @cached_property
     def _pendants(self) -> dict[int, Pendant]:
-        """The edges of pendant trees by the vertex below them, from the top down."""
+        """By the vertex below them, from the top down."""
         tree, pendants = self._tree, dict[int, Pendant]()
         core = {0}
         for chord in tree.chords:
@@ -197,12 +197,11 @@ class DrawnWorld:
 
     @cached_property
     def _distances(self) -> list[list[int]]:
-        """The distances between vertices."""
         return [distances(self.table, v) for v in range(len(self.degrees))]
 
 
 def _extended(basis: list[int], vector: int) -> bool:
-    """Whether a vector modulo 2 was outside the span of the basis; now it is in it."""
+    """Adds a vector modulo 2 to the basis; whether it was outside its span."""
     for one in basis:
         vector = min(vector, vector ^ one)
     if vector:

@@ -2,16 +2,14 @@
 
 A **fold code** is the fold of a history (docs/semantics.md, section 11) in the numbering of the
 canonical code (section 12): the degrees of its vertices, and the other end of each dart, `OPEN`
-where it was never crossed. The marker points at dart 0, and vertex 0 is the only one that saw it.
-Two histories have one code exactly if their folds are isomorphic.
+where it was never crossed. The marker points at dart 0; only vertex 0 saw it. Two histories have
+one code exactly if their folds are isomorphic.
 
-**What proves the map.** A world in which the history happens lies below the fold: the part of it
-that was seen is a quotient of the fold (its vertices may be one where they look alike), and beyond
-the open darts of this quotient there may be anything that the class allows. So whether one world of
-the class is left follows from the quotients.
+**What proves the map.** A world in which the history happens lies below the fold: its visited part
+is a quotient of the fold, and beyond the open darts there may be anything that the class allows. So
+the quotients decide whether one world of the class is left.
 
-This is written apart from `checkers.Fold`, which grows in place and keeps every visit; a test
-compares the two.
+Written apart from `checkers.Fold`, which a test compares with it.
 """
 
 from __future__ import annotations
@@ -25,31 +23,31 @@ FoldCode = tuple[tuple[int, ...], tuple[int, ...]]
 """Degrees of the vertices, and alpha on their darts."""
 
 Sight = tuple[int, int]
-"""A percept: the degree, and the door that the marker points at, or `ABSENT`."""
+"""A percept: the degree, and the marker's door or `ABSENT`."""
 
 OPEN = -1
 ABSENT = -1
 
 
 def first_fold(degree: int) -> FoldCode:
-    """The fold at the start: the vertex of the marker, nothing crossed."""
+    """The fold at the start: the marker's vertex, nothing crossed."""
     return (degree,), (OPEN,) * degree
 
 
 @cache
 def vertices(degrees: tuple[int, ...]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """The first dart of each vertex; and the vertex of each dart."""
+    """The first dart of each vertex; the vertex of each dart."""
     first = tuple(accumulate(degrees, initial=0))[:-1]
     return first, tuple(v for v, degree in enumerate(degrees) for _ in range(degree))
 
 
 def open_darts(code: FoldCode) -> list[int]:
-    """The darts that were never crossed, neither way, ascending."""
+    """The darts never crossed, ascending."""
     return [dart for dart, end in enumerate(code[1]) if end == OPEN]
 
 
 def distances(code: FoldCode, start: int) -> list[int]:
-    """The distance of each vertex from one of them, along crossed edges."""
+    """The distance of each vertex from `start` along crossed edges."""
     degrees, alpha = code
     first, vertex = vertices(degrees)
     found = {start: 0}
@@ -65,9 +63,8 @@ def distances(code: FoldCode, start: int) -> list[int]:
 def crossed(code: FoldCode, dart: int, seen: Sight) -> tuple[FoldCode, int]:
     """The fold after an open dart was crossed and this was seen; and the dart of arrival.
 
-    Without the marker there the place is a new vertex of the fold. With it the place is v0, and if
-    the edge by which the robot came is known already, then the two ends of it that are known are
-    one dart, and so on.
+    Without the marker the place is a new vertex of the fold. With it the place is v0; if its edge
+    is known already, the two known ends are one dart, and so on.
     """
     degrees, alpha = code
     degree, marker = seen
@@ -86,10 +83,7 @@ def crossed(code: FoldCode, dart: int, seen: Sight) -> tuple[FoldCode, int]:
 
 
 def quotients(code: FoldCode) -> Iterator[FoldCode]:
-    """The fold, and every fold that arises from it by taking vertices for one, each once.
-
-    They are the ways in which a world may lie below the fold: the part of it that was seen.
-    """
+    """The fold, and every fold that arises from it by identifying vertices, each once."""
     found, todo = {code}, [code]
     while todo:
         yield (code := todo.pop())
@@ -129,9 +123,9 @@ def _sigma(degrees: Sequence[int]) -> list[int]:
 def _identified(
     sigma: list[int], ends: list[int], one: int, other: int
 ) -> tuple[list[int], list[int], list[int]]:
-    """Sigma, alpha and the name of each dart, when two darts are one and all that follows is drawn.
+    """Sigma, alpha and the name of each dart after identifying two darts and all that follows.
 
-    A dart is named by the least of those that it is one with. Only names have a sigma and an alpha.
+    A dart is named by the least one it is identified with; only names have a sigma and an alpha.
     """
     parent = list(range(len(sigma)))
 
@@ -160,7 +154,7 @@ def _identified(
 
 
 def _numbered(sigma: Sequence[int], ends: Sequence[int], at: int) -> tuple[FoldCode, int]:
-    """The code of what hangs together with dart 0; and the number of the dart `at`."""
+    """The code of dart 0's component; and the number of the dart `at`."""
     number, order, degrees = dict[int, int](), list[int](), list[int]()
 
     def take(dart: int) -> None:
@@ -190,9 +184,9 @@ def is_closed(code: FoldCode) -> bool:
 def is_single_of_vertices(code: FoldCode, n: int) -> bool:
     """Whether one world fits, of all worlds with n vertices.
 
-    A quotient with n vertices lies in as many of these worlds as its open darts can be joined in
-    pairs. One with fewer and an open dart lies in any number of them, for a vertex that was not
-    seen may have any number of loops. Others lie in none.
+    A quotient with n vertices lies in one of them for each way to join its open darts in pairs. One
+    with fewer and an open dart lies in any number, since an unseen vertex may have any number of
+    loops.
     """
     if is_closed(code):
         return True
@@ -211,8 +205,7 @@ def is_single_of_vertices(code: FoldCode, n: int) -> bool:
 def is_single_planar(code: FoldCode) -> bool:
     """Whether one world fits, of all planar worlds.
 
-    A planar quotient with an open dart lies in two at least: hang a leaf on each, or a path of two.
-    One that is not planar lies in none.
+    A planar quotient with an open dart lies in at least two: hang a leaf on each, or a path of two.
     """
     if is_closed(code):
         return True
@@ -223,7 +216,7 @@ def is_single_planar(code: FoldCode) -> bool:
 
 
 def is_planar(code: FoldCode) -> bool:
-    """Whether the fold is planar; a leaf on every open dart changes nothing about that."""
+    """Whether the fold is planar; leaves on open darts do not matter."""
     degrees, alpha = code
     first, vertex = vertices(degrees)
     todo, faces = set(range(len(alpha))), 0

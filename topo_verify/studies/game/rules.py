@@ -1,28 +1,23 @@
 """The rules of two games: the history proves the map among all worlds, or among those of a class.
 
-In the first (`ProofRules`) the history has to prove the map among worlds of any size.
+`ProofRules`: the map is proved among worlds of any size. Knowledge of the open worlds beside the
+fold may guide the robot, but ends no game.
 
-    state       the fold of the history, where the robot stands in it, the worlds that are open
-    choice      an open dart: to walk there along crossed edges, the shortest way, and cross it
+    state       the fold of the history, where the robot stands in it, the open worlds
+    choice      an open dart: go there along crossed edges, the shortest way, and cross it
     answer      the percept behind it
     the end     `GameEnding`: one world fits
 
-Only at an open dart can something be seen that is not known. What is known of the worlds that are
-open besides the fold (that they have m edges, say) may guide the robot, but ends no game.
-
-In the second (`ClassRules`) the robot knows a finite class of worlds, such as all with m edges.
+`ClassRules`: the robot knows a finite class of worlds, such as all with m edges.
 
     state       the worlds of the class in which the history happens, the robot's dart in each
     choice      a door
     answer      the percept behind it
     the end     one world of the class is left
 
-Where the robot stands is a dart of each world that is left, so this says all that a history says
-of the class. Two histories with the same state are equally good.
-
-**Bound.** Two darts that stay apart for k moves whatever the doors (partition refinement: they look
-alike, and so do, door by door, the darts behind them) need k moves to be told apart. A world is
-told from all others at the end, so from the one that is hardest to tell from it.
+**Bound.** By partition refinement: two darts that look alike, as do, door by door, the darts behind
+them, for k moves need k moves to be told apart. A world is told from all others at the end, so also
+from the one hardest to tell from it.
 """
 
 from __future__ import annotations
@@ -47,12 +42,12 @@ from topo_verify.studies.game.search import GameChoice
 
 
 class FoldState(NamedTuple):
-    """A state of the game.
+    """A state of `ProofRules`.
 
     Attributes:
         code: the fold of the history.
-        at: the reference dart of the robot there.
-        open: the numbers of the worlds that are open, ascending.
+        at: the robot's reference dart there.
+        open: the numbers of the open worlds, ascending.
     """
 
     code: FoldCode
@@ -65,7 +60,7 @@ class GameEnding(NamedTuple):
 
     Attributes:
         is_proved: whether a fold leaves one world only.
-        bound: for a world, a fold that is not proved and a dart of it: the moves to go, at least.
+        bound: least moves to go, for a world, an unproved fold and a dart of it.
     """
 
     is_proved: Callable[[FoldCode], bool]
@@ -73,12 +68,7 @@ class GameEnding(NamedTuple):
 
 
 class ProofRules:
-    """The rules of this game (`search.Rules`).
-
-    Args:
-        worlds: those that the robot may be in.
-        ending: how the game ends.
-    """
+    """The rules (`search.Rules`) of the game among all worlds; `worlds` are open at the start."""
 
     def __init__(self, worlds: Sequence[DrawnWorld], ending: GameEnding) -> None:
         self._worlds, self._ending = worlds, ending
@@ -100,11 +90,11 @@ class ProofRules:
             yield GameChoice(far[vertex[dart]] + 1, tuple(self._open(self._answers(state, dart))))
 
     def worlds(self, state: FoldState) -> int:
-        """How many worlds are open."""
+        """The number of open worlds."""
         return len(state.open)
 
     def parts(self, state: FoldState) -> list[FoldState]:
-        """Two parts: the worlds whose numbers have the first bit that differs, and the others."""
+        """The worlds whose numbers have the first differing bit, and the others."""
         held = state.open
         if len(held) == 1:
             return []
@@ -113,12 +103,12 @@ class ProofRules:
         return [state._replace(open=held[:cut]), state._replace(open=held[cut:])]
 
     def bounds(self, state: FoldState) -> Iterator[int]:
-        """The bound of the ending."""
+        """The ending's bound in each open world."""
         for number in state.open:
             yield self._ending.bound(self._worlds[number], state.code, state.at)
 
     def _answers(self, state: FoldState, dart: int) -> Iterator[tuple[FoldCode, int, list[int]]]:
-        """What may be seen behind an open dart: the fold then, where the robot is, the worlds."""
+        """For each possible percept: the fold then, the robot's dart, the worlds."""
         seen = defaultdict[Sight, list[int]](list)
         for number in state.open:
             world = self._worlds[number]
@@ -130,7 +120,7 @@ class ProofRules:
             yield *self._crossed[key], held
 
     def _open(self, answers: Iterable[tuple[FoldCode, int, list[int]]]) -> Iterator[FoldState]:
-        """The answers that do not end the game, as states."""
+        """The answers that do not end the game."""
         for code, at, held in answers:
             if code not in self._proved:
                 self._proved[code] = self._ending.is_proved(code)
@@ -143,16 +133,15 @@ class ProofRules:
 # ---------------------------------------------------------------- a finite class
 
 ClassState = tuple[tuple[int, int], ...]
-"""A state: the numbers of the worlds that are left, ascending, each with the robot's dart in it."""
+"""The numbers of the worlds left, ascending, each with the robot's dart in it."""
 
 
 class ClassRules:
-    """The rules of this game (`search.Rules`).
+    """The rules (`search.Rules`) of the game in a finite class.
 
     Args:
         worlds: the class.
-        counted: the numbers of those whose costs count: all, or the robot is in one of them and
-            does not know it.
+        counted: the numbers of those whose costs count; the robot does not know them.
     """
 
     def __init__(self, worlds: Sequence[DrawnWorld], counted: frozenset[int]) -> None:
@@ -173,11 +162,11 @@ class ClassRules:
             yield GameChoice(1, tuple(self._open(behind)))
 
     def worlds(self, state: ClassState) -> int:
-        """How many of the worlds that are left count."""
+        """The number of worlds left that count."""
         return sum(number in self._counted for number, _ in state)
 
     def parts(self, _state: ClassState) -> list[ClassState]:
-        """None: the bounds are as good."""
+        """No parts: splitting would not improve the bounds."""
         return []
 
     def bounds(self, state: ClassState) -> Iterator[int]:
@@ -199,7 +188,7 @@ class ClassRules:
         return world.alpha[world.turned(dart, door)]
 
     def _open(self, places: Sequence[tuple[int, int]]) -> list[ClassState]:
-        """The places by what is seen there; without those that are single, or do not count."""
+        """The places by percept, without single ones and those that do not count."""
         seen = defaultdict[Sight, list[tuple[int, int]]](list)
         for number, dart in places:
             seen[self._worlds[number].sight(dart)].append((number, dart))
@@ -208,9 +197,9 @@ class ClassRules:
 
 
 def _refined(worlds: Sequence[DrawnWorld]) -> list[list[int]]:
-    """For k = 0, 1, … the class of each dart: equal just if k moves cannot tell the two apart.
+    """For k = 0, 1, … the class of each dart: equal just if k moves cannot tell two apart.
 
-    The darts of all worlds are numbered one world after the other. The last list is stable.
+    The darts of all worlds are numbered in turn. The last list is stable.
     """
     first = list(accumulate((len(world.alpha) for world in worlds), initial=0))
     behind = [

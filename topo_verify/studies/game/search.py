@@ -1,25 +1,21 @@
 """The value of a game of robot against world: the least cost, in the worst case or in sum.
 
-The robot makes a **choice**, which is a number of moves. The world answers with what is seen then;
-each answer leaves some of the worlds open, a **state**, or none, and the game is over. The value of
-a state is
+The robot makes a **choice**, a number of moves. Each answer of the world leaves a **state**, or
+ends the game. The value of a state is
 
     worst case   least over the choices of   moves + the greatest value over the answers
     sum          least over the choices of   moves · worlds + the sum of the values
 
-where `worlds` is how many worlds the state leaves open. The sum, divided by the number of worlds at
-the start, is the mean if each is equally likely.
+where `worlds` is how many worlds the state leaves open. The sum divided by the number of worlds at
+the start is the mean.
 
-**Search.** To ask whether a value is at most a limit, only choices whose lower bound is within the
-limit need a look. The limit is the lower bound that is known of the state itself; if the answer is
-no, the least value that is still possible is the next one. So bounds rise until one is the value.
-They are kept. Every move costs, so this ends, also where moves go in circles. Where it takes too
-long it ends with the bounds so far: the count of states is limited, not the time, so that two calls
-end alike.
+**Search.** To decide whether a value is at most a limit, only choices whose lower bound is within
+the limit matter. The limit is the state's own lower bound; if the answer is no, the least value
+still possible is the next one. So bounds rise until one is the value. Every move costs, so this
+ends. The number of states is limited, not the time, so that two calls end alike.
 
-**Parts.** To play against a part of the worlds costs no more than to play against all: the worst
-case is no better for all, and the sum is at least the sum over the parts. So the values of parts
-are a lower bound. A state says which parts are worth the search.
+**Parts.** Playing against a part of the worlds costs no more than against all, and the sum is at
+least the sum over the parts. So the values of parts are a lower bound.
 """
 
 from __future__ import annotations
@@ -34,12 +30,7 @@ S = TypeVar("S", bound=Hashable)
 
 
 class Least(NamedTuple):
-    """A cost that no robot undercuts.
-
-    Attributes:
-        cost: in moves.
-        is_value: some robot attains it; otherwise the search was cut short.
-    """
+    """A cost that no robot undercuts, in moves; `is_value`: some robot attains it."""
 
     cost: int
     is_value: bool
@@ -60,19 +51,19 @@ class Rules(Protocol[S]):
     """The rules of a game."""
 
     def choices(self, state: S, /) -> Iterable[GameChoice[S]]:
-        """What the robot may do next; one of them ends every game that can be ended."""
+        """What the robot may do next; one choice ends every game that can be ended."""
         ...
 
     def worlds(self, state: S, /) -> int:
-        """How many worlds a state leaves open, of those that count."""
+        """How many worlds that count a state leaves open."""
         ...
 
     def parts(self, state: S, /) -> Sequence[S]:
-        """States that leave open a part of the worlds each and all of them together; or none."""
+        """States that divide the open worlds; or none."""
         ...
 
     def bounds(self, state: S, /) -> Iterable[int]:
-        """Of a state without parts: for each world a cost that no robot undercuts, at least 1."""
+        """Of a state without parts: for each world a lower bound on the cost, at least 1."""
         ...
 
 
@@ -80,7 +71,6 @@ class Solver(Generic[S]):
     """The values of the states of a game, for one of the two aims.
 
     Args:
-        rules: of the game.
         mean: the least sum is sought, in place of the least worst case.
         most_states: the number of states at which the search is cut short.
     """
@@ -93,7 +83,7 @@ class Solver(Generic[S]):
 
     @property
     def states(self) -> int:
-        """How many states were met."""
+        """The number of states met."""
         return len(self._bound)
 
     def least(self, state: S) -> Least:
@@ -118,7 +108,7 @@ class Solver(Generic[S]):
         return bound
 
     def bound(self, state: S) -> float:
-        """The best lower bound on the value of a state that is known."""
+        """The best known lower bound on the value of a state."""
         if state not in self._bound:
             parts = self._rules.parts(state)
             bounds = map(self.bound, parts) if parts else self._rules.bounds(state)
@@ -126,7 +116,7 @@ class Solver(Generic[S]):
         return self._bound[state]
 
     def _by_parts(self, state: S, bound: float, limit: float) -> float:
-        """A lower bound by the values of the parts, or by as many as bring it above the limit."""
+        """A lower bound from the parts, as many as bring it above the limit."""
         parts = self._rules.parts(state)
         bound = self._bound[state] = max(bound, self._answers(parts, 0, limit))
         if bound <= limit:

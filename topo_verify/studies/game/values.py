@@ -1,12 +1,11 @@
 """The values of the games on the worlds with m edges: what the best robot pays.
 
-What a robot **knows** says when its game ends, beside the history. What is **drawn** says in which
-worlds its cost counts. The robot that attains a value may be another one for each value.
+What a robot **knows** says when its game ends. What is **drawn** says in which worlds its cost
+counts. Each value may need another robot.
 
     nothing         the history has to prove the map among all worlds: no dart of its fold is open.
-                    This is the least that a sound mapper can pay: the best robot plays as if the
-                    world had m edges, and as any sound mapper as soon as that is refuted
-    n               … among all worlds with n vertices; the robot is told n, whatever it is
+                    No sound mapper pays less: the best robot assumes m edges until refuted
+    n               … among all worlds with n vertices; the robot is told n
     planar          … among all planar worlds
     m               … among all worlds with m edges
     m and n         … among those with m edges and n vertices
@@ -49,21 +48,21 @@ GAMES: tuple[tuple[DrawnClass, Knowledge], ...] = (
     ("planar", "m"),
     ("planar", "m and planar"),
 )
-"""What is drawn and what is known, of each game."""
+"""What is drawn and what is known."""
 
 MOST_EDGES = 4
-"""The largest games. With five edges there are 8162 worlds."""
+"""With five edges there are 8162 worlds."""
 
 ENDLESS: tuple[Knowledge, ...] = ("n", "planar")
-"""Games that are left out where m is more than `MOST_ENDLESS`: their bounds are too weak."""
+"""Left out beyond `MOST_ENDLESS` edges: their bounds are too weak."""
 
 MOST_ENDLESS = 3
 
 MOST_STATES = 300_000
-"""Most states of a search: more than any game of four edges that ends needs."""
+"""More than any game of four edges that ends needs."""
 
 MOST_FOLDS = 100_000
-"""The same where the states are folds, which take longer."""
+"""The same for folds, which take longer."""
 
 
 class CostsOfRobot(msgspec.Struct, frozen=True):
@@ -130,7 +129,7 @@ def drawn_worlds(edges: int, drawn: DrawnClass) -> list[World]:
 
 
 def game_values(edges: int, *, most_states: float = MOST_STATES) -> Iterator[GameValue]:
-    """The values of the games on the worlds with this number of edges, in the order of `GAMES`."""
+    """The values of the games with this number of edges, in the order of `GAMES`."""
     for drawn, knows in GAMES:
         if knows not in ENDLESS or edges <= MOST_ENDLESS:
             yield game_value(edges, knows, drawn, most_states=most_states)
@@ -161,7 +160,7 @@ def game_value(
 
 
 def _games(edges: int, knows: Knowledge, drawn: DrawnClass) -> Iterator[ProofRules | ClassRules]:
-    """The rules of the games that are played, one for each thing that the robot may be told."""
+    """The rules of the games, one for each thing that the robot may be told."""
     counted = [DrawnWorld(world.code) for world in drawn_worlds(edges, drawn)]
     match knows:
         case "nothing":
@@ -194,7 +193,6 @@ def _by_vertices(found: Sequence[DrawnWorld]) -> dict[int, list[DrawnWorld]]:
 def _least(
     games: Sequence[ProofRules | ClassRules], *, mean: bool, most_states: float
 ) -> tuple[Least, int]:
-    """The value over all games and their first percepts; and how many states were met."""
     met: list[tuple[Least, int]] = []
     for rules in games:
         met += _by_start(rules, mean=mean, most_states=most_states)
@@ -202,7 +200,6 @@ def _least(
 
 
 def _joined(met: Sequence[tuple[Least, int]], *, mean: bool) -> tuple[Least, int]:
-    """The value over several states, and how many states were met for all of them."""
     costs = [one.cost for one, _ in met]
     cost = sum(costs) if mean else max(costs, default=0)
     is_value = all(one.is_value for one, _ in met)
@@ -212,7 +209,6 @@ def _joined(met: Sequence[tuple[Least, int]], *, mean: bool) -> tuple[Least, int
 def _by_start(
     rules: ProofRules | ClassRules, *, mean: bool, most_states: float
 ) -> Iterator[tuple[Least, int]]:
-    """The value after each first percept, and the states met."""
     if isinstance(rules, ProofRules):
         most_states = min(most_states, MOST_FOLDS)
         yield from (
@@ -227,8 +223,8 @@ def _by_start(
 def _after(rules: Rules[S], start: S, *, mean: bool, most_states: float) -> tuple[Least, int]:
     """The value of a state, and the states met.
 
-    The one choice at a vertex of degree 1 is made here. So each answer is searched apart, and if
-    one search is cut short, the others still tell their values. What was searched is forgotten.
+    A forced first move is made here, so each answer is searched apart: if one search is cut short,
+    the others still tell their values.
     """
     forced = tuple(rules.choices(start))
     paid = forced[0].moves if len(forced) == 1 else 0
@@ -245,7 +241,6 @@ def _after(rules: Rules[S], start: S, *, mean: bool, most_states: float) -> tupl
 
 
 PLAYERS = tuple(NAMED)
-"""The mappers whose costs are set beside the values: the catalogue."""
 
 
 def mapper_costs(mapper: str, edges: int, values: Iterable[GameValue] = ()) -> MapperCosts:

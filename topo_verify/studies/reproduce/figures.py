@@ -2,8 +2,8 @@
 
 H. Wang, M. Jenkin and P. Dymond, section IV. The text states the families ("lattice graphs with
 random holes", "regular graphs with random holes"), 20 % holes, 30 graphs a point, and costs for the
-10×10 lattice alone. It states neither the sizes of the other points, nor the degree of the regular
-graphs, nor where the marker lies, nor the policies; what stands here for those is our choice.
+10×10 lattice alone. The other sizes, the degree of the regular graphs, the marker's place and the
+policies are our choice.
 """
 
 from __future__ import annotations
@@ -16,10 +16,9 @@ from typing import Literal
 from topo_verify.errors import InputError
 
 GRAPHS = 30
-"""Graphs a point, as in the paper."""
+"""A point, as in the paper."""
 
 QUICK_GRAPHS = 10
-"""Graphs a point with `--quick`."""
 
 SEEDS = 1000
 """Graph g of a point is drawn with seed `SEEDS·seed + g`, so two seeds share no graph."""
@@ -37,10 +36,9 @@ class Setting:
     """A family of graphs that grows.
 
     Attributes:
-        name: `lattice` or `dense`.
         measure: what `size` counts, with its unit.
-        family: the text of a world of one size and seed, as a WORLD argument names it.
-        sizes: the sizes of the points; quick: those with `--quick`.
+        family: the WORLD argument for a size and a seed.
+        sizes, quick: the sizes of the points; those with `--quick`.
         large: further sizes, for the compiled engine.
     """
 
@@ -72,12 +70,7 @@ DENSE = Setting(
 
 @dataclass(frozen=True)
 class Stated:
-    """A cost that the paper's text states for a point.
-
-    Attributes:
-        cost: in edge traversals.
-        words: how the text puts it: `more than 10,000`.
-    """
+    """A cost that the paper states for a point, in edge traversals and in words."""
 
     cost: int
     words: str
@@ -89,8 +82,6 @@ class Figure:
 
     Attributes:
         name: as `--figure` takes it: `3`, `6a`.
-        title: what it shows.
-        setting: which graphs.
         lines: the algorithms, in the order of the results; `YARDSTICKS` come after them.
         stated: what the text states, by algorithm and size.
     """
@@ -168,7 +159,7 @@ FIGURES = {
         ),
     )
 }
-"""All figures, in the order of the paper."""
+"""In the order of the paper."""
 
 
 def chosen_figures(text: str) -> list[Figure]:
@@ -216,7 +207,7 @@ PAIRS = (
     ),
     PolicyPair("random(0)", "random(0)"),
 )
-"""What `--policies` tries: every pair of policies that draw no lots, and one that does."""
+"""What `--policies` tries: every deterministic pair, and a random one."""
 
 
 # ---------------------------------------------------------------- the plan

@@ -1,17 +1,15 @@
 """Points of the figures: the runs that they need, means and standard errors, growth, CSV.
 
-**Runs.** There is one campaign for each line, judged by every claim. A run by the compiled engine
-is judged like any other, as long as the world has at most `LARGE` edges. In a larger one it keeps
-no trace, which would have millions of events: then two claims are judged, those on map and cost. A
-run that is out of time, or whose worker was killed, is not kept: the next call tries it again.
+**Runs.** There is one campaign for each line, judged by every claim. In worlds of more than `LARGE`
+edges the compiled engine keeps no trace, so only the claims on map and cost are judged. A run that
+is out of time, or whose worker was killed, is not kept: the next call tries it again.
 
-A point's mean is the arithmetic mean over its graphs, its standard error the sample's standard
-deviation over √graphs. Sums of integers are exact, so the same runs give the same bytes in any
-order.
+The standard error of a mean is the sample's standard deviation over √graphs. Sums of integers are
+exact, so the same runs give the same bytes in any order.
 
 **Growth.** `mean ≈ c·m^exponent` is fitted by least squares of log(mean) on log(mean m), one
-observation a size, so anybody can repeat the fit from the CSV. Its standard error is that of the
-slope. What this does not show: that the cost is a power of m. The exponent describes these sizes.
+observation a size. Its standard error is that of the slope. What this does not show: that the cost
+is a power of m.
 """
 
 from __future__ import annotations
@@ -116,16 +114,16 @@ class FigurePoint(msgspec.Struct, frozen=True):
 
     @property
     def is_reference(self) -> bool:
-        """Whether it belongs to the line of the reference policies, or to a yardstick."""
+        """Whether it is on the line of the reference policies, or a yardstick."""
         return self.pair in (None, REFERENCE)
 
 
 def figure_points(
     figure: Figure, extent: FigureExtent, runs: Mapping[PlannedRun, Row]
 ) -> list[FigurePoint]:
-    """The points of a figure: its lines one after the other, each in the order of sizes.
+    """The points of a figure by lines, each in the order of sizes; yardsticks come last.
 
-    Yardsticks come last. A line whose runs are not all there has no points.
+    A line with missing runs has no points.
     """
     points: list[FigurePoint] = []
 
@@ -153,7 +151,7 @@ def _rows(
     pair: PolicyPair,
     runs: Mapping[PlannedRun, Row],
 ) -> list[Row]:
-    """The runs of one point; none if one of them is missing."""
+    """The runs of one point; none if one is missing."""
     wanted = [
         PlannedRun(world, algorithm, pair.pick, pair.order)
         for world in extent.worlds(figure.setting, size)
@@ -164,7 +162,6 @@ def _rows(
 def _point(
     figure: Figure, name: str, size: int, pair: PolicyPair | None, rows: Sequence[Row]
 ) -> FigurePoint:
-    """A point of a line; of a yardstick, which has no policies and of which no claim is asked."""
     stated = figure.stated.get((name, size)) if pair == REFERENCE else None
     decided = [row for row in rows if row.undecided is None]
     number = {EDGES: "edges", LEAST: "least"}.get(name, "cost")
@@ -190,7 +187,6 @@ def _point(
 
 
 def _claims(row: Row, status: Status) -> int:
-    """The number of claims with a status."""
     return sum(judged.status == status for judged in row.claims)
 
 
@@ -237,7 +233,7 @@ GROWTH_COLUMNS = ("graphs_of", "algorithm", "pick", "order", "exponent", "stderr
 
 
 def points_csv(points: Iterable[FigurePoint]) -> str:
-    """The points as CSV with a header, lines ended by a line feed; costs in edge traversals."""
+    """The points as CSV with a header; costs in edge traversals."""
     rows = [
         (
             *(point.figure, point.algorithm, point.pick, point.order, point.size, point.graphs),
@@ -283,16 +279,15 @@ def _csv(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
 # ---------------------------------------------------------------- runs
 
 LIMITS = Limits(move_timeout=60.0, world_timeout=600.0)
-"""Of each run. The algorithms are ours: limits are there for a machine that stands still."""
+"""The algorithms are ours: limits are for a machine that stands still."""
 
 
 class PlannedRun(NamedTuple):
-    """A run that a point needs: what to run, and where.
+    """A run that a point needs.
 
     Attributes:
-        world: a WORLD argument that makes the graph again.
+        world: a WORLD argument.
         algorithm: a name of the catalogue.
-        pick, order: its policies.
     """
 
     world: str
@@ -365,7 +360,7 @@ def without_large_traces(
 
 
 def runs_of(row: Row) -> Iterator[PlannedRun]:
-    """The runs that a row is about: of a lost worker that of each pair of policies."""
+    """The runs that a row is about; of a lost worker those of each pair of policies."""
     pairs = PAIRS if row.policies is None else (row.policies,)
     for pair in pairs:
         yield PlannedRun(row.world, row.mapper, pair.pick, pair.order)

@@ -1,19 +1,18 @@
 """Worlds run again, alone and in another order: does the mapper remember the worlds before?
 
-A mapper that keeps something from world to world (a default that it changes, a cache, a drawn
-number) may be right or wrong for reasons that no one world shows. So the counterexample, up to
-`SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are run again, each in a fresh
-process. If none fails, `ROW` worlds, or all, are run in a row by one process, in an order drawn by
-the seed: for workers share the worlds of a search, and none of them meets as many.
+A mapper that keeps something from world to world may be right or wrong for reasons that no one
+world shows. So the counterexample, up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by
+a seed, are run again, each in a fresh process. If none fails, `ROW` worlds, or all, are run by one
+process in a shuffled order: no worker of a search meets as many.
 
     a failing world passes alone    `not-deterministic`: only after other worlds
     another world fails alone       `not-deterministic`, too; and so in the row
     other doors, another cost       no finding, for a mapper may draw lots; but the verdict is open
 
-What this does not show: a memory that none of the drawn worlds tells of. If a share p of the worlds
-would come out otherwise alone, it is noticed with a probability of 1 - (1 - p)^SAMPLE: of a tenth
-in 99.5 of 100 searches, of a hundredth in 39. A mapper that fails in its k-th world is noticed for
-sure if k is at most the length of the row.
+What this does not show: a memory that none of the drawn worlds reveals. If a share p of the worlds
+would differ alone, it is noticed with probability 1 - (1 - p)^SAMPLE: a tenth in 99.5 of 100
+searches, a hundredth in 39. A mapper that fails in its k-th world is noticed if k is at most the
+length of the row.
 """
 
 from __future__ import annotations
@@ -37,16 +36,14 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 MOST = SAMPLE
-"""The most failing worlds, and the most others, that are run again."""
 
 ROW = 1000
-"""Number of worlds in the row; all of them if there are fewer."""
 
 LONGEST = 64
 """The most worlds before a failing one that are tried to make it fail again."""
 
 NEAR = 2**14
-"""How many ranks back to look for these worlds; a class may have few of them."""
+"""How many ranks back to look for them; a class may have few."""
 
 CLAIM = "not-deterministic"
 
@@ -96,11 +93,7 @@ class RunAgain(msgspec.Struct, frozen=True):
 
 
 def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None = None) -> RunAgain:
-    """Run some of the worlds of a search again, each in a fresh process, and then in a row.
-
-    Args:
-        rows: the notable rows of the whole search.
-    """
+    """Run some worlds of a search again, alone and in a row; `rows` are its notable rows."""
     before = _drawn(rows, campaign)
     tell = tell or no_progress
 
@@ -134,7 +127,7 @@ def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None =
 
 
 def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:
-    """The counterexample, then the sample, without worlds known to come out otherwise at times.
+    """The counterexample, then the sample, without worlds known to vary.
 
     Of a native mapper the first and the last world, too.
     """
@@ -154,7 +147,7 @@ def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:
 
 
 def row_of(campaign: c.Campaign) -> list[str]:
-    """Worlds of the class, in an order of their own; the same ones for either engine."""
+    """Shuffled worlds of the class, the same for either engine."""
     assert isinstance(campaign.worlds, c.Ranks)
     lots = Random(f"{campaign.seed} row")
     # The shards of the reference: to list half a million worlds of the engine's takes seconds.
@@ -188,7 +181,7 @@ def _rows(
 def _alone(
     campaign: c.Campaign, shards: Iterator[c.Shard], _in_flight: c.InFlight
 ) -> c.ShardResults:
-    """Each shard in a process of the mapper's that has played no world."""
+    """Each shard in a fresh process of the mapper."""
     text = campaign.mappers[0]
     if text.startswith(PREFIX):
         for shard in shards:
@@ -205,7 +198,7 @@ def _alone(
 def _one_process(
     campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight
 ) -> c.ShardResults:
-    """All shards in one process of the mapper's."""
+    """All shards in one process of the mapper."""
     with _program(campaign.mappers[0]) as program:
         program.start()
         if campaign.engine == "compiled":  # it called a native mapper
@@ -226,12 +219,6 @@ def _program(text: str) -> Program:
 
 
 def _failure(campaign: c.Campaign, row: Row, now: Row, *, search: bool) -> Unlike:
-    """The finding in a world that came out otherwise when it was run again.
-
-    Args:
-        row, now: in the search, and alone.
-        search: look for a command that shows it.
-    """
     if not row.failed:
         finding = now.findings[0]
         message = (
@@ -250,7 +237,6 @@ def _failure(campaign: c.Campaign, row: Row, now: Row, *, search: bool) -> Unlik
 
 
 def _failure_in_row(campaign: c.Campaign, names: Sequence[str], now: Row) -> Unlike:
-    """The finding in the last world of a row."""
     finding = now.findings[0]
     message = (
         f"it passed in the search, and fails as number {len(names)} of a row of worlds that one"

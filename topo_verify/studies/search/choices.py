@@ -1,14 +1,10 @@
 """Tries the choices that the paper leaves open: which e comes next, in which order H is tried.
 
-A claim must hold for all of them. A search goes through
-
-    reference    the reference policies alone (and a mapper without policies)
-    all          every named pick policy with every named order policy, `random` with a few seeds
-    every        every choice that any policy could make; and every named policy, in worlds of up
-                 to 4 edges
-
-`every` searches the states of each world: `states/`. Runs are too many to be made one by one (a
-vertex with four loops has over a hundred million).
+reference    the reference policies alone (and a mapper without policies)
+all          every named pick policy with every named order policy, `random` with a few seeds
+every        every choice that any policy could make, by searching states (`states/`): a vertex
+             with four loops has over a hundred million runs; and every named policy, in worlds
+             of up to 4 edges
 """
 
 from __future__ import annotations
@@ -29,7 +25,6 @@ from topo_verify.studies.search.states.every import every_choice, require_edges
 from topo_verify.world.rooted_map import World
 
 Choices = Literal["reference", "all", "every"]
-"""Which policies a search goes through; see above."""
 
 CHOICES: tuple[Choices, ...] = get_args(Choices)
 
@@ -44,7 +39,7 @@ WAYS: dict[Choices, str | None] = {
 """The `ways` of a campaign."""
 
 SEEDS = 3
-"""How many seeds of `random` are among all policies."""
+"""Seeds of `random` among all policies."""
 
 Once = Callable[[Target], Attempt]
 """Makes one run of a mapper in the world at hand, and judges it."""

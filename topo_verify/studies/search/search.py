@@ -1,10 +1,10 @@
 """The search: a mapper in every world of a class, up to the smallest counterexample or EXHAUSTED.
 
-`search` does it in one call. `Search` offers the same in steps: it has a store, and keeps what was
-found when it is cut off.
+`search` does it in one call. `Search` does it in steps, with a store, and keeps its results when it
+is cut off.
 
 EXHAUSTED compares two numbers that are computed apart: in how many worlds mappers ran, and how many
-there are (`WorldClass.count`). If they differ at the end of a search, that is a bug of ours.
+there are (`WorldClass.count`). A difference is a bug of ours.
 """
 
 from __future__ import annotations
@@ -38,11 +38,10 @@ JUDGED_BY = (
     "the compiled engine; every counterexample, the worst worlds and a seeded sample of 1 in 1,000"
     " by the checkers"
 )
-"""Who judged the worlds of a search by the compiled engine."""
 
 
 DONE: tuple[Verdict, ...] = ("EXHAUSTED", "SAMPLED")
-"""The verdicts of a search that went to its end and refuted nothing."""
+"""The verdicts of a completed search that refuted nothing."""
 
 
 class Counterexample(msgspec.Struct, frozen=True):
@@ -96,8 +95,8 @@ class EveryCost(PolicyCosts, frozen=True, kw_only=True):
     Attributes:
         worlds: those in which no claim fails, whatever is chosen; the rest is about them.
         states, choices: the number of states with more than one way, and of their ways.
-        cheapest, reference, dearest: sums of costs, in edge traversals: the least and the most
-            that a run can cost in each world, and what the reference policies cost.
+        cheapest, reference, dearest: summed costs in edge traversals: the least and the most in
+            each world, and of the reference policies.
         most_saved: where the cheapest run saves the greatest share of the reference cost.
         decided_by: who made the choices that were judged: the `mapper`, or a `model` of it.
         judged_by: what judged them.
@@ -185,10 +184,8 @@ def search_campaign(  # noqa: PLR0913  an argument an option
     in_process: bool = True,
     engine: Engine | None = None,
 ) -> c.Campaign:
-    """The campaign of a search.
+    """The campaign of a search; `engine` None: compiled for a native mapper, else reference.
 
-    Args:
-        engine: None: compiled for a native mapper, else reference.
     Raises:
         InputError: a mapper has no such policies, or the engine cannot run it.
     """
@@ -238,16 +235,13 @@ def search(  # noqa: PLR0913  an argument an option
     """Examine a mapper in every world of a class with 1 to `edges` edges, smallest first.
 
     Args:
-        target: a callable, a name of the catalogue, any other TARGET. A text that names several
-            lets them run in each world together.
+        target: a callable or a TARGET. A text that names several runs them in each world together.
         world_class: default: all worlds.
         keep_going: do not stop at the first counterexample.
         policies: which choices an algorithm of the catalogue is tried with; `choices.py`.
-        limits: of each run.
         workers: number of worker processes; 0: this one. Workers are handed the TARGET's text.
         dask: the address of a Dask scheduler, or `local`: its workers in place of processes here.
         engine: what runs algorithms of the catalogue and native mappers; `campaign/compiled.py`.
-        tell: the progress callback.
     Raises:
         InputError: no such mapper; nothing knows how many worlds the class has; and the like.
         InternalError: mappers ran in another number of worlds than there are.
@@ -304,9 +298,7 @@ class Search:
     Args:
         campaign: of `search_campaign`.
         mappers: its targets, as they run in this process.
-        store: has the results of finished shards, and is given those of new ones.
-    Attributes:
-        seconds: what the compiled engine and the checkers took, if that engine is the campaign's.
+        store: the results of finished shards.
     Raises:
         InputError: nothing knows how many worlds there are.
     """
@@ -332,7 +324,7 @@ class Search:
         """Examine the shards until the end, or as far as the campaign says.
 
         Raises:
-            KeyboardInterrupt: Ctrl-C; `entry` has what was found before.
+            KeyboardInterrupt: Ctrl-C; `entry` has the results before it.
             InternalError: mappers ran in another number of worlds than there are.
         """
         known = set[str]() if self._store is None else {s.key for s in self._store.known()}
@@ -351,7 +343,7 @@ class Search:
                 )
 
     def run_again(self, tell: Progress | None = None) -> None:
-        """Run some worlds again, each in a fresh process, if there is a TARGET to start it from."""
+        """Run some worlds again, if there is a TARGET to start the mapper from."""
         catalogue = isinstance(self.mappers[0].mapper, Algorithm | Steered)
         if len(self.mappers) == 1 and not catalogue:
             self.again = run_again(self.campaign, self.rows, tell)
@@ -360,7 +352,7 @@ class Search:
 
     @property
     def tally(self) -> Tally:
-        """The tally of all sizes together."""
+        """The tally of all sizes."""
         return sum(self.tallies.values(), Tally())
 
     @property
@@ -372,7 +364,7 @@ class Search:
     def failing(self) -> list[Row]:
         """The failing rows that are kept, in the order of their worlds.
 
-        A row that came out otherwise when it was run again stands in the place of the first one.
+        A row that differed when it was run again replaces the first one.
         """
         rows = {(row.edges, row.place, row.turn): row for row in self.rows if row.failed}
         for row in () if self.again is None else self.again.rows:
@@ -380,11 +372,7 @@ class Search:
         return [rows[place] for place in sorted(rows)]
 
     def entry(self, *, compare: bool = False) -> SearchEntry:
-        """The result so far.
-
-        Args:
-            compare: the costs of two mappers are compared.
-        """
+        """The result so far; `compare`: with the costs of two mappers."""
         campaign, tally, failing = self.campaign, self.tally, self.failing
         sizes = tuple(self._size(edges, compare=compare) for edges in self.totals)
         checked, total = sum(size.checked for size in sizes), sum(self.totals.values())
@@ -475,7 +463,6 @@ class Search:
         return CostComparison(*astuple(tally.pairs), first=tuple(pairs[:KEPT_PAIRS]))
 
     def _every(self, tally: Tally, edges: int) -> EveryCost:
-        """The range of the costs of the first mapper in the worlds of one size."""
         return EveryCost(
             *astuple(tally.choices), decided_by=decided_by(edges), judged_by=judged_by(edges)
         )

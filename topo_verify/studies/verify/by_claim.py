@@ -1,7 +1,6 @@
 """One mapper in every world of 1 to N edges, with a verdict for each claim.
 
-The mapper runs once in each world, and every claim is judged on this run. For each claim that fails
-the first failing world is kept, which is one of the smallest.
+For each claim that fails the first failing world is kept, which is one of the smallest.
 
 | verdict | meaning |
 | --- | --- |
@@ -34,11 +33,9 @@ ClaimVerdict = Literal["holds", "fails", "undecided", "not-declared"]
 
 @dataclass(frozen=True, slots=True)
 class ClaimResults:
-    """The results of one mapper in every world.
+    """The results of one mapper in every world of 1 to `edges` edges.
 
     Attributes:
-        edges: the mapper ran in every world of 1 to this many edges.
-        part: the results of all claims together.
         first: the first finding of each claim that fails.
         raised: by the world of such a finding: the line at which the mapper raised an exception.
         reports: by the world of such a finding: the report, which has the walk.
@@ -77,7 +74,7 @@ class ClaimResults:
                 return f"{claim} holds in {worlds:,} worlds of 1 to {self.edges} edges"
 
     def properties(self, target: str) -> list[tuple[str, object]]:
-        """The results that the report of a test carries to another process and to a JUnit file."""
+        """What a test's report carries to another process and to a JUnit file."""
         part = self.part
         facts: dict[str, object] = {
             "target": target,
@@ -108,7 +105,7 @@ class ClaimResults:
 
 
 def summary(facts: Mapping[str, Any]) -> Iterator[str]:
-    """The lines that sum up the tests of one mapper, from the properties of their reports."""
+    """The lines that sum up the tests of one mapper, from their properties."""
     checked, total, failing = (facts[f"topo_{name}"] for name in ("checked", "total", "failing"))
     line = f"{facts['topo_target']}: {checked:,} of {total:,} worlds of 1 to {facts['topo_edges']}"
     line += f" edges, {failing:,} counterexample{'' if failing == 1 else 's'}"
@@ -155,6 +152,5 @@ def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
 
 
 def _place(error: BaseException) -> str:
-    """The file and the line where an exception was raised."""
     frames = traceback.extract_tb(error.__traceback__)
     return f"{frames[-1].filename}:{frames[-1].lineno}"

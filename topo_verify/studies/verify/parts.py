@@ -1,15 +1,12 @@
 """The parts of `verify`: their results, and the two that run no mapper.
 
-**counts.** Every exhaustive result rests on the enumeration: a world that it omits is never tried.
-So this part counts its worlds, different ones only, and compares three numbers that are computed
-otherwise: the sum of completions F, a recurrence in the number of edges, and Tutte's number of
-planar worlds.
+**counts.** Exhaustive results rest on the enumeration. So this part counts its different worlds and
+compares three numbers that are computed otherwise: the sum of completions F, a recurrence in the
+number of edges, and Tutte's number of planar worlds.
 
-**proofs.** The part covers the inductive theorems, the negatives and the mutants; `topo-verify
-prove` covers the bounded theorems, which take longer. The theorems are about the rules of the
-catalogue, not about a user's mapper. Tests compare the algorithms with these rules, decision by
-decision. What this does not show: docs/proofs.md lists what is argued in words, what is assumed,
-and what is not established.
+**proofs.** The inductive theorems, the negatives and the mutants. They are about the rules of the
+catalogue, not about a user's mapper; tests compare the algorithms with these rules, decision by
+decision. What this does not show: see docs/proofs.md.
 """
 
 from __future__ import annotations
@@ -34,7 +31,6 @@ class MapperCost(msgspec.Struct, frozen=True):
     """The cost of one mapper in one world.
 
     Attributes:
-        cost: edge traversals.
         ratio: the cost relative to that of `basic`; None if a claim fails in this world.
         of_least: the cost relative to the least cost at which a walk can prove the map.
         rejected_free, rejected_moving: hypotheses rejected without and by motion.
@@ -171,7 +167,7 @@ class Proofs:
     """Proves the theorems that take seconds. A `PartJob`.
 
     Args:
-        theorems: the theorems; default: all inductive ones, negatives and mutants.
+        theorems: default: all inductive ones, negatives and mutants.
         quick: only the inductive ones, which take two seconds.
     """
 

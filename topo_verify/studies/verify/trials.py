@@ -1,16 +1,14 @@
 """The parts that run mappers in worlds and have every claim judged.
 
-A part that meets a counterexample goes on, so as to say how many worlds fail, and keeps the
-findings of the first few runs. Worlds come smallest first, so these are in the smallest worlds. It
-stops early after a few time-outs, for each may cost a whole time limit, and, if asked to, after a
-few failing worlds.
+A part goes on after a counterexample, to count the failing worlds. It stops early after a few
+time-outs, and, if asked to, after a few failing worlds.
 
-Where the compiled engine is installed, the part `small-worlds` goes one size further for algorithms
-of the catalogue. The engine also does the sizes that the checkers judged, and must count there what
-they counted. A difference is a bug of ours.
+Where the compiled engine is installed, `small-worlds` goes one size further for algorithms of the
+catalogue. The engine must count in the smaller sizes what the checkers counted; a difference is a
+bug of ours.
 
 Algorithms of the catalogue run in worker processes: the small worlds in one campaign, the worlds of
-all later parts in another (`Together`), so that no processor waits for the end of a part.
+all later parts in another (`Together`), so that no processor idles at the end of a part.
 """
 
 from __future__ import annotations
@@ -41,20 +39,19 @@ from topo_verify.studies.verify.parts import MapperCost, Part
 from topo_verify.world.rooted_map import World
 
 MAX_TIMEOUTS = 3
-"""Number of time-outs after which a part stops; of failing worlds, too, where that is asked."""
+"""Time-outs after which a part stops; of failing worlds, too, where that is asked."""
 
 
 @dataclass
 class Trials:
-    """Runs every mapper in every one of some worlds and judges every claim. A `PartJob`.
+    """Runs every mapper in some worlds and judges every claim. A `PartJob`.
 
     Attributes:
-        name: of the part.
         about: which worlds these are, in words that follow "792 worlds".
-        total: how many worlds there are; counted apart from the worlds themselves.
+        total: the number of worlds, counted apart from them.
         worlds: each with its name, smallest first.
         finite: the worlds are all of a finite class.
-        max_failing: stop after this many failing worlds; None: never.
+        max_failing: stop after this many failing worlds.
         look: called for every run.
         together: runs the mappers, in the worlds of other parts as well; None: they run here.
     """
@@ -109,7 +106,7 @@ class Trials:
 
     @property
     def checked(self) -> int:
-        """The number of worlds that were decided."""
+        """The number of decided worlds."""
         return self.tally.worlds - self.tally.undecided
 
     def part(self, *, interrupted: bool = False) -> Part:
@@ -236,7 +233,7 @@ class EngineCounts(msgspec.Struct, frozen=True):
 
 
 def engine_counts(edges: int, targets: Sequence[Target]) -> EngineCounts:
-    """Counts of algorithms of the catalogue in every world of 1 to `edges` edges, in this process.
+    """The engine's counts in every world of 1 to `edges` edges, in this process.
 
     Raises:
         InternalError: the engine and the checkers disagree in a world that both judge.
@@ -254,11 +251,10 @@ def engine_counts(edges: int, targets: Sequence[Target]) -> EngineCounts:
 class SmallWorlds(Trials):
     """Runs every mapper in every world of 1 to `edges` edges. A `PartJob`.
 
-    A user's mapper runs in this process, so that Ctrl-C reaches it; its few thousand runs take
-    seconds.
+    A user's mapper runs in this process, so that Ctrl-C reaches it.
 
     Args:
-        further: counts one size more by the compiled engine; None: it does not go further.
+        further: counts one size more by the compiled engine.
         workers: number of worker processes; 0: this one.
     """
 
@@ -332,11 +328,7 @@ class SmallWorlds(Trials):
 class CostTrial(Trials):
     """Runs every mapper in one world and reports what each pays there. A `PartJob`.
 
-    A mapper of the user's is shown beside the catalogue. The verdict is SAMPLED at best: it is one
-    world.
-
-    Args:
-        where: how the command line names the world.
+    A user's mapper is shown beside the catalogue. The verdict is SAMPLED at best.
     """
 
     def __init__(

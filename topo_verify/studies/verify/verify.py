@@ -1,6 +1,6 @@
 """The main job: six parts, each with its own verdict, in about a minute.
 
-For a mapper of the user's four parts are done: `counts` and `proofs` do not depend on the mapper.
+`counts` and `proofs` do not depend on the mapper, so they are left out for a user's.
 
 | part | content | quick |
 | --- | --- | --- |
@@ -11,15 +11,11 @@ For a mapper of the user's four parts are done: `counts` and `proofs` do not dep
 | `generated-worlds` | 160 worlds as property tests draw them, 20 of each strategy | 40 |
 | `street-network` | a real street network, and the cost of each mapper there | the same |
 
-Each part is yielded as soon as it is done; the command line prints it. For algorithms of the
-catalogue all processors work from the start: theorems, the compiled engine and the drawing of
-worlds in processes of their own (`Beside`), the runs in worker processes.
+For algorithms of the catalogue all processors work from the start: theorems, the compiled engine
+and the drawing of worlds in processes of their own (`Beside`), the runs in worker processes.
 
-Uniformly drawn worlds have few vertices and many handles. Lattices, trees and worlds in which many
-places look alike are rare among them; the strategies draw these on purpose.
-
-What this does not show: anything about worlds that no part names. A property test draws as many
-worlds as it is asked to and shrinks a failing one; here the smaller worlds merely come first.
+Uniformly drawn worlds have few vertices and many handles. Lattices, trees and worlds with many
+similar places are rare among them; the strategies draw these on purpose.
 """
 
 from __future__ import annotations
@@ -60,13 +56,12 @@ from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import Code, World
 
 SEED = 0
-"""The default seed of the sampled worlds."""
 
 LARGEST = 5
-"""The most edges of the small worlds, without the size that the compiled engine adds."""
+"""Most edges of the small worlds, without the size that the compiled engine adds."""
 
 EACH = 20
-"""Number of worlds that are drawn from each strategy."""
+"""Worlds drawn from each strategy."""
 
 
 def verify(
@@ -79,8 +74,8 @@ def verify(
 ) -> Iterator[Part]:
     """The parts, each yielded when these mappers were checked in it.
 
-    On KeyboardInterrupt the current part is yielded with its results so far (its verdict is
-    UNKNOWN, or REFUTED if there is a finding); then the exception is raised again.
+    On KeyboardInterrupt the current part is yielded with its results so far; then the exception is
+    raised again.
 
     Args:
         quick: use the smaller sizes.
@@ -163,7 +158,7 @@ def generated_worlds(each: int, seed: int) -> tuple[World, ...]:
 
 
 class BesideJob(msgspec.Struct, frozen=True):
-    """What a worker is handed before its task: the algorithms, and the seed of drawn worlds."""
+    """What a worker gets before its task: the algorithms, and the seed of drawn worlds."""
 
     targets: str
     seed: int
@@ -186,7 +181,7 @@ BESIDE: dict[str, Callable[[BesideJob], BesideResult]] = {
         codes=tuple(world.code for world in generated_worlds(EACH, job.seed))
     ),
 }
-"""The tasks that no other part needs to be done first, by name; each is done in its own process."""
+"""The tasks that need no other part first, each done in its own process."""
 
 
 @contextmanager

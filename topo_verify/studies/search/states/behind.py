@@ -4,8 +4,7 @@
     kills             of each hypothesis: which others the rule rejects once it has been walked
 
 Judged in every state: the true hypothesis is neither killed nor found to differ on its way (claim
-3), and no other one's way home shows what it should (4). What is rejected, is so for a percept that
-differs (8). One table of percepts is both what the robot sees and what S shows.
+3), and no other way home shows what it should (4). Rejections rest on a percept that differs (8).
 
 `world` and S are as in `kernel.py`.
 """
@@ -81,7 +80,7 @@ def walk_home(world: WordTable, tree: Words, vu: int, h: int, place: int, row: W
 
 @kernel
 def shared_doors(row: WordTable, way: int, last: int) -> int:
-    """How many doors a way home shares with the sequence that was walked last."""
+    """How many doors a way home shares with the last sequence."""
     most = min(row[way, 0], row[last, 1])
     step = 0
     while step < most and row[way, 3 * step + 3] == row[last, 3 * step + 3]:
@@ -93,7 +92,7 @@ def shared_doors(row: WordTable, way: int, last: int) -> int:
 def refutes(
     world: WordTable, explored: int, rule: int, row: WordTable, last: int, g: int, way: int,
 ) -> bool:  # fmt: skip
-    """Whether the sequence walked last shows the rule that g is false."""
+    """Whether the last sequence refutes g for the rule."""
     if rule == PREFIX:
         for step in range(1, shared_doors(row, way, last) + 1):
             if row[last, 3 * step + 2] != row[way, 3 * step + 1]:
@@ -186,7 +185,7 @@ def tie(row: WordTable, remaining: int, last: int, count: int, overlap: int) -> 
 
 @kernel
 def price(row: WordTable, place: int, last: int, count: int, overlap: int) -> int:
-    """The moves of trying a hypothesis; under `retrace` the way back to vu is among them."""
+    """The moves of trying a hypothesis; under `retrace` including the way back to vu."""
     walked = row[place, 1]
     if not overlap:
         return 2 * walked if row[place, 2] >= 0 else walked
@@ -260,7 +259,7 @@ def tried(
     row: WordTable, kills: Words, count: int, overlap: int, best: WordTable, remaining: int,
     last: int, place: int,
 ) -> tuple[int, int]:  # fmt: skip
-    """The least and the most that is paid from a state on if this hypothesis is tried there."""
+    """The least and the most that is paid from a state on if this hypothesis is tried."""
     paid = price(row, place, last, count, overlap)
     if row[place, 2] < 0:
         return paid, paid

@@ -1,4 +1,4 @@
-"""A run that costs the least or the most, read off the tables that `kernel.py` has filled."""
+"""A cheapest and a most expensive run, from the tables of `kernel.py`."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from topo_verify.studies.search.states import kernel as k
 from topo_verify.world.rooted_map import Dart
 
 RunOrder = tuple[tuple[Dart, ...], ...]
-"""Of each edge, as they come: e, then the hypotheses as they are tried, in darts of the world."""
+"""For each edge in turn: e, then the hypotheses tried, in darts of the world."""
 
 
 class Tables:
-    """What the kernel reads and fills. Lives as long as the process; `search` a world at a time."""
+    """What the kernel reads and fills, for the life of the process."""
 
     def __init__(self) -> None:
         self.world = _ints(5, k.MOST_DARTS)
@@ -48,7 +48,7 @@ class Tables:
         )  # fmt: skip
 
     def order(self, end: int) -> RunOrder:
-        """A run of the world that was searched: with the least cost (`end` 0), or the most (1)."""
+        """A run of that world with the least cost (`end` 0), or the most (1)."""
         return tuple(self._edges(end))
 
     def _edges(self, end: int) -> Iterator[tuple[Dart, ...]]:
@@ -78,7 +78,6 @@ class Tables:
         raise AssertionError("some way has the least cost")
 
     def _tried(self, end: int) -> Iterator[Dart]:
-        """The hypotheses behind e as they are tried."""
         count, true = int(self._facts[0]), int(self._facts[1])
         remaining, last = (1 << count) - 1, count
         free = bool(self._facts[2]) or (self._rule == b.NONE and not self._overlap)
@@ -110,5 +109,4 @@ class Tables:
 
 
 def _ints(*shape: int, fill: int = 0) -> Any:
-    """An array of this shape with the same number everywhere."""
     return np.full(shape, fill, np.int64)

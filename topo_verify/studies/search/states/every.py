@@ -2,17 +2,16 @@
 
     worlds of up to 4 edges   decided by the mapper: its states are found by running it, and each
                               choice lies on a run that is judged by every claim; `graph.py`
-    5 and 6 edges             decided by a model: `none`, `prefix` and `history` are written anew in
-                              `kernel.py`, which judges claims 3 and 4 in each state; the cheapest
-                              and the most expensive run are the mapper's, judged by every claim
+    5 and 6 edges             decided by a model (`kernel.py`) of the rules `none`, `prefix` and
+                              `history`, which judges claims 3 and 4 in each state; the cheapest and
+                              the most expensive run are the mapper's, judged by every claim
 
-Beside these, every named policy runs in a world that the mapper decides, and the reference policies
-in a larger one: the policies are code, too, and the script stands in their place.
+Every named policy runs, too, in a world that the mapper decides, and the reference policies in a
+larger one: the script replaces the policies' code.
 
-The model is not the mapper: a mistake in the mapper's code need not be in the model. So a search
-that it decides is SAMPLED. Nor is it trusted. If the mapper's two runs do not cost what it says,
-that is a bug of ours. If it finds something wrong, the world is searched by running the mapper,
-which must find it, too.
+The model is not the mapper, so a search that it decides is SAMPLED. If the mapper's two runs cost
+something else, that is a bug of ours. If the model finds something wrong, running the mapper must
+find it, too.
 """
 
 from __future__ import annotations
@@ -45,13 +44,11 @@ from topo_verify.studies.search.states.script import (
 from topo_verify.world.rooted_map import World
 
 Decider = Literal["mapper", "model"]
-"""Who makes the choices that are judged: the code that is shipped, or a second one."""
+"""The code that is shipped, or a second one."""
 
 MOST_BY_MAPPER = 4
-"""The largest worlds in which every choice is made by the mapper itself."""
 
 MOST_BY_MODEL = 6
-"""The largest worlds that are searched by the kernel."""
 
 Run = Callable[[Target], Attempt]
 """Runs a mapper in the world at hand and judges it."""
@@ -62,7 +59,6 @@ class CostRange(NamedTuple):
 
     Attributes:
         states, choices: how many states have more than one way, and how many ways they have.
-        cheapest, dearest: the least and the most that any run costs.
     """
 
     states: int
@@ -108,8 +104,7 @@ def every_choice(
     If none fails, the last run says what any choices can cost.
 
     Args:
-        target: an algorithm and its name.
-        named: the same with named policies, the reference policies first.
+        named: the algorithm with named policies, the reference policies first.
     Raises:
         InternalError: the model and the mapper differ, or a state is no state.
     """
@@ -129,9 +124,9 @@ def every_choice(
 
 
 def cost_range(graph: StateGraph) -> CostRange:
-    """The range of the costs of a graph all of whose ways were taken.
+    """The range of the costs of a completed graph.
 
-    The cost so far is in the state, so each cost that some run can have is that of a run made.
+    The cost so far is in the state, so each possible cost is that of a run made.
     """
     costs = [path.tried.run.cost for path in graph.paths]
     return CostRange(len(graph.nodes), graph.choices, min(costs), max(costs))
@@ -184,12 +179,7 @@ def _require_failing(
 
 
 class RecordedChoices:
-    """Makes the choices of another chooser and keeps their numbers.
-
-    Attributes:
-        choices: those made so far, as `--choices` takes them.
-        words: the same, to be read.
-    """
+    """Makes the choices of another chooser and keeps their numbers and words."""
 
     def __init__(self, chooser: Chooser) -> None:
         self._chooser = chooser
@@ -230,7 +220,6 @@ class ListedChoices:
     """The choices of one run. Life cycle: run `target`, then `made`, then `named`.
 
     Args:
-        target: an algorithm of the catalogue, or another `Algorithm`.
         text: the choices, as `0,2,1`.
     Raises:
         InputError: the mapper leaves no choices open, or the text is no list.

@@ -1,16 +1,12 @@
 """All states of one world and the choices between them, found by running the mapper.
 
-`StateGraph` runs the mapper again and again, with a list of choices, and goes on where a state has
-a way that was not taken yet. So each way of each state lies on a run, and each run is judged by
-every claim, as any other. A state that was met before is not searched again: that is what makes the
-states of a world few where its runs are beyond counting.
+`StateGraph` runs the mapper with a list of choices until every way of every state lies on a judged
+run. A state met before is not searched again: states are few where runs are beyond counting.
 
-Why it suffices to judge a way on one run that takes it: `memory.py`. Two moments are one state only
-if all that the mapper keeps is equal, and all of the past that a later judgement can depend on. So
-what follows on one run is what follows on any other, event by event and cost by cost.
-
-`StateGraph` also checks itself: where a run comes to a known state by a known way, it must have as
-many ways there, and have made as many moves.
+One run for a way suffices (`memory.py`): two moments are one state only if all that the mapper
+keeps is equal, and all of the past that a later judgement depends on. So what follows on one run is
+what follows on any other. `StateGraph` checks that a known state has as many ways and moves as
+before.
 """
 
 from __future__ import annotations
@@ -40,7 +36,7 @@ class ChoiceState:
     Attributes:
         prefix: the choices that first led to it.
         moves: how many the mapper has made.
-        ways: the number of the state behind each way, `END` or `LOST`; None while it was not taken.
+        ways: the state behind each way, `END` or `LOST`; None: not yet taken.
     """
 
     prefix: tuple[int, ...]
@@ -49,12 +45,12 @@ class ChoiceState:
 
     @property
     def open(self) -> int | None:
-        """The first way that was not taken; None: all were."""
+        """The first way that was not taken, or None."""
         return self.ways.index(None) if None in self.ways else None
 
 
 class _Passed(NamedTuple):
-    """A state that a run passed: its number, the way it took, the events before."""
+    """A state on a run: its number, the way taken, the events before."""
 
     node: int
     taken: int
@@ -63,7 +59,7 @@ class _Passed(NamedTuple):
 
 @dataclass
 class JudgedPath:
-    """A run with the choices that made it, as `--choices` counts them."""
+    """A run with its choices, as `--choices` counts them."""
 
     choices: tuple[int, ...]
     tried: Attempt
@@ -78,9 +74,9 @@ class StateGraph:
         judged: runs a mapper in the world and judges it.
 
     Attributes:
-        start: the number of the first state, `END` or `LOST`; None before the first run.
+        start: the first state, `END` or `LOST`; None before the first run.
         nodes: the states, in the order in which they were met.
-        paths: the runs that were made.
+        paths: the runs.
     """
 
     algorithm: Algorithm
@@ -100,7 +96,7 @@ class StateGraph:
 
     @property
     def choices(self) -> int:
-        """How many ways all states have together."""
+        """The number of ways of all states."""
         return sum(len(node.ways) for node in self.nodes)
 
     def run(self, prefix: Sequence[int]) -> JudgedPath:
@@ -156,7 +152,7 @@ class StateGraph:
         return number
 
     def _lead(self, passed: Sequence[_Passed], to: int) -> None:
-        """Note where the last way of a run leads; it leads there each time."""
+        """Note where the last way leads."""
         ways = self.nodes[passed[-1].node].ways if passed else [self.start]
         place = passed[-1].taken if passed else 0
         if ways[place] is None:
@@ -176,7 +172,7 @@ class StateGraph:
     def shortest_failing(self) -> JudgedPath | None:
         """The run with the fewest choices up to its first finding; None if no claim fails.
 
-        It is run again, with the choices that lead to the failing state the shortest way.
+        It is run again, by a shortest way to the failing state.
         """
         failing = [path for path in self.paths if not path.tried.report.ok]
         culprits = dict.fromkeys(_culprit(path) for path in failing)
@@ -189,7 +185,7 @@ class StateGraph:
         return min(failing, key=lambda path: len(path.choices), default=None)
 
     def _shortest(self) -> dict[int, tuple[int, ...]]:
-        """The fewest ways that lead from the start to each state."""
+        """The fewest ways from the start to each state."""
         found: dict[int, tuple[int, ...]] = {}
         queue: deque[tuple[int, tuple[int, ...]]] = deque()
         if self.start is not None:

@@ -1,13 +1,11 @@
 """The states of one world by masks of darts, for rules that remember nothing: kernels.
 
-The mapper does not run here: the world is known, so each way home is walked on the table of its
-darts. `memory.py` and `graph.py` say what S, a state, a way and a cost are; they are the reference.
+The mapper does not run here: each way home is walked on the table of the world's darts.
 
     S          explored: a mask of darts; entries: four bits a vertex, its first dart; 15: unknown
     between    S and the robot's vertex. All positions over one S share what happens behind e.
     behind e   `behind.py`
 
-`compiled/kernel.py` makes machine code of it: `STATES` is what it is given for a layout.
 `world` has five rows: alpha, vertex, percept of each dart; first dart, degree of each vertex, whose
 darts are consecutive, clockwise.
 """
@@ -28,21 +26,19 @@ from topo_verify.studies.search.states.behind import (
 )
 
 STATES = WordLayout("states", {}, sources=(behind.__module__, __name__))
-"""The kernels of both files. They have no workspace: their arrays are given to them one by one."""
+"""The layout for `compiled/kernel.py`, without a workspace."""
 
 MOST_DARTS = 14
-"""The most darts in a key."""
 
 KEY, REACHED, PLACE, SLOT = 0, 1, 2, 3
 """Rows of the workspace: of each S its key, where the robot may stand, its slot; and the slots."""
 
 ROOM = 1 << 14
-"""The most S that are kept for one world; `FULL` is returned if there are more."""
 
 
 @kernel
 def number_of(work: WordTable, key: int, count: int) -> int:
-    """The number of an S among those met so far: `count` if it is new. Notes it."""
+    """The number of an S, which is noted: `count` if it is new."""
     slots = 4 * ROOM
     slot = (key * 0x9E3779B1 >> 7) % slots
     while work[SLOT, slot] >= 0:
@@ -58,7 +54,7 @@ def number_of(work: WordTable, key: int, count: int) -> int:
 
 @kernel
 def after(world: WordTable, explored: int, entries: int, e: int) -> tuple[int, int]:
-    """S once e is explored, as a key, and the vertex where the robot stands then."""
+    """S once e is explored, as a key, and the vertex where the robot then stands."""
     other = world[0, e]
     vertex, at = world[1, other], 0
     if entries >> 4 * vertex & 15 == UNKNOWN:
@@ -120,7 +116,7 @@ def between(
     world: WordTable, size: int, full: int, work: WordTable, cost: WordCube, low: WordCube,
     found: Words, here: int, tree: Words, depth: Words,
 ) -> None:  # fmt: skip
-    """The range of what is still to be paid from an S, for each place where the robot may stand."""
+    """The range of what is still to be paid from an S, for each place of the robot."""
     explored, entries = work[KEY, here] & full, work[KEY, here] >> MOST_DARTS
     for at in range(VERTICES):
         if not work[REACHED, here] >> at & 1:

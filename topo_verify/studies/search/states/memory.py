@@ -1,27 +1,24 @@
 """When two moments of two runs in one world are the same state: then what may follow is the same.
 
-Nothing is assumed of the algorithm. Two moments are one state only if these are equal:
+Two moments are one state only if these are equal:
 
-    what the mapper keeps       of each of its functions that is running: the place in its code, and
-                                each local variable that it may still read from there on: S, U, H,
-                                the sequences, what the rule remembers, the cost
+    what the mapper keeps       of each of its running functions: the place in its code, and each
+                                local variable that it may still read: S, U, H, the sequences, what
+                                the rule remembers, the cost
     what the judgement keeps    all of the past on which the judgement of later events depends
 
-A deterministic mapper goes on alike from equal variables, if it stands at the same place of the
-world and is told the same choices. So what follows is the same events. They are judged alike, too:
+A deterministic mapper goes on alike from equal variables at the same place of the world with the
+same choices, so the same events follow. They are judged alike, too:
 
     1, 5, 6, 7  by the robot's place in the world, its moves so far, and S as it was declared
     2, 3, 4     by S, the pose, and the hypotheses that were neither rejected nor confirmed
     8           by the sequences behind e; by what earlier sequences showed behind unexplored darts
     9, 10       by the fold of the whole history, and S on it
 
-So a history that proves more, or less, makes another state. Where the trace is false, there is no
-state: a claim has failed, and what is chosen later does not matter.
-
-What this does not see: variables of a module, the iterator of a `for` loop that a choice
-interrupts (the mapper has none), what a C object hides from `pickle`. And one claim looks back: a
-mapper that rejects by rule `planar` declares the prior for its whole run, and a run may share its
-tries. So claim 10 judges a decision of `folding+planar` with the prior of the run that was made.
+What this does not see: module variables, the iterator of a `for` loop that a choice interrupts (the
+mapper has none), what a C object hides from `pickle`. And claim 10 judges a decision of
+`folding+planar` with the prior of the run that was made, since a rejection by rule `planar`
+declares it for the whole run.
 """
 
 from __future__ import annotations
@@ -62,13 +59,13 @@ def _outside(_: object) -> tuple[type, tuple[()]]:
 
 
 class _Snapshot(pickle.Pickler):
-    """Leaves out what is not the mapper's: its robot, whose place is judged, and the script."""
+    """Leaves out the robot, whose place is judged, and the script."""
 
     dispatch_table: Mapping[type, Any] = {MeteredRobot: _outside, ScriptedPolicies: _outside}
 
 
 def _kept(frame: FrameType | None) -> bytes:
-    """The functions of the mapper that are running, from the innermost on, with their variables."""
+    """The running functions of the mapper, innermost first, with their variables."""
     rows: list[tuple[str, int, dict[str, object]]] = []
     while frame is not None and frame.f_globals["__name__"] != script.__name__:
         code, place = frame.f_code, frame.f_lasti
@@ -89,10 +86,9 @@ def _kept(frame: FrameType | None) -> bytes:
 
 @cache
 def _read(code: CodeType, place: int) -> frozenset[str]:
-    """The local variables that a function may still read once the call at this place is over.
+    """The local variables that a function may still read after the call at this place.
 
-    Each instruction is thought to go on to the next, and a jump to its target, too: so these may be
-    more than it can read, but not fewer. With an exception handler they are all.
+    A conservative liveness analysis; with an exception handler, all of them.
     """
     every = frozenset((*code.co_varnames, *code.co_cellvars, *code.co_freevars))
     if code.co_exceptiontable:
@@ -136,7 +132,7 @@ def _judged(world: World, trace: Sequence[Event]) -> Hashable | None:
 
 
 def _behind(run: ReplayedTrace) -> Hashable:
-    """The last pose, where S did not grow since: the word behind it, the sequences."""
+    """The last pose, if S did not grow since: the word behind it, the sequences."""
     last = run.rounds[-1] if run.rounds else None
     if last is None or isinstance(last.event, Augment):
         return None
@@ -160,7 +156,7 @@ def _records(run: ReplayedTrace) -> Hashable:
 
 
 def _places(fold: Fold) -> Iterator[Hashable]:
-    """The places of a fold as they are found from v0 on: the degree, what each door leads to."""
+    """The places of a fold in the order found from v0: what each door leads to."""
     numbers: dict[int, tuple[int, int]] = {}  # of a node: its number, and its dart found
     queue: list[Place] = []
 

@@ -1,15 +1,14 @@
 """One run of an algorithm that is told its choices one by one.
 
-Two things are left open. Between two edges: which e comes next. Behind e: which hypothesis is tried
-next, among those that the motion allows. (`overlap` allows those with the longest common prefix.)
-The paper puts H in an order first; but what is tried then follows, and what is never tried cannot
-matter. Conversely whatever is tried, one after the other, is an order of H. So a run is a list of
-numbers, `--choices 0,2,1`: at each moment with more than one way, which way is taken. Ways are
-counted from 0, in the order of the darts of S. Behind the end of the list the first way is taken.
+Two things are open: between two edges, which e comes next; behind e, which hypothesis is tried next
+among those that the motion allows (`overlap`: those with the longest common prefix). The paper
+orders H first; but any sequence of tries is an order of H. So a run is a list of numbers,
+`--choices 0,2,1`: at each moment with more than one way, which way is taken, counted from 0 in the
+order of the darts of S. Behind the end of the list the first way is taken.
 
-What this does not show: other ways to walk. Which of several shortest paths is taken stays that of
-docs/semantics.md, section 5. And H is declared in ascending order, so rejections without motion
-come in that order, too.
+What this does not show: other ways to walk. Which shortest path is taken stays that of
+docs/semantics.md, section 5. And H is declared in ascending order, as are rejections without
+motion.
 """
 
 from __future__ import annotations
@@ -36,8 +35,7 @@ class ChoicePoint(NamedTuple):
         chart: S; e has left U.
         e: the edge that was crossed; None: it is still to be chosen.
         ways: the darts of S among which to choose.
-        trace: the run so far.
-        moves: how many it has made.
+        trace, moves: the run so far.
         frame: the function of the mapper that asks.
     """
 
@@ -50,11 +48,11 @@ class ChoicePoint(NamedTuple):
 
 
 Chooser = Callable[[ChoicePoint], int]
-"""Says which way to take: its place among `ways`."""
+"""The place among `ways` of the way to take."""
 
 
 class MeteredRobot:
-    """A robot that keeps what it was asked for: the trace so far, which the mapper never sees."""
+    """A robot that keeps the trace, which the mapper never sees."""
 
     def __init__(self, robot: Robot) -> None:
         self._robot, self.moves = robot, 0
@@ -73,14 +71,14 @@ class MeteredRobot:
         return percept
 
     def declare(self, event: Decision) -> None:
-        """Put a decision on record."""
+        """Record a decision."""
         self._robot.declare(event)
         self.trace.append(event)
 
 
 @dataclass
 class ScriptedPolicies:
-    """The policies of one run. Lives as long as the run."""
+    """The policies of one run."""
 
     algorithm: Algorithm
     robot: MeteredRobot
@@ -178,7 +176,7 @@ def choices_of(text: str) -> tuple[int, ...]:
 
 
 def choices_text(choices: Sequence[int]) -> str:
-    """The choices as `--choices` takes them; zeros at the end are what happens anyway."""
+    """The choices as `--choices` takes them, without zeros at the end."""
     row = list(choices)
     while row and row[-1] == 0:
         row.pop()

@@ -1,7 +1,4 @@
-"""A world as `kernel.py` takes it, and what the kernel found, as a `CostRange`.
-
-numba and NumPy are loaded when the first world is searched. They are the extra `fast`.
-"""
+"""A world as `kernel.py` takes it, and what the kernel found. numba and NumPy are loaded late."""
 
 from __future__ import annotations
 
@@ -27,7 +24,7 @@ if TYPE_CHECKING:
     from topo_verify.studies.search.states.best import RunOrder, Tables
 
 RULES: tuple[object, ...] = (NoRule, PrefixRule, HistoryRule)
-"""The rules that the kernel knows, in the order of its numbers."""
+"""In the order of the kernel's numbers."""
 
 
 class KernelFound(NamedTuple):
@@ -35,9 +32,8 @@ class KernelFound(NamedTuple):
 
     Attributes:
         wrong: what is wrong in some state, as a number of `behind.py`; 0: nothing.
-        states, choices: as in a `CostRange`.
-        cheapest, dearest: costs in edge traversals.
-        cheap, dear: a run that has them.
+        states, choices, cheapest, dearest: as in a `CostRange`.
+        cheap, dear: a run that has these costs.
         maps: how many S there are.
     """
 
@@ -101,13 +97,13 @@ def _tables() -> Tables:
 
 
 class Ordered:
-    """Makes the choices of an `RunOrder` in its world, for one run of the mapper."""
+    """Makes the choices of a `RunOrder` in its world, for one run of the mapper."""
 
     def __init__(self, world: World, order: RunOrder) -> None:
         self._world, self._order = world, order
 
     def __call__(self, moment: ChoicePoint) -> int:
-        """The place of the dart that the order says; the first where it says none."""
+        """The place of the dart in the order; 0 if it says none."""
         darts = world_darts(moment.chart, self._world)
         if darts is None:
             return 0
@@ -119,7 +115,7 @@ class Ordered:
 
 
 def world_darts(chart: Chart, world: World) -> list[Dart] | None:
-    """The dart of the world that each dart of S is; None if S is no part of the world."""
+    """The world's dart for each dart of S; None if S is no part of the world."""
     assert world.root is not None, "the world has an edge"
     darts: list[Dart | None] = [None] * len(chart.alpha)
     entries = {0: world.root}
